@@ -118,9 +118,9 @@
 //! dependencies state; a compiler that old has not been tried.
 
 pub use jobs::{
-    Analysis, Design, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, memory, output, pipeline, query, rates, request, start, sweep, word_sets, workshop,
-    yields,
+    Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
+    inspection, matching, memory, output, pipeline, query, rates, request, start, sweep, word_sets,
+    workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

@@ -14,7 +14,7 @@ use super::failure::tell_refuted;
 use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt, memory, workload};
-use tilebind::request::Word;
+use tilebind::request::{self, Word};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -28,7 +28,7 @@ pub struct Compare {
     designs: Vec<PathBuf>,
 
     /// Model of the magnets, dipole or cuboid [default: each design's own]
-    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 

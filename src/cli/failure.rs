@@ -4,11 +4,12 @@ use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 
+use tilebind::Refused;
 use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
 use tilebind::output::OutputError;
 use tilebind::report::plots::PictureError;
-use tilebind::request::Refusal;
+use tilebind::request::Unanswered;
 
 use super::tell;
 
@@ -40,7 +41,7 @@ impl Failure {
     }
 
     /// Why there is no answer.
-    pub fn of(error: impl Refusal) -> Self {
+    pub fn of(error: impl Unanswered) -> Self {
         match error.is_of_the_question() {
             true => Self::usage(error),
             false => Self::run(error),
@@ -89,6 +90,12 @@ pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Res
 impl From<DesignError> for Failure {
     fn from(error: DesignError) -> Self {
         Self::Usage(error.to_string())
+    }
+}
+
+impl From<Refused> for Failure {
+    fn from(why: Refused) -> Self {
+        Self::usage(why)
     }
 }
 

@@ -9,7 +9,7 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::{Failure, tell};
-use tilebind::request::{Refusal, Word};
+use tilebind::request::Unanswered;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
@@ -32,17 +32,18 @@ pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failur
     Ok(design)
 }
 
+/// A design that may be given, with the files that it is read from.
+pub fn if_given(path: Option<&Path>) -> Result<Option<(Design, Vec<PathBuf>)>, Failure> {
+    let read = |path| load(path).map(|design| (files_of(path, &design), design));
+    let read = path.map(read).transpose()?;
+    Ok(read.map(|(files, design)| (design, files)))
+}
+
 /// The files that a design is read from: its own, and its drawings beside it.
 pub fn files_of(path: &Path, design: &Design) -> Vec<PathBuf> {
     let drawings = design.drawings.iter();
     let drawings = drawings.map(|drawing| path.with_file_name(&drawing.file));
     [path.to_owned()].into_iter().chain(drawings).collect()
-}
-
-/// A magnet model by the name that design files use.
-pub fn model() -> Word<MagnetModel> {
-    let wrong = "a model is dipole or cuboid".to_owned();
-    Word::new(&MagnetModel::NAMES, wrong)
 }
 
 /// Warns of a pose far off the table, in millimetres to all appearances.
@@ -77,7 +78,7 @@ pub fn text(path: &Path) -> io::Result<String> {
 }
 
 /// What is read from a table named on the command line; what is wrong with it is told with its name.
-pub fn table<T, E: Refusal>(
+pub fn table<T, E: Unanswered>(
     file: &Path,
     read: impl FnOnce(&str) -> Result<T, E>,
 ) -> Result<T, Failure> {

@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::contact::Contact;
-use tilebind::contact::matching::matches;
+use tilebind::matching::Request;
 use tilebind::report::files::MATCH;
 use tilebind::report::matching::document;
-use tilebind::request;
 
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
@@ -25,9 +23,8 @@ pub struct Match {
     /// The design file
     design: PathBuf,
 
-    /// Most motions listed
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = request::count)]
-    most: usize,
+    #[command(flatten)]
+    request: Request,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -40,8 +37,7 @@ impl Match {
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&MATCH, inputs)?;
         let progress = self.results.progress();
-        let contact = Contact::new(&design.pair.fixed.outline, &design.pair.moving.outline);
-        let found = matches(&contact, self.most);
+        let found = self.request.matches(&design);
         self.results
             .deliver(&document(&design, &found), output, &progress)
     }

@@ -21,7 +21,7 @@ pub struct DesignOptions {
     design: PathBuf,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 }

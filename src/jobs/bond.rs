@@ -5,7 +5,7 @@ use clap::Args;
 use crate::design::Design;
 use crate::request;
 use physics::configuration::Configuration;
-use physics::kinetics::bond::{Bond, BondError, Docking, Hold, Shaking, TOLERANCE, traps};
+use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
 use physics::landscape::Catalogue;
 use physics::parallel;
 use physics::problem::Problem;
@@ -81,7 +81,7 @@ pub struct HeldState {
 
 impl HeldState {
     fn new(problem: &Problem, hold: &Hold, shaking: &Shaking) -> Self {
-        let basin = hold.well().basin();
+        let basin = &hold.well;
         Self {
             name: hold.name.clone(),
             configuration: hold.configuration,
@@ -114,9 +114,9 @@ pub fn held(
     shaking: Shaking,
     is_pictured: bool,
 ) -> Result<Held, BondError> {
-    let bond = Bond::new(problem, catalogue)?;
+    let bond = Hold::bond(problem, catalogue)?;
     let traps = traps(problem, catalogue, shaking.kt);
-    let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
+    let holds: Vec<&Hold> = std::iter::once(&bond).chain(&traps).collect();
     let at = |share: &f64| {
         let kt = share * shaking.kt;
         let shaking = Shaking { kt, ..shaking };
@@ -132,7 +132,7 @@ pub fn held(
             .map(|hold| HeldState::new(problem, hold, &shaking))
             .collect(),
         window: bond.window(shaking.coverage),
-        is_too_cold: bond.hold().is_too_cold(shaking.kt),
+        is_too_cold: bond.is_too_cold(shaking.kt),
         over_kt: match is_pictured {
             true => parallel::map(&SHAKINGS[..], at),
             false => Vec::new(),

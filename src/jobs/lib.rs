@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
 //! | [`start`] | a design to start from |
-//! | [`inspection`], [`workshop`] | a design at a glance; a design to be made: outlines with pockets, the order of the magnets |
+//! | [`inspection`], [`matching`], [`workshop`] | a design at a glance; how the outlines fit; a design to be made: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
@@ -22,11 +22,13 @@ pub mod comparison;
 pub mod design;
 pub mod docking;
 pub mod inspection;
+pub mod matching;
 pub mod memory;
 pub mod output;
 pub mod pipeline;
 pub mod query;
 pub mod rates;
+mod refused;
 pub mod request;
 pub mod start;
 pub mod sweep;
@@ -36,3 +38,4 @@ pub mod yields;
 
 pub use design::Design;
 pub use pipeline::{Analysis, Settings};
+pub use refused::Refused;

@@ -1,5 +1,7 @@
 //! Cells: closed boxes of configurations, and quadratic forms bounded over them.
 
+use nalgebra::Vector3;
+
 use crate::configuration::Configuration;
 
 /// A closed box of configurations: every (x, y, theta) that differs from `centre` by at most
@@ -38,6 +40,21 @@ impl Cell {
     /// point gets from where it is at the centre (m).
     pub fn reach(&self, lever: f64) -> f64 {
         self.travel() + lever * self.half[2]
+    }
+
+    /// The two parts along a coordinate, each so much to either side of its middle there: a little
+    /// more than half of what the whole has, so that rounding leaves no gap between them.
+    pub fn parts(&self, axis: usize, half: f64) -> [Self; 2] {
+        [-0.5, 0.5].map(|side| {
+            let mut step = Vector3::zeros();
+            step[axis] = side * self.half[axis];
+            let mut part = Self {
+                centre: self.centre.moved(step),
+                ..*self
+            };
+            part.half[axis] = half;
+            part
+        })
     }
 
     /// Whether a configuration lies in the cell.

@@ -1,4 +1,5 @@
-//! Work on many items side by side, with results in the items' order.
+//! Work on many items side by side, with results in the items' order, unless it is
+//! [given up](crate::interruption).
 //!
 //! What shares the work out is compiled once, for all items and all work, where each parallel
 //! iterator of rayon is some 10 kB of code. Those are left where items take less than a microsecond.
@@ -7,6 +8,8 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
+
+use crate::interruption;
 
 /// Of so many parts a thread the work consists, where there are as many items: few enough that
 /// sharing them out costs nothing, many enough that no thread waits long for the last.
@@ -97,6 +100,7 @@ fn collected<T: Send>(count: usize, put: &(dyn Fn(usize, &mut Vec<T>) + Sync)) -
     shared_out(found.len(), &|part| {
         let mut of_part = Vec::new();
         for place in part * size..count.min((part + 1) * size) {
+            interruption::check();
             put(place, &mut of_part);
         }
         *found[part].lock().unwrap_or_else(PoisonError::into_inner) = of_part;

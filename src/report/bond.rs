@@ -7,7 +7,7 @@ use super::plots::chart::{Chart, Dimension, Look};
 use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
 use physics::kinetics::bond::Docking;
-use physics::kinetics::well::NO_PLAY;
+use physics::kinetics::volume::NO_PLAY;
 use physics::units::si;
 
 /// What there is to know of how tiles are held.

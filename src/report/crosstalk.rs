@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use super::document::{Document, Drawing, Entries, Part, Table, rows};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
+use super::plots::chart::{Chart, Dimension, Look};
 use super::values::{pose, positive_zero};
-use super::words::{MOST_DRAWN, histogram};
 use jobs::design::WordSet;
 use physics::configuration::Configuration;
 use physics::order::Order;
@@ -17,6 +17,10 @@ use physics::words::set::name;
 /// Meetings that people see, the strongest, and those of them that a terminal has.
 const SHOWN: usize = 100;
 const LISTED: usize = 5;
+/// Sets of more words have no map.
+pub(super) const MOST_DRAWN: usize = 80;
+/// Bars of a histogram.
+const BINS: usize = 40;
 
 /// What there is to know of the crosstalk of a set.
 pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
@@ -152,6 +156,34 @@ pub(super) fn pictures(map: Option<&Meetings>, found: &Crosstalk) -> Vec<Drawing
     let gaps = histogram("Gaps of all pairs of faces", found.gaps());
     let map = map.map(|map| map.picture().off_page());
     map.into_iter().chain([gaps.into()]).collect()
+}
+
+/// How many pairs have which gap.
+pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
+    let mut counts = [0usize; BINS];
+    for gap in gaps {
+        counts[((gap.clamp(0.0, 1.0) * BINS as f64) as usize).min(BINS - 1)] += 1;
+    }
+    let middle = |k: usize| (k as f64 + 0.5) / BINS as f64;
+    let bars = counts.iter().enumerate();
+    let pairs = Dimension::new("pairs", "pairs");
+    Chart {
+        name: "gaps",
+        title: title.to_owned(),
+        x: Dimension::new("gap", "gap of the pair").within([0.0, 1.0]),
+        y: match counts.iter().max() {
+            // No halves.
+            Some(most @ ..7) => pairs.marked((0..=*most).map(|count| count as f64)),
+            _ => pairs,
+        },
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with(
+        "pairs",
+        Look::Bars,
+        bars.map(|(k, count)| [middle(k), *count as f64]),
+    )
 }
 
 /// `A on B*`; of a word and its own mate a trap.

@@ -11,6 +11,9 @@
 #![allow(clippy::disallowed_methods)]
 
 mod operations;
+#[allow(dead_code)]
+#[path = "../shared/plain.rs"]
+mod plain;
 mod ratio;
 
 use std::f64::consts::FRAC_PI_2;
@@ -19,11 +22,12 @@ use std::time::Instant;
 
 use nalgebra::{Vector2, Vector3};
 use operations::Operations;
+use plain::Plain;
 use ratio::ratio;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
 use tilebind::potential::batch::lanes::{Lanes, Task, WIDTH};
-use tilebind::potential::dipole::{Dipole, ScalarDipoles};
+use tilebind::potential::dipole::Dipole;
 use tilebind::potential::{DipolePotential, Potential};
 
 const ROUNDS: usize = 40;
@@ -33,7 +37,7 @@ fn main() {
     let tile = paper_tile();
     let qs = configurations();
     println!("16 x 16 dipoles, {CONFIGURATIONS} configurations, one core");
-    let scalar = ScalarDipoles::new(&tile, &tile);
+    let scalar = Plain::new(&tile, &tile);
     report("scalar formula", &mut kernels(&scalar, &qs), None);
     let mut best = Vec::new();
     let mut best_level = None;

@@ -3,14 +3,14 @@
 use std::collections::HashSet;
 
 use crate::surfaces::{DoubleWell, MuellerBrown};
+use crate::surveys;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
-    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, Roadmap, RoadmapSettings,
-    neighbour,
+    Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
 };
 
 /// A landscape in x and y with a well in theta, around 0, so that minima are points.
@@ -52,7 +52,7 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
 /// A barrier counts as settled when it moves by less than this fraction.
 pub const SETTLED: f64 = 0.005;
 
-pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Exploration {
+pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Exploration<'_> {
     let edge = EdgeSettings {
         tolerance: ProfileTolerance {
             relative: 0.01,
@@ -74,7 +74,7 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Explora
         neighbours: neighbour::neighbours_per_milestone(milestones.count),
         edges: edge,
     };
-    let roadmap = Roadmap::build(problem, &roadmap, &mut |_| ());
+    let roadmap = surveys::weighed(problem, &roadmap);
     let settings = ExplorationSettings {
         edge,
         settled: SETTLED,
@@ -83,13 +83,13 @@ pub fn survey(problem: &Problem, scale: f64, highest: f64, seed: u64) -> Explora
         most_rounds: 8,
         seed,
     };
-    Exploration::new(problem, roadmap, &[], &settings)
+    surveys::survey(problem, roadmap, &settings)
 }
 
 /// The saddle energy (J) between the states at two configurations.
-fn barrier(problem: &Problem, survey: &Exploration, a: &Configuration, b: &Configuration) -> f64 {
+fn barrier(survey: &Exploration, a: &Configuration, b: &Configuration) -> f64 {
     let node = |q: &Configuration| {
-        let state = survey.state_at(problem, q, 1e-3).expect("a state is here");
+        let state = survey.state_at(q, 1e-3).expect("a state is here");
         survey.states[state].node
     };
     let goals = HashSet::from([node(b)]);
@@ -109,9 +109,9 @@ fn the_double_well_has_two_minima_and_its_saddle_for_every_seed() {
         let survey = survey(&problem, 6e-3, 6e-3, seed);
         assert_eq!(survey.states.len(), 2);
         let ends = [-0.4, 0.4].map(|x| Configuration::new(x, 0.0, 0.0));
-        let saddle = barrier(&problem, &survey, &ends[0], &ends[1]);
+        let saddle = barrier(&survey, &ends[0], &ends[1]);
         assert!((saddle - 2e-3).abs() < 1e-9, "{saddle}");
-        let reverse = barrier(&problem, &survey, &ends[1], &ends[0]);
+        let reverse = barrier(&survey, &ends[1], &ends[0]);
         assert_eq!(saddle, reverse);
         for state in &survey.states {
             assert!(state.minimum.point.energy.abs() < 1e-12);
@@ -137,7 +137,7 @@ fn mueller_and_brown_s_surface_has_its_three_minima_and_two_saddles() {
     let problem = Problem::without_contact(SPACE, Box::new(Upright { plane, stiffness }));
     let survey = survey(&problem, 150e-3, 0.0, 1);
     for (q, energy) in &minima {
-        let state = survey.state_at(&problem, q, 1e-3).expect("a minimum");
+        let state = survey.state_at(q, 1e-3).expect("a minimum");
         let found = survey.states[state].minimum.point.energy;
         assert!((found - energy).abs() < 1e-8, "{found} {energy}");
     }
@@ -149,7 +149,7 @@ fn mueller_and_brown_s_surface_has_its_three_minima_and_two_saddles() {
         (middle, right, -72.24894e-3),
         (deep, right, -40.66484e-3),
     ] {
-        let found = barrier(&problem, &survey, a, b);
+        let found = barrier(&survey, a, b);
         assert!((found - saddle).abs() < 1e-8, "{found} {saddle}");
     }
     assert_eq!(survey.transition_states.len(), 2);

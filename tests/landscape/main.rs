@@ -16,11 +16,15 @@ mod minimum;
 mod missing_states;
 mod neighbours;
 mod pathways;
+#[allow(dead_code)]
+#[path = "../shared/plain.rs"]
+mod plain;
 mod queries;
 mod ranking;
 mod roadmap;
 mod seam;
 mod surfaces;
+mod surveys;
 mod symmetry;
 mod transition_network;
 mod volume;

@@ -4,12 +4,18 @@ use std::f64::consts::FRAC_PI_2;
 
 use tilebind::design::{Design, MagnetModel};
 use tilebind::landscape::capture::{self, FarStarts, start};
-use tilebind::landscape::constrained::{Point, downhill, step_downhill};
-use tilebind::landscape::minimum::{Known, Outcome, approach, descend, drift};
+use tilebind::landscape::constrained::{downhill, step_along};
+use tilebind::landscape::minimum::{Known, Outcome, approach, descend};
 use tilebind::landscape::stationary;
+use tilebind::roadmap::Point;
 use tilebind::{Configuration, Problem};
 
 use crate::designs;
+
+/// Where overdamped motion leads, if nothing is known: into a minimum or over the table's rim.
+pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
+    approach(problem, start, &Known::default()).outcome
+}
 
 fn far_starts(problem: &Problem, count: usize) -> impl Iterator<Item = Configuration> {
     let starts = FarStarts { count, seed: 1 };
@@ -105,7 +111,7 @@ fn tiles_slide_along_each_other_however_weak_the_force() {
         );
         assert_eq!(same.pressed, heading.pressed);
     }
-    let next = step_downhill(&problem, &point, 1e-3).unwrap();
+    let next = step_along(&problem, &point, &downhill(&problem, &point).unwrap(), 1e-3).unwrap();
     assert!(next.energy < point.energy);
     assert!((next.q.x - flush.x).abs() > 9e-4, "{next:?}");
 }
@@ -155,7 +161,7 @@ fn tiles_that_slide_flush_are_held_at_both_ends_of_their_faces() {
     // One end of the faces touches, 2 µm are free at the other: force enough presses on both.
     let tilted = Configuration::new(-0.266_487_007, -0.430_002_624_331, 1.570_808_533);
     let point = Point::new(&problem, tilted);
-    let next = step_downhill(&problem, &point, 1e-3)
+    let next = step_along(&problem, &point, &downhill(&problem, &point).unwrap(), 1e-3)
         .expect("they slide on")
         .q;
     assert!((next.theta - FRAC_PI_2).abs() < 1e-9, "{next:?}");

@@ -4,17 +4,18 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::budget::Allowance;
-use tilebind::landscape::constrained::Point;
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::landscape::minimum::{Outcome, descend};
 use tilebind::landscape::missing_states::Search;
 use tilebind::landscape::{Catalogue, Completeness, CompletenessSettings};
 use tilebind::observer::Silent;
-use tilebind::roadmap::Roadmap;
+use tilebind::roadmap::Point;
+use tilebind::roadmap::RoadmapSettings;
 use tilebind::tile::face_to_face;
 use tilebind::{Configuration, Design, Problem, Settings};
 
 use crate::designs::load;
+use crate::surveys;
 
 /// Traps deeper than a hundredth of the bond that need half of that to leave.
 const USUAL: CompletenessSettings = CompletenessSettings {
@@ -24,7 +25,8 @@ const USUAL: CompletenessSettings = CompletenessSettings {
     allowed: Allowance::UNLIMITED,
 };
 
-fn survey(problem: &Problem, milestones: usize) -> (Exploration, ExplorationSettings) {
+/// Settings of a survey from so many milestones.
+fn settings(problem: &Problem, milestones: usize) -> (RoadmapSettings, ExplorationSettings) {
     let settings = Settings {
         milestones,
         ..Settings::default()
@@ -38,12 +40,17 @@ fn survey(problem: &Problem, milestones: usize) -> (Exploration, ExplorationSett
         most_rounds: 8,
         seed: 1,
     };
-    let built = Roadmap::build(problem, &roadmap, &mut |_| {});
-    (Exploration::new(problem, built, &[], &settings), settings)
+    (roadmap, settings)
 }
 
-fn conclude(problem: &Problem, survey: &Exploration, search: Search) -> Completeness {
-    let listed = Catalogue::of_survey(problem, survey, 1e-4);
+fn survey(problem: &Problem, milestones: usize) -> Exploration<'_> {
+    let (roadmap, settings) = settings(problem, milestones);
+    let built = surveys::weighed(problem, &roadmap);
+    surveys::survey(problem, built, &settings)
+}
+
+fn conclude(survey: &Exploration, search: Search) -> Completeness {
+    let listed = Catalogue::of_survey(survey, 1e-4);
     search.conclude(survey, &listed)
 }
 
@@ -51,7 +58,7 @@ fn conclude(problem: &Problem, survey: &Exploration, search: Search) -> Complete
 fn minima_where_the_outlines_fit_need_no_milestones() {
     // Odd outlines: where notch and tip meet, no two faces do.
     let problem = load("shapes/arrowhead.toml").problem();
-    let (survey, _) = survey(&problem, 10);
+    let survey = survey(&problem, 10);
     let mut found = 0;
     for place in problem.matches(100) {
         let Outcome::Minimum(minimum) = descend(&problem, &place).outcome else {
@@ -59,7 +66,7 @@ fn minima_where_the_outlines_fit_need_no_milestones() {
         };
         let Point { q, energy, .. } = minimum.point;
         if energy < -0.01 * problem.depth() {
-            assert!(survey.state_at(&problem, &q, 1e-5).is_some(), "{q:?}");
+            assert!(survey.state_at(&q, 1e-5).is_some(), "{q:?}");
             found += 1;
         }
     }
@@ -70,13 +77,13 @@ fn minima_where_the_outlines_fit_need_no_milestones() {
 #[test]
 fn tilted_traps_of_faces_that_slide_are_found_with_any_milestones() {
     let problem = load("tests/designs/good/bars.toml").problem();
-    let (survey, _) = survey(&problem, 10);
+    let survey = survey(&problem, 10);
     for [x, y, theta, energy] in [
         [0.065791671, -0.048002759, -0.028603450, -0.38688e-3],
         [0.054928775, 0.439586631, 0.026799278, -0.37194e-3],
         [0.067551874, -0.437652637, 0.030267079, -0.25002e-3],
     ] {
-        let found = survey.state_at(&problem, &Configuration::new(x, y, theta), 1e-6);
+        let found = survey.state_at(&Configuration::new(x, y, theta), 1e-6);
         let found = &survey.states[found.unwrap()].minimum.point;
         assert!((found.energy - energy).abs() < 1e-8, "{found:?}");
     }
@@ -85,7 +92,7 @@ fn tilted_traps_of_faces_that_slide_are_found_with_any_milestones() {
 #[test]
 fn forgotten_traps_are_found_again_and_the_list_is_proved() {
     let problem = load("shapes/paper-tile.toml").problem();
-    let (mut survey, settings) = survey(&problem, 2000);
+    let mut survey = survey(&problem, 2000);
     let energies = |survey: &Exploration| -> Vec<f64> {
         let deep = survey.states.iter().map(|state| state.minimum.point.energy);
         let mut deep: Vec<f64> = deep.filter(|energy| *energy < -0.7e-3).collect();
@@ -99,7 +106,7 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
     assert!(survey.states.len() < all.len());
     let search = Search::run(&problem, &survey, &USUAL, &Silent).unwrap();
     assert!(!search.missed().is_empty());
-    survey.add(&problem, &search.missed(), &settings);
+    survey.add(&search.missed());
     let found = energies(&survey);
     assert_eq!(found.len(), all.len());
     for (found, known) in found.iter().zip(&all) {
@@ -108,7 +115,7 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
             "{found} {known}"
         );
     }
-    let complete = conclude(&problem, &survey, search);
+    let complete = conclude(&survey, search);
     assert!(complete.is_complete(), "{:?}", complete.open);
     assert_eq!(complete.share, 0.0);
     assert!((complete.below / problem.depth() + 0.01).abs() < 1e-12);
@@ -118,18 +125,18 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
 #[test]
 fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
     let problem = load("tests/designs/good/triangles.toml").problem();
-    let (survey, _) = survey(&problem, 1000);
+    let survey = survey(&problem, 1000);
     let allowed = CompletenessSettings {
         escape: 0.03,
         ..USUAL
     };
     let without = |least_depth| {
         let search = Search::run(&problem, &survey, &allowed, &Silent).unwrap();
-        let listed = Catalogue::of_survey(&problem, &survey, least_depth);
+        let listed = Catalogue::of_survey(&survey, least_depth);
         (listed.states.len(), search.conclude(&survey, &listed))
     };
     let (most, complete) = without(0.025);
-    let all = Catalogue::of_survey(&problem, &survey, 1e-4).states.len();
+    let all = Catalogue::of_survey(&survey, 1e-4).states.len();
     assert!(most < all, "{most} {all}");
     assert!(complete.is_complete(), "{:?}", complete.open);
     let (few, open) = without(0.3);
@@ -140,7 +147,7 @@ fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
 #[test]
 fn tilted_traps_behind_a_tab_are_found() {
     let problem = load("tests/designs/good/square-tab.toml").problem();
-    let (mut survey, settings) = survey(&problem, 500);
+    let mut survey = survey(&problem, 500);
     let deep = CompletenessSettings {
         below: 0.1,
         escape: 0.05,
@@ -158,20 +165,20 @@ fn tilted_traps_behind_a_tab_are_found() {
             || missed.iter().any(|minimum| is_trap(&minimum.point.q)),
         "{missed:?}"
     );
-    survey.add(&problem, &missed, &settings);
-    assert!(conclude(&problem, &survey, search).is_complete());
+    survey.add(&missed);
+    assert!(conclude(&survey, search).is_complete());
 }
 
 #[test]
 fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
     let problem = load("shapes/paper-tile.toml").problem();
-    let (survey, _) = survey(&problem, 500);
+    let survey = survey(&problem, 500);
     let hasty = CompletenessSettings {
         cells: 10_000,
         ..USUAL
     };
     let search = Search::run(&problem, &survey, &hasty, &Silent).unwrap();
-    let known = conclude(&problem, &survey, search);
+    let known = conclude(&survey, search);
     assert!(!known.is_complete());
     assert!(known.share > 0.0 && known.share < 1.0);
     assert!(known.open.is_sorted_by(|a, b| a.lowest <= b.lowest));
@@ -184,7 +191,7 @@ fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
 #[test]
 fn an_energy_without_bounds_or_no_work_proves_nothing() {
     let problem = load("shapes/shielded-nearest-face.toml").problem();
-    let (survey, _) = survey(&problem, 100);
+    let survey = survey(&problem, 100);
     assert!(Search::run(&problem, &survey, &USUAL, &Silent).is_err());
     let none = CompletenessSettings {
         allowed: Allowance::NONE,
@@ -270,16 +277,9 @@ fn plant(number_of_traps: usize) {
             continue;
         };
         // A survey that knows next to nothing.
-        let settings = Settings {
-            milestones: 20,
-            ..Settings::default()
-        };
-        let roadmap = settings.roadmap(&problem);
-        let survey = Exploration::of_roadmap(
-            &problem,
-            Roadmap::build(&problem, &roadmap, &mut |_| {}),
-            &roadmap.edges,
-        );
+        let (roadmap, settings) = settings(&problem, 20);
+        let built = surveys::weighed(&problem, &roadmap);
+        let survey = Exploration::of_roadmap(&problem, built, &settings);
         let looked_for = CompletenessSettings {
             below: 0.3,
             escape: 0.15,
@@ -293,7 +293,7 @@ fn plant(number_of_traps: usize) {
             .iter()
             .any(|minimum| is_trap(&minimum.point.q));
         let is_deep = trap.point.energy < -0.3 * problem.depth();
-        let is_claimed = search.is_everything_explained();
+        let is_claimed = search.open.is_empty();
         found += usize::from(is_found);
         claimed += usize::from(is_claimed);
         assert!(

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tilebind::roadmap::Milestone;
+use tilebind::roadmap::Point;
 use tilebind::roadmap::neighbour::{NeighbourSearch, neighbour_pairs, neighbours_per_milestone};
 use tilebind::{Configuration, ConfigurationSpace};
 
@@ -18,9 +18,9 @@ fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
         free_distance: 0.5,
     };
     let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let milestones: Vec<Milestone> = (0..500)
-        .map(|_| Milestone {
-            configuration: Configuration::new(
+    let milestones: Vec<Point> = (0..500)
+        .map(|_| Point {
+            q: Configuration::new(
                 rng.random_range(-1.0..1.0),
                 rng.random_range(-1.0..1.0),
                 rng.random_range(-PI..PI),
@@ -31,11 +31,11 @@ fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
         .collect();
     let search = NeighbourSearch::new(&milestones, &space);
     for m in &milestones {
-        let q = &m.configuration;
+        let q = &m.q;
         let mut plain: Vec<(f64, u32)> = milestones
             .iter()
             .enumerate()
-            .map(|(i, other)| (space.distance(q, &other.configuration).powi(2), i as u32))
+            .map(|(i, other)| (space.distance(q, &other.q).powi(2), i as u32))
             .collect();
         plain.sort_by_key(|(squared, _)| OrderedFloat(*squared));
         let found = search.nearest(q, 12);
@@ -54,8 +54,8 @@ fn few_milestones_have_few_neighbours() {
         rho: 0.3,
         free_distance: 0.5,
     };
-    let at = |x: f64| Milestone {
-        configuration: Configuration::new(x, 0.0, 0.0),
+    let at = |x: f64| Point {
+        q: Configuration::new(x, 0.0, 0.0),
         energy: 0.0,
         gradient: Vector3::zeros(),
     };
@@ -72,20 +72,20 @@ fn few_neighbours_across_the_seam_are_as_far_as_the_metric_says() {
         rho: 0.3,
         free_distance: 0.5,
     };
-    let at = |theta: f64| Milestone {
-        configuration: Configuration::new(0.0, 0.0, theta),
+    let at = |theta: f64| Point {
+        q: Configuration::new(0.0, 0.0, theta),
         energy: 0.0,
         gradient: Vector3::zeros(),
     };
     let milestones = [0.1, 3.0, -3.0, -0.2].map(at);
     let search = NeighbourSearch::new(&milestones, &space);
-    for q in milestones.map(|m| m.configuration) {
+    for q in milestones.map(|m| m.q) {
         for k in 0..7 {
             let found = search.nearest(&q, k);
             assert_eq!(found.len(), k.min(milestones.len()));
             assert!(found.windows(2).all(|pair| pair[0].0 <= pair[1].0));
             for (squared, i) in found {
-                let other = &milestones[i as usize].configuration;
+                let other = &milestones[i as usize].q;
                 let distance = space.distance(&q, other);
                 assert!((squared.sqrt() - distance).abs() < 1e-12, "{k} {i}");
             }

@@ -1,14 +1,15 @@
 //! Milestones and edges against what their definitions say.
 
+use crate::plain::Plain;
 use crate::surfaces::DoubleWell;
 use nalgebra::Vector3;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
 use tilebind::potential::Potential;
-use tilebind::potential::dipole::{ScalarDipoles, dipoles};
+use tilebind::potential::dipole::dipoles;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{
-    Acceptance, EdgeSettings, Milestone, MilestoneSettings, ProfileTolerance, edge, milestone,
+    Acceptance, EdgeSettings, MilestoneSettings, Point, ProfileTolerance, edge, milestone,
     profile::Profile,
 };
 
@@ -37,7 +38,7 @@ fn double_well() -> Problem {
 }
 
 fn costs(problem: &Problem, a: Configuration, b: Configuration) -> edge::EdgeCosts {
-    let ends = [a, b].map(|q| Milestone::new(problem, q));
+    let ends = [a, b].map(|q| Point::new(problem, q));
     edge::costs(problem, [&ends[0], &ends[1]], &SETTINGS)
 }
 
@@ -148,7 +149,7 @@ fn milestones_follow_their_rule_of_acceptance() {
         let total: f64 = expected.iter().sum();
         let mut counted = vec![0usize; bins];
         for m in &found {
-            counted[bin(m.configuration.x)] += 1;
+            counted[bin(m.q.x)] += 1;
         }
         for (seen, share) in counted.iter().zip(&expected) {
             let mean = share / total * count as f64;
@@ -199,7 +200,7 @@ fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
     let problem = design.problem();
     let pair = problem.pair.clone().expect("two tiles");
     let [fixed, moving] = [&pair.fixed, &pair.moving].map(|tile| dipoles(&tile.magnets));
-    let scalar = ScalarDipoles::new(&fixed, &moving);
+    let scalar = Plain::new(&fixed, &moving);
     let depth = problem.depth();
     let tolerance = ProfileTolerance {
         relative: 0.0,
@@ -214,7 +215,7 @@ fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
         ([0.50, 0.1, 0.3], [0.7, 0.2, 1.0]),
     ] {
         let [a, b] = [from, to].map(|[x, y, t]| Configuration::new(x, y, t));
-        let ends = [a, b].map(|q| Milestone::new(&problem, q));
+        let ends = [a, b].map(|q| Point::new(&problem, q));
         let before = problem.evaluations();
         let profile = Profile::new(&problem, &ends[0], &ends[1], &tolerance);
         asked += problem.evaluations() - before;

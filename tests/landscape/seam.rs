@@ -10,13 +10,14 @@ use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::landscape::capture::{FarStarts, ends};
 use tilebind::landscape::map::{EnergyMap, Window};
 use tilebind::landscape::minimax::{Certifier, Effort, End};
-use tilebind::landscape::minimum::{Known, Outcome, drift};
+use tilebind::landscape::minimum::{Known, Outcome};
 use tilebind::potential::Potential;
 use tilebind::potential::bounds::{CellBounds, Enclosure};
 use tilebind::problem::Problem;
 
 use crate::analytic::{SETTLED, survey};
 use crate::designs;
+use crate::minimum::drift;
 use crate::surfaces::{ROUNDING, check_bounds};
 
 const SPACE: ConfigurationSpace = ConfigurationSpace {
@@ -159,7 +160,7 @@ fn the_survey_finds_both_wells_and_the_saddle_on_the_seam() {
         let survey = survey(&problem, 3.0 * HEIGHT, 3.0 * HEIGHT, seed);
         assert_eq!(survey.states.len(), 2);
         let nodes = AT_ORIGIN.wells().map(|well| {
-            let state = survey.state_at(&problem, &well, 1e-5).expect("a minimum");
+            let state = survey.state_at(&well, 1e-5).expect("a minimum");
             assert!(survey.states[state].minimum.point.energy < 1e-12);
             survey.states[state].node
         });

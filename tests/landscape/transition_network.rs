@@ -6,13 +6,14 @@ use std::collections::HashSet;
 use petgraph::algo::dijkstra;
 use petgraph::graphmap::DiGraphMap;
 use rayon::prelude::*;
-use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
+use tilebind::landscape::exploration::ExplorationSettings;
 use tilebind::landscape::transition_network::{Cost, Network};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings};
 use tilebind::{Configuration, Settings};
 
 use crate::designs;
+use crate::surveys;
 
 fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
     let problem = designs::load("shapes/paper-tile.toml").problem();
@@ -61,7 +62,7 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
     const MILESTONES: usize = 600;
     let (problem, settings) = paper_tile(MILESTONES);
     let start = problem.evaluations();
-    let built = Roadmap::build(&problem, &settings, &mut |_| {});
+    let built = surveys::weighed(&problem, &settings);
     let all = problem.evaluations() - start;
     let left = Roadmap::untried(&problem, &settings, &mut |_| {});
     assert!(left.untried.len() > built.edges.len());
@@ -71,8 +72,8 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
     let spanned = problem.evaluations() - start;
     assert!(2 * spanned < all, "{spanned} of {all}");
     let [weighed, asked] = &networks;
-    assert_eq!(weighed.motions(&problem), asked.motions(&problem));
-    assert_eq!(weighed.links.len(), asked.motions(&problem));
+    assert_eq!(weighed.motions(), asked.motions());
+    assert_eq!(weighed.links.len(), asked.motions());
     assert_eq!(weighed.local_minima(), asked.local_minima());
     assert_eq!(weighed.joined_to(3), asked.joined_to(3));
     let labelled: Vec<(usize, f64)> = (0..MILESTONES)
@@ -101,14 +102,14 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
             per_metre: 1e-3 * depth,
         };
         for cost in [Cost::Work, Cost::Probability, below] {
-            let found = |network: &Network| network.cheapest(&problem, from, &goals, cost).unwrap();
+            let found = |network: &Network| network.cheapest(from, &goals, cost).unwrap();
             let [of_weighed, of_asked] = networks.each_ref().map(found);
             assert_eq!(of_weighed.0, to);
             let blind = cheapest_blindly(weighed, from, to, cost);
             assert!((of_weighed.1 - blind).abs() <= 1e-9 * blind, "{cost:?}");
             assert!((of_weighed.1 - of_asked.1).abs() <= 1e-9 * of_weighed.1);
             // The same, looked for from the other end.
-            let (total, route) = asked.cheapest_into(&problem, from, to, cost).unwrap();
+            let (total, route) = asked.cheapest_into(from, to, cost).unwrap();
             assert!(
                 (total - of_asked.1).abs() <= 1e-9 * total,
                 "{cost:?}: {total}"
@@ -132,7 +133,7 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
 #[test]
 fn motions_beside_free_are_weighed_when_a_route_needs_them() {
     let (problem, settings) = paper_tile(50);
-    let roadmap = untried(&Roadmap::build(&problem, &settings, &mut |_| {}));
+    let roadmap = untried(&surveys::weighed(&problem, &settings));
     let mut network = Network::new(&problem, roadmap, &settings.edges);
     let free = network.add_node(None);
     let far = [0.0, 0.1].map(|y| Configuration::new(0.9, y, 0.3));
@@ -143,7 +144,7 @@ fn motions_beside_free_are_weighed_when_a_route_needs_them() {
         node
     });
     network.add_untried(from, to);
-    network.span(&problem);
+    network.span();
     let highest = network.minimax(from, &HashSet::from([to]));
     let ends = far.map(|q| problem.energy(&q));
     assert!(highest.is_some_and(|highest| highest >= ends[0].max(ends[1])));
@@ -154,12 +155,12 @@ fn motions_beside_free_are_weighed_when_a_route_needs_them() {
 fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
     const MILESTONES: usize = 500;
     let (problem, settings) = paper_tile(MILESTONES);
-    let built = Roadmap::build(&problem, &settings, &mut |_| {});
+    let built = surveys::weighed(&problem, &settings);
     let left = untried(&built);
     let networks = [built, left].map(|roadmap| Network::new(&problem, roadmap, &settings.edges));
     let costs = |network: &Network, from: usize| {
         let goals = HashSet::from([(from * 7 + 3) % MILESTONES]);
-        let found = network.cheapest(&problem, from, &goals, Cost::Probability);
+        let found = network.cheapest(from, &goals, Cost::Probability);
         found.map(|(_, cost, route)| (cost, route))
     };
     let threads = rayon::ThreadPoolBuilder::new()
@@ -191,8 +192,8 @@ fn what_is_found_once_is_known_of_all_copies() {
         most_rounds: 8,
         seed: 1,
     };
-    let built = Roadmap::build(&problem, &roadmap, &mut |_| {});
-    let survey = Exploration::new(&problem, built, &[], &settings);
+    let built = surveys::weighed(&problem, &roadmap);
+    let survey = surveys::survey(&problem, built, &settings);
     assert_eq!(problem.symmetries.len(), 16);
     assert_eq!(survey.states.len() % 16, 0);
     let class = |node: u32| {
@@ -205,7 +206,7 @@ fn what_is_found_once_is_known_of_all_copies() {
     for state in &survey.states {
         for symmetry in &problem.symmetries {
             let image = symmetry.apply(&state.minimum.point.q);
-            let copy = &survey.states[survey.state_at(&problem, &image, 1e-9).unwrap()];
+            let copy = &survey.states[survey.state_at(&image, 1e-9).unwrap()];
             assert_eq!(copy.class, state.class);
             let energies = [copy, state].map(|state| state.minimum.point.energy);
             assert!((energies[0] - energies[1]).abs() <= 1e-12 * energies[0].abs());

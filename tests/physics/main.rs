@@ -4,9 +4,6 @@
 #![allow(clippy::disallowed_methods)]
 
 mod basins;
-mod block_limits;
-mod blocks;
-mod bounds;
 mod brute_force;
 mod calibration;
 mod configuration;
@@ -14,16 +11,12 @@ mod contact;
 mod design_files;
 #[path = "../shared/designs.rs"]
 mod designs;
-mod dipole_groups;
-mod dipole_kernel;
-mod dipoles;
 mod dynamics;
-mod fixtures;
 mod kinetics;
-mod levels;
 mod narrow;
-mod shield_factor;
-mod shielding;
+#[path = "../shared/plain.rs"]
+mod plain;
+mod potentials;
 mod strength;
 mod tiles;
 mod units;

@@ -11,10 +11,10 @@ use crate::designs;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
 use tilebind::kinetics::{Well, corner};
-use tilebind::landscape::constrained::Point;
 use tilebind::potential::MagnetModel;
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;
+use tilebind::roadmap::Point;
 
 /// `U = force (x - x0) + (kx (x - x0)^2 + ky y^2 + kt theta^2) / 2 - depth`.
 struct Bowl {

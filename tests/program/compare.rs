@@ -101,7 +101,7 @@ fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
     assert!((cell - same).abs() < 1e-9);
     let markdown = read(folder.path(), "compare.md");
     let summary = stdout(&output);
-    for said in ["tab-20mm", "selectivity", "certified order"] {
+    for said in ["tab-20mm", "selectivity", "Certified order"] {
         assert!(markdown.contains(said) && summary.contains(said), "{said}");
     }
     assert!(

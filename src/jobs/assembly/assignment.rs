@@ -8,7 +8,7 @@
 
 use super::depths::Depths;
 use super::matrix::Matrix;
-use super::wiring::Wiring;
+use super::wiring::Bond;
 use physics::order::Order;
 use physics::words::Word;
 
@@ -21,36 +21,32 @@ const ROUNDS: usize = 12;
 
 /// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
 /// `all` for the strongest bonds, then exchanged.
-pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Vec<Word> {
-    let (there, needed) = (all.words.len(), wiring.bonds.len());
+pub fn assign(all: &Matrix, bonds: &[Bond], depths: Option<&Depths>) -> Vec<Word> {
+    let (there, needed) = (all.words.len(), bonds.len());
     let mut by_depth: Vec<usize> = (0..there).collect();
     // Depths that differ in their last digits only are the same.
     let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
     by_depth.order_by(|a, b| rank(*a).total_cmp(&rank(*b)));
     let mut by_strength: Vec<usize> = (0..needed).collect();
-    by_strength.order_by(|a, b| {
-        wiring.bonds[*b]
-            .strength
-            .total_cmp(&wiring.bonds[*a].strength)
-    });
+    by_strength.order_by(|a, b| bonds[*b].strength.total_cmp(&bonds[*a].strength));
     // Faces of bonds, then words that are left.
     let mut faces = vec![0; needed];
     for (bond, word) in by_strength.iter().zip(&by_depth) {
         faces[*bond] = *word;
     }
     faces.extend(by_depth.iter().skip(needed));
-    let weights = Weights { all, wiring };
+    let weights = |faces: &[usize], changed: &[usize]| weights(all, bonds, faces, changed);
     exchange(&mut faces, all, needed, 1, |faces, others, changed| {
-        weights.of(others, changed) < weights.of(faces, changed) * (1.0 - 1e-9)
+        weights(others, changed) < weights(faces, changed) * (1.0 - 1e-9)
     });
     if let Some(depths) = depths {
         let every: Vec<usize> = (0..needed).collect();
-        let most = weights.of(&faces, &every) * depths.price;
+        let most = weights(&faces, &every) * depths.price;
         exchange(&mut faces, all, needed, 4, |faces, others, _| {
             let deeper = depths.excess(faces);
             deeper > 0.0
                 && depths.excess(others) < deeper * (1.0 - 1e-9)
-                && weights.of(others, &every) <= most
+                && weights(others, &every) <= most
         });
     }
     faces[..needed].iter().map(|face| all.code(*face)).collect()
@@ -78,11 +74,11 @@ fn exchange(
         let mut any = false;
         for i in 0..needed {
             let mut turned = faces.clone();
-            turned[i] = mate(faces[i], there);
+            turned[i] = all.mate(faces[i]);
             any |= take(faces, turned, &[i]);
             for k in i + 1..there {
-                let depths = [faces[i], faces[k]].map(|face| all.bond(face % there));
-                if (depths[0] / depths[1] - 1.0).abs() > ALIKE {
+                let [one, other] = [faces[i], faces[k]].map(|face| all.bond(face));
+                if (one / other - 1.0).abs() > ALIKE {
                     continue;
                 }
                 let changed = if k < needed { &[i, k][..] } else { &[i] };
@@ -91,7 +87,7 @@ fn exchange(
                     swapped.swap(i, k);
                     for (bit, at) in [i, k].into_iter().enumerate() {
                         if way >> bit & 1 == 1 {
-                            swapped[at] = mate(swapped[at], there);
+                            swapped[at] = all.mate(swapped[at]);
                         }
                     }
                     any |= take(faces, swapped, changed);
@@ -104,29 +100,16 @@ fn exchange(
     }
 }
 
-/// The mate of a face of so many words.
-pub(super) fn mate(face: usize, words: usize) -> usize {
-    (face + words) % (2 * words)
-}
-
-struct Weights<'a> {
-    all: &'a Matrix,
-    wiring: &'a Wiring,
-}
-
-impl Weights<'_> {
-    /// Of the wrong meetings of some bonds.
-    fn of(&self, faces: &[usize], changed: &[usize]) -> f64 {
-        let (all, bonds) = (self.all, &self.wiring.bonds);
-        let meeting = |i: usize, j: usize| {
-            let energy = all.energies[faces[i]][mate(faces[j], all.words.len())];
-            let unit = all.bond(faces[i] % all.words.len()) / bonds[i].strength;
-            libm::exp(-DEPTH * energy / unit)
-        };
-        let with = |i: &usize| -> f64 {
-            let others = (0..bonds.len()).filter(|j| j != i && bonds[*j].axis == bonds[*i].axis);
-            others.map(|j| meeting(*i, j) + meeting(j, *i)).sum()
-        };
-        changed.iter().map(with).sum()
-    }
+/// The weights of the wrong meetings of some bonds.
+fn weights(all: &Matrix, bonds: &[Bond], faces: &[usize], changed: &[usize]) -> f64 {
+    let meeting = |i: usize, j: usize| {
+        let energy = all.energies[faces[i]][all.mate(faces[j])];
+        let unit = all.bond(faces[i]) / bonds[i].strength;
+        libm::exp(-DEPTH * energy / unit)
+    };
+    let with = |i: &usize| -> f64 {
+        let others = (0..bonds.len()).filter(|j| j != i && bonds[*j].axis == bonds[*i].axis);
+        others.map(|j| meeting(*i, j) + meeting(j, *i)).sum()
+    };
+    changed.iter().map(with).sum()
 }

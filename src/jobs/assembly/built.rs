@@ -14,17 +14,17 @@
 //! out, so a real corner holds a little less.
 
 use super::assignment::assign;
+use super::axis::Met;
 use super::depths::Depths;
-use super::growth::{Grown, Holds, Met, grow, neighbours};
+use super::growth::{Grown, Holds, grow, neighbours};
 use super::matrix::Matrix;
 use super::rests::{Faces, Rests};
-use super::wiring::{Wiring, WiringError};
+use super::wiring::{Meeting, Wiring};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
 use physics::kinetics::bond::Shaking;
 use physics::kinetics::corner;
-use physics::words::crosstalk::Stage;
-use physics::words::{Lags, Word};
+use physics::words::{Bar, Lags};
 
 /// A tile set with its words and energies.
 pub struct Built {
@@ -50,25 +50,19 @@ pub struct Built {
     pub rests: Rests,
 }
 
-/// Why a set cannot be built.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BuiltError {
-    /// Words cannot stand for its glues.
-    #[error(transparent)]
-    Wiring(#[from] WiringError),
-    /// Not enough words.
-    #[error(
-        "the tile set needs {needed} words and there are {there}: find more with `tilebind words`, on a longer face or with a narrower gap"
-    )]
-    Words {
-        /// Needed.
-        needed: usize,
-        /// There.
-        there: usize,
-    },
-    /// A word does not hold its mate.
-    #[error("the word {0} does not hold its mate in place: take another one")]
-    Loose(Word),
+/// Whether a tile set grows as it should.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Shaken too hard: nothing holds.
+    TooHard,
+    /// Too softly: bonds weaker than tau hold as well.
+    FewerHold,
+    /// Too softly: a single aligned mismatch holds.
+    MismatchHolds,
+    /// Bonds of tau hold, weaker ones do not.
+    TauHolds,
+    /// One bond holds, as it should.
+    OneHolds,
 }
 
 /// Tiles that grow without errors where they would not end.
@@ -81,36 +75,41 @@ impl Built {
     ///
     /// # Errors
     /// Where that is impossible.
-    pub fn new(set: &TileSet, words: &WordSet, shaking: Shaking) -> Result<Self, BuiltError> {
+    pub fn new(set: &TileSet, words: &WordSet, shaking: Shaking) -> Result<Self, String> {
         let wiring = Wiring::new(set)?;
-        let (needed, there) = (wiring.bonds.len(), words.words.len());
+        let (bonds, there) = (&wiring.bonds, words.words.len());
+        let needed = bonds.len();
         if there < needed {
-            return Err(BuiltError::Words { needed, there });
+            return Err(format!(
+                "the tile set needs {needed} words and there are {there}: find more with `tilebind \
+                 words`, on a longer face or with a narrower gap"
+            ));
         }
         let grown = grow(set, MOST_GROWN);
         let rests = Rests::new(words);
         let all = Matrix::new(words, &words.words);
-        let depths = Depths::new(&all, &rests, set, &wiring, &grown);
-        let chosen = assign(&all, &wiring, depths.as_ref());
+        let depths = Depths::new(&all, &rests, (set, &wiring), &grown);
+        let chosen = assign(&all, bonds, depths.as_ref());
         let matrix = Matrix::new(words, &chosen);
-        if let Some(loose) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
-            return Err(BuiltError::Loose(chosen[loose]));
+        let loose = |bond: usize| {
+            let word = chosen[bond];
+            format!("the word {word} does not hold its mate in place: take another one")
+        };
+        if let Some(bond) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
+            return Err(loose(bond));
         }
         let least = wiring.least_strength();
-        let depth = |bond: &usize| matrix.bond(*bond) / wiring.bonds[*bond].strength;
-        let weakest = (0..needed).filter(|bond| wiring.bonds[*bond].strength == least);
+        let depth = |bond: &usize| matrix.bond(*bond) / bonds[*bond].strength;
+        let weakest = (0..needed).filter(|bond| bonds[*bond].strength == least);
         let weakest = weakest
             .min_by(|a, b| depth(a).total_cmp(&depth(b)))
             .unwrap_or(0);
-        let stage = Stage::new(
-            words.stage.pair.as_ref().clone(),
-            words.stage.interaction.clone(),
-        );
-        let problem = stage.problem_of(chosen[weakest], chosen[weakest].mate());
-        let bound = words.stage.pair.bound;
-        let volume = corner::volume(&problem, &bound, shaking.kt)
-            .ok_or(BuiltError::Loose(chosen[weakest]))?;
-        let area = words.stage.pair.moving.outline.area();
+        let pair = &words.stage.pair;
+        let word = chosen[weakest];
+        let problem = words.carriers().problem_of(word, word.mate());
+        let volume = corner::volume(&problem, &pair.bound, shaking.kt);
+        let volume = volume.ok_or_else(|| loose(weakest))?;
+        let area = pair.moving.outline.area();
         let docking_cost = -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU);
         let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
         Ok(Self {
@@ -135,27 +134,32 @@ impl Built {
     /// The word (place in the matrix; mates lie behind the words) that a face carries.
     pub fn face(&self, tile: usize, side: usize) -> Option<usize> {
         let bond = self.wiring.of(&self.set, tile, side)?;
-        // East and north carry words.
-        Some(if side < 2 {
-            bond
-        } else {
-            bond + self.matrix.words.len()
-        })
+        Some(self.matrix.on(side, bond))
     }
 
     /// Of two tiles that meet by a bond: its word, and what their other faces add to it (J).
-    pub fn whole(&self, (first, axis, second): &Met) -> Option<(usize, f64)> {
-        let [out, back] = axis.sides();
-        let bonds = [(*first, out), (*second, back)];
-        let [Some(bond), other] = bonds.map(|(tile, side)| self.wiring.of(&self.set, tile, side))
-        else {
-            return None;
-        };
-        let faces = |tile: usize| -> Faces {
-            std::array::from_fn(|side| Some(self.matrix.code(self.face(tile, side)?)))
-        };
-        let rest = || self.rests.of(*axis, &faces(*first), &faces(*second));
-        (other == Some(bond)).then(|| (bond, rest()))
+    pub fn whole(&self, met: &Met) -> Option<(usize, f64)> {
+        let Meeting { axis, bond, faces } = self.wiring.meeting(&self.set, met)?;
+        let code =
+            |side: usize, bond: Option<usize>| Some(self.matrix.code(self.matrix.on(side, bond?)));
+        let [first, second] =
+            faces.map(|bonds| -> Faces { std::array::from_fn(|side| code(side, bonds[side])) });
+        Some((bond, self.rests.of(axis, &first, &second)))
+    }
+
+    /// Whether such a shaking grows what is wanted.
+    pub fn verdict(&self) -> Verdict {
+        let (gse, tau) = (self.gse(), self.set.tau());
+        let less = self.wiring.least_strength();
+        let wrong = self.matrix.strongest_wrong();
+        let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / self.shaking.kt);
+        match () {
+            () if self.gmc > tau * gse => Verdict::TooHard,
+            () if tau > less && self.gmc < (tau - less) * gse => Verdict::FewerHold,
+            () if mismatch > self.gmc => Verdict::MismatchHolds,
+            () if tau > less => Verdict::TauHolds,
+            () => Verdict::OneHolds,
+        }
     }
 
     /// The set as engines run it: glues are faces, strengths their energies over Gse, seed and
@@ -164,14 +168,12 @@ impl Built {
         let faces = self.matrix.energies.len();
         let scale = -1.0 / self.unit;
         let strength = |i: usize, j: usize| scale * self.matrix.energies[i][j] + 0.0;
-        let name = |face: usize| face_name(face, self.matrix.words.len());
+        let glue = |face: usize| Glue {
+            name: self.matrix.name(face),
+            strength: strength(face, face),
+        };
         let mut set = TileSet {
-            glues: (0..faces)
-                .map(|face| Glue {
-                    name: name(face),
-                    strength: strength(face, face),
-                })
-                .collect(),
+            glues: (0..faces).map(glue).collect(),
             links: (0..faces)
                 .flat_map(|i| (i + 1..faces).map(move |j| (i, j)))
                 .map(|(i, j)| (i, j, strength(i, j)))
@@ -236,15 +238,14 @@ impl Built {
         let mut sum = 0.0;
         for place in &self.grown.order {
             let tile = self.grown.tiles[place];
-            let near = neighbours(*place).any(|(_, near)| there.contains_key(&near));
-            if near {
+            if neighbours(*place).any(|(_, near)| there.contains_key(&near)) {
                 let held = |tile: usize| gse * engine.at(&there, *place, tile);
-                let right =
-                    held(tile) + libm::log(self.set.tiles[tile].stoic.max(f64::MIN_POSITIVE));
+                let stoic = |tile: usize| self.set.tiles[tile].stoic;
+                let right = held(tile) + libm::log(stoic(tile).max(f64::MIN_POSITIVE));
                 let others = (0..self.set.tiles.len()).filter(|other| *other != tile);
-                let weight =
-                    |other: usize| self.set.tiles[other].stoic * libm::exp(held(other) - right);
-                let wrong: f64 = others.map(weight).sum();
+                let wrong: f64 = others
+                    .map(|it| stoic(it) * libm::exp(held(it) - right))
+                    .sum();
                 sum += wrong / (1.0 + wrong);
             }
             there.insert(*place, tile);
@@ -263,19 +264,16 @@ impl Built {
             strength * self.unit / kt - gmc
         };
         let end = |strength: f64| {
-            let (mut low, mut high) = (
-                libm::log(self.unit / 400.0),
-                libm::log(self.unit * tau.max(1.0)),
-            );
+            let ends = [self.unit / 400.0, self.unit * tau.max(1.0)];
+            let [mut low, mut high] = ends.map(libm::log);
             if ln_k(strength, libm::exp(low)) < 0.0 {
                 return None;
             }
             for _ in 0..80 {
                 let middle = (low + high) / 2.0;
-                if ln_k(strength, libm::exp(middle)) > 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
+                match ln_k(strength, libm::exp(middle)) > 0.0 {
+                    true => low = middle,
+                    false => high = middle,
                 }
             }
             Some(libm::exp(low))
@@ -305,21 +303,8 @@ impl Built {
         if words.places.is_some() {
             return None;
         }
-        let pair = &design.pair;
-        let bar = physics::words::Bar::of_face(
-            &pair.fixed,
-            pair.target.0,
-            &design.interaction,
-            design.pitch?,
-        );
+        let (tile, face) = (&design.pair.fixed, design.pair.target.0);
+        let bar = Bar::of_face(tile, face, &design.interaction, design.pitch?);
         Some(Lags::new(&bar.ok()?, words.words.first()?.places()))
-    }
-}
-
-/// `A` for a word, `A*` for its mate, of so many words.
-pub fn face_name(face: usize, words: usize) -> String {
-    match face < words {
-        true => physics::words::set::name(face),
-        false => physics::words::set::name(face - words) + "*",
     }
 }

@@ -4,29 +4,14 @@
 //! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones
 //! included, attract by at most (1 - gap) of the weakest bond of strength 1.
 
+use super::Request;
+use crate::word_sets::least_spacing;
 use physics::budget::Budget;
 use physics::order::Order;
 use physics::words::candidates::{Candidates, number};
 use physics::words::graph::Graph;
-use physics::words::search::{self, Effort};
-use physics::words::{Bar, Constraints, Lags, Rules, Task, Word, local};
-
-/// What words are wanted.
-#[derive(Clone, Debug)]
-pub struct Asked {
-    /// The magnets.
-    pub bar: Bar,
-    /// Magnets of a word of the strongest bonds; as many as places where it is not given.
-    pub magnets: Option<usize>,
-    /// Which meetings are wrong.
-    pub rules: Rules,
-    /// The least gap; the widest there is where it is not given.
-    pub gap: Option<f64>,
-    /// Of all random numbers.
-    pub seed: u64,
-    /// Work (s).
-    pub seconds: f64,
-}
+use physics::words::search;
+use physics::words::{Bar, Constraints, Effort, Lags, Task, Word, local};
 
 /// Whether there is a set of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,30 +63,52 @@ const LEAST_BESIDE: usize = 256;
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 
-impl Asked {
-    /// How many magnets a word of some strength has on a face of so many places.
-    fn magnets(&self, places: usize, strength: f64, strongest: f64) -> usize {
-        let most = self.magnets.unwrap_or(places).min(places);
+/// What is asked of words on a face.
+struct Asked<'a> {
+    /// Strengths and how many words of each are needed, the strongest first.
+    demand: &'a [(f64, usize)],
+    places: usize,
+    bar: &'a Bar,
+    request: &'a Request,
+}
+
+impl Asked<'_> {
+    /// How many magnets a word of some strength has.
+    fn magnets(&self, strength: f64) -> usize {
+        let most = self.request.magnets.unwrap_or(self.places).min(self.places);
+        let strongest = self.demand.first().map_or(1.0, |first| first.0);
         ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
+
+    fn task(&self, magnets: usize) -> Task {
+        Task {
+            places: self.places,
+            magnets,
+            lags: Lags::new(self.bar, self.places),
+            rules: self.request.rules(),
+            constraints: Constraints {
+                least_spacing: least_spacing(self.bar),
+                ..Constraints::default()
+            },
+        }
     }
 }
 
 /// Words for a face of so many places, with the gap asked for or the widest that is reached: all
 /// trials, of which the last one is the answer. `demand` as [`super::Wiring::demand`] gives it.
-pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choice> {
-    let weakest = demand.last().map_or(1.0, |last| last.0);
-    let strongest = demand.first().map_or(1.0, |first| first.0);
-    let unit = asked.magnets(places, weakest, strongest);
-    let trial = |gap: f64, trials: f64| {
-        let seconds = asked.seconds / trials;
-        let budget = Budget::seconds(seconds);
-        let mut effort = Effort {
-            seed: asked.seed,
-            budget,
-        };
-        at_gap(demand, places, gap, asked, &mut effort)
+pub fn choose(demand: &[(f64, usize)], places: usize, bar: &Bar, request: &Request) -> Vec<Choice> {
+    let asked = Asked {
+        demand,
+        places,
+        bar,
+        request,
     };
-    if let Some(gap) = asked.gap {
+    let unit = asked.magnets(demand.last().map_or(1.0, |last| last.0));
+    let trial = |gap: f64, trials: f64| {
+        let budget = Budget::seconds(request.seconds / trials);
+        at_gap(&asked, gap, &mut Effort::new(request.seed, budget))
+    };
+    if let Some(gap) = request.least_gap() {
         return vec![trial(gap, 1.0)];
     }
     // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
@@ -130,50 +137,27 @@ pub fn choose(demand: &[(f64, usize)], places: usize, asked: &Asked) -> Vec<Choi
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
-pub fn shortest(demand: &[(f64, usize)], asked: &Asked, most: usize) -> Vec<Choice> {
-    let mut tried = Vec::new();
-    for places in asked.magnets.unwrap_or(1)..=most {
-        tried.extend(choose(demand, places, asked));
-        if tried
-            .last()
-            .is_some_and(|it: &Choice| it.verdict == Verdict::Found)
-        {
+pub fn shortest(demand: &[(f64, usize)], most: usize, bar: &Bar, request: &Request) -> Vec<Choice> {
+    let mut tried: Vec<Choice> = Vec::new();
+    for places in request.magnets.unwrap_or(1)..=most {
+        tried.extend(choose(demand, places, bar, request));
+        if tried.last().is_some_and(|it| it.verdict == Verdict::Found) {
             break;
         }
     }
     tried
 }
 
-fn task(asked: &Asked, places: usize, magnets: usize) -> Task {
-    let width = asked.bar.size[1];
-    Task {
-        places,
-        magnets,
-        lags: Lags::new(&asked.bar, places),
-        rules: asked.rules,
-        constraints: Constraints {
-            least_spacing: (width / asked.bar.pitch * (1.0 - 1e-9)).ceil() as usize,
-            ..Constraints::default()
-        },
-    }
-}
-
-fn at_gap(
-    demand: &[(f64, usize)],
-    places: usize,
-    gap: f64,
-    asked: &Asked,
-    effort: &mut Effort,
-) -> Choice {
-    let strongest = demand.first().map_or(1.0, |first| first.0);
+fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
+    let demand = asked.demand;
     let class = |(strength, needed): &(f64, usize)| Class {
-        magnets: asked.magnets(places, *strength, strongest),
+        magnets: asked.magnets(*strength),
         needed: *needed,
         found: 0,
         upper: usize::MAX,
     };
     let mut choice = Choice {
-        places,
+        places: asked.places,
         gap,
         verdict: Verdict::Found,
         words: Vec::new(),
@@ -182,24 +166,19 @@ fn at_gap(
     let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
     // Of several strengths bounds are searched apart.
     let several = demand.len() > 1;
-    let mut proof = Effort {
-        seed: effort.seed,
-        budget: effort.budget.share(if several { FOR_BOUNDS } else { 0.0 }),
-    };
+    let for_bounds = effort.budget.share(if several { FOR_BOUNDS } else { 0.0 });
+    let mut proof = Effort::new(effort.seed, for_bounds);
     for part in 0..demand.len() {
         let Class {
             magnets, needed, ..
         } = choice.classes[part];
-        let task = task(asked, places, magnets);
+        let task = asked.task(magnets);
         let words = if part == 0 {
             // The gap is of the weakest bond.
             let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
-            let mut share = Effort {
-                seed: effort.seed,
-                budget: effort.budget.share(1.0 / demand.len() as f64),
-            };
-            let found = search::largest(&task, own_gap, needed, &mut share);
-            effort.budget.give_back(&share.budget);
+            let found = effort.share(1.0 / demand.len() as f64, |part| {
+                search::largest(&task, own_gap, needed, part)
+            });
             if !several {
                 choice.classes[0].upper = found.upper;
             }
@@ -215,10 +194,9 @@ fn at_gap(
                 bound(&mut choice, asked, &mut proof);
             }
             let refuted = choice.classes.iter().any(|it| it.upper < it.needed);
-            choice.verdict = if refuted {
-                Verdict::Refuted
-            } else {
-                Verdict::Open
+            choice.verdict = match refuted {
+                true => Verdict::Refuted,
+                false => Verdict::Open,
             };
             break;
         }
@@ -235,13 +213,10 @@ fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
         let magnets = task.magnets as u32;
         f64::from(magnets) * task.lags.contact() + sign * task.lags.rest(magnets, magnets)
     };
-    let deepest = reach(
-        &task(asked, choice.places, choice.classes[last].magnets),
-        1.0,
-    );
+    let deepest = reach(&asked.task(choice.classes[last].magnets), 1.0);
     for part in (0..=last).rev() {
         let class = &mut choice.classes[part];
-        let task = task(asked, choice.places, class.magnets);
+        let task = asked.task(class.magnets);
         let own_gap = match part == last {
             true => choice.gap,
             false => 1.0 - (1.0 - choice.gap) * deepest / reach(&task, -1.0),
@@ -251,12 +226,10 @@ fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
         if hopeless || !(0.0..=1.0).contains(&own_gap) {
             continue;
         }
-        let mut share = Effort {
-            seed: effort.seed,
-            budget: effort.budget.share(1.0 / (part + 1) as f64),
-        };
-        class.upper = search::largest(&task, own_gap, class.needed, &mut share).upper;
-        effort.budget.give_back(&share.budget);
+        let found = effort.share(1.0 / (part + 1) as f64, |part| {
+            search::largest(&task, own_gap, class.needed, part)
+        });
+        class.upper = found.upper;
         if class.upper < class.needed {
             return;
         }
@@ -304,10 +277,7 @@ fn beside(
     let words = thinned(words, (pairs as f64).sqrt() as usize);
     let graph = Graph::new(task, words, limit, effort.budget.left());
     effort.budget.spend(graph.work());
-    let found = local::search(&graph, Vec::new(), needed, effort.seed, &mut effort.budget);
-    found
-        .iter()
-        .take(needed)
-        .map(|at| graph.words[*at])
-        .collect()
+    let found = local::search(&graph, Vec::new(), needed, effort);
+    let found = found.iter().take(needed);
+    found.map(|at| graph.words[*at]).collect()
 }

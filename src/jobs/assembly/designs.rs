@@ -3,17 +3,17 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::growth::Met;
-use super::{Assembly, SIDES};
+use super::Assembly;
+use super::axis::{Met, SIDES};
 use physics::potential::MagnetModel;
 
 /// Names and texts of the designs of every two tiles that meet in what grows.
-pub fn all(assembly: &Assembly) -> Vec<(String, String)> {
-    let text = |(name, met): (String, Met)| {
+pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
+    let named = named(assembly).into_iter();
+    named.map(|(name, met)| {
         let text = design(assembly, &met, &name);
         (name, text)
-    };
-    named(assembly).into_iter().map(text).collect()
+    })
 }
 
 /// The tiles that meet and hold each other, with the names of their designs.
@@ -38,23 +38,10 @@ pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
 
 fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
     let tiles = &assembly.built.set.tiles;
-    let plain = |name: &str| -> String {
-        name.chars()
-            .map(|c| {
-                if c.is_ascii_alphanumeric() || c == '-' {
-                    c
-                } else {
-                    '_'
-                }
-            })
-            .collect()
-    };
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
+    let plain = |tile: usize| tiles[tile].name.replace(|c| !is_plain(c), "_");
     let side = SIDES[axis.sides()[0]];
-    format!(
-        "{}-{side}-{}",
-        plain(&tiles[*first].name),
-        plain(&tiles[*second].name)
-    )
+    format!("{}-{side}-{}", plain(*first), plain(*second))
 }
 
 fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
@@ -114,10 +101,8 @@ fn entry(assembly: &Assembly, face: usize) -> String {
     if assembly.words.places.is_none() {
         return format!("{{ code = \"{word}\" }}");
     }
-    let magnets = assembly.magnets(word);
-    let one = |(at, pole): &(f64, char)| format!("{{ at = {at:?}, pole = \"{pole}\" }}");
-    format!(
-        "{{ magnets = [{}] }}",
-        magnets.iter().map(one).collect::<Vec<_>>().join(", ")
-    )
+    let magnets = assembly.magnets(word).into_iter();
+    let one = |(at, pole)| format!("{{ at = {at:?}, pole = \"{pole}\" }}");
+    let magnets: Vec<String> = magnets.map(one).collect();
+    format!("{{ magnets = [{}] }}", magnets.join(", "))
 }

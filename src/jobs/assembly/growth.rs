@@ -5,7 +5,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::{Axis, TileSet};
+use super::TileSet;
+use super::axis::{Axis, Met};
 
 /// A place: to the east and to the north of the seed.
 pub type Place = (i32, i32);
@@ -43,21 +44,16 @@ impl Holds {
 
     /// Of a tile and its neighbour on a side.
     pub fn between(&self, tile: usize, side: usize, neighbour: usize) -> f64 {
-        let (own, other) = (
-            self.glues[tile][side],
-            self.glues[neighbour][(side + 2) % 4],
-        );
-        own.zip(other).map_or(0.0, |(a, b)| self.strengths[a][b])
+        let glues = self.glues[tile][side].zip(self.glues[neighbour][(side + 2) % 4]);
+        glues.map_or(0.0, |(a, b)| self.strengths[a][b])
     }
 
     /// The sum over the neighbours of a place.
     pub fn at(&self, tiles: &BTreeMap<Place, usize>, place: Place, tile: usize) -> f64 {
-        let near = neighbours(place).map(|(side, there)| {
-            tiles
-                .get(&there)
-                .map_or(0.0, |near| self.between(tile, side, *near))
-        });
-        near.sum()
+        let hold = |(side, there)| Some(self.between(tile, side, *tiles.get(&there)?));
+        neighbours(place)
+            .map(|near| hold(near).unwrap_or(0.0))
+            .sum()
     }
 }
 
@@ -70,60 +66,46 @@ pub fn neighbours(place: Place) -> impl Iterator<Item = (usize, Place)> {
 /// Grows up to `most` tiles from the seed, or from the set's first tile.
 pub fn grow(set: &TileSet, most: usize) -> Grown {
     let mut tiles: BTreeMap<Place, usize> = BTreeMap::new();
-    let first = set
-        .seed
-        .first()
-        .map_or((0, 0), |(row, column, _)| (*row, *column));
     for (row, column, tile) in &set.seed {
-        let at = (
-            *column as i32 - first.1 as i32,
-            first.0 as i32 - *row as i32,
-        );
-        tiles.insert(at, *tile);
+        let (first_row, first_column, _) = set.seed[0];
+        let east = *column as i32 - first_column as i32;
+        tiles.insert((east, first_row as i32 - *row as i32), *tile);
     }
     if tiles.is_empty() && !set.tiles.is_empty() {
         tiles.insert((0, 0), 0);
     }
     let holds = Holds::new(set);
     let tau = set.tau() - 1e-9;
-    let mut choices = 0;
-    let mut order: Vec<Place> = tiles.keys().copied().collect();
-    let mut open: VecDeque<Place> = tiles.keys().copied().collect();
-    let around: Vec<Place> = open
-        .iter()
-        .flat_map(|it| neighbours(*it).map(|it| it.1))
-        .collect();
-    open = around.into();
-    while let Some(place) = open.pop_front() {
-        if tiles.contains_key(&place) {
-            continue;
-        }
-        let mut fitting = (0..set.tiles.len())
-            .filter(|tile| set.tiles[*tile].stoic > 0.0 && holds.at(&tiles, place, *tile) >= tau);
-        let Some(tile) = fitting.next() else { continue };
-        choices += usize::from(fitting.next().is_some());
-        if tiles.len() >= most {
-            return Grown {
-                tiles,
-                order,
-                complete: false,
-                choices,
-            };
-        }
-        tiles.insert(place, tile);
-        order.push(place);
-        open.extend(neighbours(place).map(|it| it.1));
-    }
-    Grown {
+    let order: Vec<Place> = tiles.keys().copied().collect();
+    let around = order.iter().flat_map(|it| neighbours(*it).map(|it| it.1));
+    let mut open: VecDeque<Place> = around.collect();
+    let mut grown = Grown {
         tiles,
         order,
         complete: true,
-        choices,
+        choices: 0,
+    };
+    while let Some(place) = open.pop_front() {
+        if grown.tiles.contains_key(&place) {
+            continue;
+        }
+        let fits = |tile: &usize| {
+            set.tiles[*tile].stoic > 0.0 && holds.at(&grown.tiles, place, *tile) >= tau
+        };
+        let mut fitting = (0..set.tiles.len()).filter(fits);
+        let Some(tile) = fitting.next() else { continue };
+        let is_choice = fitting.next().is_some();
+        grown.choices += usize::from(is_choice);
+        if grown.tiles.len() >= most {
+            grown.complete = false;
+            break;
+        }
+        grown.tiles.insert(place, tile);
+        grown.order.push(place);
+        open.extend(neighbours(place).map(|it| it.1));
     }
+    grown
 }
-
-/// Two tiles that meet in an assembly: along an axis the first lies west or south of the second.
-pub type Met = (usize, Axis, usize);
 
 impl Grown {
     /// How many there are of each tile of a set of so many.
@@ -136,12 +118,10 @@ impl Grown {
     /// The tiles that meet, with how often.
     pub fn meetings(&self) -> BTreeMap<Met, usize> {
         let mut met = BTreeMap::new();
-        for ((x, y), tile) in &self.tiles {
-            for (axis, there) in [
-                (Axis::Horizontal, (x + 1, *y)),
-                (Axis::Vertical, (*x, y + 1)),
-            ] {
-                if let Some(other) = self.tiles.get(&there) {
+        for (place, tile) in &self.tiles {
+            for axis in Axis::ALL {
+                let there = neighbours(*place).nth(axis.sides()[0]);
+                if let Some(other) = there.and_then(|(_, there)| self.tiles.get(&there)) {
                     *met.entry((*tile, axis, *other)).or_default() += 1;
                 }
             }
@@ -151,10 +131,11 @@ impl Grown {
 
     /// The least and largest place.
     pub fn extent(&self) -> [Place; 2] {
-        let fold = |start: i32, pick: fn(i32, i32) -> i32, axis: fn(&Place) -> i32| {
-            self.tiles.keys().map(axis).fold(start, pick)
+        // The first one lies at the origin.
+        let ends = |pick: fn(i32, i32) -> i32| {
+            let both = |a: Place, b: &Place| (pick(a.0, b.0), pick(a.1, b.1));
+            self.tiles.keys().fold((0, 0), both)
         };
-        let of = |start, pick| (fold(start, pick, |p| p.0), fold(start, pick, |p| p.1));
-        [of(0, i32::min), of(0, i32::max)]
+        [ends(i32::min), ends(i32::max)]
     }
 }

@@ -13,7 +13,7 @@ pub fn words(rows: usize, columns: usize) -> usize {
 
 /// The lattice in which every tile has its place: glues are used once. One bond holds a tile
 /// (tau 1).
-pub fn unique(rows: usize, columns: usize) -> TileSet {
+pub fn unique([rows, columns]: [usize; 2]) -> TileSet {
     let mut set = TileSet {
         name: format!("lattice-{rows}x{columns}"),
         tau: Some(1.0),
@@ -31,19 +31,14 @@ pub fn unique(rows: usize, columns: usize) -> TileSet {
                 (column > 0).then(|| name("h", row, column)),
             ];
             let glues = glues.map(|name| name.map(|name| set.glue(&name, 1.0)));
-            set.tiles.push(TileType {
-                name: name("t", row, column),
-                glues,
-                stoic: 1.0,
-                color: None,
-            });
+            set.tiles.push(TileType::new(name("t", row, column), glues));
         }
     }
     set
 }
 
 /// The lattice of one tile, on a canvas of so many rows and columns.
-pub fn homogeneous(rows: usize, columns: usize) -> TileSet {
+pub fn homogeneous([rows, columns]: [usize; 2]) -> TileSet {
     let mut set = TileSet {
         name: "homogeneous".to_owned(),
         tau: Some(1.0),
@@ -52,12 +47,6 @@ pub fn homogeneous(rows: usize, columns: usize) -> TileSet {
         ..TileSet::default()
     };
     let [v, h] = ["v", "h"].map(|name| Some(set.glue(name, 1.0)));
-    let glues = [v, h, v, h];
-    set.tiles.push(TileType {
-        name: "t".to_owned(),
-        glues,
-        stoic: 1.0,
-        color: None,
-    });
+    set.tiles.push(TileType::new("t", [v, h, v, h]));
     set
 }

@@ -2,7 +2,7 @@
 
 use crate::design::WordSet;
 use physics::words::Word;
-use physics::words::crosstalk::Stage;
+use physics::words::set::name;
 
 /// Energies (J) of faces that meet flush: rows and columns are words, then their mates.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,32 +16,22 @@ pub struct Matrix {
 impl Matrix {
     /// Of words of a set, in any order.
     pub fn new(set: &WordSet, words: &[Word]) -> Self {
-        let stage = Stage::new(
-            set.stage.pair.as_ref().clone(),
-            set.stage.interaction.clone(),
-        );
-        let by_magnets = stage.flush();
+        let by_magnets = set.carriers().flush();
         let places = words.first().map_or(0, |word| word.places());
-        let faces: Vec<Word> = words
-            .iter()
-            .copied()
-            .chain(words.iter().map(|it| it.mate()))
-            .collect();
-        let poles: Vec<Vec<f64>> = faces
-            .iter()
-            .map(|face| (0..places).map(|k| f64::from(face.at(k))).collect())
-            .collect();
+        let mates = words.iter().map(|it| it.mate());
+        let poles = |face: Word| -> Vec<f64> { (0..places).map(|k| face.at(k).into()).collect() };
+        let poles: Vec<Vec<f64>> = words.iter().copied().chain(mates).map(poles).collect();
         let sum = |first: &[f64], second: &[f64]| -> f64 {
             let rows = first.iter().zip(by_magnets.chunks(places));
             let row = |row: &[f64]| row.iter().zip(second).map(|(e, p)| e * p).sum::<f64>();
             rows.map(|(pole, energies)| pole * row(energies)).sum()
         };
-        let mut energies = vec![vec![0.0; faces.len()]; faces.len()];
-        for i in 0..faces.len() {
-            for j in i..faces.len() {
-                let energy = sum(&poles[i], &poles[j]);
-                energies[i][j] = energy;
-                energies[j][i] = energy;
+        let count = poles.len();
+        let mut energies = vec![vec![0.0; count]; count];
+        for i in 0..count {
+            for j in i..count {
+                energies[i][j] = sum(&poles[i], &poles[j]);
+                energies[j][i] = energies[i][j];
             }
         }
         Self {
@@ -50,9 +40,31 @@ impl Matrix {
         }
     }
 
-    /// The depth (J) of the bond of a word and its mate.
-    pub fn bond(&self, word: usize) -> f64 {
-        -self.energies[word][word + self.words.len()]
+    /// The depth (J) of the bond of a word or a mate.
+    pub fn bond(&self, face: usize) -> f64 {
+        let word = face % self.words.len();
+        -self.energies[word][self.mate(word)]
+    }
+
+    /// The face that binds a face.
+    pub fn mate(&self, face: usize) -> usize {
+        (face + self.words.len()) % self.energies.len()
+    }
+
+    /// What a face is on a side whose bond has this word on east or north faces.
+    pub fn on(&self, side: usize, word: usize) -> usize {
+        match side < 2 {
+            true => word,
+            false => self.mate(word),
+        }
+    }
+
+    /// `A` for a word, `A*` for its mate.
+    pub fn name(&self, face: usize) -> String {
+        match face.checked_sub(self.words.len()) {
+            None => name(face),
+            Some(word) => name(word) + "*",
+        }
     }
 
     /// The code of a face: a word, or a mate behind the words.

@@ -14,13 +14,14 @@
 //! - [`wiring`] - which faces bind which: the words that are needed;
 //! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
 //! - [`growth`] - what grows without errors;
-//! - [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
+//! - [`Request`] - what is asked; [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
 //!   other faces add; [`slides`] - what engines leave out;
 //! - [`built`] - all of it for one shaking and one coverage of the table; [`Assembly`] - with what
 //!   reproduces it; [`designs`] - of every two tiles that meet.
 
 mod assembled;
 mod assignment;
+pub mod axis;
 pub mod built;
 pub mod choice;
 mod depths;
@@ -29,6 +30,7 @@ pub mod growth;
 pub mod lattice;
 pub mod matrix;
 pub mod proofread;
+mod request;
 pub mod rests;
 pub mod rgrow;
 mod search;
@@ -45,12 +47,10 @@ use std::path::Path;
 use crate::design::{DesignError, Place};
 
 pub use assembled::Assembly;
+pub use axis::{Axis, SIDES};
 pub use built::Built;
-pub use search::WordSearch;
-pub use wiring::{Axis, Wiring};
-
-/// North, east, south and west: the order of a tile's glues.
-pub const SIDES: [&str; 4] = ["north", "east", "south", "west"];
+pub use request::Request;
+pub use wiring::Wiring;
 
 /// A tile of a set.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,18 @@ pub struct TileType {
     pub stoic: f64,
     /// As the engines name it.
     pub color: Option<String>,
+}
+
+impl TileType {
+    /// A usual one.
+    pub fn new(name: impl Into<String>, glues: [Option<usize>; 4]) -> Self {
+        Self {
+            name: name.into(),
+            glues,
+            stoic: 1.0,
+            color: None,
+        }
+    }
 }
 
 /// A glue.
@@ -108,12 +120,10 @@ impl TileSet {
     /// Where it cannot be read or is no tile set.
     pub fn load(path: &Path) -> Result<Self, DesignError> {
         let file = path.display().to_string();
-        let text = crate::design::read_text(path).map_err(|error| DesignError {
-            file: file.clone(),
-            place: None,
-            message: format!("cannot read the tile set: {error}"),
-            help: "check the path; shipped tile sets are in shapes/assemblies/".to_owned(),
-            also: Vec::new(),
+        let text = crate::design::read_text(path).map_err(|error| {
+            let message = format!("cannot read the tile set: {error}");
+            let help = "check the path; shipped tile sets are in shapes/assemblies/";
+            DesignError::new(&file, None, message, help)
         })?;
         Self::parse(&text, &file)
     }
@@ -131,16 +141,6 @@ impl TileSet {
         set.name = stem.map_or(file.to_owned(), |stem| stem.to_string_lossy().into_owned());
         set.check(text, file)?;
         Ok(set)
-    }
-
-    /// With what a glue of an east or north face holds one of a west or south face, in Gse.
-    pub fn strength(&self, a: usize, b: usize) -> f64 {
-        if a == b {
-            return self.glues[a].strength;
-        }
-        let same = |link: &&(usize, usize, f64)| [(a, b), (b, a)].contains(&(link.0, link.1));
-        let link = self.links.iter().rev().find(same);
-        link.map_or(0.0, |link| link.2)
     }
 
     /// All strengths at once, by glue and glue.
@@ -212,11 +212,8 @@ impl TileSet {
             .chain(self.links.iter().map(|link| link.2))
             .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
         if numbers.any(|x| !x.is_finite()) {
-            return wrong(
-                "",
-                "a strength is no number".to_owned(),
-                "write it as 1 or 0.5",
-            );
+            let message = "a strength is no number".to_owned();
+            return wrong("", message, "write it as 1 or 0.5");
         }
         for (row, column, tile) in &self.seed {
             let [rows, columns] = self.size.unwrap_or([usize::MAX; 2]);
@@ -248,11 +245,6 @@ pub(crate) fn fault(
             .or_else(|| named("\"name\": \"", "\""))
             .or_else(|| text.find(needle)),
     };
-    DesignError {
-        file: file.to_owned(),
-        place: at.map(|at| Box::new(Place::of(text, at..at + needle.len()))),
-        message,
-        help: help.to_owned(),
-        also: Vec::new(),
-    }
+    let place = at.map(|at| Place::of(text, at..at + needle.len()));
+    DesignError::new(file, place, message, help)
 }

@@ -17,22 +17,16 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
     let strengths = set.strengths();
     let mut out = TileSet {
         name: format!("{}-{k}x{k}", set.name),
-        seed: Vec::new(),
         size: set.size.map(|size| size.map(|n| n * k)),
-        ..TileSet {
-            tiles: Vec::new(),
-            glues: Vec::new(),
-            links: Vec::new(),
-            ..set.clone()
-        }
+        tau: set.tau,
+        gse: set.gse,
+        gmc: set.gmc,
+        ..TileSet::default()
     };
     let weak = tau / 2.0;
-    let part = |strength: f64, row: usize| {
-        if row == 0 {
-            strength
-        } else {
-            strength.min(weak)
-        }
+    let part = |strength: f64, row: usize| match row {
+        0 => strength,
+        _ => strength.min(weak),
     };
     let outer = |glue: usize, row: usize| format!("{}.{row}", set.glues[glue].name);
     for glue in 0..set.glues.len() {
@@ -66,35 +60,23 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
                     };
                     Some(out.glue(&format!("{}/{way}{along}.{row}", tile.name), strength))
                 };
-                let last = k - 1;
-                let face = |side: usize, row: usize| tile.glues[side].map(|glue| glue * k + row);
+                let mut side = |side: usize, axis: Axis, at_end: bool, x: usize, y: usize| {
+                    let row = if axis == Axis::Vertical { x } else { y };
+                    match at_end {
+                        true => tile.glues[side].map(|glue| glue * k + row),
+                        false => inner(axis, x, y),
+                    }
+                };
                 let glues = [
-                    if y == last {
-                        face(0, x)
-                    } else {
-                        inner(Axis::Vertical, x, y)
-                    },
-                    if x == last {
-                        face(1, y)
-                    } else {
-                        inner(Axis::Horizontal, x, y)
-                    },
-                    if y == 0 {
-                        face(2, x)
-                    } else {
-                        inner(Axis::Vertical, x, y - 1)
-                    },
-                    if x == 0 {
-                        face(3, y)
-                    } else {
-                        inner(Axis::Horizontal, x - 1, y)
-                    },
+                    side(0, Axis::Vertical, y == k - 1, x, y),
+                    side(1, Axis::Horizontal, x == k - 1, x, y),
+                    side(2, Axis::Vertical, y == 0, x, y.wrapping_sub(1)),
+                    side(3, Axis::Horizontal, x == 0, x.wrapping_sub(1), y),
                 ];
                 out.tiles.push(TileType {
                     name: format!("{}/{x}.{y}", tile.name),
                     glues,
-                    stoic: tile.stoic,
-                    color: tile.color.clone(),
+                    ..tile.clone()
                 });
             }
         }

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Rotation2};
 
-use super::wiring::Axis;
+use super::axis::Axis;
 use crate::design::WordSet;
 use physics::matrix::product;
 use physics::tile::{Magnet, Tile};

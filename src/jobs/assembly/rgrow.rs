@@ -89,16 +89,11 @@ const DOUBLE: &str = "write the two halves as tiles that share a strong glue";
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
     let mut entries: Entries = serde_yaml_ng::from_str(text).map_err(|error| {
         let at = error.location().map(|it| it.index()..it.index() + 1);
-        DesignError {
-            file: file.to_owned(),
-            place: at.map(|at| Box::new(Place::of(text, at))),
-            message: format!("it is no tile set: {error}"),
-            help:
-                "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
-                   a .tiles file of xgrow"
-                    .to_owned(),
-            also: Vec::new(),
-        }
+        let place = at.map(|at| Place::of(text, at));
+        let message = format!("it is no tile set: {error}");
+        let help = "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
+                    a .tiles file of xgrow";
+        DesignError::new(file, place, message, help)
     })?;
     if let Some(more) = entries.options.take() {
         entries.tiles.extend(more.tiles);
@@ -170,13 +165,8 @@ fn made_of(entries: Entries, text: &str, file: &str) -> Result<TileSet, DesignEr
             let known = set.glues.iter().position(|glue| glue.name == name);
             known.ok_or_else(|| {
                 let message = format!("no tile and no bond has the glue `{name}`");
-                fault(
-                    text,
-                    file,
-                    "glues",
-                    message,
-                    "name glues of tiles, or list it under bonds",
-                )
+                let help = "name glues of tiles, or list it under bonds";
+                fault(text, file, "glues", message, help)
             })
         };
         let (a, b) = (place(a)?, place(b)?);

@@ -1,60 +1,26 @@
 //! The words of an assembly, searched.
 
-use super::Wiring;
-use super::choice::{self, Asked, Choice, Class, Verdict};
-use crate::design::{Design, MagnetModel};
+use super::choice::{self, Choice, Class, Verdict};
+use super::{Request, Wiring};
+use crate::design::Design;
 use crate::word_sets::{self, file};
-use physics::words::{Bar, Rules};
+use physics::units::si;
+use physics::words::Bar;
 
-/// The least gap where none is asked for.
-const GAP: f64 = 0.5;
-
-/// What words are searched.
-#[derive(Clone, Debug)]
-pub struct WordSearch {
-    /// From place to place (m); the design's or the paper's where `None`.
-    pub pitch: Option<f64>,
-    /// Model of the magnets; the design's where `None`.
-    pub model: Option<MagnetModel>,
-    /// Places of a face; the fewest that carry the words where `None`.
-    pub length: Option<usize>,
-    /// Magnets of the strongest bonds' words; one a place where `None`.
-    pub magnets: Option<usize>,
-    /// Least gap; where `None` 0.5, or with a length the widest there is.
-    pub gap: Option<f64>,
-    /// Which meetings are wrong.
-    pub rules: Rules,
-    /// Of all random numbers.
-    pub seed: u64,
-    /// Work to spend, as what takes about so many seconds of a core.
-    pub seconds: f64,
-}
-
-impl WordSearch {
+impl Request {
     /// Words for the bonds of a tile set, as the text of a set, and what was tried. Magnets are
     /// those of a design's target face, or the paper's.
-    ///
-    /// # Errors
-    /// Where there are none, or none were found: what is missing, and how to mend it.
-    pub fn run(
+    pub(super) fn search(
         &self,
         wiring: &Wiring,
         design: Option<&Design>,
     ) -> Result<(String, Vec<Choice>), String> {
         let (bar, face) = word_sets::bar(design, self.pitch, self.model)?;
         let most = self.most_places(&bar, face)?;
-        let asked = Asked {
-            bar,
-            magnets: self.magnets,
-            rules: self.rules,
-            gap: self.gap.or(self.length.is_none().then_some(GAP)),
-            seed: self.seed,
-            seconds: self.seconds,
-        };
         let demand = wiring.demand();
         let tried = match self.length {
-            Some(places) => choice::choose(&demand, places, &asked),
-            None => choice::shortest(&demand, &asked, most),
+            Some(places) => choice::choose(&demand, places, &bar, self),
+            None => choice::shortest(&demand, most, &bar, self),
         };
         match tried.last() {
             Some(last) if last.verdict == Verdict::Found => {
@@ -71,43 +37,37 @@ impl WordSearch {
     /// The longest face to look at, of which the design's may be this long (m).
     fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, String> {
         let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
-        let most = face
-            .map_or(choice::MOST_PLACES, fitting)
-            .min(choice::MOST_PLACES);
-        if let Some(length) = self.length.filter(|length| *length > most) {
-            return Err(format!(
-                "a face of {length} places is too long: {most} at most, {} apart",
-                physics::units::si(bar.pitch, "m", 3)
-            ));
-        }
+        let most = face.map_or(choice::MOST_PLACES, fitting);
+        let most = most.min(choice::MOST_PLACES);
         let places = self.length.unwrap_or(most);
-        if let Some(magnets) = self.magnets.filter(|magnets| *magnets > places) {
-            return Err(match self.length {
-                Some(_) => format!(
-                    "{magnets} magnets do not fit into {places} places: give a length of \
-                     {magnets} or more"
-                ),
-                None => format!("{magnets} magnets do not fit into a face of {places} places"),
-            });
-        }
-        Ok(most)
+        let magnets = self.magnets.unwrap_or(0);
+        Err(match self.length {
+            Some(length) if length > most => format!(
+                "a face of {length} places is too long: {most} at most, {} apart",
+                si(bar.pitch, "m", 3)
+            ),
+            Some(_) if magnets > places => format!(
+                "{magnets} magnets do not fit into {places} places: give a length of {magnets} or more"
+            ),
+            None if magnets > places => {
+                format!("{magnets} magnets do not fit into a face of {places} places")
+            }
+            _ => return Ok(most),
+        })
     }
 }
 
 /// What there is too few of, and whether there can be more.
 fn missing(choice: &Choice) -> String {
-    let sum = |of: fn(&Class) -> usize| choice.classes.iter().map(of).sum::<usize>();
+    let classes = &choice.classes;
+    let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();
     let magnets = |class: &Class| match class.magnets {
         1 => "1 magnet".to_owned(),
         magnets => format!("{magnets} magnets"),
     };
-    let needed: Vec<String> = choice
-        .classes
-        .iter()
-        .map(|class| format!("{} with {}", class.needed, magnets(class)))
-        .collect();
-    let refuted = choice.classes.iter().find(|it| it.upper < it.needed);
-    let why = match refuted {
+    let needed = classes.iter();
+    let needed = needed.map(|class| format!("{} with {}", class.needed, magnets(class)));
+    let why = match classes.iter().find(|it| it.upper < it.needed) {
         Some(class) => format!(
             "there are not enough, proved: of those with {} at most {}",
             magnets(class),
@@ -119,7 +79,7 @@ fn missing(choice: &Choice) -> String {
         "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give a \
          longer face, a narrower gap, or the words",
         sum(|it| it.needed),
-        needed.join(", "),
+        needed.collect::<Vec<_>>().join(", "),
         choice.gap,
         choice.places,
         sum(|it| it.found),

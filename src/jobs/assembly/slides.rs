@@ -10,6 +10,8 @@ use physics::words::{Lags, Rules, Word};
 /// Where two faces hold, slid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slid {
+    /// The faces.
+    pub faces: [usize; 2],
     /// The deepest slid meeting that holds: places that the second face lies farther along the
     /// first one (counter-clockwise), and energy (J).
     pub deepest: Option<(i32, f64)>,
@@ -18,10 +20,14 @@ pub struct Slid {
 }
 
 impl Slid {
-    /// Of two faces.
-    pub fn of(lags: &Lags, rules: &Rules, first: Word, second: Word) -> Self {
-        let profile = profile(lags, rules, first, second);
-        let middle = profile.len() / 2;
+    /// Of two faces with their words.
+    pub fn of(lags: &Lags, rules: &Rules, faces: [usize; 2], [first, second]: [Word; 2]) -> Self {
+        // Energies (J) over slides, from the most clockwise one on.
+        let middle = usize::from(rules.slides()) * (first.places() - 1);
+        let slide = |k: usize| k as i32 - middle as i32;
+        let profile: Vec<f64> = (0..=2 * middle)
+            .map(|k| rules.energy_at(lags, first, second, slide(k)))
+            .collect();
         let at = |k: usize| profile[k];
         let mut ends = [0; 2];
         let mut deepest: Option<(i32, f64)> = None;
@@ -41,23 +47,21 @@ impl Slid {
             }
             ends[usize::from(here != middle)] += 1;
             if here != middle && deepest.is_none_or(|(_, energy)| at(here) < energy) {
-                deepest = Some((here as i32 - middle as i32, at(here)));
+                deepest = Some((slide(here), at(here)));
             }
         }
-        let all = profile.len().max(1) as f64;
+        let all = profile.len() as f64;
         Self {
+            faces,
             deepest,
             captured: ends.map(|count| f64::from(count) / all),
         }
     }
-}
 
-/// Energies (J) over slides, from the most clockwise one on.
-fn profile(lags: &Lags, rules: &Rules, first: Word, second: Word) -> Vec<f64> {
-    let last = first.places() as i32 - 1;
-    let slides = if rules.slides() { last } else { 0 };
-    let energy = |slide: i32| rules.energy_at(lags, first, second, slide);
-    (-slides..=slides).map(energy).collect()
+    /// The energy (J) of the deepest meeting; 0 of none.
+    pub fn energy(&self) -> f64 {
+        self.deepest.map_or(0.0, |it| it.1)
+    }
 }
 
 /// What may be asked of slid meetings.
@@ -75,19 +79,15 @@ pub struct Summary {
 }
 
 /// What there is to know of all pairs of faces, slid.
-pub fn summary(built: &Built, slides: &[(usize, usize, Slid)]) -> Option<Summary> {
+pub fn summary(built: &Built, slides: &[Slid]) -> Option<Summary> {
     let n = built.matrix.words.len();
-    let depth = |slid: &Slid| slid.deepest.map_or(0.0, |it| it.1);
-    let deepest = slides
-        .iter()
-        .map(|(_, _, slid)| depth(slid))
-        .reduce(f64::min)?;
-    let holds = |slid: &Slid| -depth(slid) / built.shaking.kt > built.gmc;
-    let own = slides.iter().filter(|(i, j, _)| j - i == n);
-    let shares = own.map(|(_, _, it)| it.captured[1] / (it.captured[0] + it.captured[1]));
+    let deepest = slides.iter().map(Slid::energy).reduce(f64::min)?;
+    let holds = |slid: &&Slid| -slid.energy() / built.shaking.kt > built.gmc;
+    let own = slides.iter().filter(|it| it.faces[1] - it.faces[0] == n);
+    let shares = own.map(|it| it.captured[1] / (it.captured[0] + it.captured[1]));
     Some(Summary {
         deepest,
-        holding: slides.iter().filter(|it| holds(&it.2)).count(),
+        holding: slides.iter().filter(holds).count(),
         pairs: slides.len(),
         share: shares.sum::<f64>() / n as f64,
     })

@@ -7,10 +7,12 @@
 //! line of increments begins the next line unless it overflows, so from the value c there are
 //! 2 (2^n - c) lines, the first one included; where their number is odd, one of caps is added.
 
+use std::ops::RangeInclusive;
+
 use super::{TileSet, TileType};
 
 /// The least side; and the largest, which a canvas holds.
-pub const SIDES: [usize; 2] = [8, 512];
+pub const SIDES: RangeInclusive<usize> = 8..=512;
 
 /// Bits of the two counters.
 fn bits(side: usize) -> usize {
@@ -47,7 +49,7 @@ pub fn counted(side: usize) -> TileSet {
     along.add(&mut set, [Some("s-first"), None]);
     let fill = [along.side, corner.side].map(|name| Some(set.glue(name, 1.0)));
     let glues = [fill[0], fill[1], fill[0], fill[1]];
-    set.tiles.push(tile("fill", glues));
+    set.tiles.push(TileType::new("fill", glues));
     set
 }
 
@@ -59,15 +61,6 @@ struct Counter {
     n: usize,
     lines: usize,
     transposed: bool,
-}
-
-fn tile(name: &str, glues: [Option<usize>; 4]) -> TileType {
-    TileType {
-        name: name.to_owned(),
-        glues,
-        stoic: 1.0,
-        color: None,
-    }
 }
 
 impl Counter {
@@ -85,13 +78,18 @@ impl Counter {
         let least = |b: usize| weak(format!("{p}-least-{b}"));
         let begin = |end: &str, b: usize| strong(format!("{p}-{end}-{b}"));
         let outer = || weak(self.side.to_owned());
+        let mut add = |name: String, glues: [Option<(String, f64)>; 4]| {
+            let glues = glues.map(|glue| glue.map(|(name, strength)| set.glue(&name, strength)));
+            let [n, e, s, w] = glues;
+            let turned = if self.transposed { [e, n, w, s] } else { glues };
+            set.tiles.push(TileType::new(format!("{p}-{name}"), turned));
+        };
         for k in 0..n {
             let b = start >> (n - 1 - k) & 1;
             let link = |k: usize| strong(format!("{p}-line-{k}"));
             let west = (k > 0).then(|| link(k)).flatten();
-            let south = first
-                .filter(|_| k == 0)
-                .and_then(|name| strong(name.to_owned()));
+            let south = first.filter(|_| k == 0);
+            let south = south.and_then(|name| strong(name.to_owned()));
             let is_least = k == n - 1;
             let east = match (is_least, last) {
                 (false, _) => link(k + 1),
@@ -103,76 +101,40 @@ impl Counter {
                 _ if is_least => begin("up", b),
                 _ => bit(b),
             };
-            self.tile(set, &format!("{p}-first-{k}"), [north, east, south, west]);
+            add(format!("first-{k}"), [north, east, south, west]);
         }
         let carry = |c: usize| weak(format!("{p}-carry-{c}"));
         let copy = || weak(format!("{p}-copy"));
         for b in 0..2 {
-            let name = |what: &str| format!("{p}-{what}-{b}");
-            self.tile(
-                set,
-                &name("flip"),
-                [least(1 - b), outer(), begin("up", b), carry(b)],
-            );
-            self.tile(
-                set,
-                &name("copy-high"),
-                [high(b), copy(), begin("back", b), None],
-            );
-            self.tile(
-                set,
-                &name("copy-least"),
-                [begin("up", b), outer(), least(b), copy()],
-            );
+            let flip = [least(1 - b), outer(), begin("up", b), carry(b)];
+            add(format!("flip-{b}"), flip);
+            let copy_high = [high(b), copy(), begin("back", b), None];
+            add(format!("copy-high-{b}"), copy_high);
+            let copy_least = [begin("up", b), outer(), least(b), copy()];
+            add(format!("copy-least-{b}"), copy_least);
             if n > 2 {
-                self.tile(set, &name("copy"), [bit(b), copy(), bit(b), copy()]);
+                add(format!("copy-{b}"), [bit(b), copy(), bit(b), copy()]);
             }
             for c in 0..2 {
                 let (sum, over) = (b ^ c, b & c);
                 if n > 2 {
-                    let name = format!("{p}-add-{b}{c}");
-                    self.tile(set, &name, [bit(sum), carry(c), bit(b), carry(over)]);
+                    let glues = [bit(sum), carry(c), bit(b), carry(over)];
+                    add(format!("add-{b}{c}"), glues);
                 }
                 let north = match over {
                     0 => begin("back", sum),
                     _ => capped.then(|| begin("cap", 0)).flatten(),
                 };
-                self.tile(
-                    set,
-                    &format!("{p}-high-{b}{c}"),
-                    [north, carry(c), high(b), None],
-                );
+                add(format!("high-{b}{c}"), [north, carry(c), high(b), None]);
             }
         }
         if capped {
             let cap = || weak(format!("{p}-cap"));
-            self.tile(
-                set,
-                &format!("{p}-cap-high"),
-                [None, cap(), begin("cap", 0), None],
-            );
-            self.tile(
-                set,
-                &format!("{p}-cap-least"),
-                [None, outer(), least(0), cap()],
-            );
+            add("cap-high".to_owned(), [None, cap(), begin("cap", 0), None]);
+            add("cap-least".to_owned(), [None, outer(), least(0), cap()]);
             if n > 2 {
-                self.tile(
-                    set,
-                    &format!("{p}-cap-middle"),
-                    [None, cap(), bit(0), cap()],
-                );
+                add("cap-middle".to_owned(), [None, cap(), bit(0), cap()]);
             }
         }
-    }
-
-    fn tile(&self, set: &mut TileSet, name: &str, glues: [Option<(String, f64)>; 4]) {
-        let [n, e, s, w] = glues.map(|glue| glue.map(|(name, strength)| set.glue(&name, strength)));
-        let glues = if self.transposed {
-            [e, n, w, s]
-        } else {
-            [n, e, s, w]
-        };
-        set.tiles.push(tile(name, glues));
     }
 }

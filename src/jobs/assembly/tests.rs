@@ -1,12 +1,13 @@
 //! Tile sets: what is read is what was written, and what grows is what the definitions say.
 
-use super::choice::{self, Asked, Verdict};
+use super::choice::{self, Verdict};
 use super::growth::{Grown, grow};
 use physics::kinetics::bond::Shaking;
 
-use super::{Axis, Built, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
+use super::{Axis, Built, Request, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
 use crate::design::WordSet;
-use physics::words::{Bar, Rules};
+use crate::request::of_keywords;
+use physics::words::Bar;
 
 fn shipped(name: &str) -> TileSet {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shapes/assemblies/");
@@ -25,7 +26,7 @@ const SHIPPED: [&str; 6] = [
 #[test]
 fn what_is_written_is_read_again() {
     let mut sets: Vec<TileSet> = SHIPPED.map(shipped).into();
-    sets.extend([lattice::unique(2, 3), square::counted(8)]);
+    sets.extend([lattice::unique([2, 3]), square::counted(8)]);
     for set in &mut sets {
         set.gse = Some(8.125);
         set.gmc = Some(15.75);
@@ -56,7 +57,11 @@ fn files_of_the_engines_are_read() {
     let set = TileSet::parse(text, "a.tiles").unwrap();
     assert_eq!(set.tiles[0].glues, [Some(0), None, Some(1), None]);
     assert_eq!(
-        (set.tiles[0].stoic, set.strength(0, 1), set.strength(0, 0)),
+        (
+            set.tiles[0].stoic,
+            set.strengths()[0][1],
+            set.strengths()[0][0]
+        ),
         (0.5, 0.5, 2.0)
     );
     assert_eq!(
@@ -66,7 +71,7 @@ fn files_of_the_engines_are_read() {
     let json = r#"{"tiles": [{"name": "a", "edges": ["x", 0, "y", "x"]}], "glues": [["x", "y", 0.5]],
                    "bonds": [{"name": "x", "strength": 2}], "options": {"Gse": 9.0, "size": 8}}"#;
     let set = TileSet::parse(json, "a.json").unwrap();
-    assert_eq!((set.strength(0, 1), set.strength(1, 1)), (0.5, 1.0));
+    assert_eq!((set.strengths()[0][1], set.strengths()[1][1]), (0.5, 1.0));
     assert_eq!((set.gse, set.size), (Some(9.0), Some([8, 8])));
 }
 
@@ -110,7 +115,7 @@ fn a_glue_on_both_axes_needs_two_words() {
         ["unary-square", "binary-counter", "spiral", "beaver-square"].map(words),
         [10, 6, 17, 64]
     );
-    let wiring = Wiring::new(&lattice::homogeneous(3, 3)).unwrap();
+    let wiring = Wiring::new(&lattice::homogeneous([3, 3])).unwrap();
     assert_eq!(
         wiring
             .bonds
@@ -120,7 +125,7 @@ fn a_glue_on_both_axes_needs_two_words() {
         [Axis::Vertical, Axis::Horizontal]
     );
     for (m, n) in [(1, 2), (3, 3), (4, 7)] {
-        let needed = Wiring::new(&lattice::unique(m, n)).unwrap().bonds.len();
+        let needed = Wiring::new(&lattice::unique([m, n])).unwrap().bonds.len();
         assert_eq!(needed, m * (n - 1) + n * (m - 1));
         assert_eq!(needed, lattice::words(m, n));
     }
@@ -226,15 +231,15 @@ fn blocks_grow_into_the_same_pattern() {
 }
 
 fn words(set: &TileSet, places: usize) -> WordSet {
-    let asked = Asked {
-        bar: Bar::paper(),
-        magnets: None,
-        rules: Rules::default(),
-        gap: None,
-        seed: 1,
-        seconds: 2.0,
-    };
-    let tried = choice::choose(&Wiring::new(set).unwrap().demand(), places, &asked);
+    let asked = [
+        ("kt", "1e-3"),
+        ("length", &places.to_string()),
+        ("seconds", "2"),
+    ];
+    let asked = asked.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]));
+    let request: Request = of_keywords(asked).unwrap();
+    let demand = Wiring::new(set).unwrap().demand();
+    let tried = choice::choose(&demand, places, &Bar::paper(), &request);
     let choice = tried.last().unwrap();
     assert_eq!(choice.verdict, Verdict::Found);
     let list: Vec<String> = choice

@@ -4,30 +4,9 @@
 //! some glues on the one side binds each of some on the other they are one bond, and one word; a
 //! glue that binds nothing needs none, and its faces stay empty.
 
-use super::{SIDES, TileSet};
+use super::TileSet;
+use super::axis::{Axis, Met, SIDES};
 use physics::order::Order;
-
-/// An axis along which tiles meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Axis {
-    /// East faces meet west faces.
-    Horizontal,
-    /// North faces meet south faces.
-    Vertical,
-}
-
-impl Axis {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Horizontal, Self::Vertical];
-
-    /// The sides (places in [`SIDES`]) that carry the word and its mate.
-    pub fn sides(self) -> [usize; 2] {
-        match self {
-            Self::Horizontal => [1, 3],
-            Self::Vertical => [0, 2],
-        }
-    }
-}
 
 /// Glues that hold each other along an axis, with what carries their word.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,32 +28,15 @@ pub struct Wiring {
     by_face: [Vec<Option<usize>>; 4],
 }
 
-/// Why no word can stand for a glue.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum WiringError {
-    /// Glues that hold each other in part.
-    #[error(
-        "the glue `{first}` of {side} faces and `{second}` of those that they meet are bound to the \
-         same others, but not alike to each other ({strength} in place of {other}): one word and its \
-         mate cannot do that. Give them glues of their own"
-    )]
-    Mixed {
-        /// A glue with the word.
-        first: String,
-        /// A glue with its mate.
-        second: String,
-        /// Which faces.
-        side: &'static str,
-        /// What they hold with.
-        strength: f64,
-        /// What the others hold with.
-        other: f64,
-    },
-    /// None at all.
-    #[error(
-        "no two of its tiles bind: give its glues strengths, under `bonds` or as `binding strengths`"
-    )]
-    None,
+/// Two tiles that meet, the first in the west or south, by the bonds of their faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Meeting {
+    /// The axis along which they meet.
+    pub axis: Axis,
+    /// The bonds of all their faces.
+    pub faces: [[Option<usize>; 4]; 2],
+    /// The bond that they meet by.
+    pub bond: usize,
 }
 
 impl Wiring {
@@ -88,7 +50,7 @@ impl Wiring {
     ///
     /// # Errors
     /// Where there are none, or glues that words cannot stand for.
-    pub fn new(set: &TileSet) -> Result<Self, WiringError> {
+    pub fn new(set: &TileSet) -> Result<Self, String> {
         let n = set.glues.len();
         let strengths = set.strengths();
         let mut wiring = Self {
@@ -108,16 +70,12 @@ impl Wiring {
                     let before = glues.clone();
                     for (from, to) in [(0, 1), (1, 0)] {
                         let holds = |glue: &usize| {
-                            glues[from]
-                                .iter()
-                                .any(|other| strengths[*other][*glue] > 0.0)
+                            let mut others = glues[from].iter();
+                            others.any(|other| strengths[*other][*glue] > 0.0)
                         };
-                        let more: Vec<usize> = used[to].iter().copied().filter(holds).collect();
-                        for glue in more {
-                            if !glues[to].contains(&glue) {
-                                glues[to].push(glue);
-                            }
-                        }
+                        let is_new = |glue: &usize| !glues[to].contains(glue) && holds(glue);
+                        let more: Vec<usize> = used[to].iter().copied().filter(is_new).collect();
+                        glues[to].extend(more);
                     }
                     if glues == before {
                         break;
@@ -140,10 +98,14 @@ impl Wiring {
                 }
             }
         }
-        match wiring.bonds.is_empty() {
-            true => Err(WiringError::None),
-            false => Ok(wiring),
+        if wiring.bonds.is_empty() {
+            return Err(
+                "no two of its tiles bind: give its glues strengths, under `bonds` or as `binding \
+                 strengths`"
+                    .to_owned(),
+            );
         }
+        Ok(wiring)
     }
 
     /// The bond of a face of a tile, if it carries anything.
@@ -151,18 +113,25 @@ impl Wiring {
         self.by_face[side][set.tiles[tile].glues[side]?]
     }
 
+    /// Two tiles that meet, if they do by a bond.
+    pub fn meeting(&self, set: &TileSet, (first, axis, second): &Met) -> Option<Meeting> {
+        let of = |tile: usize| std::array::from_fn(|side| self.of(set, tile, side));
+        let faces: [[Option<usize>; 4]; 2] = [of(*first), of(*second)];
+        let [out, back] = axis.sides();
+        let bond = faces[0][out].filter(|bond| faces[1][back] == Some(*bond))?;
+        Some(Meeting {
+            axis: *axis,
+            faces,
+            bond,
+        })
+    }
+
     /// How many words of each strength are needed, the strongest first.
     pub fn demand(&self) -> Vec<(f64, usize)> {
         let mut strengths: Vec<f64> = self.bonds.iter().map(|bond| bond.strength).collect();
         strengths.order_by(|a, b| b.total_cmp(a));
-        let mut demand: Vec<(f64, usize)> = Vec::new();
-        for strength in strengths {
-            match demand.last_mut() {
-                Some((last, count)) if *last == strength => *count += 1,
-                _ => demand.push((strength, 1)),
-            }
-        }
-        demand
+        let alike = strengths.chunk_by(|a, b| a == b);
+        alike.map(|some| (some[0], some.len())).collect()
     }
 }
 
@@ -171,22 +140,21 @@ fn bond(
     axis: Axis,
     mut glues: [Vec<usize>; 2],
     strengths: &[Vec<f64>],
-) -> Result<Bond, WiringError> {
+) -> Result<Bond, String> {
     glues.iter_mut().for_each(|glues| glues.sort_unstable());
-    let pairs = || {
-        glues[0]
-            .iter()
-            .flat_map(|a| glues[1].iter().map(|b| (*a, *b)))
-    };
+    let [firsts, seconds] = &glues;
+    let pairs = || firsts.iter().flat_map(|a| seconds.iter().map(|b| (*a, *b)));
     let strength = pairs().map(|(a, b)| strengths[a][b]).fold(0.0, f64::max);
     if let Some((a, b)) = pairs().find(|(a, b)| strengths[*a][*b] != strength) {
-        return Err(WiringError::Mixed {
-            first: set.glues[a].name.clone(),
-            second: set.glues[b].name.clone(),
-            side: SIDES[axis.sides()[0]],
-            strength: strengths[a][b],
-            other: strength,
-        });
+        return Err(format!(
+            "the glue `{}` of {} faces and `{}` of those that they meet are bound to the same others, \
+             but not alike to each other ({} in place of {strength}): one word and its mate cannot do \
+             that. Give them glues of their own",
+            set.glues[a].name,
+            SIDES[axis.sides()[0]],
+            set.glues[b].name,
+            strengths[a][b]
+        ));
     }
     Ok(Bond {
         axis,

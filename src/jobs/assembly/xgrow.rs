@@ -32,13 +32,8 @@ impl<'a> Scanner<'a> {
     }
 
     fn wrong(&self, message: String, help: &str) -> DesignError {
-        DesignError {
-            file: self.file.to_owned(),
-            place: Some(Box::new(Place::of(self.text, self.at..self.at + 1))),
-            message,
-            help: help.to_owned(),
-            also: Vec::new(),
-        }
+        let place = Place::of(self.text, self.at..self.at + 1);
+        DesignError::new(self.file, Some(place), message, help)
     }
 
     fn takes(&mut self, word: &str) -> bool {
@@ -97,12 +92,11 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
         let message = format!("it has more than {} tiles or glues", super::MOST);
         return Err(scan.wrong(message, "split the set"));
     }
-    set.glues = (1..=glues)
-        .map(|number| Glue {
-            name: number.to_string(),
-            strength: 1.0,
-        })
-        .collect();
+    let glue = |number: usize| Glue {
+        name: number.to_string(),
+        strength: 1.0,
+    };
+    set.glues = (1..=glues).map(glue).collect();
     if scan.takes("binding type names=") {
         scan.expect("{")?;
         for glue in &mut set.glues {
@@ -153,27 +147,22 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
         };
     }
     scan.expect("}")?;
-    let mut stoic = 1.0;
+    let mut tile = TileType::new(number.to_string(), glues);
     if scan.takes("[") {
-        stoic = scan.number()?;
+        tile.stoic = scan.number()?;
         scan.expect("]")?;
     }
-    let mut color = None;
-    if scan.takes("(") {
-        color = Some(scan.until(&[')']).trim().to_owned());
-        scan.expect(")")?;
-    }
-    let mut name = number.to_string();
-    if scan.takes("<") {
-        name = scan.until(&['>']).trim().to_owned();
-        scan.expect(">")?;
-    }
-    Ok(TileType {
-        name,
-        glues,
-        stoic,
-        color,
-    })
+    let mut named = |open: &str, close: char| -> Result<Option<String>, DesignError> {
+        if !scan.takes(open) {
+            return Ok(None);
+        }
+        let found = scan.until(&[close]).trim().to_owned();
+        scan.expect(&close.to_string())?;
+        Ok(Some(found))
+    };
+    tile.color = named("(", ')')?;
+    tile.name = named("<", '>')?.unwrap_or(tile.name);
+    Ok(tile)
 }
 
 /// A line after the strengths; what only steers the engine is passed over.
@@ -201,15 +190,14 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
         }
     }
     if scan.takes("seed=") {
-        let row: usize = scan.number()?;
+        let row = scan.number()?;
         scan.expect(",")?;
-        let column: usize = scan.number()?;
+        let column = scan.number()?;
         scan.expect(",")?;
         let tile: usize = scan.number()?;
         set.seed = vec![(row, column, tile.wrapping_sub(1))];
     } else if scan.takes("size=") {
-        let size: usize = scan.number()?;
-        set.size = Some([size; 2]);
+        set.size = Some([scan.number()?; 2]);
     } else if scan.takes("T=") {
         set.tau = Some(scan.number()?);
     } else if scan.takes("Gse=") {

@@ -22,13 +22,13 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
-use crate::request::{self, Refusal};
+use crate::request::{self, Unanswered};
 use bonds::{PairTimes, TimesFit};
 use distances::{DistanceFit, PairDistances};
 use fit::{Fit, least_squares};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
-use physics::kinetics::Bond;
+use physics::kinetics::Hold;
 use physics::kinetics::bond::BondError;
 use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
@@ -80,7 +80,7 @@ impl From<String> for FitError {
     }
 }
 
-impl Refusal for FitError {
+impl Unanswered for FitError {
     fn is_of_the_question(&self) -> bool {
         !matches!(self, Self::Bond(_))
     }
@@ -117,7 +117,7 @@ impl Request {
         let times = PairTimes::read(table)?;
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, observer);
-        let bond = Bond::new(&analysis.problem, &analysis.catalogue)?;
+        let bond = Hold::bond(&analysis.problem, &analysis.catalogue)?;
         let area = self.area.unwrap_or(design.table[0] * design.table[1]);
         let (odds, [low, high]) = times.log_odds();
         // The longer tiles are bound, the colder they are.

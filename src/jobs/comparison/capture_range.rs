@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use physics::configuration::Configuration;
 use physics::landscape::approach::Approach;
-use physics::landscape::minimum::{Known, Outcome};
+use physics::landscape::minimum::{Known, Outcome, learn};
 use physics::parallel;
 use physics::problem::Problem;
 
@@ -109,7 +109,7 @@ fn is_captured(
     if !problem.is_free(start) {
         return false;
     }
-    match known.learn(problem, &[*start]).pop() {
+    match learn(problem, &[*start], known).pop() {
         Some(Outcome::Minimum(end)) => {
             problem.space.distance(&end.point.q, bond) < SAME_BOND
                 && end.point.energy <= energy + ENERGY_SHARE * energy.abs()

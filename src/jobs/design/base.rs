@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
+use super::error::Result;
 use super::quantity;
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section};
 use super::svg;
 use physics::tile::Face;
 use physics::tile::outline::{Outline, OutlineError};
@@ -39,16 +40,14 @@ pub(super) fn read(section: &Section) -> Result<Base> {
             "keep one of the two",
         ));
     }
-    let numbered = |count: usize| (0..count).map(|i| vec![i.to_string()]).collect();
     if entry.key == "outline" {
         let (corners, lines) = svg::read_outline(&entry)?;
         return Ok(Base {
             lines,
-            ..base(&corners, numbered(corners.len()))
+            ..base(&corners, &[])
         });
     }
-    let vertices = vertices(&entry)?;
-    Ok(base(&vertices, numbered(vertices.len())))
+    Ok(base(&vertices(&entry)?, &[]))
 }
 
 /// A regular polygon about its centre; face 0 has its outward normal along +x.
@@ -61,46 +60,39 @@ fn regular(section: &Section) -> Result<Base> {
         None => 4,
     };
     if sides < 3 {
-        let entry = section.require("sides", help)?;
-        return Err(entry.error(
-            format!("a tile cannot have {sides} sides"),
-            "give 3 or more",
-        ));
+        let message = format!("a tile cannot have {sides} sides");
+        return Err(section
+            .require("sides", help)?
+            .error(message, "give 3 or more"));
     }
     if sides == 4 {
         let h = side / 2.0;
         let corners = [[h, -h], [h, h], [-h, h], [-h, -h]].map(Vector2::from);
-        let names = ["east", "north", "west", "south"];
-        let names = (0..4)
-            .map(|i| vec![names[i].to_owned(), i.to_string()])
-            .collect();
-        return Ok(base(&corners, names));
+        return Ok(base(&corners, &["east", "north", "west", "south"]));
     }
     let turn = TAU / f64::from(sides);
     let radius = side / (2.0 * libm::sin(turn / 2.0));
-    let corners: Vec<_> = (0..sides)
-        .map(|k| {
-            let (sin, cos) = libm::sincos(turn * (f64::from(k) - 0.5));
-            Vector2::new(cos, sin) * radius
-        })
-        .collect();
-    Ok(base(
-        &corners,
-        (0..sides).map(|i| vec![i.to_string()]).collect(),
-    ))
+    let corner = |k: u32| {
+        let (sin, cos) = libm::sincos(turn * (f64::from(k) - 0.5));
+        Vector2::new(cos, sin) * radius
+    };
+    let corners: Vec<_> = (0..sides).map(corner).collect();
+    Ok(base(&corners, &[]))
 }
 
-fn base(corners: &[Vector2<f64>], names: Vec<Vec<String>>) -> Base {
+/// The faces between corners; each has its number for a name, behind one of `names` if there are some.
+fn base(corners: &[Vector2<f64>], names: &[&str]) -> Base {
     let n = corners.len();
-    let faces = (0..n)
-        .map(|i| Face {
-            name: names[i][0].clone(),
-            start: corners[i],
-            end: corners[(i + 1) % n],
-        })
-        .collect();
+    let named = |i: usize| names.get(i).map(|name| (*name).to_owned());
+    let names = (0..n).map(|i| named(i).into_iter().chain([i.to_string()]).collect());
+    let names: Vec<Vec<String>> = names.collect();
+    let face = |i: usize| Face {
+        name: names[i][0].clone(),
+        start: corners[i],
+        end: corners[(i + 1) % n],
+    };
     Base {
-        faces,
+        faces: (0..n).map(face).collect(),
         lines: vec![Polyline::new(); n],
         names,
     }

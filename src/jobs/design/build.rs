@@ -1,12 +1,11 @@
 //! From the contents of its faces to a tile.
 
 use super::DesignError;
-use super::error::Span;
+use super::error::{Result, Span};
 use super::face::FaceContent;
 use super::placement::{magnet, placed};
-use super::profile::{depth_of, with_depth};
+use super::profile::depth_of;
 use super::quantity::{four_digits, rounded_down};
-use super::reader::Result;
 use super::tile::TileEntry;
 use physics::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
 use physics::tile::outline::{Outline, OutlineError};
@@ -31,20 +30,18 @@ pub(super) struct Placing {
 /// Puts a tile together from the contents of its faces.
 pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<BuiltTile> {
     let faces = &entry.base.faces;
-    let (faults, thickness) = (entry.section.faults(), entry.thickness);
+    let thickness = entry.thickness;
     let (ring, outline) = outline(entry, contents)?;
     let mass = check_mass(entry, outline.area() * thickness);
-    let mass = faults.note(mass);
     let mut magnets = Vec::new();
     let mut placings = Vec::new();
     for (number, content) in contents.iter().enumerate() {
         let face = (number, &faces[number]);
         let edges = face_edges(&ring, face.1, number);
-        let listed = faults.note(placed(entry, content, face.1.length()));
+        let listed = placed(entry, content, face.1.length());
         for listed in listed.unwrap_or_default() {
             let magnet = magnet(entry, face, &edges, &listed);
-            let magnet = magnet.and_then(|magnet| fits_in(entry, magnet, listed.span));
-            if let Ok(magnet) = faults.note(magnet) {
+            if let Ok(magnet) = magnet.and_then(|magnet| fits_in(entry, magnet, listed.span)) {
                 magnets.push(magnet);
                 placings.push(Placing {
                     span: listed.span,
@@ -53,7 +50,7 @@ pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<Built
             }
         }
     }
-    faults.check()?;
+    entry.section.source.faults.check()?;
     let tile = Tile {
         outline,
         faces: faces.clone(),
@@ -73,7 +70,7 @@ fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
     if magnet.size[2] <= entry.thickness {
         return Ok(magnet);
     }
-    Err(entry.section.error_at(
+    Err(entry.section.source.error(
         span,
         format!(
             "a magnet {} m thick sticks out of a tile {} m thick",
@@ -117,7 +114,7 @@ fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
 
 fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline)> {
     let ring = assemble(&entry.base.faces, &lines(contents)).map_err(|FitTooLarge(face)| {
-        entry.section.error_at(
+        entry.section.source.error(
             contents[face].fit_span,
             format!(
                 "face {} cannot be drawn back by {} m: part of its line would vanish",
@@ -151,25 +148,23 @@ fn mend_outline(
         OutlineError::SelfCrossing(i, j) => {
             let (a, b) = (ring.faces[i], ring.faces[j]);
             // The face with a profile is the culprit, not its flat neighbour.
-            let (culprit, other) = if contents[a].polyline.is_empty() {
-                (b, a)
-            } else {
-                (a, b)
+            let (culprit, other) = match contents[a].polyline.is_empty() {
+                true => (b, a),
+                false => (a, b),
             };
-            let (message, help) = if a == b {
-                (
+            let (message, help) = match a == b {
+                true => (
                     format!("the profile of face {} crosses or touches itself", name(a)),
                     "list its points in their order along the line",
-                )
-            } else {
-                (
+                ),
+                false => (
                     format!(
                         "the profile of face {} crosses or touches face {}",
                         name(culprit),
                         name(other)
                     ),
                     "make it less deep, or keep it farther from the corners",
-                )
+                ),
             };
             let help = match largest_depth(entry, contents, culprit) {
                 Some(depth) => {
@@ -179,7 +174,8 @@ fn mend_outline(
             };
             entry
                 .section
-                .error_at(contents[culprit].line_span, message, help)
+                .source
+                .error(contents[culprit].line_span, message, help)
         }
         _ => entry.section.error(
             format!("the profiles leave no outline: {error}"),
@@ -191,11 +187,13 @@ fn mend_outline(
 /// The largest depth (m) that the profile of a face may have beside the others, rounded down;
 /// `None` where no depth mends it.
 fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
-    let profile = contents[face].profile.as_ref()?;
-    let depth = depth_of(profile)?;
-    let possible = |size: f64| {
-        let changed = with_depth(profile, size.copysign(depth));
-        let line = changed.and_then(|profile| profile.polyline().ok());
+    let mut profile = contents[face].profile.clone()?;
+    let depth = *depth_of(&mut profile)?;
+    let mut possible = |size: f64| {
+        if let Some(changed) = depth_of(&mut profile) {
+            *changed = size.copysign(depth);
+        }
+        let line = profile.polyline().ok();
         line.is_some_and(|line| {
             let mut lines = lines(contents);
             lines[face].polyline = line;
@@ -209,10 +207,9 @@ fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Op
     }
     for _ in 0..24 {
         let middle = (right + wrong) / 2.0;
-        if possible(middle) {
-            right = middle;
-        } else {
-            wrong = middle;
+        match possible(middle) {
+            true => right = middle,
+            false => wrong = middle,
         }
     }
     let rounded = rounded_down(right);

@@ -29,7 +29,8 @@ fn enormous(root: &Section, table: [f64; 2]) -> Option<DesignError> {
         [] => String::new(),
         some => format!(": did you mean {}?", some.join(" or ")),
     };
-    Some(size.error(
+    Some(size.source.doubt(
+        size.span(),
         format!("the table measures {x} m by {y} m{meant}"),
         "lengths are in metres; far starts and the roadmap use the whole table",
     ))
@@ -40,7 +41,7 @@ fn loose(entry: &TileEntry, face: &str, content: &FaceContent) -> Option<DesignE
     let heights = content.polyline.iter().map(|p| p[1].abs());
     let depth = heights.fold(0.0, f64::max);
     (content.fit > 0.0 && depth > 0.0 && content.fit >= depth).then(|| {
-        entry.section.error_at(
+        entry.section.source.doubt(
             content.fit_span,
             format!(
                 "`fit` = {} m draws face {face} back by as much as its shape is deep, {} m, so that it no longer guides",

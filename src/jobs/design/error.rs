@@ -3,6 +3,9 @@
 use std::fmt::{self, Write};
 use std::ops::Range;
 
+/// What is read, or what is wrong with it.
+pub(super) type Result<T> = std::result::Result<T, DesignError>;
+
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
@@ -61,9 +64,7 @@ impl Place {
             source: Some(text[line_start..line_end].trim_end_matches('\r').to_owned()),
         }
     }
-}
 
-impl Place {
     /// The place of a range of bytes of `text`.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         Self::new(text, range.into())
@@ -109,6 +110,22 @@ impl fmt::Display for DesignError {
 }
 
 impl DesignError {
+    /// A fault of a file, alone.
+    pub fn new(
+        file: &str,
+        place: Option<Place>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
+        Self {
+            file: file.to_owned(),
+            place: place.map(Box::new),
+            message: message.into(),
+            help: help.into(),
+            also: Vec::new(),
+        }
+    }
+
     /// The fault without the further ones.
     fn write_one(&self, f: &mut String) -> fmt::Result {
         let Some(place) = &self.place else {

@@ -1,10 +1,10 @@
 //! The entries of `[fixed.faces]` and `[moving.faces]`: a face's line and its magnets.
 
-use super::error::Span;
+use super::error::{Result, Span};
 use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
 use super::profile::read_profile;
 use super::quantity;
-use super::reader::{Entry, Result, Section, nearest_help};
+use super::reader::{Entry, Section, all, nearest_help};
 use super::shield::ShieldKeys;
 use physics::tile::barcode::{Barcode, BarcodeError};
 use physics::tile::profile::{Polyline, Profile, complement};
@@ -23,13 +23,10 @@ impl Pattern {
     fn mate(&self, span: Span) -> Self {
         match self {
             Self::Code(code, _) => Self::Code(code.mate(), vec![span; code.len()]),
-            Self::List(magnets) => Self::List(
-                magnets
-                    .iter()
-                    .rev()
-                    .map(|magnet| magnet.mate(span))
-                    .collect(),
-            ),
+            Self::List(magnets) => {
+                let mates = magnets.iter().rev().map(|magnet| magnet.mate(span));
+                Self::List(mates.collect())
+            }
         }
     }
 }
@@ -110,18 +107,14 @@ impl<'a> FaceEntry<'a> {
         own.or_else(|| self.all.filter(|_| !of_its_own)?.get("mates"))
     }
 
-    fn get(&self, key: &str) -> Option<Entry<'a>> {
-        [self.own, self.all]
-            .into_iter()
-            .flatten()
-            .find_map(|section| section.get(key))
+    /// The face's own section, then that of all faces.
+    fn sections(&self) -> impl Iterator<Item = Section<'a>> {
+        [self.own, self.all].into_iter().flatten()
     }
 
-    /// The entry of the first of `keys` that the face's own entry has, then of `all`.
-    fn get_either(&self, keys: [&str; 2]) -> Option<Entry<'a>> {
-        [self.own, self.all]
-            .into_iter()
-            .flatten()
+    /// The entry of the first of `keys` that the face's own section has, then that of all.
+    fn get(&self, keys: &[&str]) -> Option<Entry<'a>> {
+        self.sections()
             .find_map(|section| keys.iter().find_map(|key| section.get(key)))
     }
 
@@ -139,13 +132,10 @@ impl<'a> FaceEntry<'a> {
                 "add `mates = \"FACE\"`, or take `fit` away",
             ));
         }
-        let profile = self.get("profile");
-        let pattern = self.get_either(["code", "magnets"]);
-        let read = |entry: &Entry| entry.noted(read_profile(entry, length));
-        let line = profile.as_ref().map(read);
-        let magnets = pattern
-            .as_ref()
-            .map(|entry| entry.noted(read_pattern(entry)));
+        let profile = self.get(&["profile"]);
+        let pattern = self.get(&["code", "magnets"]);
+        let line = profile.as_ref().map(|entry| read_profile(entry, length));
+        let magnets = pattern.as_ref().map(read_pattern);
         let keys = self.magnet_keys()?.over(keys);
         let (drawing, polyline) = match line.transpose()? {
             Some((drawing, line)) => (Some(drawing), line),
@@ -167,21 +157,18 @@ impl<'a> FaceEntry<'a> {
     pub fn mate_of(&self, partner: &FaceContent, mates: &Entry) -> Result<FaceContent> {
         let complement = partner.mate(mates.span());
         let keys = self.magnet_keys()?.over(complement.keys);
-        Ok(match self.get("fit") {
-            Some(fit) => FaceContent {
-                fit: fit.number(quantity::FIT)?,
-                fit_span: fit.span(),
-                keys,
-                ..complement
-            },
-            None => FaceContent { keys, ..complement },
-        })
+        let mut content = FaceContent { keys, ..complement };
+        if let Some(fit) = self.get(&["fit"]) {
+            content.fit = fit.number(quantity::FIT)?;
+            content.fit_span = fit.span();
+        }
+        Ok(content)
     }
 
     /// What the entry says of the face's shield; a mate does not take over its partner's.
     pub fn shield_keys(&self) -> Result<ShieldKeys> {
         let mut keys = ShieldKeys::default();
-        for section in [self.own, self.all].into_iter().flatten() {
+        for section in self.sections() {
             keys = keys.over(ShieldKeys::read(&section, "`shield`")?);
         }
         Ok(keys)
@@ -189,7 +176,7 @@ impl<'a> FaceEntry<'a> {
 
     fn magnet_keys(&self) -> Result<MagnetKeys> {
         let mut keys = MagnetKeys::default();
-        for section in [self.own, self.all].into_iter().flatten() {
+        for section in self.sections() {
             if let Some(magnet) = section.section("magnet", "`magnet`")? {
                 magnet.allow(&MAGNET_KEYS);
                 keys = keys.over(MagnetKeys::read(&magnet)?);
@@ -201,9 +188,8 @@ impl<'a> FaceEntry<'a> {
 
 /// The first key of a face's entry that `mates` would replace.
 fn first_of<'a>(section: &Section<'a>) -> Option<Entry<'a>> {
-    ["code", "magnets", "profile"]
-        .iter()
-        .find_map(|key| section.get(key))
+    let keys = ["code", "magnets", "profile"];
+    keys.iter().find_map(|key| section.get(key))
 }
 
 /// Most places for magnets on a face.
@@ -224,12 +210,8 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     if entry.key == "magnets" {
         let magnets = entry.array()?;
         check_count(entry, magnets.len())?;
-        let magnets = magnets.iter();
-        let magnets: Vec<_> = magnets
-            .map(|magnet| entry.noted(ListedMagnet::read(magnet)))
-            .collect();
-        let magnets = magnets.into_iter().collect::<Result<_>>()?;
-        return Ok(Pattern::List(magnets));
+        let magnets = magnets.iter().map(ListedMagnet::read);
+        return Ok(Pattern::List(all(magnets)?));
     }
     let text = entry.string()?;
     check_count(entry, text.chars().count())?;
@@ -239,7 +221,7 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
             _ => "N is north pole out, S south pole out, . no magnet".to_owned(),
         };
         let span = entry.character_span(error.index);
-        entry.error_at(span, error.to_string(), help)
+        entry.source.error(span, error.to_string(), help)
     })?;
     let spans = (0..code.len()).map(|k| entry.character_span(k)).collect();
     Ok(Pattern::Code(code, spans))
@@ -248,14 +230,10 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
 /// Which face a word or number means, among the names of a tile's faces.
 pub(super) fn find_face(names: &[Vec<String>], entry: &Entry, tile: &str) -> Result<usize> {
     let name = entry.name_or_number()?;
-    names
-        .iter()
-        .position(|names| names.contains(&name))
-        .ok_or_else(|| {
-            let known: Vec<_> = names.iter().map(|names| names[0].as_str()).collect();
-            entry.error(
-                format!("the {tile} tile has no face `{name}`"),
-                nearest_help(&name, &known),
-            )
-        })
+    let found = names.iter().position(|names| names.contains(&name));
+    found.ok_or_else(|| {
+        let known: Vec<_> = names.iter().map(|names| names[0].as_str()).collect();
+        let message = format!("the {tile} tile has no face `{name}`");
+        entry.error(message, nearest_help(&name, &known))
+    })
 }

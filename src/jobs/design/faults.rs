@@ -3,8 +3,7 @@
 use physics::order::Order;
 use std::cell::{Cell, RefCell};
 
-use super::DesignError;
-use super::reader::Result;
+use super::error::{DesignError, Result};
 
 /// What is wrong so far.
 #[derive(Debug, Default)]
@@ -25,17 +24,8 @@ impl Faults {
         }
     }
 
-    /// The result itself; its fault is added.
-    pub fn note<T>(&self, result: Result<T>) -> Result<T> {
-        if let Err(fault) = &result {
-            self.add(fault.clone());
-        }
-        result
-    }
-
-    /// Adds a fault of a number that is read on with a guess in its place.
-    pub fn guess(&self, fault: DesignError) {
-        self.add(fault);
+    /// Notes that a number is read on with a guess in its place.
+    pub fn guess(&self) {
         self.guessed.set(true);
     }
 
@@ -54,7 +44,9 @@ impl Faults {
 
     /// What comes of the reading: all that is wrong, in the order of the file, or its result.
     pub fn conclude<T>(self, result: Result<T>) -> Result<T> {
-        let result = self.note(result);
+        if let Err(fault) = &result {
+            self.add(fault.clone());
+        }
         let mut found = self.found.into_inner();
         found.order_by_key(|fault| fault.place.as_ref().map(|place| (place.line, place.column)));
         let mut found = found.into_iter();

@@ -1,7 +1,7 @@
 //! The mend of magnets that stick out: another inset.
 
+use super::blocks::{block, breaks_through, overlap, sticks_out};
 use super::build::BuiltTile;
-use super::overlap::{block, breaks_through, overlap, sticks_out};
 use physics::tile::Magnet;
 
 /// Insets that are tried between the surface and the far side of a tile.
@@ -24,10 +24,9 @@ pub(super) fn mend(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let (mut wrong, mut right) = (inset, nearest);
     for _ in 0..30 {
         let middle = (wrong + right) / 2.0;
-        if sound(middle) {
-            right = middle;
-        } else {
-            wrong = middle;
+        match sound(middle) {
+            true => right = middle,
+            false => wrong = middle,
         }
     }
     let raised = right > inset;

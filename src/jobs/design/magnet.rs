@@ -1,9 +1,9 @@
 //! The keys that describe a magnet, in `[magnet]`, in a face's `magnet = { ... }` and in the
 //! entries of `magnets`.
 
-use super::error::{DesignError, Span};
+use super::error::{DesignError, Result, Span};
 use super::quantity::{self, four_digits};
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section};
 use physics::order::Order;
 use physics::tile::barcode::Pole;
 use physics::tile::strength::Strength;
@@ -40,15 +40,13 @@ impl MagnetKeys {
                 entry.numbers::<3>(quantity::MAGNET_SIZE, what)
             })
             .transpose();
-        let size = section.faults().note(size);
-        let faults = section.faults();
-        let strength = faults.note(strength(section));
+        let strength = strength(section);
         let [pitch, inset, axis] = [
             ("pitch", quantity::PITCH),
             ("inset", quantity::INSET),
             ("axis", quantity::AXIS),
         ]
-        .map(|(key, quantity)| faults.note(section.number(key, quantity)));
+        .map(|(key, quantity)| section.number(key, quantity));
         Ok(Self {
             size: size?,
             strength: strength?,
@@ -155,9 +153,8 @@ impl ListedMagnet {
         section.allow(&Self::keys());
         let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
         let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
-        let faults = section.faults();
-        let at = faults.note(at.number(quantity::ALONG_FACE));
-        let pole = faults.note(pole.word(&[("N", Pole::North), ("S", Pole::South)]));
+        let at = at.number(quantity::ALONG_FACE);
+        let pole = pole.word(&[("N", Pole::North), ("S", Pole::South)]);
         Ok(Self {
             at: at?,
             pole: pole?,

@@ -32,10 +32,10 @@
 //!   opposite (`S`).
 
 mod base;
+mod blocks;
 mod build;
 mod doubts;
 pub(crate) mod drawings;
-mod entry;
 mod error;
 mod face;
 mod faults;
@@ -78,6 +78,7 @@ use toml::de::DeTable;
 
 use crate::checksum::sha256;
 use drawings::Drawings;
+use error::Result;
 use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
 use physics::configuration::ConfigurationSpace;
@@ -85,7 +86,7 @@ use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
 use physics::tile::Pair;
-use reader::{Result, Section};
+use reader::Section;
 use source::Source;
 use tile::{TILES, TileEntry};
 
@@ -142,28 +143,22 @@ impl Design {
     /// Where the file cannot be read, or is no sound design.
     pub fn load(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
-        let bytes = file::read(path).map_err(|error| DesignError {
-            file: file.clone(),
-            place: None,
-            message: format!("cannot read the design file: {error}"),
-            help: "check the path; shipped designs are in shapes/".to_owned(),
-            also: Vec::new(),
+        let bytes = file::read(path).map_err(|error| {
+            let message = format!("cannot read the design file: {error}");
+            let help = "check the path; shipped designs are in shapes/";
+            DesignError::new(&file, None, message, help)
         })?;
         match String::from_utf8(bytes) {
             Ok(text) => Self::parse(&text, &file),
             Err(error) => {
                 let at = error.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(error.as_bytes());
-                let source = Source {
-                    file: &file,
-                    text: &text,
-                    quoted: true,
-                    drawings: &Drawings::default(),
-                    faults: &Faults::default(),
-                };
-                Err(source.error(
-                    (at..at + 1).into(),
-                    "the file is not UTF-8 text",
+                let place = Place::of(&text, at..at + 1);
+                let message = "the file is not UTF-8 text";
+                Err(DesignError::new(
+                    &file,
+                    Some(place),
+                    message,
                     "save it as UTF-8",
                 ))
             }
@@ -211,21 +206,21 @@ impl Design {
     /// The design of a file; whatever of it can be read is read before the first fault is told.
     fn of(source: Source, root: &DeTable) -> Result<Self> {
         let faults = source.faults;
-        let root = Section::root(source, root);
+        let root = Section::root(source, root, "the design file");
         root.allow(&ROOT_KEYS);
-        let table = faults.note(table(&root));
-        let keys = faults.note(magnet_keys(&root));
-        let model = faults.note(potential::read(&root));
-        let name = faults.note(root.get("name").map(|name| name.line()).transpose());
-        let description = faults.note(root.string("description"));
+        let table = table(&root);
+        let keys = magnet_keys(&root);
+        let model = potential::read(&root);
+        let name = root.get("name").map(|name| name.line()).transpose();
+        let description = root.string("description");
         let entries = tile_entries(&root)?;
-        let target = faults.note(target::read(&root, &entries));
-        let shields = faults.note(shields(&root, &entries));
-        let contents = faults.note(tile::resolve(&entries, keys.clone().unwrap_or_default()));
+        let target = target::read(&root, &entries);
+        let shields = shields(&root, &entries);
+        let contents = tile::resolve(&entries, keys.clone().unwrap_or_default());
         // From here on parts are put together, of which each is sound by itself.
         faults.check()?;
         let (table, keys, contents, target) = (table?, keys?, contents?, target?);
-        let [fixed, moving] = [0, 1].map(|i| faults.note(build::build(&entries[i], &contents[i])));
+        let [fixed, moving] = [0, 1].map(|i| build::build(&entries[i], &contents[i]));
         let built = [fixed?, moving?];
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
@@ -342,8 +337,8 @@ fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
         let section = root.require(TILES[i], &help)?.section(name)?;
         TileEntry::read(TILES[i], section, faces_name)
     };
-    let fixed = root.faults().note(entry(0, "[fixed]", "[fixed.faces]"));
-    let moving = root.faults().note(entry(1, "[moving]", "[moving.faces]"));
+    let fixed = entry(0, "[fixed]", "[fixed.faces]");
+    let moving = entry(1, "[moving]", "[moving.faces]");
     Ok([fixed?, moving?])
 }
 

@@ -1,21 +1,17 @@
 //! Magnets where none can be: in one another, or out of the tile.
 
-use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
 use super::DesignError;
+use super::blocks::{ROUNDING, block, excess, sticks_out};
 use super::build::BuiltTile;
+use super::error::Result;
 use super::inset;
 use super::quantity::four_digits;
-use super::reader::{Result, Section};
+use super::reader::Section;
 use super::tile::TileEntry;
 use physics::contact::{Placement, separation};
-use physics::tile::assembly::{face_edges, surface_height};
-use physics::tile::outline::ConvexPart;
-use physics::tile::{Face, Magnet};
-
-/// Depth (m) up to which blocks may overlap or stick out: rounding.
-const ROUNDING: f64 = 1e-9;
+use physics::tile::assembly::face_edges;
 
 /// Refuses magnets that overlap or stick out of their tile.
 ///
@@ -31,7 +27,7 @@ pub(super) fn check_magnets(
         outside(&entries[tile].section, built, tile);
         overlaps(&entries[tile], &built[tile]);
     }
-    entries[0].section.faults().check()?;
+    entries[0].section.source.faults.check()?;
     let doubts = [0, 1].map(|tile| doubts(&entries[tile], built, tile));
     Ok(doubts.into_iter().flatten().collect())
 }
@@ -50,9 +46,7 @@ fn outside(section: &Section, built: &[BuiltTile; 2], tile: usize) {
                 .to_owned()
         });
         let message = format!("a magnet of face {name} sticks out of the tile");
-        section
-            .faults()
-            .add(section.error_at(placing.span, message, help));
+        section.source.error(placing.span, message, help);
     }
 }
 
@@ -86,9 +80,8 @@ fn overlaps(entry: &TileEntry, built: &BuiltTile) {
             let help = format!(
                 "space them out by {more} mm or more (`pitch`, `at`), or take smaller magnets (`size`)"
             );
-            let section = &entry.section;
-            let fault = section.error_at(built.placings[i].span, message, help);
-            section.faults().add(fault);
+            let span = built.placings[i].span;
+            entry.section.source.error(span, message, help);
         }
     }
 }
@@ -99,39 +92,17 @@ fn doubts(entry: &TileEntry, built: &[BuiltTile; 2], tile: usize) -> Vec<DesignE
         let name = entry.name;
         let message = format!("the {name} tile has no magnet, so that the energy is zero");
         let help = "give one of its faces a code";
-        return vec![entry.section.error(message, help)];
+        return vec![
+            entry
+                .section
+                .source
+                .doubt(entry.section.span, message, help),
+        ];
     }
     let faces = 0..it.tile.faces.len();
     faces
         .filter_map(|face| breakthrough(&entry.section, built, (tile, face)))
         .collect()
-}
-
-/// A magnet's rectangle.
-pub(super) fn block(magnet: &Magnet) -> ConvexPart {
-    ConvexPart::new(magnet.corners().to_vec())
-}
-
-/// Whether two rectangles of magnets overlap.
-pub(super) fn overlap(a: &ConvexPart, b: &ConvexPart) -> bool {
-    separation(a, b, &Placement::none()) < -ROUNDING
-}
-
-/// Whether a block's centre, a corner of its inner half, or a corner beyond the ends of its face
-/// lies outside the tile.
-pub(super) fn sticks_out(built: &BuiltTile, magnet: &Magnet) -> bool {
-    let face = &built.tile.faces[magnet.face];
-    let beyond_its_face = |p: &Vector2<f64>| {
-        (p - face.middle()).dot(&face.tangent()).abs() > face.length() / 2.0 + ROUNDING
-    };
-    let in_the_inner_half =
-        |p: &Vector2<f64>| (p - magnet.position).dot(&face.normal()) <= ROUNDING;
-    magnet
-        .corners()
-        .into_iter()
-        .filter(|p| beyond_its_face(p) || in_the_inner_half(p))
-        .chain([magnet.position])
-        .any(|p| built.tile.outline.signed_distance(p) > ROUNDING)
 }
 
 /// The warning for the magnet of a face that breaks through its surface farthest, if one does.
@@ -150,7 +121,7 @@ fn breakthrough(
         .max_by_key(|(_, excess)| OrderedFloat(*excess))?;
     (excess > ROUNDING).then(|| {
         let placing = &built.placings[i];
-        section.error_at(
+        section.source.doubt(
             placing.span,
             format!(
                 "a corner of a magnet of face {} breaks through the surface, by {} mm",
@@ -161,35 +132,4 @@ fn breakthrough(
                 .unwrap_or_else(|| format!("raise `inset` by {} m", four_digits(excess + 5e-7))),
         )
     })
-}
-
-/// Whether a corner of a magnet is above the surface of its face.
-pub(super) fn breaks_through(built: &BuiltTile, magnet: &Magnet) -> bool {
-    let face = &built.tile.faces[magnet.face];
-    let edges = face_edges(&built.ring, face, magnet.face);
-    excess(&edges, face, magnet) > ROUNDING
-}
-
-/// By how much (m, along the face's normal) the highest corner of a block overtops the lowest
-/// surface over the block's width.
-fn excess(edges: &[[[f64; 2]; 2]], face: &Face, magnet: &Magnet) -> f64 {
-    let local = magnet.corners().map(|p| {
-        let d = p - face.middle();
-        [d.dot(&face.tangent()), d.dot(&face.normal())]
-    });
-    let fold =
-        |k: usize, start: f64, f: fn(f64, f64) -> f64| local.iter().map(|p| p[k]).fold(start, f);
-    let (low, high) = (
-        fold(0, f64::INFINITY, f64::min),
-        fold(0, f64::NEG_INFINITY, f64::max),
-    );
-    let corners_between = edges
-        .iter()
-        .map(|[a, _]| a[0])
-        .filter(|s| (low..=high).contains(s));
-    let lowest = corners_between
-        .chain([low, high])
-        .filter_map(|s| surface_height(edges, s))
-        .fold(f64::INFINITY, f64::min);
-    fold(1, f64::NEG_INFINITY, f64::max) - lowest
 }

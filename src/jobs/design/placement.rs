@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
+use super::error::Result;
 use super::face::{FaceContent, Pattern};
 use super::magnet::{ListedMagnet, impossible, missing_key};
 use super::quantity::four_digits;
-use super::reader::Result;
 use super::tile::TileEntry;
 use physics::configuration::wrap_angle;
 use physics::tile::assembly::surface_height;
@@ -32,14 +32,17 @@ pub(super) fn placed(
                 None if code.len() < 2 => 0.0,
                 None => {
                     return Err(missing_key("pitch", |message, help| {
-                        entry.section.error_at(content.pattern_span, message, help)
+                        entry
+                            .section
+                            .source
+                            .error(content.pattern_span, message, help)
                     }));
                 }
             };
             let wide = content.keys.size.map_or(0.0, |size| size[1]);
             let needed = code.len().saturating_sub(1) as f64 * pitch + wide;
             if needed > length * (1.0 + 1e-12) {
-                return Err(entry.section.error_at(
+                return Err(entry.section.source.error(
                     content.pattern_span,
                     format!(
                         "the code {code} is {} m long, its face {} m",
@@ -72,7 +75,8 @@ pub(super) fn magnet(
     edges: &[[[f64; 2]; 2]],
     listed: &ListedMagnet,
 ) -> Result<Magnet> {
-    let error = |message: String, help: String| entry.section.error_at(listed.span, message, help);
+    let error =
+        |message: String, help: String| entry.section.source.error(listed.span, message, help);
     let (size, moment) = listed.keys.block().map_err(|key| missing_key(key, error))?;
     if let Some((message, help)) = impossible(size, moment) {
         return Err(error(message, help));

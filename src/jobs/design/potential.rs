@@ -1,6 +1,7 @@
 //! The section `[potential]`: how magnets are modelled.
 
-use super::reader::{Result, Section};
+use super::error::Result;
+use super::reader::Section;
 use physics::potential::MagnetModel;
 
 pub(super) fn read(root: &Section) -> Result<MagnetModel> {

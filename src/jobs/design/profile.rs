@@ -3,49 +3,28 @@
 use ordered_float::OrderedFloat;
 
 use super::DesignError;
+use super::error::Result;
 use super::quantity;
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section, all};
 use super::svg;
 use physics::tile::profile::{Polyline, Profile, ProfileError, Waveform};
 
-#[derive(Clone, Copy)]
-enum Shape {
-    Flat,
-    Tab,
-    Teeth,
-    Arc,
-    Points,
-    Svg,
-}
+/// A shape: its name, the keys of its profiles, and what reads one on a face of some length (m).
+type Shape = (
+    &'static str,
+    &'static [&'static str],
+    fn(&Section, f64) -> Result<Profile>,
+);
 
-const SHAPES: [(&str, Shape); 6] = [
-    ("flat", Shape::Flat),
-    ("tab", Shape::Tab),
-    ("teeth", Shape::Teeth),
-    ("arc", Shape::Arc),
-    ("points", Shape::Points),
-    ("svg", Shape::Svg),
+/// The shapes that can be read.
+pub(super) const SHAPES: [Shape; 6] = [
+    ("flat", &["shape"], |_, _| Ok(Profile::Flat)),
+    ("tab", &["shape", "width", "depth", "draft", "offset"], tab),
+    ("teeth", &["shape", "form", "count", "depth", "span"], teeth),
+    ("arc", &["shape", "width", "depth", "offset"], arc),
+    ("points", &["shape", "points"], points),
+    ("svg", &["shape", "file", "unit", "id", "offset"], drawn),
 ];
-
-impl Shape {
-    /// The keys of a profile of this shape.
-    const fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Flat => &["shape"],
-            Self::Tab => &["shape", "width", "depth", "draft", "offset"],
-            Self::Teeth => &["shape", "form", "count", "depth", "span"],
-            Self::Arc => &["shape", "width", "depth", "offset"],
-            Self::Points => &["shape", "points"],
-            Self::Svg => &["shape", "file", "unit", "id", "offset"],
-        }
-    }
-}
-
-/// The shapes that can be read, and the keys of each.
-#[cfg(test)]
-pub(super) fn shapes() -> impl Iterator<Item = (&'static str, &'static [&'static str])> {
-    SHAPES.into_iter().map(|(name, shape)| (name, shape.keys()))
-}
 
 /// Most points of a face's line, curves drawn as chords: contact with more takes too long.
 const MOST_POINTS: usize = 4000;
@@ -57,17 +36,11 @@ const MOST_TEETH: u32 = 200;
 pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyline)> {
     let section = entry.section("`profile`")?;
     let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
-    let shape = section.require("shape", example)?.word(&SHAPES)?;
-    section.allow(shape.keys());
-    let profile = match shape {
-        Shape::Flat => Ok(Profile::Flat),
-        Shape::Tab => tab(&section),
-        Shape::Teeth => teeth(&section, length),
-        Shape::Arc => arc(&section),
-        Shape::Points => points(&section),
-        Shape::Svg => svg::read_line(&section).map(Profile::Points),
-    }?;
-    section.faults().check_guesses()?;
+    let shapes = SHAPES.map(|shape| (shape.0, shape));
+    let (_, keys, read) = section.require("shape", example)?.word(&shapes)?;
+    section.allow(keys);
+    let profile = read(&section, length)?;
+    section.source.faults.check_guesses()?;
     let line = profile.polyline();
     let line = line.map_err(|error| mend(&section, &profile, error))?;
     within_face(&section, &profile, &line, length)?;
@@ -83,10 +56,9 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyl
     Ok((profile, line))
 }
 
-fn tab(section: &Section) -> Result<Profile> {
-    let faults = section.faults();
-    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
-    let draft = faults.note(section.number("draft", quantity::DRAFT));
+fn tab(section: &Section, _: f64) -> Result<Profile> {
+    let (width, depth) = (width(section), depth(section));
+    let draft = section.number("draft", quantity::DRAFT);
     Ok(Profile::Tab {
         width: width?,
         depth: depth?,
@@ -103,10 +75,9 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
     ];
     let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
     let count = section.require("count", "say how many teeth: count = 4")?;
-    let faults = section.faults();
-    let form = faults.note(form.word(&forms));
-    let count = faults.note(count.count(MOST_TEETH));
-    let depth = faults.note(depth(section));
+    let form = form.word(&forms);
+    let count = count.count(MOST_TEETH);
+    let depth = depth(section);
     Ok(Profile::Teeth {
         form: form?,
         count: count?,
@@ -117,9 +88,8 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
     })
 }
 
-fn arc(section: &Section) -> Result<Profile> {
-    let faults = section.faults();
-    let (width, depth) = (faults.note(width(section)), faults.note(depth(section)));
+fn arc(section: &Section, _: f64) -> Result<Profile> {
+    let (width, depth) = (width(section), depth(section));
     Ok(Profile::Arc {
         width: width?,
         depth: depth?,
@@ -132,16 +102,18 @@ fn offset(section: &Section) -> Result<f64> {
     Ok(offset.unwrap_or(0.0))
 }
 
-fn points(section: &Section) -> Result<Profile> {
+fn points(section: &Section, _: f64) -> Result<Profile> {
     let points = section.require("points", "give the line: points = [[s, h], ...] (m)")?;
+    let points = points.array()?;
+    let what = "s along the face and h outwards";
     let points = points
-        .array()?
         .iter()
-        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, "s along the face and h outwards"))
-        .map(|point| section.faults().note(point))
-        .collect::<Vec<_>>();
-    let points = points.into_iter().collect::<Result<_>>()?;
-    Ok(Profile::Points(points))
+        .map(|point| point.numbers::<2>(quantity::ALONG_FACE, what));
+    Ok(Profile::Points(all(points)?))
+}
+
+fn drawn(section: &Section, _: f64) -> Result<Profile> {
+    svg::read_line(section).map(Profile::Points)
 }
 
 fn width(section: &Section) -> Result<f64> {
@@ -163,11 +135,6 @@ fn depth(section: &Section) -> Result<f64> {
 fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignError {
     match error {
         ProfileError::SidesMeet { largest_draft } => {
-            let key = if section.get("draft").is_some() {
-                "draft"
-            } else {
-                "depth"
-            };
             let less_deep = match profile {
                 Profile::Tab { width, draft, .. } if *draft > 0.0 => {
                     let largest = quantity::rounded_down(width / 2.0 / libm::tan(*draft));
@@ -179,10 +146,8 @@ fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignErro
                 "keep draft below {} rad, or make the tab wider or {less_deep}",
                 quantity::four_digits(largest_draft)
             );
-            match section.get(key) {
-                Some(entry) => entry.error(error.to_string(), help),
-                None => section.error(error.to_string(), help),
-            }
+            let entry = section.get("draft").or_else(|| section.get("depth"));
+            fault(section, entry, error.to_string(), help)
         }
         ProfileError::OffTheBaseLine { first, .. } => {
             let points = section.get("points");
@@ -191,10 +156,7 @@ fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignErro
                 .unwrap_or_default();
             let item = if first { items.first() } else { items.last() };
             let help = "begin and end the profile at h = 0";
-            match item {
-                Some(item) => item.error(error.to_string(), help),
-                None => section.error(error.to_string(), help),
-            }
+            fault(section, item.copied(), error.to_string(), help)
         }
         ProfileError::TooFewPoints => {
             section.error(error.to_string(), "give more points, or shape = \"flat\"")
@@ -225,20 +187,27 @@ fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: 
         "the face is {} m long; {mend}",
         quantity::four_digits(length)
     );
-    Err(match point.or_else(|| section.get(key)) {
-        Some(entry) => entry.error(message, help),
-        None => section.error(message, help),
-    })
+    let entry = point.or_else(|| section.get(key));
+    Err(fault(section, entry, message, help))
+}
+
+/// A fault of a key of a profile, or of all of it.
+fn fault(
+    section: &Section,
+    entry: Option<Entry>,
+    message: String,
+    help: impl Into<String>,
+) -> DesignError {
+    let span = entry.map_or(section.span, |entry| entry.span());
+    section.source.error(span, message, help)
 }
 
 /// The key that makes a profile too wide for a face of half this length (m), and how to change it.
 fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
     let at_most = |key: &'static str, largest: f64| {
         let largest = quantity::rounded_down(largest);
-        (
-            key,
-            format!("`{key}` may be up to {largest} m in size here"),
-        )
+        let mend = format!("`{key}` may be up to {largest} m in size here");
+        (key, mend)
     };
     match *profile {
         // Wider than its base: by its depth.
@@ -268,21 +237,9 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
     }
 }
 
-/// The profile with another depth (m), if it has one.
-pub(super) fn with_depth(profile: &Profile, to: f64) -> Option<Profile> {
-    let mut changed = profile.clone();
-    match &mut changed {
-        Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {
-            *depth = to;
-        }
-        Profile::Flat | Profile::Points(_) => return None,
-    }
-    Some(changed)
-}
-
 /// How deep a profile is (m), if that is one of its keys.
-pub(super) fn depth_of(profile: &Profile) -> Option<f64> {
-    match *profile {
+pub(super) fn depth_of(profile: &mut Profile) -> Option<&mut f64> {
+    match profile {
         Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {
             Some(depth)
         }

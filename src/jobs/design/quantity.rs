@@ -1,19 +1,27 @@
 //! Quantities of a design file: their units, and which magnitudes give one pause.
 
+use std::f64::consts::{PI, TAU};
+
 use super::units::{self, Units};
 
-/// A kind of quantity: its unit, and the magnitudes of it that tiles and magnets have.
+/// A kind of quantity, and the magnitudes of it that tiles and magnets have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantity {
-    /// What the unit is called after a number: `m`.
-    unit: &'static str,
-    /// What to tell a reader who took another unit.
-    rule: &'static str,
+    kind: Kind,
     sign: Sign,
     /// Magnitudes taken without a question.
     accepted: (f64, f64),
     /// Magnitudes that a question may propose.
     typical: (f64, f64),
+}
+
+/// What is measured in the same units.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    /// What the unit is called after a number: `m`.
+    unit: &'static str,
+    /// What to tell a reader who took another unit.
+    rule: &'static str,
     /// Other units that the number may have been given in: how many make one, and their name.
     others: &'static [(f64, &'static str)],
     /// Units that may stand behind a number in quotes.
@@ -27,156 +35,130 @@ enum Sign {
     Any,
 }
 
-const LENGTHS: &[(f64, &str)] = &[(100.0, "cm"), (1000.0, "mm")];
-const FIELDS: &[(f64, &str)] = &[(1000.0, "mT"), (1e4, "G")];
-const METRES: &str = "lengths are in metres";
-const TESLA: &str = "remanence and surface field are in tesla";
-const RADIANS: &str = "angles are in radians";
+const LENGTH: Kind = Kind {
+    unit: "m",
+    rule: "lengths are in metres",
+    others: &[(100.0, "cm"), (1000.0, "mm")],
+    units: units::LENGTH,
+};
+const ANGLE: Kind = Kind {
+    unit: "rad",
+    rule: "angles are in radians",
+    others: &[(180.0 / PI, "degrees")],
+    units: units::ANGLE,
+};
+const WEIGHT: Kind = Kind {
+    unit: "kg",
+    rule: "masses are in kilograms",
+    others: &[(1000.0, "g")],
+    units: units::MASS,
+};
+const FIELD: Kind = Kind {
+    unit: "T",
+    rule: "remanence and surface field are in tesla",
+    others: &[(1000.0, "mT"), (1e4, "G")],
+    units: units::FIELD,
+};
+const DIPOLE: Kind = Kind {
+    unit: "A m^2",
+    rule: "magnetic moments are in A m^2",
+    others: &[(1000.0, "mA m^2, or emu")],
+    units: units::MOMENT,
+};
 
-const fn length(sign: Sign, accepted: (f64, f64), typical: (f64, f64)) -> Quantity {
-    Quantity {
-        unit: "m",
-        rule: METRES,
-        sign,
-        accepted,
-        typical,
-        others: LENGTHS,
-        units: units::LENGTH,
-    }
-}
-
-const fn angle(limit: f64) -> Quantity {
-    Quantity {
-        unit: "rad",
-        rule: RADIANS,
-        sign: Sign::Any,
-        accepted: (0.0, limit),
-        typical: (0.0, limit),
-        others: &[(180.0 / std::f64::consts::PI, "degrees")],
-        units: units::ANGLE,
-    }
-}
-
-pub(super) const TILE_SIDE: Quantity = length(Sign::Positive, (1e-3, 10.0), (0.01, 2.0));
-pub(super) const TILE_CORNER: Quantity = length(Sign::Any, (0.0, 10.0), (0.01, 2.0));
-pub(super) const TILE_THICKNESS: Quantity = length(Sign::Positive, (1e-4, 0.5), (5e-4, 0.1));
-pub(super) const TABLE_SIZE: Quantity = length(Sign::Positive, (0.01, 100.0), (0.1, 10.0));
-pub(super) const MAGNET_SIZE: Quantity = length(Sign::Positive, (1e-4, 0.5), (5e-4, 0.05));
-pub(super) const PITCH: Quantity = length(Sign::Positive, (1e-4, 2.0), (1e-3, 0.2));
-pub(super) const INSET: Quantity = length(Sign::NotNegative, (0.0, 0.5), (1e-4, 0.05));
-pub(super) const FIT: Quantity = length(Sign::NotNegative, (0.0, 0.05), (1e-5, 5e-3));
-pub(super) const PROFILE_WIDTH: Quantity = length(Sign::Positive, (1e-4, 10.0), (1e-3, 2.0));
-pub(super) const PROFILE_DEPTH: Quantity = length(Sign::Any, (0.0, 1.0), (1e-4, 0.1));
-pub(super) const ALONG_FACE: Quantity = length(Sign::Any, (0.0, 10.0), (1e-3, 2.0));
-
-/// The lean of a side: below a right angle.
-pub(super) const DRAFT: Quantity = angle(1.5);
-/// A direction: up to a whole turn either way.
-pub(super) const AXIS: Quantity = angle(std::f64::consts::TAU);
-
-const fn number(rule: &'static str, sign: Sign, accepted: (f64, f64)) -> Quantity {
-    Quantity {
+const fn share(rule: &'static str) -> Kind {
+    Kind {
         unit: "",
         rule,
-        sign,
-        accepted,
-        typical: accepted,
         others: &[(100.0, "%")],
         units: units::SHARE,
     }
 }
 
+impl Kind {
+    const fn positive(self, accepted: (f64, f64), typical: (f64, f64)) -> Quantity {
+        self.signed(Sign::Positive, accepted, typical)
+    }
+
+    const fn not_negative(self, most: f64, typical: (f64, f64)) -> Quantity {
+        self.signed(Sign::NotNegative, (0.0, most), typical)
+    }
+
+    const fn any(self, most: f64, typical: (f64, f64)) -> Quantity {
+        self.signed(Sign::Any, (0.0, most), typical)
+    }
+
+    const fn signed(self, sign: Sign, accepted: (f64, f64), typical: (f64, f64)) -> Quantity {
+        Quantity {
+            kind: self,
+            sign,
+            accepted,
+            typical,
+        }
+    }
+}
+
+pub(super) const TILE_SIDE: Quantity = LENGTH.positive((1e-3, 10.0), (0.01, 2.0));
+pub(super) const TILE_CORNER: Quantity = LENGTH.any(10.0, (0.01, 2.0));
+pub(super) const TILE_THICKNESS: Quantity = LENGTH.positive((1e-4, 0.5), (5e-4, 0.1));
+pub(super) const TABLE_SIZE: Quantity = LENGTH.positive((0.01, 100.0), (0.1, 10.0));
+pub(super) const MAGNET_SIZE: Quantity = LENGTH.positive((1e-4, 0.5), (5e-4, 0.05));
+pub(super) const PITCH: Quantity = LENGTH.positive((1e-4, 2.0), (1e-3, 0.2));
+pub(super) const INSET: Quantity = LENGTH.not_negative(0.5, (1e-4, 0.05));
+pub(super) const FIT: Quantity = LENGTH.not_negative(0.05, (1e-5, 5e-3));
+pub(super) const PROFILE_WIDTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 2.0));
+pub(super) const PROFILE_DEPTH: Quantity = LENGTH.any(1.0, (1e-4, 0.1));
+pub(super) const ALONG_FACE: Quantity = LENGTH.any(10.0, (1e-3, 2.0));
+/// The lean of a side: below a right angle.
+pub(super) const DRAFT: Quantity = ANGLE.any(1.5, (0.0, 1.5));
+/// A direction: up to a whole turn either way.
+pub(super) const AXIS: Quantity = ANGLE.any(TAU, (0.0, TAU));
 /// How much of the energy a shield takes away behind it, close by.
-pub(super) const ATTENUATION: Quantity = number(
-    "the attenuation is a part of one",
-    Sign::NotNegative,
-    (0.0, 1.0),
-);
-pub(super) const SHIELD_LENGTH: Quantity = length(Sign::Positive, (1e-4, 10.0), (1e-3, 1.0));
+pub(super) const ATTENUATION: Quantity =
+    share("the attenuation is a part of one").not_negative(1.0, (0.0, 1.0));
+pub(super) const SHIELD_LENGTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 1.0));
 /// The width of the passage from a shield's front to its back, in the cosine of the angle.
-pub(super) const SHIELD_WIDTH: Quantity = number(
-    "the width is a difference of cosines",
-    Sign::Positive,
-    (1e-3, 10.0),
-);
-pub(super) const FRONT_GAIN: Quantity = number(
-    "the gain is a factor, 1 for a shield that only takes away",
-    Sign::Positive,
-    (0.1, 10.0),
-);
-
+pub(super) const SHIELD_WIDTH: Quantity =
+    share("the width is a difference of cosines").positive((1e-3, 10.0), (1e-3, 10.0));
+pub(super) const FRONT_GAIN: Quantity =
+    share("the gain is a factor, 1 for a shield that only takes away")
+        .positive((0.1, 10.0), (0.1, 10.0));
 /// Of a tile.
-pub(super) const MASS: Quantity = Quantity {
-    unit: "kg",
-    rule: "masses are in kilograms",
-    sign: Sign::Positive,
-    accepted: (1e-6, 1e3),
-    typical: (1e-3, 10.0),
-    others: &[(1000.0, "g")],
-    units: units::MASS,
-};
-
-pub(super) const REMANENCE: Quantity = Quantity {
-    unit: "T",
-    rule: TESLA,
-    sign: Sign::Positive,
-    accepted: (1e-3, 2.5),
-    typical: (0.05, 1.6),
-    others: FIELDS,
-    units: units::FIELD,
-};
-
-pub(super) const SURFACE_FIELD: Quantity = Quantity {
-    unit: "T",
-    rule: TESLA,
-    sign: Sign::Positive,
-    accepted: (1e-5, 1.25),
-    typical: (0.01, 0.8),
-    others: FIELDS,
-    units: units::FIELD,
-};
-
-pub(super) const MOMENT: Quantity = Quantity {
-    unit: "A m^2",
-    rule: "magnetic moments are in A m^2",
-    sign: Sign::Positive,
-    accepted: (1e-9, 1e4),
-    typical: (1e-4, 100.0),
-    others: &[(1000.0, "mA m^2, or emu")],
-    units: units::MOMENT,
-};
+pub(super) const MASS: Quantity = WEIGHT.positive((1e-6, 1e3), (1e-3, 10.0));
+pub(super) const REMANENCE: Quantity = FIELD.positive((1e-3, 2.5), (0.05, 1.6));
+pub(super) const SURFACE_FIELD: Quantity = FIELD.positive((1e-5, 1.25), (0.01, 0.8));
+pub(super) const MOMENT: Quantity = DIPOLE.positive((1e-9, 1e4), (1e-4, 100.0));
 
 impl Quantity {
     /// Whether `value`, given for `what`, may stand; or what is wrong with it and the mend.
     pub fn check(&self, what: &str, value: f64) -> Result<(), (String, String)> {
-        let help = |text: &str| format!("{text}; {}", self.rule);
+        let help = |text: &str| format!("{text}; {}", self.kind.rule);
         let value_and_unit = self.with_unit(value);
-        if !value.is_finite() {
-            return Err((
+        let wrong = if !value.is_finite() {
+            Some((
                 format!("{what} is {value}, which is no number"),
-                help("give a finite number"),
-            ));
-        }
-        if self.sign == Sign::Positive && value <= 0.0 {
-            return Err((
-                format!("{what} must be above zero, not {value_and_unit}"),
-                help("give a positive number"),
-            ));
-        }
-        if self.sign == Sign::NotNegative && value < 0.0 {
-            return Err((
-                format!("{what} must not be negative: {value_and_unit}"),
-                help("give zero or a positive number"),
-            ));
+                "give a finite number",
+            ))
+        } else if self.sign == Sign::Positive && value <= 0.0 {
+            let message = format!("{what} must be above zero, not {value_and_unit}");
+            Some((message, "give a positive number"))
+        } else if self.sign == Sign::NotNegative && value < 0.0 {
+            let message = format!("{what} must not be negative: {value_and_unit}");
+            Some((message, "give zero or a positive number"))
+        } else {
+            None
+        };
+        if let Some((message, mend)) = wrong {
+            return Err((message, help(mend)));
         }
         let (low, high) = self.accepted;
         if (low..=high).contains(&value.abs()) {
             return Ok(());
         }
-        let limits = if low > 0.0 {
-            format!("from {low} to {}", self.with_unit(high))
-        } else {
-            format!("up to {}", self.with_unit(high))
+        let high = self.with_unit(high);
+        let limits = match low > 0.0 {
+            true => format!("from {low} to {high}"),
+            false => format!("up to {high}"),
         };
         let message = match self.proposals(value).as_slice() {
             [] => format!("{what} = {value_and_unit} is beyond any tile"),
@@ -190,18 +172,18 @@ impl Quantity {
 
     /// A number with a unit behind it, in the file's own unit.
     pub fn read(&self, text: &str) -> Option<f64> {
-        units::read(text, self.units)
+        units::read(text, self.kind.units)
     }
 
     /// The units that may stand behind a number in quotes.
     pub fn unit_names(&self) -> impl Iterator<Item = &'static str> {
-        self.units.iter().map(|(name, _)| *name)
+        self.kind.units.iter().map(|(name, _)| *name)
     }
 
     /// What to write for a number, from one that is there in quotes.
     pub fn example(&self, text: &str) -> String {
-        let with_unit = self.units.iter().find(|(_, factor)| *factor > 1.0);
-        let (name, factor) = with_unit.unwrap_or(&self.units[0]);
+        let with_unit = self.kind.units.iter().find(|(_, factor)| *factor > 1.0);
+        let (name, factor) = with_unit.unwrap_or(&self.kind.units[0]);
         match text.trim().parse::<f64>().ok().filter(|x| x.is_finite()) {
             Some(value) => format!(
                 "write {value} without the quotes, or \"{} {name}\"",
@@ -220,12 +202,11 @@ impl Quantity {
     /// A magnitude that may stand, near to what was meant by one that may not.
     pub fn guess(&self, value: f64) -> f64 {
         let (low, high) = self.typical;
-        let meant = self.others.iter().map(|(factor, _)| value / factor);
-        let mut meant = meant.filter(|meant| (low..=high).contains(&meant.abs()));
+        let mut meant = self.kind.others.iter().map(|(factor, _)| value / factor);
+        let meant = meant.find(|meant| (low..=high).contains(&meant.abs()));
         let (low, high) = self.accepted;
         let sign = if self.sign == Sign::Any { value } else { 1.0 };
         meant
-            .next()
             .filter(|meant| self.sign == Sign::Any || *meant >= 0.0)
             .unwrap_or_else(|| value.abs().clamp(low, high).copysign(sign))
     }
@@ -237,12 +218,13 @@ impl Quantity {
 
     /// A number with the unit, if there is one.
     fn with_unit(&self, value: f64) -> String {
-        format!("{value} {}", self.unit).trim_end().to_owned()
+        format!("{value} {}", self.kind.unit).trim_end().to_owned()
     }
 
     fn proposals(&self, value: f64) -> Vec<String> {
         let (low, high) = self.typical;
-        self.others
+        self.kind
+            .others
             .iter()
             .map(|(factor, name)| (value / factor, name))
             .filter(|(meant, _)| (low..=high).contains(&meant.abs()))

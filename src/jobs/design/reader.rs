@@ -1,35 +1,31 @@
 //! Typed reading of a TOML tree in which every key and value knows its place in the file.
 
 use physics::order::Order;
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
 
-use super::error::{DesignError, Span};
-use super::faults::Faults;
+use super::error::{DesignError, Result, Span};
 use super::quantity::Quantity;
 use super::source::Source;
-
-pub(super) use super::entry::Entry;
-
-pub(super) type Result<T> = std::result::Result<T, DesignError>;
 
 /// A table of the file.
 #[derive(Clone, Copy)]
 pub(super) struct Section<'a> {
-    pub(super) source: Source<'a>,
+    pub source: Source<'a>,
     /// What a message calls it: `[fixed.faces]`.
-    pub(super) name: &'a str,
+    name: &'a str,
     /// The byte range that stands for it where something is missing from it.
-    pub(super) span: Span,
-    pub(super) table: &'a DeTable<'a>,
+    pub span: Span,
+    table: &'a DeTable<'a>,
 }
 
 impl<'a> Section<'a> {
     /// The whole file.
-    pub fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+    pub fn root(source: Source<'a>, table: &'a DeTable<'a>, name: &'a str) -> Self {
         let first = table.keys().map(|key| Span::from(key.span())).min();
         Self {
             source,
-            name: "the design file",
+            name,
             span: first.unwrap_or((0..0).into()),
             table,
         }
@@ -39,41 +35,32 @@ impl<'a> Section<'a> {
     pub fn allow(&self, known: &[&str]) {
         let entries = self.entries().into_iter();
         for entry in entries.filter(|entry| !known.contains(&entry.key)) {
-            self.source.faults.add(entry.key_error(
-                format!("{} has no key `{}`", self.name, entry.key),
-                nearest_help(entry.key, known),
-            ));
+            let message = format!("{} has no key `{}`", self.name, entry.key);
+            entry.key_error(message, nearest_help(entry.key, known));
         }
-    }
-
-    /// What is wrong with the design so far.
-    pub fn faults(&self) -> &'a Faults {
-        self.source.faults
     }
 
     /// All keys, in the order of the file.
     pub fn entries(&self) -> Vec<Entry<'a>> {
-        let mut entries: Vec<_> = self
-            .table
-            .iter()
-            .map(|(key, value)| Entry {
-                source: self.source,
-                key: key.get_ref(),
-                key_span: key.span().into(),
-                value,
-            })
-            .collect();
+        let mut entries: Vec<_> = self.table.iter().map(|it| self.entry(it)).collect();
         entries.order_by_key(|entry| entry.key_span);
         entries
     }
 
     pub fn get(&self, key: &str) -> Option<Entry<'a>> {
-        self.table.get_key_value(key).map(|(key, value)| Entry {
+        self.table.get_key_value(key).map(|it| self.entry(it))
+    }
+
+    fn entry(
+        &self,
+        (key, value): (&'a Spanned<DeString<'a>>, &'a Spanned<DeValue<'a>>),
+    ) -> Entry<'a> {
+        Entry {
             source: self.source,
             key: key.get_ref(),
             key_span: key.span().into(),
             value,
-        })
+        }
     }
 
     /// The entry for `key`; where it is missing, `help` says what to write.
@@ -97,23 +84,218 @@ impl<'a> Section<'a> {
         self.get(key).map(|entry| entry.string()).transpose()
     }
 
+    /// A fault of the table as a whole.
+    pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
+        self.source.error(self.span, message, help)
+    }
+}
+
+/// What all of some readings give, each of which is made even where one before it fails.
+pub(super) fn all<T>(results: impl Iterator<Item = Result<T>>) -> Result<Vec<T>> {
+    let results: Vec<Result<T>> = results.collect();
+    results.into_iter().collect()
+}
+
+/// A key with its value.
+#[derive(Clone, Copy)]
+pub(super) struct Entry<'a> {
+    pub source: Source<'a>,
+    pub key: &'a str,
+    pub key_span: Span,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Entry<'a> {
     pub fn span(&self) -> Span {
-        self.span
+        self.value.span().into()
     }
 
-    /// A fault of the table as a whole.
+    /// A fault of the value.
     pub fn error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
         self.source.error(self.span(), message, help)
     }
 
-    /// A fault at another place of the same file.
-    pub fn error_at(
-        &self,
-        span: Span,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> DesignError {
-        self.source.error(span, message, help)
+    /// A fault of the key.
+    pub fn key_error(&self, message: impl Into<String>, help: impl Into<String>) -> DesignError {
+        self.source.error(self.key_span, message, help)
+    }
+
+    fn wrong_type(&self, wanted: &str) -> DesignError {
+        self.wrong_type_but(wanted, format!("write {wanted} here"))
+    }
+
+    fn wrong_type_but(&self, wanted: &str, help: String) -> DesignError {
+        let found = match self.value.get_ref() {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "a boolean",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "an array",
+            DeValue::Table(_) => "a table",
+        };
+        self.error(
+            format!("`{}` must be {wanted}, not {found}", self.key),
+            help,
+        )
+    }
+
+    /// The table, named `name` in messages. Its place is that of its key.
+    pub fn section(&self, name: &'a str) -> Result<Section<'a>> {
+        let DeValue::Table(table) = self.value.get_ref() else {
+            return Err(self.wrong_type("a table"));
+        };
+        Ok(Section {
+            source: self.source,
+            name,
+            span: self.key_span,
+            table,
+        })
+    }
+
+    /// `true` or `false`, if it is one of them.
+    pub fn boolean(&self) -> Option<bool> {
+        self.value.get_ref().as_bool()
+    }
+
+    /// A text without control characters: a terminal would obey them, and no picture or page can
+    /// hold them. Lines may end in it, and have tabs.
+    pub fn string(&self) -> Result<&'a str> {
+        let text = self.value.get_ref().as_str();
+        let text = text.ok_or_else(|| self.wrong_type("a string"))?;
+        self.without(text, |c| !matches!(c, '\n' | '\r' | '\t'))
+    }
+
+    /// A text of one line.
+    pub fn line(&self) -> Result<&'a str> {
+        self.without(self.string()?, |_| true)
+    }
+
+    fn without(&self, text: &'a str, refused: impl Fn(char) -> bool) -> Result<&'a str> {
+        // The last two are no characters of XML either.
+        let odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        match text.chars().find(|&c| odd(c) && refused(c)) {
+            None => Ok(text),
+            Some(c) => Err(self.error(
+                format!(
+                    "`{}` holds the control character U+{:04X}",
+                    self.key, c as u32
+                ),
+                "delete it, or write what is meant in letters",
+            )),
+        }
+    }
+
+    /// The place of character `index` of a string: the character itself where the string is
+    /// written out plainly, the whole value where escapes or several lines hide it.
+    pub fn character_span(&self, index: usize) -> Span {
+        let span = self.value.span();
+        let written = &self.source.text[span.clone()];
+        let plain = self.value.get_ref().as_str().is_some_and(|value| {
+            written.len() == value.len() + 2 && &written[1..written.len() - 1] == value
+        });
+        let inside = written.char_indices().nth(index + 1).filter(|_| plain);
+        match inside {
+            Some((at, c)) => (span.start + at..span.start + at + c.len_utf8()).into(),
+            None => span.into(),
+        }
+    }
+
+    /// A string, or a whole number as a string: the name of a face.
+    pub fn name_or_number(&self) -> Result<String> {
+        match self.value.get_ref() {
+            DeValue::Integer(integer) => Ok(integer.as_str().to_owned()),
+            _ => self.string().map(str::to_owned),
+        }
+    }
+
+    /// The word, one of `known`; any other is answered with the nearest of them.
+    pub fn word<T: Copy>(&self, known: &[(&str, T)]) -> Result<T> {
+        let word = self.string()?;
+        let found = known.iter().find(|(name, _)| *name == word);
+        found.map(|(_, value)| *value).ok_or_else(|| {
+            let names: Vec<_> = known.iter().map(|(name, _)| *name).collect();
+            let message = format!("`{}` cannot be \"{word}\"", self.key);
+            self.error(message, nearest_help(word, &names))
+        })
+    }
+
+    /// A number; one with a unit in quotes, where `quantity` says which units there are.
+    fn raw_number(&self, quantity: Option<Quantity>) -> Result<f64> {
+        let parsed = match self.value.get_ref() {
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(|value| value as f64),
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::String(text) => {
+                let Some(quantity) = quantity else {
+                    return Err(self.wrong_type("a number"));
+                };
+                let wrong = || self.wrong_type_but("a number", quantity.example(text));
+                Some(quantity.read(text).ok_or_else(wrong)?)
+            }
+            _ => return Err(self.wrong_type("a number")),
+        };
+        parsed.ok_or_else(|| {
+            self.error(
+                format!("`{}` is a number that cannot be read", self.key),
+                "write a plain decimal number, such as 0.43",
+            )
+        })
+    }
+
+    /// A number; one that cannot stand is noted, and reading goes on with a guess.
+    pub fn number(&self, quantity: Quantity) -> Result<f64> {
+        let value = self.raw_number(Some(quantity))?;
+        match quantity.check(&format!("`{}`", self.key), value) {
+            Ok(()) => Ok(value),
+            Err((message, help)) => {
+                let fault = self.error(message, help);
+                if !value.is_finite() {
+                    return Err(fault);
+                }
+                self.source.faults.guess();
+                Ok(quantity.guess(value))
+            }
+        }
+    }
+
+    /// A whole number from 1 to `largest`.
+    pub fn count(&self, largest: u32) -> Result<u32> {
+        let value = self.raw_number(None)?;
+        if value.fract() == 0.0 && value >= 1.0 && value <= f64::from(largest) {
+            return Ok(value as u32);
+        }
+        Err(self.error(
+            format!(
+                "`{}` = {value} is not a whole number from 1 to {largest}",
+                self.key
+            ),
+            "give a whole number",
+        ))
+    }
+
+    pub fn array(&self) -> Result<Vec<Entry<'a>>> {
+        let DeValue::Array(items) = self.value.get_ref() else {
+            return Err(self.wrong_type("an array"));
+        };
+        let entry = |value: &'a Spanned<DeValue<'a>>| Entry {
+            key_span: value.span().into(),
+            value,
+            ..*self
+        };
+        Ok(items.iter().map(entry).collect())
+    }
+
+    /// An array of exactly N numbers, such as a size along N directions.
+    pub fn numbers<const N: usize>(&self, quantity: Quantity, what: &str) -> Result<[f64; N]> {
+        let items = self.array()?;
+        let values = all(items.iter().map(|item| item.number(quantity)))?;
+        values.try_into().map_err(|values: Vec<f64>| {
+            self.error(
+                format!("`{}` holds {} numbers, not {N}", self.key, values.len()),
+                format!("give {N} numbers: {what}"),
+            )
+        })
     }
 }
 

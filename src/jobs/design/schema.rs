@@ -70,7 +70,7 @@ mod tests {
         let definitions = &schema["$defs"];
         let mut keys_of_all = BTreeSet::new();
         let mut conditions = vec![json!({ "$ref": "#/$defs/profile_keys" })];
-        for (shape, keys) in profile::shapes() {
+        for (shape, keys, _) in profile::SHAPES {
             let of_shape = &definitions[shape];
             assert_keys(of_shape, keys);
             assert_eq!(of_shape["properties"]["shape"]["const"], shape);
@@ -82,7 +82,7 @@ mod tests {
         }
         assert_eq!(definitions["profile"]["allOf"], json!(conditions));
         let offered = &definitions["profile_keys"]["properties"];
-        let shapes: Vec<_> = profile::shapes().map(|(shape, _)| shape).collect();
+        let shapes: Vec<_> = profile::SHAPES.iter().map(|shape| shape.0).collect();
         assert_eq!(offered["shape"]["enum"], json!(shapes));
         let offered = offered.as_object().unwrap().keys().map(String::as_str);
         assert_eq!(offered.collect::<BTreeSet<_>>(), keys_of_all);

@@ -1,8 +1,8 @@
 //! Soft-iron shields: the section `[shield]`, a tile's `shield` and a face's.
 
-use super::error::{DesignError, Span};
+use super::error::{DesignError, Result, Span};
 use super::quantity::{self, Quantity};
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section};
 use physics::potential::shielding::{Shield, ShieldRule};
 
 /// The constants of a shield, as a file names them.
@@ -29,11 +29,11 @@ impl ShieldKeys {
             return Ok(Self::default());
         };
         let mut keys = Self {
-            present: Some((true, entry.key_span())),
+            present: Some((true, entry.key_span)),
             ..Self::default()
         };
         if let Some(present) = entry.boolean() {
-            keys.present = Some((present, entry.key_span()));
+            keys.present = Some((present, entry.key_span));
             return Ok(keys);
         }
         let section = entry.section(name)?;
@@ -57,7 +57,7 @@ impl ShieldKeys {
         };
         let needed = |i: usize| {
             self.constants[i].ok_or_else(|| {
-                section.error_at(
+                section.source.error(
                     span,
                     format!("the shield of {tile}.{face} has no `{}`", CONSTANTS[i].0),
                     "a shield needs `attenuation` (0 to 1), `length` (m) and `width`, here or in \
@@ -76,7 +76,7 @@ impl ShieldKeys {
     /// A doubt where the file describes shields that its rule has no use for.
     pub fn doubt(&self, section: &Section) -> Option<DesignError> {
         let (_, span) = self.present?;
-        Some(section.error_at(
+        Some(section.source.doubt(
             span,
             "the nearest-face rule has no use for the constants of a shield, nor for faces \
              without one",
@@ -94,23 +94,17 @@ pub(super) fn read(root: &Section) -> Result<(ShieldRule, ShieldKeys)> {
     known.extend(CONSTANTS.map(|(name, _)| name));
     section.allow(&known);
     let rule = section.get("rule");
-    let rule = rule.map(|entry| section.faults().note(entry.word(&ShieldRule::NAMES)));
+    let rule = rule.map(|entry| entry.word(&ShieldRule::NAMES));
     let first: Option<Entry> = CONSTANTS.iter().find_map(|(name, _)| section.get(name));
     let keys = ShieldKeys {
         constants: constants(&section)?,
-        present: first.map(|entry| (true, entry.key_span())),
+        present: first.map(|entry| (true, entry.key_span)),
     };
     Ok((rule.transpose()?.unwrap_or_default(), keys))
 }
 
 fn constants(section: &Section) -> Result<[Option<f64>; CONSTANTS.len()]> {
-    let mut values = [None; CONSTANTS.len()];
-    let read = CONSTANTS.map(|(name, quantity)| {
-        let number = section.number(name, quantity);
-        section.faults().note(number)
-    });
-    for (value, read) in values.iter_mut().zip(read) {
-        *value = read?;
-    }
-    Ok(values)
+    let [attenuation, length, width, front_gain] =
+        CONSTANTS.map(|(name, quantity)| section.number(name, quantity));
+    Ok([attenuation?, length?, width?, front_gain?])
 }

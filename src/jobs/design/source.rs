@@ -18,23 +18,28 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
+    /// A fault, which is added to the design's.
     pub fn error(
         &self,
         span: Span,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> DesignError {
+        let fault = self.doubt(span, message, help);
+        self.faults.add(fault.clone());
+        fault
+    }
+
+    /// A doubt that does not keep the design from being used.
+    pub fn doubt(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> DesignError {
         let mut place = Place::new(self.text, span);
-        if !self.quoted {
-            place.source = None;
-        }
-        DesignError {
-            file: self.file.to_owned(),
-            place: Some(Box::new(place)),
-            message: message.into(),
-            help: help.into(),
-            also: Vec::new(),
-        }
+        place.source = place.source.filter(|_| self.quoted);
+        DesignError::new(self.file, Some(place), message, help)
     }
 }
 

@@ -2,9 +2,8 @@
 
 use toml::de::DeTable;
 
-use super::faults::Faults;
+use super::error::Result;
 use super::quantity::four_digits;
-use super::reader::Result;
 use super::source::Source;
 use super::units;
 
@@ -22,7 +21,7 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
         let written = source.text.get(..span.start).unwrap_or_default();
         let word = written.rfind(|c: char| c.is_whitespace() || "=[,".contains(c));
         let from = word.map_or(0, |at| at + 1);
-        let fault = match source.text.get(from..).and_then(units::beginning) {
+        match source.text.get(from..).and_then(units::beginning) {
             Some((value, with_unit)) => source.error(
                 (from..from + with_unit.len()).into(),
                 "a number with a unit goes in quotes",
@@ -33,8 +32,7 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
             ),
             None => source.error(span.into(), error.message().trim(), HELP),
         };
-        source.faults.add(fault);
     }
-    Faults::check(source.faults)?;
+    source.faults.check()?;
     Ok(root.into_inner())
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
-use super::error::DesignError;
+use super::error::{DesignError, Result};
 use super::face::find_face;
 use super::quantity::four_digits;
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section};
 use super::tile::{TILES, TileEntry, same_length};
 use physics::configuration::Configuration;
 use physics::contact::{Contact, TOUCH};
@@ -30,10 +30,10 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
         let face = find_face(&tiles[i].base.names, &entry, TILES[i])?;
         Ok::<_, DesignError>((entry, face))
     };
-    let [fixed, moving] = [0, 1].map(|i| section.faults().note(face(i)));
+    let [fixed, moving] = [0, 1].map(|i| face(i));
     let ((_, fixed), (entry, moving)) = (fixed?, moving?);
     let lengths = [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].length());
-    section.faults().check_guesses()?;
+    section.source.faults.check_guesses()?;
     if !same_length(lengths[0], lengths[1]) {
         return Err(entry.error(
             format!(

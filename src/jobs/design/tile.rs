@@ -1,10 +1,11 @@
 //! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
 
 use super::base::{self, Base};
+use super::error::Result;
 use super::face::{FaceContent, FaceEntry, find_face};
 use super::magnet::MagnetKeys;
 use super::quantity::{self, four_digits};
-use super::reader::{Entry, Result, Section};
+use super::reader::{Entry, Section, all};
 use super::shield::ShieldKeys;
 use physics::potential::shielding::Shield;
 
@@ -39,10 +40,9 @@ pub(super) struct TileEntry<'a> {
 impl<'a> TileEntry<'a> {
     pub fn read(name: &'static str, section: Section<'a>, faces_name: &'a str) -> Result<Self> {
         section.allow(&TILE_KEYS);
-        let faults = section.faults();
-        let base = faults.note(base::read(&section));
-        let thickness = faults.note(thickness(&section));
-        let mass = faults.note(mass(&section));
+        let base = base::read(&section);
+        let thickness = thickness(&section);
+        let mass = mass(&section);
         let base = base?;
         let faces = match section.section("faces", faces_name)? {
             Some(faces) => face_entries(&faces, &base)?,
@@ -96,46 +96,31 @@ fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<
     let mut known = vec!["all"];
     known.extend(base.names.iter().flatten().map(String::as_str));
     section.allow(&known);
-    let all = section.section("all", "`all`")?;
-    let entries: Vec<Entry<'a>> = section.entries();
-    let faces: Vec<_> = base
-        .names
-        .iter()
-        .map(|names| {
-            let named: Vec<_> = entries
-                .iter()
-                .filter(|entry| names.iter().any(|name| name == entry.key))
-                .collect();
-            if let [first, second, ..] = named.as_slice() {
-                return Err(second.key_error(
-                    format!("`{}` and `{}` are the same face", first.key, second.key),
-                    "keep one of the two",
-                ));
-            }
-            let own = named
-                .first()
-                .map(|entry| entry.section(entry.key))
-                .transpose()?;
-            FaceEntry::new(own, all)
-        })
-        .map(|face| section.faults().note(face))
-        .collect();
-    faces.into_iter().collect()
+    let all_faces = section.section("all", "`all`")?;
+    let entries = section.entries();
+    all(base.names.iter().map(|names| {
+        let mut named = entries
+            .iter()
+            .filter(|entry| names.iter().any(|name| name == entry.key));
+        let first = named.next();
+        if let (Some(first), Some(second)) = (first, named.next()) {
+            return Err(second.key_error(
+                format!("`{}` and `{}` are the same face", first.key, second.key),
+                "keep one of the two",
+            ));
+        }
+        let own = first.map(|entry| entry.section(entry.key)).transpose()?;
+        FaceEntry::new(own, all_faces)
+    }))
 }
 
 /// The content of every face of both tiles; mates are followed to the face that they copy.
 pub(super) fn resolve(tiles: &[TileEntry; 2], keys: MagnetKeys) -> Result<[Vec<FaceContent>; 2]> {
-    let contents = |tile: usize| {
-        (0..tiles[tile].faces.len())
-            .map(|face| {
-                let content = resolve_face(tiles, keys, (tile, face), &mut Vec::new());
-                tiles[tile].section.faults().note(content)
-            })
-            .collect::<Vec<_>>()
-    };
-    let [fixed, moving] = [contents(0), contents(1)];
-    let all = |contents: Vec<Result<_>>| contents.into_iter().collect::<Result<Vec<_>>>();
-    Ok([all(fixed)?, all(moving)?])
+    let [fixed, moving] = [0, 1].map(|tile: usize| {
+        let faces = 0..tiles[tile].faces.len();
+        all(faces.map(|face| resolve_face(tiles, keys, (tile, face), &mut Vec::new())))
+    });
+    Ok([fixed?, moving?])
 }
 
 fn resolve_face(
@@ -148,7 +133,7 @@ fn resolve_face(
     let base = &tiles[tile].base.faces[face];
     let Some(mates) = entry.mates() else {
         let line = &tiles[tile].base.lines[face];
-        return entry.content((base.length(), line), keys, tiles[tile].section.span());
+        return entry.content((base.length(), line), keys, tiles[tile].section.span);
     };
     let other = 1 - tile;
     let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;
@@ -165,7 +150,7 @@ fn resolve_face(
         ));
     }
     let partner_length = tiles[other].base.faces[partner].length();
-    tiles[tile].section.faults().check_guesses()?;
+    tiles[tile].section.source.faults.check_guesses()?;
     if !same_length(base.length(), partner_length) {
         return Err(mates.error(
             format!(

@@ -3,71 +3,27 @@
 //! The places are where any word or mate has a magnet: they lie mirror-symmetrically, so that the
 //! mate of a word is what it is for evenly spaced ones.
 
-use serde::Deserialize;
-
+use super::error::Result;
+use super::quantity;
+use super::reader::{Entry, all};
 use physics::order::Order;
 use physics::words::Word;
 use physics::words::word::MOST_PLACES;
 
-/// A magnet of a list `magnets = [{ at, pole }]`.
-#[derive(Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MagnetAt {
-    at: f64,
-    pole: String,
-}
-
 /// Positions closer than this (m) are one.
 const SAME: f64 = 1e-9;
 
-/// Places (m along the face, ascending) and words; a message and its mend where there are none such.
-/// Magnets are `width` (m) wide, faces `side` (m) long.
+/// Places (m along the face, ascending) and words of faces, each with its name and its list of
+/// `magnets`, which are `width` (m) wide, on faces `side` (m) long.
 pub(super) fn common(
-    faces: &[(String, Vec<MagnetAt>)],
+    faces: &[(&str, Entry)],
     width: f64,
     side: f64,
-) -> Result<(Vec<f64>, Vec<Word>), (String, String)> {
-    let mut places: Vec<f64> = Vec::new();
-    for (name, magnets) in faces {
-        let wrong =
-            |message: String, help: &str| Err((format!("`{name}` {message}"), help.to_owned()));
-        let mut sorted: Vec<f64> = magnets.iter().map(|magnet| magnet.at).collect();
-        sorted.order_by(f64::total_cmp);
-        if sorted.is_empty() {
-            return wrong(
-                "has no magnets".to_owned(),
-                "list them: magnets = [{ at = 0.02, pole = \"N\" }]",
-            );
-        }
-        if let Some(at) = sorted
-            .iter()
-            .find(|at| at.is_nan() || at.abs() + width / 2.0 > side / 2.0 + SAME)
-        {
-            return wrong(
-                format!("has a magnet at {at} m, which reaches beyond its face of {side} m"),
-                "positions are from the face's middle, in m",
-            );
-        }
-        if let Some(two) = sorted.windows(2).find(|two| two[1] - two[0] < width - SAME) {
-            return wrong(
-                format!(
-                    "has magnets at {} and {} m, which overlap: they are {width} m wide",
-                    two[0], two[1]
-                ),
-                "move them apart",
-            );
-        }
-        if let Some(magnet) = magnets
-            .iter()
-            .find(|magnet| !["N", "S"].contains(&magnet.pole.as_str()))
-        {
-            return wrong(
-                format!("has the pole `{}`", magnet.pole),
-                "a pole is \"N\" or \"S\"",
-            );
-        }
-        places.extend(sorted.iter().flat_map(|at| [*at, -at]));
-    }
+) -> Result<(Vec<f64>, Vec<Word>)> {
+    let read = faces.iter().map(|face| magnets(face, width, side));
+    let faces_magnets = all(read)?;
+    let at = faces_magnets.iter().flatten().map(|(at, _)| *at);
+    let mut places: Vec<f64> = at.flat_map(|at| [at, -at]).collect();
     places.order_by(f64::total_cmp);
     places.dedup_by(|a, b| (*a - *b).abs() < SAME);
     if places.len() > MOST_PLACES {
@@ -75,19 +31,56 @@ pub(super) fn common(
             "its words and their mates have magnets at {} places, more than {MOST_PLACES}",
             places.len()
         );
-        return Err((message, "judge fewer words at a time".to_owned()));
+        return Err(faces[0].1.error(message, "judge fewer words at a time"));
     }
-    let words = faces.iter().map(|(_, magnets)| word(magnets, &places));
-    Ok((places.clone(), words.collect()))
+    let word = |magnets: &Vec<(f64, &str)>| {
+        let letter = |place: &f64| {
+            let magnet = magnets.iter().find(|(at, _)| (at - place).abs() < SAME);
+            magnet.map_or(".", |(_, pole)| pole)
+        };
+        let text: String = places.iter().map(letter).collect();
+        Word::parse(&text).expect("N, S and . at no more places than words have")
+    };
+    let words = faces_magnets.iter().map(word).collect();
+    Ok((places, words))
 }
 
-fn word(magnets: &[MagnetAt], places: &[f64]) -> Word {
-    let letter = |place: &f64| {
-        let magnet = magnets
-            .iter()
-            .find(|magnet| (magnet.at - place).abs() < SAME);
-        magnet.map_or(".", |magnet| magnet.pole.as_str())
+/// The magnets of a face, ascending: where along it (m), and their poles.
+fn magnets<'a>(
+    (name, entry): &(&str, Entry<'a>),
+    width: f64,
+    side: f64,
+) -> Result<Vec<(f64, &'a str)>> {
+    let wrong = |message: String, help: &str| Err(entry.error(format!("`{name}` {message}"), help));
+    let one = |magnet: &Entry<'a>| {
+        let section = magnet.section("a magnet of `magnets`")?;
+        section.allow(&["at", "pole"]);
+        let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
+        let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
+        Ok((at.number(quantity::ALONG_FACE)?, pole.string()?))
     };
-    let text: String = places.iter().map(letter).collect();
-    Word::parse(&text).expect("N, S and . at no more places than words have")
+    let mut magnets = all(entry.array()?.iter().map(one))?;
+    magnets.order_by(|a, b| a.0.total_cmp(&b.0));
+    let half = (side - width) / 2.0 + SAME;
+    if magnets.is_empty() {
+        let help = "list them: magnets = [{ at = 0.02, pole = \"N\" }]";
+        return wrong("has no magnets".to_owned(), help);
+    }
+    if let Some((at, _)) = magnets.iter().find(|(at, _)| at.abs() > half) {
+        return wrong(
+            format!("has a magnet at {at} m, which reaches beyond its face of {side} m"),
+            "positions are from the face's middle, in m",
+        );
+    }
+    let mut pairs = magnets.windows(2);
+    if let Some([(one, _), (two, _)]) = pairs.find(|two| two[1].0 - two[0].0 < width - SAME) {
+        return wrong(
+            format!("has magnets at {one} and {two} m, which overlap: they are {width} m wide"),
+            "move them apart",
+        );
+    }
+    if let Some((_, pole)) = magnets.iter().find(|(_, pole)| !["N", "S"].contains(pole)) {
+        return wrong(format!("has the pole `{pole}`"), "a pole is \"N\" or \"S\"");
+    }
+    Ok(magnets)
 }

@@ -12,13 +12,20 @@
 //! A = { code = "NNSN" }          # or magnets anywhere: { magnets = [{ at = 0.02, pole = "N" }] }
 //! ```
 
-use std::ops::Range;
 use std::path::Path;
 
-use super::word_places::{self, MagnetAt};
-use super::word_stage::{Entries, PITCH, SIZE, stage};
-use super::{Design, DesignError, MagnetModel, Place, file};
+use toml::de::DeTable;
+
+use super::drawings::Drawings;
+use super::error::{DesignError, Result};
+use super::faults::Faults;
+use super::magnet::{MAGNET_KEYS, MagnetKeys};
+use super::reader::{Entry, Section};
+use super::source::Source;
+use super::{Design, MagnetModel, file, potential, quantity, syntax, word_places, word_stage};
+use physics::order::Order;
 use physics::words::Word;
+use physics::words::crosstalk::Stage;
 
 /// A set of words and what carries them.
 #[derive(Clone, Debug)]
@@ -34,6 +41,16 @@ pub struct WordSet {
     pub stage: Design,
 }
 
+/// The keys of a set of words.
+const KEYS: [&str; 7] = [
+    "name",
+    "description",
+    "words",
+    "magnet",
+    "tile",
+    "potential",
+    "faces",
+];
 /// Most words of a set.
 const MOST_WORDS: usize = 500;
 
@@ -42,170 +59,164 @@ impl WordSet {
     ///
     /// # Errors
     /// Where the file cannot be read or is no set of words.
-    pub fn load(path: &Path, model: Option<MagnetModel>) -> Result<Self, DesignError> {
+    pub fn load(path: &Path, model: Option<MagnetModel>) -> Result<Self> {
         let name = path.display().to_string();
-        let error = |message: String, help: &str| DesignError {
-            also: Vec::new(),
-            file: name.clone(),
-            place: None,
-            message,
-            help: help.to_owned(),
-        };
         let text = file::read_text(path).map_err(|found| {
-            error(
-                format!("cannot read the set of words: {found}"),
-                "check the path; `tilebind words --out DIR` writes one",
-            )
+            let message = format!("cannot read the set of words: {found}");
+            let help = "check the path; `tilebind words --out DIR` writes one";
+            DesignError::new(&name, None, message, help)
         })?;
         Self::parse(&text, &name, model)
+    }
+
+    /// The two tiles, for words of the set.
+    pub fn carriers(&self) -> Stage {
+        let (pair, interaction) = (&self.stage.pair, &self.stage.interaction);
+        Stage::new(pair.as_ref().clone(), interaction.clone())
     }
 
     /// Reads a set from the text of its file.
     ///
     /// # Errors
     /// Where it is no set of words.
-    pub fn parse(text: &str, name: &str, model: Option<MagnetModel>) -> Result<Self, DesignError> {
-        let error = |at: Option<Range<usize>>, message: String, help: &str| DesignError {
-            also: Vec::new(),
-            file: name.to_owned(),
-            place: at.map(|span| Place::new(text, span.into()).into()),
-            message,
-            help: help.to_owned(),
+    pub fn parse(text: &str, name: &str, model: Option<MagnetModel>) -> Result<Self> {
+        let (drawings, faults) = (Drawings::default(), Faults::default());
+        let source = Source {
+            file: name,
+            text,
+            quoted: true,
+            drawings: &drawings,
+            faults: &faults,
         };
-        let entries: Entries = toml::from_str(text).map_err(|found| {
-            let help = "write words = [\"NNSN\", ...], with [magnet] and [tile] below";
-            error(found.span(), found.message().trim().to_owned(), help)
-        })?;
-        let place_of = |code: &str| {
-            let at = text.find(&format!("\"{code}\""))?;
-            Some(at + 1..at + 1 + code.len())
-        };
-        let faces = entries
-            .faces
-            .iter()
-            .filter(|(name, _)| !name.ends_with('*'));
-        let spaced: Vec<(String, Vec<MagnetAt>)> = faces
-            .clone()
-            .filter_map(|(name, face)| Some((name.clone(), face.magnets.clone()?)))
-            .collect();
-        if entries.words.is_none() && !spaced.is_empty() {
-            return Self::of_spaced(&entries, &spaced, model, name);
-        }
-        let codes = match &entries.words {
-            Some(words) => words.clone(),
-            None => faces.filter_map(|(_, face)| face.code.clone()).collect(),
-        };
-        let mut words: Vec<Word> = Vec::new();
-        for code in &codes {
-            let word = Word::parse(code).map_err(|found| {
-                error(
-                    place_of(code),
-                    format!("`{code}`: {found}"),
-                    "write it of N, S and .",
-                )
-            })?;
-            let first = words.first().copied().unwrap_or(word);
-            if first.places() != word.places() {
-                let message = format!(
-                    "`{code}` has {} places and `{first}` {}",
-                    word.places(),
-                    first.places()
-                );
-                let help = "words of a set are of one length; fill up with . (no magnet)";
-                return Err(error(place_of(code), message, help));
-            }
-            if word.magnets() == 0 {
-                let message = format!("`{code}` has no magnets");
-                return Err(error(place_of(code), message, "write it of N, S and ."));
-            }
-            if words.contains(&word) {
-                let message = format!("`{code}` is there twice");
-                return Err(error(place_of(code), message, "take one away"));
-            }
-            words.push(word);
-        }
-        let Some(first) = words.first() else {
-            let help = "list them: words = [\"NNSN\", \"NSSN\"]";
-            return Err(error(None, "it holds no words".to_owned(), help));
-        };
-        if words.len() > MOST_WORDS {
-            let message = format!("it holds {} words, more than {MOST_WORDS}", words.len());
-            return Err(error(None, message, "split the set"));
-        }
-        let pitch = entries.magnet.pitch.unwrap_or(PITCH);
-        let middle = (first.places() as f64 - 1.0) / 2.0;
-        let places: Vec<f64> = (0..first.places())
-            .map(|k| (k as f64 - middle) * pitch)
-            .collect();
-        let width = entries.magnet.size.unwrap_or(SIZE)[1];
-        let needed = pitch * (places.len() as f64 - 1.0) + width;
-        let side = entries
-            .tile
-            .side
-            .unwrap_or(needed.max(pitch * places.len() as f64));
-        if side > 0.0 && needed > side * (1.0 + 1e-9) {
-            let message = format!(
-                "words of {} places {pitch} m apart need a face of {needed:.4} m, not {side} m",
-                places.len()
+        let set = syntax::parse(source).and_then(|root| Self::of(source, &root, model));
+        faults.conclude(set)
+    }
+
+    fn of(source: Source, root: &DeTable, model: Option<MagnetModel>) -> Result<Self> {
+        let root = Section::root(source, root, "the set of words");
+        root.allow(&KEYS);
+        let magnet = root.section("magnet", "[magnet]")?.map(|section| {
+            section.allow(
+                MAGNET_KEYS
+                    .split_last()
+                    .map_or(&[], |(_, but_axis)| but_axis),
             );
-            return Err(error(
+            MagnetKeys::read(&section)
+        });
+        let tile = root.section("tile", "[tile]")?;
+        let side = tile.map(|section| {
+            section.allow(&["side"]);
+            section.number("side", quantity::TILE_SIDE)
+        });
+        let told = potential::read(&root);
+        let faces = faces(&root);
+        let words = root.get("words").map(|entry| entry.array());
+        let (magnet, side, faces) = (magnet.transpose()?, side.transpose()?.flatten(), faces?);
+        let bar = word_stage::bar(magnet.unwrap_or_default(), model.unwrap_or(told?));
+        source.faults.check()?;
+        let own = |key: &str| {
+            let own = faces.iter().filter(|(name, _)| !name.ends_with('*'));
+            let own = own.filter_map(|(name, face)| Some((*name, face.get(key)?)));
+            own.collect::<Vec<(&str, Entry)>>()
+        };
+        let (given, width, spaced) = (words.transpose()?, bar.size[1], own("magnets"));
+        if given.is_none() && !spaced.is_empty() {
+            if let Some((_, face)) = faces.iter().find(|(_, face)| face.get("magnets").is_none()) {
+                let message = "some of its faces have `code` and others `magnets`";
+                return Err(face.error(message, "give all of them the one or the other"));
+            }
+            let side = side.ok_or_else(|| {
+                let message = "it does not say how long its faces are";
+                root.error(message, "write side = 0.43 under [tile]")
+            })?;
+            let (places, words) = word_places::common(&spaced, width, side)?;
+            return Ok(Self {
+                words,
+                names: spaced.iter().map(|(name, _)| (*name).to_owned()).collect(),
+                stage: word_stage::stage(&bar, side, &places, source.file)?,
+                places: Some(places),
+            });
+        }
+        let (names, codes) = match given {
+            Some(entries) => (Vec::new(), entries),
+            None => own("code")
+                .into_iter()
+                .map(|(name, code)| (name.to_owned(), code))
+                .unzip(),
+        };
+        let words = read_words(&codes)?;
+        let count = words.first().map_or(0, |word| word.places());
+        if words.is_empty() {
+            let help = "list them: words = [\"NNSN\", \"NSSN\"]";
+            return Err(DesignError::new(
+                source.file,
                 None,
-                message,
-                "make [tile] side longer, or leave it out",
+                "it holds no words",
+                help,
             ));
         }
-        let stage = stage(&entries, side, model, &places, name)?;
-        let names = match entries.words {
-            Some(_) => Vec::new(),
-            None => entries
-                .faces
-                .keys()
-                .filter(|name| !name.ends_with('*'))
-                .cloned()
-                .collect(),
-        };
+        let (pitch, last) = (bar.pitch, count as f64 - 1.0);
+        let places: Vec<f64> = (0..count)
+            .map(|k| (k as f64 - last / 2.0) * pitch)
+            .collect();
+        let needed = pitch * last + width;
+        let side = side.unwrap_or(needed.max(pitch * count as f64));
+        if needed > side * (1.0 + 1e-9) {
+            let message = format!(
+                "words of {count} places {pitch} m apart need a face of {needed:.4} m, not {side} m"
+            );
+            return Err(root.error(message, "make [tile] side longer, or leave it out"));
+        }
         Ok(Self {
             words,
             names,
             places: None,
-            stage,
+            stage: word_stage::stage(&bar, side, &places, source.file)?,
         })
     }
+}
 
-    /// A set of words with magnets anywhere.
-    fn of_spaced(
-        entries: &Entries,
-        spaced: &[(String, Vec<MagnetAt>)],
-        model: Option<MagnetModel>,
-        name: &str,
-    ) -> Result<Self, DesignError> {
-        let error = |(message, help): (String, String)| DesignError {
-            also: Vec::new(),
-            file: name.to_owned(),
-            place: None,
-            message,
-            help,
-        };
-        let codes = entries.faces.values().filter(|face| face.magnets.is_none());
-        if codes.count() > 0 {
-            let message = "some of its faces have `code` and others `magnets`".to_owned();
-            let help = "give all of them the one or the other";
-            return Err(error((message, help.to_owned())));
+/// The faces of a set, mates among them, by their names.
+fn faces<'a>(root: &Section<'a>) -> Result<Vec<(&'a str, Section<'a>)>> {
+    let Some(section) = root.section("faces", "[faces]")? else {
+        return Ok(Vec::new());
+    };
+    let mut entries = section.entries();
+    entries.order_by_key(|entry| entry.key);
+    let face = |entry: &Entry<'a>| {
+        let face = entry.section(entry.key)?;
+        face.allow(&["code", "magnets"]);
+        Ok((entry.key, face))
+    };
+    entries.iter().map(face).collect()
+}
+
+/// Words of one length, each once.
+fn read_words(codes: &[Entry]) -> Result<Vec<Word>> {
+    let mut words: Vec<Word> = Vec::new();
+    for entry in codes {
+        let code = entry.string()?;
+        let help = "write it of N, S and .";
+        let word =
+            Word::parse(code).map_err(|found| entry.error(format!("`{code}`: {found}"), help))?;
+        let first = words.first().copied().unwrap_or(word);
+        if first.places() != word.places() {
+            let (own, others) = (word.places(), first.places());
+            let message = format!("`{code}` has {own} places and `{first}` {others}");
+            let help = "words of a set are of one length; fill up with . (no magnet)";
+            return Err(entry.error(message, help));
         }
-        let Some(side) = entries.tile.side else {
-            let message = "it does not say how long its faces are".to_owned();
-            return Err(error((
-                message,
-                "write side = 0.43 under [tile]".to_owned(),
-            )));
-        };
-        let width = entries.magnet.size.unwrap_or(SIZE)[1];
-        let (places, words) = word_places::common(spaced, width, side).map_err(error)?;
-        Ok(Self {
-            words,
-            names: spaced.iter().map(|(name, _)| name.clone()).collect(),
-            stage: stage(entries, side, model, &places, name)?,
-            places: Some(places),
-        })
+        if word.magnets() == 0 {
+            return Err(entry.error(format!("`{code}` has no magnets"), help));
+        }
+        if words.contains(&word) {
+            return Err(entry.error(format!("`{code}` is there twice"), "take one away"));
+        }
+        if words.len() == MOST_WORDS {
+            let message = format!("it holds {} words, more than {MOST_WORDS}", codes.len());
+            return Err(entry.error(message, "split the set"));
+        }
+        words.push(word);
     }
+    Ok(words)
 }

@@ -49,22 +49,22 @@ pub fn analyse_problem(
     let search = Search::run(&problem, &survey, &settings.completeness, observer);
     let missed = search.as_ref().map_or_else(|_| Vec::new(), Search::missed);
     if !missed.is_empty() {
-        survey.add(&problem, &missed, &settings.survey(&roadmap));
+        survey.add(&missed);
     }
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
     let ends = capture::ends(&problem, &far_starts, survey.known());
     let shallow = -settings.least_depth * problem.depth();
-    survey.add_rests(&problem, &ends, shallow, &settings.survey(&roadmap));
+    survey.add_rests(&ends, shallow);
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
-    survey.add_arrivals(&problem, &arrivals);
+    survey.add_arrivals(&arrivals);
     clock.start("states and barriers", 0.7);
-    let mut catalogue = Catalogue::of_survey(&problem, &survey, settings.least_depth);
+    let mut catalogue = Catalogue::of_survey(&survey, settings.least_depth);
     for repeat in 1..settings.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
         let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
-        let other = Catalogue::of_survey(&problem, &survey, settings.least_depth);
+        let other = Catalogue::of_survey(&survey, settings.least_depth);
         catalogue.widen_spread(&problem, &other);
     }
     weigh_blocks(design, &mut catalogue);
@@ -122,13 +122,13 @@ fn certify(
 
 /// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
 /// besides those that the faces suggest.
-pub(crate) fn survey(
-    problem: &Problem,
+pub(crate) fn survey<'a>(
+    problem: &'a Problem,
     settings: &Settings,
     roadmap: &RoadmapSettings,
     guesses: &[Configuration],
     clock: &mut Clock,
-) -> (Exploration, Counts) {
+) -> (Exploration<'a>, Counts) {
     let shares = |name| match name {
         "milestones" => 0.0,
         "neighbours" => 0.05,
@@ -138,12 +138,12 @@ pub(crate) fn survey(
         clock.start(name, shares(name))
     });
     let milestones = built.milestones.len();
-    let mut survey = Exploration::of_roadmap(problem, built, &roadmap.edges);
+    let mut survey = Exploration::of_roadmap(problem, built, &settings.survey(roadmap));
     clock.start("states and transition states", 0.4);
-    survey.explore(problem, guesses, &settings.survey(roadmap));
+    survey.explore(guesses);
     let counts = Counts {
         milestones,
-        edges: survey.network.motions(problem),
+        edges: survey.network.motions(),
         transition_states: survey.transition_states.len(),
         left_out: survey.left_out,
         ..Counts::default()

@@ -176,7 +176,7 @@ impl Settings {
         }
     }
 
-    pub(super) fn survey(&self, roadmap: &RoadmapSettings) -> ExplorationSettings {
+    pub(crate) fn survey(&self, roadmap: &RoadmapSettings) -> ExplorationSettings {
         ExplorationSettings {
             edge: roadmap.edges,
             settled: self.settled,

@@ -11,7 +11,6 @@ use super::Query;
 use crate::pipeline::{self, Clock};
 use physics::configuration::Configuration;
 use physics::landscape::capture::FarStarts;
-use physics::landscape::constrained::Point;
 use physics::landscape::exploration::Exploration;
 use physics::landscape::minimax::End;
 use physics::landscape::minimum::descend;
@@ -20,7 +19,7 @@ use physics::landscape::{Pathway, capture, highest_point};
 use physics::observer::Observer;
 use physics::order::Order;
 use physics::problem::{Problem, Symmetry};
-use physics::roadmap::{Milestone, Roadmap, RoadmapSettings, edge};
+use physics::roadmap::{Point, Roadmap, RoadmapSettings, edge};
 
 /// Nodes of the network to which an end is joined by straight motions, where these are free.
 const JOINED: usize = 40;
@@ -68,7 +67,7 @@ impl<'a> Search<'a> {
             let ends = capture::ends(self.problem, &far_starts, known);
             capture::arrivals(self.problem, &far_starts, &ends)
         });
-        survey.add_arrivals(self.problem, arrivals);
+        survey.add_arrivals(arrivals);
     }
 
     /// The minimax pathway that a roadmap holds; empty where it holds none.
@@ -110,8 +109,8 @@ impl<'a> Search<'a> {
             return Pathway::new();
         };
         let peaks = peaks(self.problem, &points);
-        let mut survey =
-            Exploration::of_roadmap(self.problem, Roadmap::default(), &self.roadmap.edges);
+        let settings = self.query.settings.survey(&self.roadmap);
+        let mut survey = Exploration::of_roadmap(self.problem, Roadmap::default(), &settings);
         let from = self.attach(&mut survey, &self.query.from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),
@@ -121,8 +120,8 @@ impl<'a> Search<'a> {
                 node
             }
         };
-        survey.network.add_way(self.problem, from, to, points);
-        survey.add_transition_states_near(self.problem, &peaks, &[Symmetry::IDENTITY]);
+        survey.network.add_way(from, to, points);
+        survey.add_transition_states_near(&peaks, &[Symmetry::IDENTITY]);
         self.add_arrivals(&mut survey);
         let goal = match self.query.to {
             End::At(_) => to,
@@ -134,13 +133,12 @@ impl<'a> Search<'a> {
     fn lowest(&self, survey: &Exploration, from: usize, to: usize) -> Pathway {
         let goal = HashSet::from([to]);
         pathway::lowest(
-            self.problem,
             &survey.network,
             from,
             [&goal, &goal],
             [self.problem.depth(), BEND * self.problem.depth()],
         )
-        .map_or_else(Pathway::new, |lowest| lowest.pathway)
+        .map_or_else(Pathway::new, |(_, pathway)| pathway)
     }
 
     /// Adds a configuration to the network, joined by its descent and by the straight motions to
@@ -149,11 +147,8 @@ impl<'a> Search<'a> {
         let problem = self.problem;
         let near = self.nearest(survey, q);
         let node = survey.network.add_node(Some((*q, problem.energy(q))));
-        let mut milestones = vec![Milestone::new(problem, *q)];
-        milestones.extend(
-            near.iter()
-                .map(|(_, other)| Milestone::new(problem, *other)),
-        );
+        let mut milestones = vec![Point::new(problem, *q)];
+        milestones.extend(near.iter().map(|(_, other)| Point::new(problem, *other)));
         let pairs: Vec<(u32, u32)> = (1..milestones.len() as u32).map(|k| (0, k)).collect();
         for found in edge::edges(problem, &milestones, &pairs, &self.roadmap.edges) {
             let other = near[found.to as usize - 1].0;
@@ -166,8 +161,8 @@ impl<'a> Search<'a> {
             return node;
         }
         let descent = descend(problem, q);
-        if let Some(end) = survey.arrive(problem, &descent) {
-            survey.network.add_way(problem, node, end, descent.way);
+        if let Some(end) = survey.arrive(&descent) {
+            survey.network.add_way(node, end, descent.way);
         }
         node
     }

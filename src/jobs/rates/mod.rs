@@ -12,7 +12,7 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::Analysis;
-use crate::request::{self, Refusal};
+use crate::request::{self, Unanswered};
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
@@ -107,7 +107,7 @@ pub enum RateFault {
     Motion(#[from] SettingsError),
 }
 
-impl Refusal for RateFault {
+impl Unanswered for RateFault {
     fn is_of_the_question(&self) -> bool {
         match self {
             Self::Unprovable(_) => true,

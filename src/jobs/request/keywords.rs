@@ -1,7 +1,7 @@
 //! Requests made from keyword arguments.
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{ArgAction, Args, Command};
+use clap::{Args, Command};
 
 /// What is wrong with keyword arguments.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -29,7 +29,7 @@ fn keyword(option: &str) -> String {
 }
 
 /// A request out of keyword arguments, each with its values as a command line has them: none for what
-/// is not asked for, an empty one for a flag.
+/// is not asked for, an empty one for an option that stands alone.
 ///
 /// # Errors
 /// See [`Misused`].
@@ -45,12 +45,10 @@ pub fn of_keywords<R: Args>(
             let aliases = one.get_all_aliases().unwrap_or_default();
             one.get_long() == Some(&option) || aliases.contains(&&option[..])
         };
-        let argument = command.get_arguments().find(is_named);
-        let Some(argument) = argument else {
+        if command.get_arguments().find(is_named).is_none() {
             return Err(Misused::Unknown(key, known));
-        };
-        let is_flag = matches!(argument.get_action(), ArgAction::SetTrue);
-        words.extend(values.into_iter().map(|value| match is_flag {
+        }
+        words.extend(values.into_iter().map(|value| match value.is_empty() {
             true => format!("--{option}"),
             false => format!("--{option}={value}"),
         }));

@@ -5,6 +5,14 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command, Error};
 
+use crate::design::MagnetModel;
+
+/// A magnet model by the name that design files use.
+pub fn model() -> Word<MagnetModel> {
+    let wrong = "a model is dipole or cuboid".to_owned();
+    Word::new(&MagnetModel::NAMES, wrong)
+}
+
 /// Reads one of several names as what it stands for.
 #[derive(Clone)]
 pub struct Word<T> {

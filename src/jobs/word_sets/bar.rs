@@ -33,3 +33,8 @@ pub fn bar(
     };
     Ok((bar, face))
 }
+
+/// How many places apart magnets are at least, to lie side by side.
+pub fn least_spacing(bar: &Bar) -> usize {
+    (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize
+}

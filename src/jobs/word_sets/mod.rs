@@ -1,41 +1,46 @@
-//! Sets of barcodes: what is asked, the magnets that words are made of, and sets as files.
+//! Sets of barcodes: what is asked, what is found, the magnets that words are made of, and sets as
+//! files.
 //!
-//! - [`Request`] - all that reproduces an answer of [`physics::words::answer()`];
+//! - [`Request`] - what is asked; [`Sought`] - what is found, with all that reproduces it;
 //! - [`Spaced`] - words with magnets anywhere along the face, searched and judged over all poses;
+//! - [`CrosstalkRequest`] - what is asked of the crosstalk of a set;
 //! - [`bar()`] - the magnets of a design's face; [`mod@file`] - `words.toml`, as [`crate::design::WordSet`]
 //!   reads it.
 
 mod bar;
+mod crosstalk;
 pub mod file;
+mod request;
+mod search;
 mod spaced;
 
-pub use bar::bar;
-pub use spaced::{Spaced, SpacedError};
+pub use bar::{bar, least_spacing};
+pub use crosstalk::CrosstalkRequest;
+pub use request::{Request, gap, shape};
+pub use search::Found;
+pub use spaced::Spaced;
 
-use physics::words::{Bar, Lags, Meeting, Question, Task, Word};
+use physics::words::{Answer, Bar, Lags, Meeting, Question, Task, Word};
 
-/// All that reproduces an answer.
-#[derive(Clone, Debug)]
-pub struct Request {
+/// Words that were sought, with all that reproduces them.
+pub struct Sought {
+    /// What was asked.
+    pub request: Request,
     /// The design that the magnets are of; `None` for the paper's.
     pub design: Option<String>,
     /// The magnets.
     pub bar: Bar,
     /// What words are wanted.
     pub task: Task,
-    /// What is asked.
+    /// The same, as it is answered.
     pub question: Question,
-    /// Most net contacts of wrong meetings, where contacts are counted in place of energies.
-    pub contacts: Option<usize>,
-    /// Of all random numbers.
-    pub seed: u64,
-    /// Work to do (s).
-    pub seconds: f64,
     /// The energies of the magnets.
     pub energies: Lags,
+    /// The answer.
+    pub answer: Answer,
 }
 
-impl Request {
+impl Sought {
     /// Side (m) of square tiles whose faces hold the words' magnets.
     pub fn side(&self) -> f64 {
         side(&self.bar, self.task.places)
@@ -46,19 +51,26 @@ impl Request {
         self.task.rules.strongest(&self.energies, u, v)
     }
 
-    /// The word of a set that a word meets most strongly where it should not, and how.
-    pub fn worst(&self, word: Word, set: &[Word]) -> Option<Meeting> {
-        let all = set.iter().filter_map(|other| self.strongest(word, *other));
+    /// The word of the set that a word meets most strongly where it should not, and how.
+    pub fn worst(&self, word: Word) -> Option<Meeting> {
+        let all = self.answer.words.iter();
+        let all = all.filter_map(|other| self.strongest(word, *other));
         all.min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
 
+    /// Every two words, by their places in the set.
+    pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let count = self.answer.words.len();
+        (0..count).flat_map(move |i| (i..count).map(move |j| [i, j]))
+    }
+
     /// 1 less the share of the weakest bond of the strongest wrong meeting of every two words.
-    pub fn gaps(&self, set: &[Word]) -> impl Iterator<Item = f64> {
+    pub fn gaps(&self) -> impl Iterator<Item = f64> {
+        let set = &self.answer.words;
         let bonds = set.iter();
         let bonds = bonds.map(|word| self.task.rules.bond(&self.energies, *word));
         let weakest = bonds.fold(f64::INFINITY, f64::min);
-        let pairs = (0..set.len()).flat_map(|i| (i..set.len()).map(move |j| (i, j)));
-        pairs.map(move |(i, j)| {
+        self.pairs().map(move |[i, j]| {
             let worst = self.strongest(set[i], set[j]);
             1.0 - worst.map_or(0.0, |it| (-it.energy / weakest).max(0.0))
         })

@@ -155,7 +155,7 @@ pub(super) fn attached(
         .iter()
         .enumerate()
         .map(|(kind, hold)| {
-            let height = hold.well().basin().level - hold.energy;
+            let height = hold.well.level - hold.energy;
             let basin = Basin::of_state(hold.configuration, hold.energy, height);
             (kind == 0 || Basin::holds(height, kt)).then_some(basin)
         })

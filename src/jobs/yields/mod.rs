@@ -13,16 +13,16 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
-use crate::request::{self, Refusal};
+use crate::request::{self, Unanswered};
 use attachment::Effort;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
 use physics::dynamics::docking::DockingError;
-use physics::kinetics::bond::{Bond, BondError, Hold, LEAST_DEPTH, Shaking, traps};
+use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
 use physics::kinetics::mixture::{self, Mixture};
 use physics::kinetics::population::Crowd;
 use physics::kinetics::rates::RatesError;
-use physics::kinetics::well::NO_PLAY;
+use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::si;
 
@@ -117,7 +117,7 @@ pub enum YieldError {
     Lost,
 }
 
-impl Refusal for YieldError {
+impl Unanswered for YieldError {
     fn is_of_the_question(&self) -> bool {
         match self {
             Self::Many(_) | Self::Docking(_) | Self::Hot(..) | Self::Cold(_) | Self::Lost => true,
@@ -186,19 +186,18 @@ pub fn yields(
     }
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
-    let bond = Bond::new(problem, catalogue)?;
-    let hold = bond.hold();
+    let bond = Hold::bond(problem, catalogue)?;
     let refused = |kt: f64| match () {
         // Tiles that fast meet things a million times in a run, and nothing comes of it.
-        () if !hold.holds_at(kt) => Some(YieldError::Hot(kt, hold.energy)),
-        () if hold.is_too_cold(kt) => Some(YieldError::Cold(kt)),
+        () if !bond.holds_at(kt) => Some(YieldError::Hot(kt, bond.energy)),
+        () if bond.is_too_cold(kt) => Some(YieldError::Cold(kt)),
         () => None,
     };
     let usable = question.kts.iter().copied();
     let usable = usable.filter(|kt| refused(*kt).is_none());
     let coldest = usable.fold(f64::INFINITY, f64::min);
     let traps = traps(problem, catalogue, coldest);
-    let holds: Vec<&Hold> = std::iter::once(bond.hold()).chain(&traps).collect();
+    let holds: Vec<&Hold> = std::iter::once(&bond).chain(&traps).collect();
     let tile_area = design.pair.moving.outline.area();
     let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
     let at = |kt: f64| {
@@ -215,10 +214,7 @@ pub fn yields(
             .enumerate()
             .filter_map(|(kind, hold)| state(hold, kind, &attached, &shaking))
             .collect();
-        if states
-            .first()
-            .is_none_or(|first| first.name != bond.hold().name)
-        {
+        if states.first().is_none_or(|first| first.name != bond.name) {
             return Err(YieldError::NoPlay);
         }
         Ok(outcome(kt, states, attached, &crowd, tile_area, question))

@@ -121,45 +121,17 @@ impl SubsetSearch<'_> {
     ) -> Option<(Vector3<f64>, SVector<f64, M>)> {
         let gradients = set.map(|k| self.constraints[k].gradient);
         let pushes = gradients.map(|gradient| self.inverse * gradient);
-        let mut gram = SMatrix::<f64, M, M>::from_fn(|a, b| gradients[a].dot(&pushes[b]));
+        let gram = SMatrix::<f64, M, M>::from_fn(|a, b| gradients[a].dot(&pushes[b]));
         let missing =
             SVector::<f64, M>::from_fn(|a, _| -slack(&self.constraints[set[a]], &self.wanted));
         let scale = (0..M).map(|a| gram[(a, a)]).product::<f64>();
-        let factor = factored(&mut gram)?;
-        // The determinant is the square of the factor's diagonal.
-        if factor <= 1e-12 * scale {
-            return None;
-        }
-        let lambda = solved(&gram, missing);
+        let factor = gram
+            .cholesky()
+            .filter(|factor| factor.determinant() > 1e-12 * scale)?;
+        let lambda = solved(factor.l_dirty(), missing);
         let push: Vector3<f64> = (0..M).map(|a| gradients[a] * lambda[a]).sum();
         Some((self.wanted + self.inverse * push, lambda))
     }
-}
-
-/// Puts Cholesky's factor in the lower half of a symmetric matrix, and returns the determinant;
-/// `None` where the matrix is not positive definite.
-fn factored<const M: usize>(matrix: &mut SMatrix<f64, M, M>) -> Option<f64> {
-    let mut determinant = 1.0;
-    for j in 0..M {
-        let mut pivot = matrix[(j, j)];
-        for k in 0..j {
-            pivot -= matrix[(j, k)] * matrix[(j, k)];
-        }
-        if pivot <= 0.0 || pivot.is_nan() {
-            return None;
-        }
-        determinant *= pivot;
-        let root = pivot.sqrt();
-        matrix[(j, j)] = root;
-        for i in j + 1..M {
-            let mut entry = matrix[(i, j)];
-            for k in 0..j {
-                entry -= matrix[(i, k)] * matrix[(j, k)];
-            }
-            matrix[(i, j)] = entry / root;
-        }
-    }
-    Some(determinant)
 }
 
 /// The solution of the linear equations whose matrix has this Cholesky factor.

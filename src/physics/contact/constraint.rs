@@ -76,32 +76,32 @@ impl Meeting<'_> {
             for &edge in &near {
                 let edge = edge as usize;
                 match self.facing(i, p, edge, margin) {
-                    Facing::Edge => found(i, edge),
+                    Front::Edge => found(i, edge),
                     // Each corner is met from both of its edges; count it once, from its own.
-                    Facing::Start => corners(i, edge),
-                    Facing::End if !near.contains(&(((edge + 1) % n) as u32)) => {
+                    Front::Start => corners(i, edge),
+                    Front::End if !near.contains(&(((edge + 1) % n) as u32)) => {
                         corners(i, (edge + 1) % n);
                     }
-                    Facing::End | Facing::Nothing => {}
+                    Front::End | Front::Nothing => {}
                 }
             }
         }
     }
 
-    fn facing(&self, i: usize, p: Vector2<f64>, edge: usize, margin: f64) -> Facing {
+    fn facing(&self, i: usize, p: Vector2<f64>, edge: usize, margin: f64) -> Front {
         let b = self.b;
         let (start, end) = b.edge(edge);
         let normal = b.normals()[edge];
         let gap = normal.dot(&(p - start));
         if gap.abs() > margin {
-            return Facing::Nothing;
+            return Front::Nothing;
         }
         let n = b.vertices().len();
         if b.convex_vertices()[edge] && (p - start).norm() <= COINCIDENT {
-            return Facing::Start;
+            return Front::Start;
         }
         if b.convex_vertices()[(edge + 1) % n] && (p - end).norm() <= COINCIDENT {
-            return Facing::End;
+            return Front::End;
         }
         let length = (end - start).norm();
         let t = (p - start).dot(&(end - start)) / length;
@@ -117,7 +117,7 @@ impl Meeting<'_> {
             rest < -COINCIDENT && (convex || !self.is_in_front(p, other))
         };
         if ends.iter().any(is_beyond) {
-            return Facing::Nothing;
+            return Front::Nothing;
         }
         // In front of an edge's very end the vertex may pass round a corner, unless its tile lies
         // squarely against the edge.
@@ -125,13 +125,13 @@ impl Meeting<'_> {
             .iter()
             .any(|(rest, convex, _)| *rest < COINCIDENT && *convex);
         if at_corner && !self.wedge_is_beyond(i, normal) {
-            return Facing::Nothing;
+            return Front::Nothing;
         }
         // Behind the edge's line, but outside: in front of another edge, past a corner.
         if gap < -TOUCH && !b.contains(p) {
-            return Facing::Nothing;
+            return Front::Nothing;
         }
-        Facing::Edge
+        Front::Edge
     }
 
     /// Whether a point's foot on an edge's line lies on the edge.
@@ -162,7 +162,7 @@ impl Meeting<'_> {
 }
 
 /// What a vertex is in front of.
-enum Facing {
+enum Front {
     Nothing,
     Edge,
     /// The convex corner at the edge's start, or at its end.
@@ -225,7 +225,7 @@ impl Contact {
             };
             let at = meeting.vertex(touch.vertex);
             let facing = meeting.facing(touch.vertex, at, touch.edge, margin);
-            matches!(facing, Facing::Edge)
+            matches!(facing, Front::Edge)
         });
     }
 
@@ -251,13 +251,9 @@ impl Contact {
     pub fn constraints(&self, q: &Configuration, margin: f64) -> Vec<Constraint> {
         let mut found = Vec::new();
         let clear = margin.next_up();
-        if self.circles_are_clear_by(q, clear) {
+        let Some(pose) = self.unless_clear_by(q, clear) else {
             return found;
-        }
-        let pose = Placement::of(q);
-        if self.hulls_are_clear_by(&pose, clear) {
-            return found;
-        }
+        };
         let [on_fixed, on_moving] = self.meetings(&pose);
         let touch = |edge_of, edge, vertex| Touch {
             edge_of,

@@ -6,12 +6,13 @@
 
 use nalgebra::Vector2;
 
-use super::points::{PointFinder, Side};
+use super::Contact;
+use super::shape::Shape;
 use super::tree::{Below, Branch};
 use crate::configuration::Configuration;
 use crate::tile::outline::distance_to_segment;
 
-impl PointFinder {
+impl Contact {
     /// The distance (m) of the outlines, which do not overlap: exact where it lies between `least`
     /// and `most`. Of a smaller one is told some distance below `least`, of a larger one `most`.
     pub fn distance(&self, q: &Configuration, [least, most]: [f64; 2]) -> f64 {
@@ -22,7 +23,7 @@ impl PointFinder {
 
 /// The least distance (m) of a corner of `theirs`, which lies at `pose` in the frame of `ours`, from an
 /// edge of `ours`, as far as it lies below `most`.
-fn nearest(ours: &Side, theirs: &Side, pose: &Configuration, [least, most]: [f64; 2]) -> f64 {
+fn nearest(ours: &Shape, theirs: &Shape, pose: &Configuration, [least, most]: [f64; 2]) -> f64 {
     let (rotation, position) = (pose.rotation(), pose.position());
     let place = |p: Vector2<f64>| position + rotation * p;
     let mut search = Search {
@@ -42,8 +43,8 @@ fn nearest(ours: &Side, theirs: &Side, pose: &Configuration, [least, most]: [f64
 type Pair = (Branch, Branch, Vector2<f64>);
 
 struct Search<'a, P> {
-    ours: &'a Side,
-    theirs: &'a Side,
+    ours: &'a Shape,
+    theirs: &'a Shape,
     place: &'a P,
     least: f64,
     best: f64,

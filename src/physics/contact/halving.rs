@@ -3,12 +3,13 @@
 
 use std::ops::Range;
 
-use super::motion::{Motion, Step};
-use super::{Contact, Placement, separated};
+use super::motion::{Known, Motion, Step};
+use super::{Contact, Placement, TOUCH, separated};
+use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
 /// Motions shorter than this (m) are as good as their ends.
-pub(super) const SHORTEST: f64 = 1e-7;
+const SHORTEST: f64 = 1e-7;
 
 /// What is left to be proved of a motion. Who tries many motions of the same tiles lends the same to
 /// all of them, so that none has to ask for memory.
@@ -57,10 +58,56 @@ impl Halves {
 }
 
 impl Contact {
+    /// Whether the motion from `a` to `b` (straight in x, y and theta, the shorter way round) is
+    /// free all along. Both ends are taken to be free.
+    ///
+    /// Nothing thin can be stepped over: a stretch is accepted where the line of an edge keeps every
+    /// two convex parts apart; otherwise it is halved, and the motion refused at the first
+    /// configuration that overlaps.
+    pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
+        self.motion_overlaps_at_most(a, b, TOUCH)
+    }
+
+    /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
+    /// along the motion, which both ends are taken to fulfil.
+    pub fn motion_overlaps_at_most(
+        &self,
+        a: &Configuration,
+        b: &Configuration,
+        allowed: f64,
+    ) -> bool {
+        // Of a single motion, clearances would cost more than they save.
+        let ends = [a, b].map(|end| Known::of(end, 0.0));
+        self.known_motion_overlaps_at_most(ends.each_ref(), allowed, &mut Halves::default())
+    }
+
+    /// A configuration with what every motion from or to it asks for.
+    pub fn known(&self, q: Configuration) -> Known {
+        Known::of(&q, self.clearance_bound(&q))
+    }
+
+    /// The same between configurations that are known; `left` is lent.
+    pub fn known_motion_overlaps_at_most(
+        &self,
+        [a, b]: [&Known; 2],
+        allowed: f64,
+        left: &mut Halves,
+    ) -> bool {
+        let step = Step::between(a, b);
+        let reach = step.reach(self);
+        // What is closer to an end than its clearance is free, what is a little farther overlaps by
+        // that little, and a motion that brings no point farther than both together passes from the
+        // one's surroundings into the other's.
+        let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
+        around[0] + around[1] >= reach
+            || reach <= SHORTEST
+            || self.stretches_overlap_at_most([a.placement, b.placement], step, allowed, left)
+    }
+
     /// Halves a motion where pairs of convex parts are not proved to stay separated, again and again,
     /// with an eye on these pairs only. All stretches of one length are looked at before any shorter
     /// one: what blocks a motion is found soon.
-    pub(super) fn stretches_overlap_at_most(
+    fn stretches_overlap_at_most(
         &self,
         ends: [Placement; 2],
         mut step: Step,
@@ -119,11 +166,11 @@ impl Contact {
 
     /// The same for all parts.
     fn parts_stay_apart(&self, motion: &Motion, left: &mut Halves) -> bool {
-        if motion.separates((&self.fixed_hull, &self.moving_hull)) {
+        if motion.separates((&self.fixed.hull, &self.moving.hull)) {
             return true;
         }
         let middle = motion.middle();
-        let cores = (&self.fixed_core, &self.moving_core);
+        let cores = (&self.fixed.core, &self.moving.core);
         if !are_separated(cores, &middle, motion.allowed) {
             return false;
         }
@@ -154,10 +201,6 @@ impl Contact {
             left.halve(*motion.ends, middle, Some(pairs));
         }
         is_free
-    }
-
-    pub(super) fn pair(&self, [i, j]: [usize; 2]) -> (&ConvexPart, &ConvexPart) {
-        (&self.fixed().parts()[i], &self.moving().parts()[j])
     }
 }
 

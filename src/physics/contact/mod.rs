@@ -15,6 +15,7 @@ mod lift;
 pub mod matching;
 mod motion;
 mod points;
+mod shape;
 mod stretch;
 mod tree;
 
@@ -22,15 +23,14 @@ pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
 pub use halving::Halves;
 pub use motion::Known;
-pub use points::{ContactPoint, NearPairs, PointFinder};
+pub use points::{ContactPoint, NearPairs};
 
 use nalgebra::{Rotation2, Vector2};
-use ordered_float::OrderedFloat;
 
-use self::tree::CircleTree;
+use self::shape::Shape;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
-use crate::tile::outline::{Bounds, ConvexPart};
+use crate::tile::outline::ConvexPart;
 
 /// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
 /// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
@@ -39,46 +39,27 @@ pub const TOUCH: f64 = 1e-9;
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
-    /// Holds the outlines.
-    finder: PointFinder,
-    fixed_tree: CircleTree,
-    moving_tree: CircleTree,
-    fixed_bounds: Vec<Bounds>,
-    fixed_hull: ConvexPart,
-    moving_hull: ConvexPart,
-    /// The largest convex part of each tile, most likely to be in the way.
-    fixed_core: ConvexPart,
-    moving_core: ConvexPart,
+    fixed: Shape,
+    moving: Shape,
 }
 
 impl Contact {
     /// For a fixed and a moving outline, each in its own tile's frame (m).
     pub fn new(fixed: &Outline, moving: &Outline) -> Self {
         Self {
-            finder: PointFinder::new(fixed, moving),
-            fixed_tree: CircleTree::of_parts(fixed),
-            moving_tree: CircleTree::of_parts(moving),
-            fixed_bounds: fixed.parts().iter().map(ConvexPart::bounds).collect(),
-            fixed_hull: fixed.hull(),
-            moving_hull: moving.hull(),
-            fixed_core: core(fixed),
-            moving_core: core(moving),
+            fixed: Shape::new(fixed),
+            moving: Shape::new(moving),
         }
     }
 
     /// The outline of the fixed tile.
     pub fn fixed(&self) -> &Outline {
-        &self.finder.fixed.outline
+        &self.fixed.outline
     }
 
     /// The outline of the moving tile, in its own frame.
     pub fn moving(&self) -> &Outline {
-        &self.finder.moving.outline
-    }
-
-    /// Finds points of contact and distances of the two outlines.
-    pub fn finder(&self) -> &PointFinder {
-        &self.finder
+        &self.moving.outline
     }
 
     /// Signed clearance (m): the distance of the two outlines where they are apart, minus the
@@ -88,7 +69,7 @@ impl Contact {
         if depth > 0.0 {
             return -depth;
         }
-        self.finder.distance(q, [0.0, f64::INFINITY])
+        self.distance(q, [0.0, f64::INFINITY])
     }
 
     /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
@@ -99,7 +80,7 @@ impl Contact {
         if circles > 0.0 {
             return circles;
         }
-        let hulls = separation(&self.fixed_hull, &self.moving_hull, &Placement::of(q));
+        let hulls = separation(&self.fixed.hull, &self.moving.hull, &Placement::of(q));
         if hulls >= 0.0 {
             hulls
         } else {
@@ -114,28 +95,25 @@ impl Contact {
 
     /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
     pub(crate) fn is_clear_by(&self, q: &Configuration, least: f64) -> bool {
-        self.circles_are_clear_by(q, least) || self.hulls_are_clear_by(&Placement::of(q), least)
+        self.unless_clear_by(q, least).is_none()
     }
 
-    fn circles_are_clear_by(&self, q: &Configuration, least: f64) -> bool {
+    /// Where the moving tile is placed, unless circles or hulls say so.
+    fn unless_clear_by(&self, q: &Configuration, least: f64) -> Option<Placement> {
         let clear = least + self.fixed().circumradius() + self.moving().circumradius();
-        clear <= 0.0 || q.position().norm_squared() >= clear * clear
-    }
-
-    fn hulls_are_clear_by(&self, at: &Placement, least: f64) -> bool {
-        separated(&self.fixed_hull, &self.moving_hull, at, least)
+        if clear <= 0.0 || q.position().norm_squared() >= clear * clear {
+            return None;
+        }
+        let at = Placement::of(q);
+        (!separated(&self.fixed.hull, &self.moving.hull, &at, least)).then_some(at)
     }
 
     /// Whether no convex part of a tile lies deeper than `depth` (m) inside one of the other's.
     pub(crate) fn overlaps_at_most(&self, q: &Configuration, depth: f64) -> bool {
-        self.circles_are_clear_by(q, 0.0) || self.placed_overlaps_at_most(&Placement::of(q), depth)
-    }
-
-    /// The same without a look at the circles.
-    fn placed_overlaps_at_most(&self, at: &Placement, depth: f64) -> bool {
-        self.hulls_are_clear_by(at, 0.0)
-            || (separated(&self.fixed_core, &self.moving_core, at, -depth)
-                && self.parts_overlap_at_most(at, depth))
+        self.unless_clear_by(q, 0.0).is_none_or(|at| {
+            separated(&self.fixed.core, &self.moving.core, &at, -depth)
+                && self.parts_overlap_at_most(&at, depth)
+        })
     }
 
     /// The same, part by part.
@@ -154,11 +132,11 @@ impl Contact {
         position: Vector2<f64>,
     ) -> (bool, f64) {
         let at = Placement { rotation, position };
-        let apart = separation(&self.fixed_hull, &self.moving_hull, &at);
+        let apart = separation(&self.fixed.hull, &self.moving.hull, &at);
         if apart >= 0.0 {
             return (true, apart);
         }
-        let deep = -TOUCH - separation(&self.fixed_core, &self.moving_core, &at);
+        let deep = -TOUCH - separation(&self.fixed.core, &self.moving.core, &at);
         if deep > 0.0 {
             return (false, deep);
         }
@@ -167,14 +145,10 @@ impl Contact {
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
     fn overlap_depth(&self, q: &Configuration) -> f64 {
-        if self.circles_are_clear_by(q, 0.0) {
-            return 0.0;
-        }
-        let at = Placement::of(q);
-        if self.hulls_are_clear_by(&at, 0.0) {
-            return 0.0;
-        }
         let mut deepest: f64 = 0.0;
+        let Some(at) = self.unless_clear_by(q, 0.0) else {
+            return deepest;
+        };
         self.close_parts(&at, |fixed, moving| {
             deepest = deepest.max(-separation(fixed, moving, &Placement::none()));
             true
@@ -192,8 +166,8 @@ impl Contact {
         let Placement { rotation, position } = *at;
         let mut part = ConvexPart::default();
         let mut placed = None;
-        self.fixed_tree.near_pairs(
-            &self.moving_tree,
+        self.fixed.parts.near_pairs(
+            &self.moving.parts,
             &|p| position + rotation * p,
             &|_| 0.0,
             &mut |i, j| {
@@ -204,7 +178,7 @@ impl Contact {
                         placed.insert((j, part.bounds())).1
                     }
                 };
-                bounds.apart(&self.fixed_bounds[i]) || holds(&self.fixed().parts()[i], &part)
+                bounds.apart(&self.fixed.bounds[i]) || holds(&self.fixed().parts()[i], &part)
             },
         )
     }
@@ -214,7 +188,14 @@ impl Contact {
 /// edges: at most their distance where they are apart, minus the overlap's depth where they are not
 /// (separating axis theorem).
 pub fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement) -> f64 {
-    separations(fixed, moving, at).fold(f64::NEG_INFINITY, f64::max)
+    let by_fixed = fixed.edges().map(|(point, normal)| {
+        support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
+    });
+    let by_moving = moving.edges().map(|(point, normal)| {
+        let world = at.rotation * normal;
+        support(fixed, &world) - world.dot(&at.position) - normal.dot(point)
+    });
+    by_fixed.chain(by_moving).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Whether the separation is at least `least` (m); looks no farther than the first edge that says
@@ -242,22 +223,6 @@ fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64
         || moving
             .edges_off([inside_fixed], fixed_radius, least)
             .any(by_moving)
-}
-
-/// How far (m) each polygon lies outside each edge of the other.
-fn separations<'a>(
-    fixed: &'a ConvexPart,
-    moving: &'a ConvexPart,
-    at: &'a Placement,
-) -> impl Iterator<Item = f64> + 'a {
-    let by_fixed = fixed.edges().map(|(point, normal)| {
-        support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
-    });
-    let by_moving = moving.edges().map(|(point, normal)| {
-        let world = at.rotation * normal;
-        support(fixed, &world) - world.dot(&at.position) - normal.dot(point)
-    });
-    by_fixed.chain(by_moving)
 }
 
 /// Where a convex part lies. What is outside it is brought into its own frame, so that the part
@@ -312,10 +277,4 @@ fn support(part: &ConvexPart, direction: &Vector2<f64>) -> f64 {
         .iter()
         .map(|p| direction.dot(p))
         .fold(f64::INFINITY, f64::min)
-}
-
-fn core(outline: &Outline) -> ConvexPart {
-    let parts = outline.parts().iter();
-    let largest = parts.max_by_key(|part| OrderedFloat(part.area()));
-    largest.map_or_else(|| outline.hull(), ConvexPart::clone)
 }

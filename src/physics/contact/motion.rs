@@ -1,59 +1,13 @@
-//! Whether a straight motion is free of overlap, from its start to its end and everywhere between.
+//! Straight motions, and how they are proved free of overlap from their start to their end and
+//! everywhere between.
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::halving::{Halves, SHORTEST};
-use super::{Contact, Placement, TOUCH};
+use super::{Contact, Placement};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::outline::ConvexPart;
 
 impl Contact {
-    /// Whether the motion from `a` to `b` (straight in x, y and theta, the shorter way round) is
-    /// free all along. Both ends are taken to be free.
-    ///
-    /// Nothing thin can be stepped over: a stretch is accepted where the line of an edge keeps every
-    /// two convex parts apart; otherwise it is halved, and the motion refused at the first
-    /// configuration that overlaps.
-    pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
-        self.motion_overlaps_at_most(a, b, TOUCH)
-    }
-
-    /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
-    /// along the motion, which both ends are taken to fulfil.
-    pub fn motion_overlaps_at_most(
-        &self,
-        a: &Configuration,
-        b: &Configuration,
-        allowed: f64,
-    ) -> bool {
-        // Of a single motion, clearances would cost more than they save.
-        let ends = [a, b].map(|end| Known::of(end, 0.0));
-        self.known_motion_overlaps_at_most(ends.each_ref(), allowed, &mut Halves::default())
-    }
-
-    /// A configuration with what every motion from or to it asks for.
-    pub fn known(&self, q: Configuration) -> Known {
-        Known::of(&q, self.clearance_bound(&q))
-    }
-
-    /// The same between configurations that are known; `left` is lent.
-    pub fn known_motion_overlaps_at_most(
-        &self,
-        [a, b]: [&Known; 2],
-        allowed: f64,
-        left: &mut Halves,
-    ) -> bool {
-        let step = Step::between(a, b);
-        let reach = step.reach(self);
-        // What is closer to an end than its clearance is free, what is a little farther overlaps by
-        // that little, and a motion that brings no point farther than both together passes from the
-        // one's surroundings into the other's.
-        let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
-        around[0] + around[1] >= reach
-            || reach <= SHORTEST
-            || self.stretches_overlap_at_most([a.placement, b.placement], step, allowed, left)
-    }
-
     /// Whether every pair of convex parts is proved to stay separated by the line of one of their
     /// edges all along the motion from `a` to `b` (straight in x, y and theta, the shorter way
     /// round), with overlaps up to `allowed` (m) let pass. A negative `allowed` asks for room.
@@ -75,10 +29,14 @@ impl Contact {
             even: true,
             ..Motion::new(&ends, &step, allowed)
         };
-        motion.separates((&self.fixed_hull, &self.moving_hull))
+        motion.separates((&self.fixed.hull, &self.moving.hull))
             || self.near_pairs(&motion, &motion.middle(), &mut |i, j| {
                 motion.separates(self.pair([i, j]))
             })
+    }
+
+    pub(super) fn pair(&self, [i, j]: [usize; 2]) -> (&ConvexPart, &ConvexPart) {
+        (&self.fixed().parts()[i], &self.moving().parts()[j])
     }
 
     /// Calls `found` for the pairs of convex parts that may meet in a motion, until it returns
@@ -92,8 +50,8 @@ impl Contact {
         // From half way no point gets farther than half the motion takes it.
         let Step { path, turn, .. } = *motion.step;
         let room = (-motion.allowed).max(0.0);
-        self.fixed_tree.near_pairs(
-            &self.moving_tree,
+        self.fixed.parts.near_pairs(
+            &self.moving.parts,
             &middle.place(),
             &|lever| (path + turn.abs() * lever) / 2.0 + room,
             found,
@@ -104,13 +62,13 @@ impl Contact {
 /// A configuration: where it places the moving tile, and how far (m) that is from the other at least.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
-    placement: Placement,
+    pub(super) placement: Placement,
     theta: f64,
-    clearance: f64,
+    pub(super) clearance: f64,
 }
 
 impl Known {
-    fn of(q: &Configuration, clearance: f64) -> Self {
+    pub(super) fn of(q: &Configuration, clearance: f64) -> Self {
         Self {
             placement: Placement::of(q),
             theta: q.theta,
@@ -129,7 +87,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    fn between(a: &Known, b: &Known) -> Self {
+    pub fn between(a: &Known, b: &Known) -> Self {
         Self {
             path: (b.placement.position - a.placement.position).norm(),
             turn: wrap_angle(b.theta - a.theta),

@@ -14,7 +14,8 @@
 
 use nalgebra::Vector2;
 
-use super::tree::CircleTree;
+use super::Contact;
+use super::shape::Shape;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::distance_to_segment;
@@ -51,90 +52,18 @@ pub struct NearPairs {
     on_moving: Vec<[usize; 2]>,
 }
 
-/// Finds points of contact, and distances.
-#[derive(Clone, Debug)]
-pub struct PointFinder {
-    pub(super) fixed: Side,
-    pub(super) moving: Side,
-}
-
-/// One outline with trees over its edges and its convex corners.
-#[derive(Clone, Debug)]
-pub(super) struct Side {
-    pub outline: Outline,
-    pub edges: CircleTree,
-    pub corners: CircleTree,
-    /// The vertex of each piece of `corners`.
-    pub numbers: Vec<usize>,
-}
-
-impl Side {
-    fn new(outline: &Outline) -> Self {
-        let n = outline.vertices().len();
-        let circle = |i: usize| {
-            let (a, b) = outline.edge(i);
-            ((a + b) / 2.0, (b - a).norm() / 2.0)
-        };
-        let edges: Vec<_> = (0..n).map(circle).collect();
-        let numbers: Vec<_> = (0..n).filter(|&i| outline.convex_vertices()[i]).collect();
-        let corners: Vec<_> = numbers
-            .iter()
-            .map(|&i| (outline.vertices()[i], 0.0))
-            .collect();
-        Self {
-            edges: CircleTree::new(&edges),
-            corners: CircleTree::new(&corners),
-            numbers,
-            outline: outline.clone(),
-        }
-    }
-
-    fn next(&self, i: usize) -> usize {
-        (i + 1) % self.outline.vertices().len()
-    }
-
-    fn before(&self, i: usize) -> usize {
-        let n = self.outline.vertices().len();
-        (i + n - 1) % n
-    }
-
-    fn length(&self, edge: usize) -> f64 {
-        let (a, b) = self.outline.edge(edge);
-        (b - a).norm()
-    }
-
-    /// A corner as a triangle: itself and the ends of its two edges, cut off at `reach` (m).
-    fn corner(&self, i: usize, reach: f64) -> [Vector2<f64>; 3] {
-        let p = self.outline.vertices()[i];
-        let toward = |k: usize| {
-            let along = self.outline.vertices()[k] - p;
-            p + along * (reach / along.norm()).min(1.0)
-        };
-        [p, toward(self.next(i)), toward(self.before(i))]
-    }
-}
-
 /// A corner of one tile against the other tile, in the other's frame.
-enum Meeting {
+enum Obstacle {
     /// In front of an edge, with the gap (m).
     Edge(usize, f64),
     /// Near a convex corner.
     Corner(usize),
 }
 
-impl PointFinder {
-    /// For a fixed and a moving outline, each in its own tile's frame (m).
-    pub fn new(fixed: &Outline, moving: &Outline) -> Self {
-        Self {
-            fixed: Side::new(fixed),
-            moving: Side::new(moving),
-        }
-    }
-
+impl Contact {
     /// What lies within `distance` (m) of the other tile.
     pub fn near(&self, q: &Configuration, distance: f64) -> NearPairs {
-        let outlines = [&self.fixed.outline, &self.moving.outline];
-        let [a, b] = outlines.map(Outline::circumradius);
+        let [a, b] = [self.fixed(), self.moving()].map(Outline::circumradius);
         if q.position().norm() > a + b + distance {
             return NearPairs::default();
         }
@@ -161,8 +90,8 @@ impl PointFinder {
             margin,
             &pairs.on_fixed,
             |i, p, what| match what {
-                Meeting::Corner(k) => corners.push([k, i]),
-                Meeting::Edge(edge, gap) => found.push(ContactPoint {
+                Obstacle::Corner(k) => corners.push([k, i]),
+                Obstacle::Edge(edge, gap) => found.push(ContactPoint {
                     on_moving: p,
                     normal: fixed.outline.normals()[edge],
                     gap,
@@ -178,8 +107,8 @@ impl PointFinder {
             margin,
             &pairs.on_moving,
             |k, _, what| match what {
-                Meeting::Corner(i) => corners.push([k, i]),
-                Meeting::Edge(edge, gap) => {
+                Obstacle::Corner(i) => corners.push([k, i]),
+                Obstacle::Edge(edge, gap) => {
                     let normal = -(rotation * moving.outline.normals()[edge]);
                     found.push(ContactPoint {
                         on_moving: fixed.outline.vertices()[k] + normal * gap,
@@ -255,7 +184,7 @@ impl PointFinder {
 
 /// Edges of `ours`, and the convex corners of `theirs`, which lies at `pose` in the frame of `ours`,
 /// within `distance` (m) of them.
-fn near(ours: &Side, theirs: &Side, pose: &Configuration, distance: f64) -> Vec<[usize; 2]> {
+fn near(ours: &Shape, theirs: &Shape, pose: &Configuration, distance: f64) -> Vec<[usize; 2]> {
     let (rotation, position) = (pose.rotation(), pose.position());
     let place = |p: Vector2<f64>| position + rotation * p;
     let mut pairs = Vec::new();
@@ -276,12 +205,12 @@ fn near(ours: &Side, theirs: &Side, pose: &Configuration, distance: f64) -> Vec<
 /// Calls `found(vertex, where it is, what it meets)` for convex corners of `theirs` near `ours`,
 /// in whose frame `theirs` lies at `pose`.
 fn meet(
-    ours: &Side,
-    theirs: &Side,
+    ours: &Shape,
+    theirs: &Shape,
     pose: &Configuration,
     margin: f64,
     pairs: &[[usize; 2]],
-    mut found: impl FnMut(usize, Vector2<f64>, Meeting),
+    mut found: impl FnMut(usize, Vector2<f64>, Obstacle),
 ) {
     let (rotation, position) = (pose.rotation(), pose.position());
     let outline = &ours.outline;
@@ -302,7 +231,7 @@ fn meet(
             let t = from.dot(&inwards);
             if outline.convex_vertices()[k] {
                 if from.norm_squared() <= margin * margin {
-                    found(i, p, Meeting::Corner(k));
+                    found(i, p, Obstacle::Corner(k));
                     faces_it = false;
                 }
                 faces_it &= t >= 0.0;
@@ -315,7 +244,7 @@ fn meet(
         let is_real = gap >= -SHALLOW * margin
             || (faces_it && (outline.signed_distance(p) - gap).abs() <= 1e-3 * margin);
         if faces_it && is_real {
-            found(i, p, Meeting::Edge(edge, gap));
+            found(i, p, Obstacle::Edge(edge, gap));
         }
     }
 }

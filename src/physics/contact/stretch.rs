@@ -32,19 +32,19 @@ impl Contact {
         let at = Placement::of(q);
         let shift = Shift { direction, length };
         let mut part = ConvexPart::default();
-        part.place(&self.moving_hull, &at.rotation, &at.position);
-        if shift.overlap(&self.fixed_hull, &part).is_none() {
+        part.place(&self.moving.hull, &at.rotation, &at.position);
+        if shift.overlap(&self.fixed.hull, &part).is_none() {
             return vec![[0.0, length]];
         }
-        part.place(&self.moving_core, &at.rotation, &at.position);
-        let mut blocked = Vec::from_iter(shift.overlap(&self.fixed_core, &part));
+        part.place(&self.moving.core, &at.rotation, &at.position);
+        let mut blocked = Vec::from_iter(shift.overlap(&self.fixed.core, &part));
         if blocked == [[0.0, length]] {
             return Vec::new();
         }
         let middle = at.position + direction * (length / 2.0);
         let mut placed = None;
-        self.fixed_tree.near_pairs(
-            &self.moving_tree,
+        self.fixed.parts.near_pairs(
+            &self.moving.parts,
             &|p| middle + at.rotation * p,
             &|_| length / 2.0,
             &mut |i, j| {

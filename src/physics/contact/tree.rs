@@ -5,7 +5,6 @@ use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
 use crate::order::Order;
-use crate::tile::Outline;
 
 /// Pieces in a leaf, at most.
 const LEAF: usize = 4;
@@ -56,21 +55,6 @@ pub(super) enum Below<'a> {
 }
 
 impl CircleTree {
-    /// The tree of an outline's convex parts.
-    pub fn of_parts(outline: &Outline) -> Self {
-        let circles: Vec<_> = outline
-            .parts()
-            .iter()
-            .map(|part| {
-                let bounds = part.bounds();
-                let middle = (bounds.low + bounds.high) / 2.0;
-                let distances = part.points.iter().map(|p| (p - middle).norm());
-                (middle, distances.fold(0.0, f64::max))
-            })
-            .collect();
-        Self::new(&circles)
-    }
-
     /// A tree over circles (centre, radius), of which there is at least one.
     pub fn new(circles: &[Circle]) -> Self {
         let mut tree = Self {

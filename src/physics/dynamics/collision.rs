@@ -26,6 +26,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::body::{Body, Phase};
+use super::settings::MotionSettings;
 use crate::contact::ContactPoint;
 use crate::tile::outline::cross;
 
@@ -37,13 +38,6 @@ const TOUCHED: f64 = 1e-9;
 const PUSHED_OUT: f64 = 1e-6;
 /// Sweeps over the points that hold, at most; two suffice for one point.
 const SWEEPS: usize = 200;
-
-/// What happens where surfaces touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Surface {
-    pub restitution: f64,
-    pub friction: f64,
-}
 
 /// A point of contact as rows of velocities.
 #[derive(Clone, Copy, Debug)]
@@ -137,7 +131,7 @@ impl Stride {
 /// One step from a phase, held back at points of contact.
 pub(super) fn step(
     body: &Body,
-    surface: Surface,
+    settings: &MotionSettings,
     phase: &Phase,
     stride: &Stride,
     points: &[ContactPoint],
@@ -145,31 +139,29 @@ pub(super) fn step(
     let masses = body.masses();
     let h = stride.h;
     let free = phase.velocity + stride.push();
-    let mut holds: Vec<Hold> = points
-        .iter()
-        .map(|point| Hold::new(point, phase.place.xy()))
-        .collect();
-    for hold in &mut holds {
-        hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
-    }
-    let way = held(&masses, &free, &holds, surface.friction);
+    let hold = |point: &ContactPoint| Hold {
+        least: (-point.gap / h).min(PUSHED_OUT / h),
+        ..Hold::new(point, phase.place.xy())
+    };
+    let mut holds: Vec<Hold> = points.iter().map(hold).collect();
+    let way = held(&masses, &free, &holds, settings.friction);
     holds.retain_mut(|hold| {
         let touched = hold.gap + hold.normal.dot(&way) * h <= TOUCHED;
         hold.least = 0.0;
         touched
     });
-    let stopped = held(&masses, &free, &holds, surface.friction);
+    let stopped = held(&masses, &free, &holds, settings.friction);
     let mut velocity = stopped;
     let approach = |hold: &Hold| -hold.normal.dot(&phase.velocity);
-    if surface.restitution > 0.0 && holds.iter().any(|hold| approach(hold) > ERROR) {
-        let is_elastic = surface.restitution == 1.0;
+    if settings.restitution > 0.0 && holds.iter().any(|hold| approach(hold) > ERROR) {
+        let is_elastic = settings.restitution == 1.0;
         for hold in &mut holds {
             hold.least = match is_elastic {
                 true => hold.thrown_back(stride, &phase.velocity),
-                false => surface.restitution * approach(hold).max(0.0),
+                false => settings.restitution * approach(hold).max(0.0),
             };
         }
-        let bounced = held(&masses, &free, &holds, surface.friction) - stopped;
+        let bounced = held(&masses, &free, &holds, settings.friction) - stopped;
         velocity += bounced
             * match is_elastic {
                 true => {

@@ -14,7 +14,7 @@
 //! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with
 //! step control, no step being longer than the clearance allows. Within the range of contact the
 //! leapfrog method takes over, in short steps, each held back at the
-//! [points](crate::contact::PointFinder) where corners of one tile meet edges or corners of the
+//! [points](crate::contact::ContactPoint) where corners of one tile meet edges or corners of the
 //! other, or the rim, by impulses that obey Coulomb's law.
 //!
 //! Measured on the paper's tile: without drag and contact, past the other tile's corner, the energy

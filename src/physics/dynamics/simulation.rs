@@ -1,15 +1,11 @@
 //! What a trajectory is made with and what comes of it.
 
 use nalgebra::{Vector2, Vector3};
-use rand_chacha::ChaCha8Rng;
 
 use super::body::{Body, Motion, Phase};
-use super::collision::Surface;
 use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
-use super::trajectory::Trajectory;
 use crate::configuration::Configuration;
-use crate::contact::{Contact, PointFinder};
 use crate::problem::Problem;
 
 /// The moving tile at one moment of a trajectory.
@@ -61,8 +57,9 @@ pub struct Run {
 /// The moving tile as a rigid body on the air table. See the [module](super) for the equations.
 pub struct Simulation<'a> {
     pub(super) problem: &'a Problem,
-    pub(super) body: Body,
-    pub(super) settings: &'a MotionSettings,
+    /// The moving tile's mass and inertia.
+    pub body: Body,
+    pub(super) settings: MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
 }
@@ -73,17 +70,17 @@ impl<'a> Simulation<'a> {
     pub fn new(
         problem: &'a Problem,
         body: Body,
-        settings: &'a MotionSettings,
+        settings: &MotionSettings,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self::of_sound_settings(problem, body, settings))
+        Ok(Self::of_sound_settings(problem, body, settings.clone()))
     }
 
     /// With settings that are known to make sense.
     pub(super) fn of_sound_settings(
         problem: &'a Problem,
         body: Body,
-        settings: &'a MotionSettings,
+        settings: MotionSettings,
     ) -> Self {
         let circumradius = problem
             .contact
@@ -95,42 +92,6 @@ impl<'a> Simulation<'a> {
             settings,
             reach: circumradius + body.centre.norm(),
         }
-    }
-
-    /// The moving tile's mass and inertia.
-    pub fn body(&self) -> &Body {
-        &self.body
-    }
-
-    /// The snapshot of a motion at time 0.
-    pub fn snapshot(&self, motion: &Motion) -> Snapshot {
-        let mut trajectory = Trajectory::new(self, motion);
-        trajectory.sense_contact();
-        trajectory.snapshot()
-    }
-
-    /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
-    /// trajectory by returning true; `rng` feeds the shaking.
-    pub fn run(
-        &self,
-        start: &Motion,
-        duration: f64,
-        rng: &mut ChaCha8Rng,
-        watch: &mut dyn FnMut(&Snapshot) -> bool,
-    ) -> Run {
-        let mut trajectory = Trajectory::new(self, start);
-        let stop = trajectory.advance(duration, rng, watch);
-        Run {
-            last: trajectory.snapshot(),
-            stop,
-            free_steps: trajectory.free_steps,
-            contact_steps: trajectory.contact_steps,
-        }
-    }
-
-    /// What finds points of contact; `None` where the tiles pass through each other.
-    pub(super) fn finder(&self) -> Option<&'a PointFinder> {
-        self.problem.contact.as_ref().map(Contact::finder)
     }
 
     /// Whether anything can move a tile that rests.
@@ -146,9 +107,9 @@ impl<'a> Simulation<'a> {
         let q = self.body.configuration(&phase.place);
         let contact = self.problem.contact.as_ref();
         let bound = contact.map_or(f64::INFINITY, |contact| contact.clearance_bound(&q));
-        let tile = match self.finder() {
-            Some(finder) if bound <= LARGE => {
-                finder.distance(&q, [self.settings.contact_range, LARGE])
+        let tile = match contact {
+            Some(contact) if bound <= LARGE => {
+                contact.distance(&q, [self.settings.contact_range, LARGE])
             }
             _ => bound,
         };
@@ -196,7 +157,7 @@ impl<'a> Simulation<'a> {
         velocity.xy().norm() + self.reach * velocity.z.abs()
     }
 
-    pub(super) fn forces(&self) -> Forces<'a> {
+    pub(super) fn forces(&self) -> Forces<'_> {
         Forces {
             potential: self.problem.potential(),
             fans: &self.settings.fans,
@@ -207,13 +168,6 @@ impl<'a> Simulation<'a> {
             } else {
                 self.settings.drag
             },
-        }
-    }
-
-    pub(super) fn surface(&self) -> Surface {
-        Surface {
-            restitution: self.settings.restitution,
-            friction: self.settings.friction,
         }
     }
 }

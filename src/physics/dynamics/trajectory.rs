@@ -10,7 +10,7 @@ use super::body::{Body, Motion, Phase};
 use super::collision::{self, Stride};
 use super::flight;
 use super::force::Forces;
-use super::simulation::{Simulation, Snapshot, Stop};
+use super::simulation::{Run, Simulation, Snapshot, Stop};
 use super::vicinity::{Ahead, Vicinity};
 
 /// A tile in contact rests when no point of it moves faster than this (m/s) ...
@@ -26,10 +26,38 @@ const DRAG_A_KICK: f64 = 0.25;
 /// Free steps are at least this long (s): no force of magnets bends a path faster.
 const SHORTEST_STEP: f64 = 1e-7;
 
+impl Simulation<'_> {
+    /// The snapshot of a motion at time 0.
+    pub fn snapshot(&self, motion: &Motion) -> Snapshot {
+        let mut trajectory = Trajectory::new(self, motion);
+        trajectory.sense_contact();
+        trajectory.snapshot()
+    }
+
+    /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
+    /// trajectory by returning true; `rng` feeds the shaking.
+    pub fn run(
+        &self,
+        start: &Motion,
+        duration: f64,
+        rng: &mut ChaCha8Rng,
+        watch: &mut dyn FnMut(&Snapshot) -> bool,
+    ) -> Run {
+        let mut trajectory = Trajectory::new(self, start);
+        let stop = trajectory.advance(duration, rng, watch);
+        Run {
+            last: trajectory.snapshot(),
+            stop,
+            free_steps: trajectory.free_steps,
+            contact_steps: trajectory.contact_steps,
+        }
+    }
+}
+
 /// A trajectory under way.
-pub(super) struct Trajectory<'a, 'b> {
+struct Trajectory<'a, 'b> {
     simulation: &'b Simulation<'a>,
-    forces: Forces<'a>,
+    forces: Forces<'b>,
     phase: Phase,
     time: f64,
     potential: f64,
@@ -41,12 +69,12 @@ pub(super) struct Trajectory<'a, 'b> {
     room: f64,
     vicinity: Vicinity,
     free_step: f64,
-    pub(super) free_steps: usize,
-    pub(super) contact_steps: usize,
+    free_steps: usize,
+    contact_steps: usize,
 }
 
 impl<'a, 'b> Trajectory<'a, 'b> {
-    pub(super) fn new(simulation: &'b Simulation<'a>, start: &Motion) -> Self {
+    fn new(simulation: &'b Simulation<'a>, start: &Motion) -> Self {
         Self {
             simulation,
             forces: simulation.forces(),
@@ -63,7 +91,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         }
     }
 
-    pub(super) fn snapshot(&self) -> Snapshot {
+    fn snapshot(&self) -> Snapshot {
         Snapshot {
             time: self.time,
             motion: self.simulation.body.motion(&self.phase),
@@ -75,7 +103,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     }
 
     /// Measures the clearance and decides between flight and contact.
-    pub(super) fn sense_contact(&mut self) {
+    fn sense_contact(&mut self) {
         let range = self.simulation.settings.contact_range;
         let clearance = self.simulation.clearance(&self.phase);
         self.touching = clearance <= range;
@@ -83,7 +111,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         self.potential = self.forces.conservative(&self.phase.place, self.time).0;
     }
 
-    pub(super) fn advance(
+    fn advance(
         &mut self,
         duration: f64,
         rng: &mut ChaCha8Rng,
@@ -116,7 +144,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
 
     /// Free flight until contact is near or the time is over.
     fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
-        let settings = self.simulation.settings;
+        let settings = &self.simulation.settings;
         let rho = self.simulation.problem.space.rho;
         let mut acceleration = self.forces.acceleration(&self.phase, self.time);
         while self.time < until {
@@ -179,12 +207,11 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     /// Contact until the tile has left, rests, or the time is over.
     fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let simulation = self.simulation;
-        let settings = simulation.settings;
+        let settings = &simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
         // The leapfrog's velocities belong to the middles of its steps: a step begins with the
         // push of half the step before and half of this one.
         let mut before = 0.0;
-        let mut stop = None;
         let mut rested = 0.0;
         self.room = 0.0;
         loop {
@@ -210,7 +237,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                     self.room = room - 0.5 * settings.contact_range;
                     self.touching = false;
                     self.free_step = h;
-                    break;
+                    return None;
                 }
                 Ahead::Room(room) => {
                     self.phase.velocity = velocity;
@@ -218,8 +245,8 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                     self.room = room - way;
                 }
                 Ahead::Contact(points) => {
-                    let (body, surface) = (&simulation.body, simulation.surface());
-                    self.phase = collision::step(body, surface, &self.phase, &stride, &points);
+                    let (body, phase) = (&simulation.body, &self.phase);
+                    self.phase = collision::step(body, settings, phase, &stride, &points);
                     self.room = 0.0;
                 }
             }
@@ -233,20 +260,17 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             let force = acceleration.component_mul(&simulation.body.masses());
             self.lag = 0.5 * h * force.dot(&self.phase.velocity);
             if watch(&self.snapshot()) {
-                stop = Some(Stop::Watcher);
-                break;
+                return Some(Stop::Watcher);
             }
             let fast = simulation.fastest(&self.phase.velocity) > REST_SPEED;
             rested = if fast { 0.0 } else { rested + h };
             if rested >= REST_TIME && simulation.rest_lasts() {
-                stop = Some(Stop::Rest);
-                break;
+                return Some(Stop::Rest);
             }
             if self.time >= until {
-                break;
+                return None;
             }
         }
-        stop
     }
 
     /// Drag and random kicks over a time `h`: an Ornstein-Uhlenbeck step of the velocity, exact,

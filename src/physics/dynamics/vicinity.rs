@@ -58,7 +58,7 @@ impl Vicinity {
 
     /// The points of contact within a margin (m).
     fn points(&mut self, simulation: &Simulation, phase: &Phase, margin: f64) -> Vec<ContactPoint> {
-        let Some(finder) = simulation.finder() else {
+        let Some(contact) = &simulation.problem.contact else {
             return Vec::new();
         };
         let needed = 1.5 * margin;
@@ -67,9 +67,9 @@ impl Vicinity {
         if self.distance - moved < needed {
             self.distance = needed + AHEAD * simulation.settings.contact_range;
             self.place = phase.place;
-            self.pairs = finder.near(&q, self.distance);
+            self.pairs = contact.near(&q, self.distance);
         }
-        let mut points = finder.points(&q, margin, &self.pairs);
+        let mut points = contact.points(&q, margin, &self.pairs);
         at_rim(simulation, &q, margin, &mut points);
         points
     }

@@ -4,13 +4,13 @@ use std::cell::RefCell;
 
 use super::corner;
 use super::root::{root, straight_root};
-use super::well::{Estimate, Well};
+use super::volume::Estimate;
+use super::well::Well;
 use crate::configuration::Configuration;
 use crate::interruption;
-use crate::landscape::constrained::Point;
 use crate::landscape::{Catalogue, Kind, Place};
 use crate::problem::Problem;
-use crate::tile::Pair;
+use crate::roadmap::Point;
 
 /// Relative error to which partition functions are integrated.
 pub const TOLERANCE: f64 = 2e-3;
@@ -57,15 +57,10 @@ pub struct Hold<'a> {
     pub copies: usize,
     /// How many of them turns of the moving tile alone make.
     pub moving_copies: usize,
-    well: Well<'a>,
+    /// Its basin, and what is integrated over it.
+    pub well: Well<'a>,
     area: f64,
 }
-
-/// A trap is a hold like any other.
-pub type Trap<'a> = Hold<'a>;
-
-/// The bond, as assembly models see it.
-pub struct Bond<'a>(Hold<'a>);
 
 /// What holding takes and gives at one shaking, in kT.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +82,19 @@ impl Docking {
 }
 
 impl<'a> Hold<'a> {
-    /// A kind of states of an catalogue; its basin is flooded.
+    /// The bond of a catalogue.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn bond(problem: &'a Problem, catalogue: &Catalogue) -> Result<Self, BondError> {
+        problem.pair.as_ref().ok_or(BondError::NoTiles)?;
+        let kind = catalogue.kinds().find(Kind::is_bond);
+        let kind = kind.ok_or(BondError::NoBond)?;
+        let name = catalogue.names()[kind.first().id].clone();
+        Ok(Self::new(problem, catalogue, &kind, name))
+    }
+
+    /// A kind of states of a catalogue; its basin is flooded.
     fn new(problem: &'a Problem, catalogue: &Catalogue, kind: &Kind, name: String) -> Self {
         interruption::check();
         let state = kind.first();
@@ -101,13 +108,11 @@ impl<'a> Hold<'a> {
             copies: kind.copies(),
             moving_copies: problem.symmetries.iter().filter(|s| s.fixed == 0.0).count(),
             well: Well::new(problem, &minimum, pass(catalogue, kind), &others),
-            area: problem.pair.as_ref().map_or(0.0, |pair| area(pair)),
+            area: problem
+                .pair
+                .as_ref()
+                .map_or(0.0, |pair| pair.moving.outline.area()),
         }
-    }
-
-    /// Its basin and the integral over it.
-    pub fn well(&self) -> &Well<'a> {
-        &self.well
     }
 
     /// Whether it is deep enough at kT (J) to hold anything.
@@ -116,7 +121,7 @@ impl<'a> Hold<'a> {
     }
 
     /// Whether it has play, but less than contact is known to at kT (J): tiles that shake so little
-    /// move by less than [`super::well::NO_PLAY`] in it. Without play at a tenth of its depth it has
+    /// move by less than [`super::volume::NO_PLAY`] in it. Without play at a tenth of its depth it has
     /// none at all.
     pub fn is_too_cold(&self, kt: f64) -> bool {
         let has_play = |kt: f64| self.well.has_play(kt);
@@ -139,13 +144,8 @@ impl<'a> Hold<'a> {
     /// none.
     pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Docking> {
         let value = corner::volume(problem, &self.configuration, shaking.kt)?;
-        Some(self.with(
-            shaking,
-            Estimate {
-                value,
-                error: f64::NAN,
-            },
-        ))
+        let error = f64::NAN;
+        Some(self.with(shaking, Estimate { value, error }))
     }
 
     /// The constant K (m^2) of association of one pair: over an area S alone, it is in one of the
@@ -164,27 +164,6 @@ impl<'a> Hold<'a> {
             cost: -libm::log(share),
         }
     }
-}
-
-impl<'a> Bond<'a> {
-    /// The bond of an catalogue.
-    ///
-    /// # Errors
-    /// Where there is none.
-    pub fn new(problem: &'a Problem, catalogue: &Catalogue) -> Result<Self, BondError> {
-        problem.pair.as_ref().ok_or(BondError::NoTiles)?;
-        let kind = catalogue
-            .kinds()
-            .find(Kind::is_bond)
-            .ok_or(BondError::NoBond)?;
-        let name = catalogue.names()[kind.first().id].clone();
-        Ok(Self(Hold::new(problem, catalogue, &kind, name)))
-    }
-
-    /// The bond as a hold.
-    pub fn hold(&self) -> &Hold<'a> {
-        &self.0
-    }
 
     /// The two kT (J) at a coverage between which two bonds that are closed by one docking hold and
     /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
@@ -199,7 +178,7 @@ impl<'a> Bond<'a> {
     /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
         let cost = |docking: &Docking, depth: f64| {
-            depth + log_odds - libm::log(self.0.association(docking) / area)
+            depth + log_odds - libm::log(self.association(docking) / area)
         };
         self.threshold(1.0, 1.0, &cost, &RefCell::default())
     }
@@ -213,31 +192,27 @@ impl<'a> Bond<'a> {
         cost: &dyn Fn(&Docking, f64) -> f64,
         known: &RefCell<Vec<[f64; 2]>>,
     ) -> Option<f64> {
-        let hold = &self.0;
         let of = |log_depth: f64| {
             let found = known.borrow().iter().find(|it| it[0] == log_depth).copied();
-            found.map_or_else(
-                || {
-                    let depth = libm::exp(log_depth);
-                    let kt = -hold.energy / depth;
-                    let docking = hold.docking(&Shaking { kt, coverage }, ROUGH);
-                    let cost = cost(&docking, depth);
-                    known.borrow_mut().push([log_depth, cost]);
-                    cost
-                },
-                |known| known[1],
-            )
+            if let Some([_, cost]) = found {
+                return cost;
+            }
+            let depth = libm::exp(log_depth);
+            let kt = -self.energy / depth;
+            let cost = cost(&self.docking(&Shaking { kt, coverage }, ROUGH), depth);
+            known.borrow_mut().push([log_depth, cost]);
+            cost
         };
         let ends = DEPTHS.map(libm::log);
         let found = straight_root(bonds, &of, ends);
         let found = found.or_else(|| root(|log| bonds * libm::exp(log) - of(log), ends));
-        found.map(|log_depth| -hold.energy / libm::exp(log_depth))
+        found.map(|log_depth| -self.energy / libm::exp(log_depth))
     }
 }
 
-/// The kinds of traps of an catalogue that are deep enough to hold anything at kT (J), in the
+/// The kinds of traps of a catalogue that are deep enough to hold anything at kT (J), in the
 /// catalogue's order.
-pub fn traps<'a>(problem: &'a Problem, catalogue: &Catalogue, kt: f64) -> Vec<Trap<'a>> {
+pub fn traps<'a>(problem: &'a Problem, catalogue: &Catalogue, kt: f64) -> Vec<Hold<'a>> {
     let names = catalogue.names();
     let is_deep = |kind: &Kind| -kind.first().energy >= LEAST_DEPTH * kt;
     let kinds = catalogue
@@ -249,18 +224,8 @@ pub fn traps<'a>(problem: &'a Problem, catalogue: &Catalogue, kt: f64) -> Vec<Tr
 
 /// The lowest energy (J) at which a known way leads out of a kind of states.
 fn pass(catalogue: &Catalogue, kind: &Kind) -> f64 {
-    let is_own = |place: Place| {
-        kind.states
-            .iter()
-            .any(|state| place == Place::State(state.id))
-    };
+    let is_own = |place: Place| kind.states.iter().any(|it| place == Place::State(it.id));
     let ways = catalogue.barriers.iter();
     let ways = ways.filter(|way| is_own(way.from) != is_own(way.to));
-    ways.map(|way| way.saddle_energy)
-        .fold(f64::INFINITY, f64::min)
-}
-
-/// The area (m^2) of the moving tile.
-fn area(pair: &Pair) -> f64 {
-    pair.moving.outline.area()
+    ways.fold(f64::INFINITY, |least, way| least.min(way.saddle_energy))
 }

@@ -52,15 +52,6 @@ pub(super) struct Bracket {
     of_rims: Vec<(Vec<(usize, f64)>, f64)>,
 }
 
-/// A figure and its bounds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Bounded {
-    /// Midway between the bounds.
-    pub value: f64,
-    /// From below and above.
-    pub ends: [f64; 2],
-}
-
 impl Bracket {
     /// Of so many places.
     ///
@@ -80,16 +71,15 @@ impl Bracket {
         });
         let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
         let network = field.network(nodes, pins, asked.rim).ok_or(Unsolved)?;
-        let fluxes = network.fluxes();
-        let source = |cell: usize| match (asked.left_out[cell], &mesh.leaves[cell].element) {
-            (false, Some(element)) => element.load.iter().sum(),
-            _ => 0.0,
+        let source = |cell: usize| match asked.left_out[cell] {
+            true => 0.0,
+            false => mesh.held(cell),
         };
         let found = parallel::map(0..count + 1, |place| {
-            let like = fluxes.potentials(nodes, &values[place]);
+            let like = network.potentials(nodes, &values[place]);
             match place == count {
-                true => fluxes.of(&source, &like),
-                false => fluxes.from(place, &like),
+                true => network.of(&source, &like),
+                false => network.from(place, &like),
             }
         });
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -104,7 +94,7 @@ impl Bracket {
             .map(|place| [found[place].capacity, energy(place)])
             .collect();
         let by_cells: Vec<Vec<Vec<f64>>> = parallel::map(0..count + 1, |i| {
-            let with = |j| fluxes.products(mesh, nodes, &gap(i), &gap(j));
+            let with = |j| network.products(mesh, nodes, &gap(i), &gap(j));
             (0..=i).map(with).collect()
         });
         // The squares as they are found otherwise, too: of the two the safer one, for of the mean time
@@ -123,14 +113,13 @@ impl Bracket {
             };
             (0..=count).map(with).collect()
         });
-        let flow = |i: usize, j: usize| {
-            let out = system.fluxes(&values[i]);
-            let into = pins.iter().zip(out).filter(|(pin, _)| **pin == Some(j));
-            -into.map(|(_, flux)| flux).sum::<f64>()
-        };
+        let flows: Vec<Vec<f64>> = values[..count]
+            .iter()
+            .map(|values| system.flows(values, count.max(asked.rim + 1)))
+            .collect();
         let between = |i: usize, j: usize| match i == j {
             true => 0.0,
-            false => flow(i.max(j), i.min(j)),
+            false => flows[i.max(j)][i.min(j)],
         };
         let of_rims = values[..count]
             .iter()
@@ -146,12 +135,6 @@ impl Bracket {
             by_cells,
             of_rims,
         })
-    }
-
-    /// What is missing in a product of two problems, and how far it may be off.
-    fn missing(&self, i: usize, j: usize) -> [f64; 2] {
-        let off = (self.gaps[i][i] * self.gaps[j][j]).sqrt();
-        [0.5 * self.gaps[i][j], 0.5 * off]
     }
 
     /// Bounds of the occupation and a known `rest` of it over the capacity: what is missing in
@@ -216,17 +199,12 @@ impl Bracket {
 
     /// What flows between two places (rad), midway between its bounds.
     pub fn flow(&self, i: usize, j: usize) -> f64 {
-        (self.flows[i][j] + self.missing(i, j)[0]).max(0.0)
+        (self.flows[i][j] + 0.5 * self.gaps[i][j]).max(0.0)
     }
 
-    /// Bounds of the integral of a place's committor times the load.
-    pub fn occupation(&self, place: usize) -> Bounded {
-        let [middle, off] = self.missing(place, self.held.len());
-        let value = self.held[place] + middle;
-        Bounded {
-            value: value.max(0.0),
-            ends: [-off, off].map(|off| (value + off).max(0.0)),
-        }
+    /// The integral of a place's committor times the load, midway between its bounds.
+    pub fn occupation(&self, place: usize) -> f64 {
+        (self.held[place] + 0.5 * self.with_time(place)).max(0.0)
     }
 
     /// What refining the cells may bring to the bounds of mean exit times and, for these pairs, of

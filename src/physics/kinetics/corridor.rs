@@ -4,11 +4,8 @@
 //! may not prove it blocked. Where nothing but such cells parts a state from free tiles they are
 //! divided, until a way shows or is excluded.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use super::field::Field;
-use super::sets::is_at_the_rim;
+use super::sets::{best_way, flood};
 use crate::configuration::Configuration;
 
 /// Cells of this size (m) are not divided for it any more.
@@ -75,19 +72,10 @@ impl Field<'_> {
     pub fn blocked(&self, places: &[Configuration]) -> Vec<Vec<bool>> {
         let mesh = &self.mesh;
         let beside = mesh.joined(&|leaf| !leaf.blocked);
-        let reach = |from: &Configuration| {
-            let mut reached = vec![false; mesh.leaves.len()];
-            let mut open = mesh.holding(from);
-            while let Some(id) = open.pop() {
-                if !std::mem::replace(&mut reached[id], true) {
-                    open.extend(beside[id].iter().map(|&other| other as usize));
-                }
-            }
-            reached
-        };
+        let reach = |from: &Configuration| flood(&beside, mesh.holding(from), &|_| true);
         let reached: Vec<Vec<bool>> = places.iter().map(reach).collect();
-        let is_rim = |id: usize| is_at_the_rim(mesh, &mesh.leaves[id]);
-        let to_rim = |reached: &Vec<bool>| (0..reached.len()).any(|id| reached[id] && is_rim(id));
+        let to_rim =
+            |reached: &Vec<bool>| (0..reached.len()).any(|id| reached[id] && mesh.is_outer(id));
         let met = |from: usize, to: usize| match (reached.get(from), places.get(to)) {
             (Some(from), Some(to)) => mesh.holding(to).iter().any(|&id| from[id]),
             (Some(from), None) => to_rim(from),
@@ -110,32 +98,18 @@ impl Field<'_> {
             Some(_) => 0,
             None => mesh.leaves[id].size(),
         };
-        let mut best = vec![i64::MAX; mesh.leaves.len()];
-        let mut before = vec![None; mesh.leaves.len()];
-        let mut open = BinaryHeap::new();
-        for id in mesh.holding(from) {
-            best[id] = 0;
-            open.push(Reverse((0, id)));
-        }
-        while let Some(Reverse((length, id))) = open.pop() {
-            if is_at_the_rim(mesh, &mesh.leaves[id]) {
-                let way = std::iter::successors(Some(id), |&id| before[id]);
-                return Some(way.filter(|&id| cost(id) > 0).collect());
+        // Where it starts costs nothing.
+        let after = |length: Option<i64>, id: usize| match length {
+            None => Some(Some(0)),
+            Some(_) if cost(id) > 0 && is_small(mesh.leaves[id].level) => {
+                *is_excluded = false;
+                None
             }
-            if length > best[id] {
-                continue;
-            }
-            for other in beside[id].iter().map(|&other| other as usize) {
-                let there = length + cost(other);
-                if cost(other) > 0 && is_small(mesh.leaves[other].level) {
-                    *is_excluded = false;
-                } else if there < best[other] {
-                    best[other] = there;
-                    before[other] = Some(id);
-                    open.push(Reverse((there, other)));
-                }
-            }
-        }
-        None
+            Some(length) => Some(Some(length + cost(id))),
+        };
+        let to_rim = |id: usize| mesh.is_outer(id);
+        let (_, mut way) = best_way(&beside, None, mesh.holding(from), after, &to_rim)?;
+        way.retain(|&id| cost(id) > 0);
+        Some(way)
     }
 }

@@ -53,7 +53,7 @@ impl Distances {
             for (id, _, element) in field.mesh.live() {
                 // What is much the same all over a cell is integrated well.
                 let change = ((element.highest - element.lowest) / kt).min(1.0);
-                errors[id] = element.load.iter().sum::<f64>() * change * change;
+                errors[id] = element.held() * change * change;
             }
             field.refine(&errors, DIVIDED);
             known = Some(shares);
@@ -87,7 +87,7 @@ fn edges(field: &Field) -> Vec<f64> {
 fn shares(field: &Field) -> Vec<f64> {
     let mut sums = vec![0.0; field.mesh.chart.cells[0] as usize];
     for (_, leaf, element) in field.mesh.live() {
-        sums[(leaf.low[0] / UNITS) as usize] += element.load.iter().sum::<f64>();
+        sums[(leaf.low[0] / UNITS) as usize] += element.held();
     }
     let all: f64 = sums.iter().sum();
     sums.iter().map(|sum| sum / all).collect()

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::field::Field;
-use super::mesh::{Element, Nodes, gradients};
+use super::mesh::{Element, Nodes, slope};
 use super::rim::Rims;
 
 /// Estimated errors of functions' energies, relative to them.
@@ -73,12 +73,9 @@ impl Field<'_> {
 
     /// The gradient (1/m) at a corner of a cell.
     fn slope(&self, nodes: &Nodes, values: &[f64], id: usize, corner: usize) -> Vector3<f64> {
-        let leaf = &self.mesh.leaves[id];
         let part = std::array::from_fn(|i| (corner >> i & 1) as f64);
-        let values = nodes.of(id, values);
-        let slopes = gradients(part).into_iter().zip(values);
-        let by: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
-        let element = leaf.element.as_ref();
+        let by = slope(part, &nodes.of(id, values));
+        let element = self.mesh.leaves[id].element.as_ref();
         let by = element.map_or(by, |element| element.gradients * by);
         by.component_div(&Vector3::new(1.0, 1.0, self.mesh.rho))
     }

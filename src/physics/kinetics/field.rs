@@ -7,8 +7,7 @@ use std::sync::Mutex;
 
 use ordered_float::OrderedFloat;
 
-use super::mesh::{Chart, Integrator, Nodes, Octree, shapes};
-use super::sets;
+use super::mesh::{Chart, Integrator, Nodes, Octree, value};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::parallel;
@@ -35,7 +34,8 @@ const MOVED: f64 = 2.0;
 pub(super) struct Field<'a> {
     pub mesh: Octree,
     pub kt: f64,
-    problem: &'a Problem,
+    /// What all is asked about.
+    pub problem: &'a Problem,
     integrator: Integrator<'a>,
     costs: Mutex<Costs>,
 }
@@ -96,8 +96,8 @@ impl<'a> Field<'a> {
             let mut large = Vec::new();
             for q in seeds {
                 let held = field.mesh.holding(q);
-                let lowest = |id: &usize| sets::lowest(&field.mesh, *id);
-                let met = held.iter().map(lowest).fold(f64::INFINITY, f64::min);
+                let lowest = held.iter().map(|&id| field.mesh.lowest(id));
+                let met = lowest.fold(f64::INFINITY, f64::min);
                 let is_met = met < problem.energy(q) + NEAR * kt;
                 let least = if is_met { SEED } else { LEAST_SEED };
                 large.extend(held.into_iter().filter(|id| size(id, q) > least));
@@ -150,16 +150,6 @@ impl<'a> Field<'a> {
         libm::exp((self.ground() - self.level()) / self.kt)
     }
 
-    /// What all is asked about.
-    pub fn problem(&self) -> &'a Problem {
-        self.problem
-    }
-
-    /// U (J) at a configuration.
-    pub fn energy_at(&self, q: &Configuration) -> f64 {
-        self.problem.energy(q)
-    }
-
     /// The energy (J) from which loads are counted.
     pub fn ground(&self) -> f64 {
         self.integrator.ground
@@ -181,7 +171,7 @@ impl<'a> Field<'a> {
     pub fn held_below(&self, id: usize, limit: f64) -> f64 {
         let leaf = &self.mesh.leaves[id];
         match &leaf.element {
-            Some(element) if element.highest <= limit => element.load.iter().sum(),
+            Some(element) if element.highest <= limit => element.held(),
             Some(element) if element.lowest < limit => {
                 self.integrator.held_below(&self.mesh.chart, leaf, limit)
             }
@@ -229,10 +219,8 @@ impl<'a> Field<'a> {
                 let place = leaf.corner(number);
                 let aside = |i: usize| (place[i] - large.low[i]) as f64;
                 let part = std::array::from_fn(|i| aside(i) / large.size() as f64);
-                let shapes = shapes(part);
                 for (new, values) in carried.iter_mut().zip(functions) {
-                    let values = old.of(ancestor, values);
-                    new[node as usize] = shapes.iter().zip(values).map(|(s, v)| s * v).sum();
+                    new[node as usize] = value(part, &old.of(ancestor, values));
                 }
             }
         }

@@ -4,8 +4,9 @@ use nalgebra::Vector2;
 
 use crate::configuration::Configuration;
 use crate::contact::EdgeOf;
-use crate::landscape::constrained::{Point, constraints};
+use crate::landscape::constrained::constraints;
 use crate::problem::Problem;
+use crate::roadmap::Point;
 use crate::tile::outline::cross;
 
 /// Gaps below this (m) count as touching.

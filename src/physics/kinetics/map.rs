@@ -2,10 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Vector3;
-
 use super::field::Field;
-use super::mesh::{Leaf, Nodes, gradients, shapes};
+use super::mesh::{Nodes, slope, value};
 
 /// Points along s and phi that stand for a cell.
 const POINTS: usize = 4;
@@ -39,16 +37,14 @@ impl Map {
         let mut sums = vec![[0.0; 4]; side * side];
         for (id, leaf, element) in field.mesh.live() {
             let own = nodes.of(id, values);
-            let slopes = gradients([0.5; 3]).into_iter().zip(own);
-            let slope: Vector3<f64> = slopes.map(|(slope, value)| slope * value).sum();
-            let slope = element.gradients * slope;
+            let slope = element.gradients * slope([0.5; 3], &own);
             for number in 0..POINTS * POINTS {
                 let part =
                     [number % POINTS, number / POINTS].map(|k| (k as f64 + 0.5) / POINTS as f64);
                 let part = [part[0], part[1], 0.5];
-                let [s, phi, theta] = chart.coordinates(place(leaf, part));
+                let [s, phi, theta] = chart.coordinates(leaf.at(part));
                 let r = chart.ray([phi, theta]).radius(s);
-                let value: f64 = shapes(part).iter().zip(own).map(|(s, v)| s * v).sum();
+                let value = value(part, &own);
                 let weight = element.weight / (POINTS * POINTS) as f64;
                 for copy in 0..turns {
                     let (sin, cos) = libm::sincos(phi + turn * copy as f64);
@@ -82,9 +78,4 @@ impl Map {
         let of = |k: usize| ((k as f64 + 0.5) / self.side as f64 * 2.0 - 1.0) * self.radius;
         [of(square % self.side), of(square / self.side)]
     }
-}
-
-/// A point of a cell, in smallest units.
-fn place(leaf: &Leaf, part: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| leaf.low[i] as f64 + part[i] * leaf.size() as f64)
 }

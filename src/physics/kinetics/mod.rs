@@ -57,16 +57,13 @@
 //! tested). That the force between two given magnets falls with the fourth power of their distance is
 //! another statement: there the magnets stay what they are.
 
-pub mod basin;
 pub mod bond;
-mod bounded;
 mod bracket;
 mod certify;
 pub mod chain;
 pub mod corner;
 mod corridor;
 pub mod distance;
-mod ends;
 mod errors;
 pub mod exit;
 mod field;
@@ -85,14 +82,16 @@ mod results;
 mod rim;
 mod root;
 mod sets;
+pub mod volume;
 pub mod well;
 
-pub use bond::{Bond, BondError, Hold, Trap};
+pub use bond::{BondError, Hold};
 pub use certify::why_unprovable;
 pub use corridor::{NARROW, Way};
 pub use proof::Capacity;
 pub use results::Certify;
-pub use well::{Estimate, Well};
+pub use volume::Estimate;
+pub use well::Well;
 
 /// Drag rate (1/s) from which on tiles move as if they had no inertia, as far as means over times tell.
 pub const OVERDAMPED: f64 = 50.0;

@@ -23,13 +23,16 @@ const LEFT: f64 = 0.5;
 impl Field<'_> {
     /// Divides the cells about a state's well until what they hold is settled.
     pub(super) fn settle(&mut self, state: &Configuration) {
-        let limit = self.energy_at(state) + DEEP * self.kt;
+        let limit = self.problem.energy(state) + DEEP * self.kt;
         for _ in 0..ROUNDS {
             let beside = self.mesh.joined(&|leaf| !leaf.blocked);
-            let well = reaching(&self.mesh, &beside, &self.mesh.holding(state), limit);
-            let whole: f64 = well.iter().map(|&id| self.held(id)).sum();
+            let well = reaching(&self.mesh, &beside, state, limit);
+            let whole: f64 = well.iter().map(|&id| self.mesh.held(id)).sum();
             let mut divided: Vec<usize> = Vec::new();
-            for &id in well.iter().filter(|&&id| self.held(id) > SHARE * whole) {
+            for &id in well
+                .iter()
+                .filter(|&&id| self.mesh.held(id) > SHARE * whole)
+            {
                 let around = beside[id].iter().map(|&other| other as usize);
                 let is_closed = |id: &usize| self.mesh.leaves[*id].element.is_none();
                 divided.extend(around.filter(is_closed).chain([id]));
@@ -37,12 +40,12 @@ impl Field<'_> {
             divided.sort_unstable();
             divided.dedup();
             let before = self.mesh.leaves.len();
-            let known: Vec<f64> = (0..before).map(|id| self.held(id)).collect();
+            let known: Vec<f64> = (0..before).map(|id| self.mesh.held(id)).collect();
             self.divide(&divided);
             let is_gone = |id: &usize| !self.mesh.leaves[*id].is_live();
             let gone: f64 = (0..before).filter(is_gone).map(|id| known[id]).sum();
             let come: f64 = (before..self.mesh.leaves.len())
-                .map(|id| self.held(id))
+                .map(|id| self.mesh.held(id))
                 .sum();
             if (come - gone).abs() <= CHANGE * whole {
                 return;
@@ -75,11 +78,5 @@ impl Field<'_> {
                 self.mesh.leaves[id].doubt = LEFT * (parts[parent] - before).abs() / most;
             }
         }
-    }
-
-    /// What a cell holds (m^2 rad).
-    fn held(&self, id: usize) -> f64 {
-        let element = self.mesh.leaves[id].element.as_ref();
-        element.map_or(0.0, |element| element.load.iter().sum())
     }
 }

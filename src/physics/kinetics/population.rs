@@ -62,9 +62,6 @@ impl Crowd {
     }
 }
 
-/// Mean numbers of pairs: in the bond, and in each trap.
-pub type Numbers = Vec<f64>;
-
 impl PairRates {
     /// Rates without ways from state to state but through free tiles.
     pub fn through_free(on: Vec<f64>, off: Vec<f64>) -> Self {
@@ -76,19 +73,9 @@ impl PairRates {
         }
     }
 
-    /// How many states hold a pair.
-    pub fn len(&self) -> usize {
-        self.on.len()
-    }
-
-    /// Whether nothing holds a pair.
-    pub fn is_empty(&self) -> bool {
-        self.on.is_empty()
-    }
-
     /// The chain of a single pair on a table: state 0 is free, then come the bond and the traps.
     pub fn pair_chain(&self, area: f64) -> Chain {
-        let n = self.len();
+        let n = self.on.len();
         let mut rates = DMatrix::zeros(n + 1, n + 1);
         for i in 0..n {
             rates[(0, i + 1)] = self.on[i] / area;
@@ -103,10 +90,10 @@ impl PairRates {
     /// The bond, and all traps as one state that holds and lets go as they do together in
     /// equilibrium.
     pub fn lumped(&self) -> Self {
-        if self.len() <= 2 {
+        if self.on.len() <= 2 {
             return self.clone();
         }
-        let traps = 1..self.len();
+        let traps = 1..self.on.len();
         let on: f64 = self.on[traps.clone()].iter().sum();
         // Occupation against free tiles, kappa / k.
         let held: f64 = traps.clone().map(|i| self.on[i] / self.off[i]).sum();
@@ -129,7 +116,7 @@ impl PairRates {
     /// none.
     pub fn with_traps(&self) -> Self {
         let lumped = self.lumped();
-        match lumped.len() {
+        match lumped.on.len() {
             1 => Self::through_free(vec![lumped.on[0], 0.0], vec![lumped.off[0], 1.0]),
             _ => lumped,
         }
@@ -150,10 +137,10 @@ impl PairRates {
         Some(bound.sum::<f64>() / crowd.pairs() as f64)
     }
 
-    /// Mean numbers at `time` (s) by Hosokawa's difference equations: at each step as much happens as
+    /// Mean numbers of pairs in the bond and in each trap at `time` (s) by Hosokawa's difference equations: at each step as much happens as
     /// one event, or a tenth of the shortest lifetime passes. `None` where that takes too many steps.
-    pub fn difference_equations(&self, crowd: &Crowd, time: f64) -> Option<Numbers> {
-        let n = self.len();
+    pub fn difference_equations(&self, crowd: &Crowd, time: f64) -> Option<Vec<f64>> {
+        let n = self.on.len();
         let leaving = |i: usize| self.off[i] + self.turns.row(i).sum();
         let fastest = (0..n).map(leaving).fold(0.0, f64::max);
         let most_on = self.on.iter().sum::<f64>() / crowd.area;
@@ -189,7 +176,7 @@ impl PairRates {
     /// crowd can have, and the chain among them.
     pub fn crowd_chain(&self, crowd: &Crowd) -> (Vec<[usize; 2]>, Chain) {
         let rates = self.lumped();
-        let kinds = rates.len();
+        let kinds = rates.on.len();
         let pairs = crowd.pairs();
         let most_trapped = |bound: usize| if kinds > 1 { pairs - bound } else { 0 };
         let states: Vec<[usize; 2]> = (0..=pairs)
@@ -249,7 +236,7 @@ impl PairRates {
     /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` where
     /// it has too many events.
     pub fn simulate(&self, crowd: &Crowd, time: f64, rng: &mut ChaCha8Rng) -> Option<Vec<usize>> {
-        let n = self.len();
+        let n = self.on.len();
         let mut numbers = vec![0usize; n];
         let mut rates = vec![0.0; n * (n + 2)];
         let mut now = 0.0;

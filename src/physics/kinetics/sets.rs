@@ -1,37 +1,28 @@
-//! Sets of cells: basins, and the passes between them.
+//! Sets of cells: basins, and the ways between them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use ordered_float::OrderedFloat;
 
-use super::mesh::{Leaf, Octree};
+use super::mesh::Octree;
+use crate::configuration::Configuration;
 
-/// Whether a cell lies along the outer end of the chart.
-pub(super) fn is_at_the_rim(mesh: &Octree, leaf: &Leaf) -> bool {
-    mesh.chart.is_outer(leaf.corner(7))
-}
+/// For each cell those that share a face with it.
+pub(super) type Beside = [Vec<u32>];
 
-/// For each cell whether it lies along the outer end.
-pub(super) fn rim(mesh: &Octree) -> Vec<bool> {
-    let leaves = mesh.leaves.iter();
-    leaves.map(|leaf| is_at_the_rim(mesh, leaf)).collect()
-}
-
-/// The cells joined to some of `from` by cells whose mean lies below an energy (J); those of `from`
-/// that reach below it belong to them in any case. `beside` has each cell's neighbours.
-pub(super) fn basin(mesh: &Octree, beside: &[Vec<u32>], from: &[usize], limit: f64) -> Vec<bool> {
-    let mut inside = vec![false; mesh.leaves.len()];
-    let mut open: Vec<usize> = from.to_vec();
-    open.retain(|&id| lowest(mesh, id) < limit);
-    for &id in &open {
+/// Cells joined to some by cells that a set takes in; for each cell whether it is one of them. Where
+/// that starts counts in any case.
+pub(super) fn flood(beside: &Beside, from: Vec<usize>, is_in: &dyn Fn(usize) -> bool) -> Vec<bool> {
+    let mut inside = vec![false; beside.len()];
+    for &id in &from {
         inside[id] = true;
     }
+    let mut open = from;
     while let Some(id) = open.pop() {
         for other in beside[id].iter().map(|&other| other as usize) {
-            let element = mesh.leaves[other].element.as_ref();
-            let is_below = element.is_some_and(|it| it.mean < limit);
-            if is_below && !std::mem::replace(&mut inside[other], true) {
+            if !inside[other] && is_in(other) {
+                inside[other] = true;
                 open.push(other);
             }
         }
@@ -39,59 +30,84 @@ pub(super) fn basin(mesh: &Octree, beside: &[Vec<u32>], from: &[usize], limit: f
     inside
 }
 
-/// The cells joined to some of `from` by cells that reach below an energy (J).
-pub(super) fn reaching(
-    mesh: &Octree,
-    beside: &[Vec<u32>],
-    from: &[usize],
-    limit: f64,
-) -> Vec<usize> {
-    let mut seen = vec![false; mesh.leaves.len()];
-    let mut open: Vec<usize> = from.to_vec();
-    let mut found = Vec::new();
-    while let Some(id) = open.pop() {
-        if lowest(mesh, id) < limit && !std::mem::replace(&mut seen[id], true) {
-            found.push(id);
-            open.extend(beside[id].iter().map(|&n| n as usize));
-        }
-    }
-    found.sort_unstable();
-    found
+/// The cells joined to those that hold a configuration by cells whose mean lies below an energy (J);
+/// the first belong to them in any case if they reach below it.
+pub(super) fn basin(mesh: &Octree, beside: &Beside, of: &Configuration, limit: f64) -> Vec<bool> {
+    let mut from = mesh.holding(of);
+    from.retain(|&id| mesh.lowest(id) < limit);
+    flood(beside, from, &|id| {
+        let element = mesh.leaves[id].element.as_ref();
+        element.is_some_and(|it| it.mean < limit)
+    })
 }
 
-/// The highest energy (J) on the best way from some cells to others, by the lowest energy in each
-/// cell; `None` where there is no way.
+/// The cells joined to those that hold a configuration by cells that reach below an energy (J).
+pub(super) fn reaching(
+    mesh: &Octree,
+    beside: &Beside,
+    of: &Configuration,
+    limit: f64,
+) -> Vec<usize> {
+    let reaches = |id: usize| mesh.lowest(id) < limit;
+    let mut from = mesh.holding(of);
+    from.retain(|&id| reaches(id));
+    let found = flood(beside, from, &reaches);
+    (0..found.len()).filter(|&id| found[id]).collect()
+}
+
+/// The highest energy (J) on the best way from a configuration to some cells, by the lowest energy in
+/// each cell; `None` where there is no way.
 pub(super) fn pass(
     mesh: &Octree,
-    beside: &[Vec<u32>],
-    from: &[usize],
+    beside: &Beside,
+    from: &Configuration,
     to: &dyn Fn(usize) -> bool,
 ) -> Option<f64> {
-    let mut best = vec![f64::INFINITY; mesh.leaves.len()];
+    let after = |OrderedFloat(height), id: usize| {
+        let there = f64::max(height, mesh.lowest(id));
+        there.is_finite().then_some(OrderedFloat(there))
+    };
+    let (height, _) = best_way(
+        beside,
+        OrderedFloat(f64::MIN),
+        mesh.holding(from),
+        after,
+        to,
+    )?;
+    Some(height.0)
+}
+
+/// What the cheapest way from some cells to others costs, and its cells from the last to the first.
+/// `after` tells what a way costs that goes on into a cell, which is no less than before; `none` is
+/// what it costs to be nowhere yet.
+pub(super) fn best_way<C: Ord + Copy>(
+    beside: &Beside,
+    none: C,
+    from: Vec<usize>,
+    mut after: impl FnMut(C, usize) -> Option<C>,
+    to: &dyn Fn(usize) -> bool,
+) -> Option<(C, Vec<usize>)> {
+    let mut best: Vec<Option<(C, Option<usize>)>> = vec![None; beside.len()];
     let mut open = BinaryHeap::new();
-    let mut reach = |id: usize, height: f64, open: &mut BinaryHeap<_>| {
-        if height < best[id] {
-            best[id] = height;
-            open.push(Reverse((OrderedFloat(height), id)));
+    let mut reach = |cost: C, before: Option<usize>, id: usize, open: &mut BinaryHeap<_>| {
+        if let Some(cost) = after(cost, id)
+            && best[id].is_none_or(|known| cost < known.0)
+        {
+            best[id] = Some((cost, before));
+            open.push(Reverse((cost, id)));
         }
     };
-    for &id in from {
-        reach(id, lowest(mesh, id), &mut open);
+    for id in from {
+        reach(none, None, id, &mut open);
     }
-    while let Some(Reverse((OrderedFloat(height), id))) = open.pop() {
+    while let Some(Reverse((cost, id))) = open.pop() {
         if to(id) {
-            return Some(height);
+            let before = |&id: &usize| best[id]?.1;
+            return Some((cost, std::iter::successors(Some(id), before).collect()));
         }
         for &other in &beside[id] {
-            let other = other as usize;
-            reach(other, height.max(lowest(mesh, other)), &mut open);
+            reach(cost, Some(id), other as usize, &mut open);
         }
     }
     None
-}
-
-/// The lowest energy (J) met in a cell; infinite where nothing is free.
-pub(super) fn lowest(mesh: &Octree, id: usize) -> f64 {
-    let element = mesh.leaves[id].element.as_ref();
-    element.map_or(f64::INFINITY, |element| element.lowest)
 }

@@ -1,246 +1,167 @@
-//! Partition functions of states: the integral of Boltzmann's factor over a basin, true contact
-//! included.
+//! Wells of states: a basin, which is all configurations that can be reached from it without rising above a
+//! level.
+//!
+//! The flood goes over a grid of slides and tilts about the state; on each line along which the gap
+//! opens it follows the intervals that are free. What lies between the nodes is taken to belong to
+//! the basin where it lies below the level and a node next to it does.
 
-use ordered_float::OrderedFloat;
+use std::collections::{HashMap, VecDeque};
 
-use super::basin::Basin;
-use super::line::Weight;
+use super::frame::Frame;
+use super::line::Lines;
 use crate::configuration::Configuration;
-use crate::landscape::constrained::Point;
-use crate::order::Order;
-use crate::parallel;
 use crate::problem::Problem;
+use crate::roadmap::Point;
 
-/// Abscissas and weights of Gauss' rule of five points on [-1, 1].
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-];
-/// A line whose weight has fallen to this share of the minimum's is the measure of how far the well
-/// spreads.
-const FALLEN: f64 = 0.2;
-/// A slide (m) or tilt (rad) that is no play: contact is not known better.
-pub const NO_PLAY: f64 = 1e-8;
-/// Most rectangles.
-const MOST: usize = 4_000;
+/// Spacing of the grid's nodes, as a share of the moving tile's circumradius.
+const SPACING: f64 = 1.0 / 128.0;
+/// The level is lowered by this share of the depth each time the flood has run over a saddle that
+/// lies between two nodes.
+const MARGINS: [f64; 6] = [0.002, 0.005, 0.01, 0.02, 0.05, 0.1];
+/// Most nodes of a flood; a basin that has more is cut there.
+const MOST_NODES: usize = 150_000;
+/// A basin ends at the latest where this share of its depth is left.
+const LEFT: f64 = 0.01;
 
-/// A number with its estimated error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The number.
-    pub value: f64,
-    /// By how much it may be off, as the finer and the coarser rule differ.
-    pub error: f64,
-}
+type Node = (i32, i32);
 
-impl Estimate {
-    /// The error as a share of the number; 0 of nothing.
-    pub fn relative_error(&self) -> f64 {
-        match self.value == 0.0 {
-            true => 0.0,
-            false => self.error / self.value,
-        }
-    }
-}
-
-/// A state that holds tiles, and its basin.
+/// The well of a minimum, which is its basin.
 pub struct Well<'a> {
-    basin: Basin<'a>,
+    pub(super) lines: Lines<'a>,
+    /// U at the minimum (J).
+    pub lowest: f64,
+    /// The basin lies below this energy (J).
+    pub level: f64,
+    /// Whether the basin had more nodes than a flood may have.
+    pub is_cut: bool,
+    spacing: [f64; 2],
+    nodes: HashMap<Node, Vec<[f64; 2]>>,
 }
 
 impl<'a> Well<'a> {
-    /// The well of a minimum whose lowest pass out lies at `pass` (J; infinite where none is known);
-    /// no other minimum of `others` belongs to it. See [`Basin::flood`].
+    /// Floods the basin of a minimum up to the lowest pass (J) that leads out of it (infinite where none
+    /// is known), less a small margin so that the grid does not run over it, or to a hundredth of the
+    /// minimum's depth. Other minima, `others`, are never flooded: where one is, the level is lowered.
     pub fn new(problem: &'a Problem, minimum: &Point, pass: f64, others: &[Configuration]) -> Self {
-        Self {
-            basin: Basin::flood(problem, minimum, pass, others),
+        let frame = Frame::of_minimum(problem, minimum);
+        let contact = problem.contact.as_ref();
+        let radius = contact.map_or(problem.space.rho, |it| it.moving().circumradius());
+        let mut well = Self {
+            lines: Lines {
+                problem,
+                frame,
+                reach: radius,
+            },
+            lowest: minimum.energy,
+            level: minimum.energy,
+            is_cut: false,
+            spacing: [SPACING * radius, SPACING * std::f64::consts::SQRT_2],
+            nodes: HashMap::new(),
+        };
+        let places: Vec<_> = others.iter().map(|q| frame.coordinates(q)).collect();
+        for margin in MARGINS {
+            let below_pass = pass - margin * (pass - minimum.energy);
+            well.level = below_pass.min(LEFT * minimum.energy);
+            well.fill();
+            if !places.iter().any(|(at, gap)| well.holds(*at, *gap)) {
+                break;
+            }
+        }
+        well
+    }
+
+    fn fill(&mut self) {
+        self.nodes.clear();
+        let origin = self.lines.free([0.0, 0.0]);
+        // The state itself touches, or lies in free space.
+        let own = |[start, end]: &[f64; 2]| start - self.spacing[0] <= 0.0 && 0.0 <= *end;
+        let start = origin.into_iter().filter(own).collect();
+        self.nodes.insert((0, 0), start);
+        let mut queue = VecDeque::from([(0, 0)]);
+        while let Some(node) = queue.pop_front() {
+            if self.nodes.len() > MOST_NODES {
+                self.is_cut = true;
+                return;
+            }
+            let from = self.nodes[&node].clone();
+            for (i, j) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+                let next = (node.0 + i, node.1 + j);
+                if self.at(next)[1].abs() > std::f64::consts::PI {
+                    continue;
+                }
+                if self.reaches(&from, next) {
+                    queue.push_back(next);
+                }
+            }
         }
     }
 
-    /// The basin.
-    pub fn basin(&self) -> &Basin<'a> {
-        &self.basin
-    }
-
-    /// The integral (m^2 rad) of `exp(-(U - Umin) / kT)` over the basin, to the relative
-    /// `tolerance`: adaptive over slide and tilt (Gauss' rule of five by five points, rectangles
-    /// divided in four), and Gauss' rule over panels of the gap. The same on any number of threads.
-    pub fn volume(&self, kt: f64, tolerance: f64) -> Estimate {
-        self.volume_below(kt, self.basin.level, tolerance)
-    }
-
-    /// Whether tiles have play in it at kT (J), both along contact and in tilt: more than
-    /// [`NO_PLAY`]. Otherwise its volume is 0.
-    pub fn has_play(&self, kt: f64) -> bool {
-        let basin = &self.basin;
-        let weight = Weight {
-            lowest: basin.lowest,
-            level: basin.level,
-            kt,
-        };
-        Integral { basin, weight }.spreads().is_some()
-    }
-
-    /// The same over what of the basin lies below `level` (J).
-    pub fn volume_below(&self, kt: f64, level: f64, tolerance: f64) -> Estimate {
-        let weight = Weight {
-            lowest: self.basin.lowest,
-            level: level.min(self.basin.level),
-            kt,
-        };
-        Integral {
-            basin: &self.basin,
-            weight,
+    /// Takes in what of a node's line is below the level and next to intervals of a neighbour;
+    /// whether that is new.
+    fn reaches(&mut self, from: &[[f64; 2]], node: Node) -> bool {
+        let at = self.at(node);
+        let known = self.nodes.get(&node);
+        if known.is_some_and(|known| from.iter().all(|a| known.iter().any(|b| meet(a, b)))) {
+            return false;
         }
-        .adapt(tolerance)
+        let known = known.cloned().unwrap_or_default();
+        let free = self.lines.free(at).into_iter();
+        let new: Vec<_> = free
+            .filter(|b| !known.contains(b) && from.iter().any(|a| meet(a, b)))
+            .filter(|b| self.lines.lowest(at, *b) < self.level)
+            .collect();
+        let found = !new.is_empty();
+        // Also where nothing was found, so that it is not looked for again.
+        self.nodes.entry(node).or_default().extend(new);
+        found
     }
-}
 
-fn line(basin: &Basin, at: [f64; 2], weight: &Weight) -> f64 {
-    let intervals = basin.intervals(at);
-    let parts = intervals
-        .iter()
-        .map(|part| basin.lines.integral(at, *part, weight));
-    parts.sum()
-}
-
-struct Integral<'a> {
-    basin: &'a Basin<'a>,
-    weight: Weight,
-}
-
-/// From 0 to an end of the slide or the tilt, spread so that what is near the minimum takes as much
-/// room as what is far: `x = end sinh(u range) / sinh(range)`.
-#[derive(Clone, Copy, Debug)]
-struct Spread {
-    end: f64,
-    range: f64,
-}
-
-impl Spread {
-    /// The place at u from 0 to 1, and by how much it moves with u.
-    fn place(&self, u: f64) -> [f64; 2] {
-        let unit = self.end / libm::sinh(self.range);
-        let (sinh, cosh) = (libm::sinh(u * self.range), libm::cosh(u * self.range));
-        [unit * sinh, (unit * self.range * cosh).abs()]
+    /// Slide (m) and tilt (rad) of a node.
+    fn at(&self, node: Node) -> [f64; 2] {
+        [
+            self.spacing[0] * f64::from(node.0),
+            self.spacing[1] * f64::from(node.1),
+        ]
     }
-}
 
-/// A rectangle of spread slides and tilts, on one side of the minimum each.
-#[derive(Clone, Copy)]
-struct Rectangle {
-    spreads: [Spread; 2],
-    sides: [[f64; 2]; 2],
-    value: f64,
-    /// How far the sum of the four parts was from the whole, shared among them.
-    error: f64,
-}
+    /// Whether a line's gap belongs to the basin, its energy aside.
+    fn holds(&self, at: [f64; 2], gap: f64) -> bool {
+        let margin = self.spacing[0];
+        let of_line = self.intervals(at);
+        let within = |[start, end]: &[f64; 2]| start - margin <= gap && gap <= end + margin;
+        of_line.iter().any(within)
+    }
 
-impl Integral<'_> {
-    fn adapt(&self, tolerance: f64) -> Estimate {
-        let Some(spreads) = self.spreads() else {
-            return Estimate::default();
-        };
-        let halves = [[0.0, 0.5], [0.5, 1.0]];
-        let whole = (0..16).map(|k: usize| {
-            let spreads = [spreads[0][k % 2], spreads[1][k / 2 % 2]];
-            (spreads, [halves[k / 4 % 2], halves[k / 8]])
+    /// The intervals of the gap that belong to the basin on any line, their energies aside.
+    pub(super) fn intervals(&self, at: [f64; 2]) -> Vec<[f64; 2]> {
+        let [i, j] = [0, 1].map(|k| (at[k] / self.spacing[k]).floor() as i32);
+        let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+        let near: Vec<_> = corners
+            .iter()
+            .filter_map(|node| self.nodes.get(node))
+            .flatten()
+            .collect();
+        if near.is_empty() {
+            return Vec::new();
+        }
+        let mut free = self.lines.free(at);
+        free.retain(|b| near.iter().any(|a| meet(a, b)));
+        free
+    }
+
+    /// The least and the greatest slide (m) and tilt (rad) that the basin may have.
+    pub(super) fn extent(&self) -> [[f64; 2]; 2] {
+        let held = self.nodes.iter().filter(|(_, held)| !held.is_empty());
+        let places = held.map(|(node, _)| self.at(*node));
+        let zero = [[0.0, 0.0], [0.0, 0.0]];
+        let ends = places.fold(zero, |ends, at| {
+            [0, 1].map(|k| [f64::min(ends[k][0], at[k]), f64::max(ends[k][1], at[k])])
         });
-        let whole: Vec<_> = whole.collect();
-        let mut leaves: Vec<Rectangle> =
-            parallel::map(&whole, |(spreads, sides)| self.rectangle(*spreads, *sides));
-        loop {
-            let total = sum(&leaves, |leaf| leaf.value);
-            let error = sum(&leaves, |leaf| leaf.error);
-            let is_done = error <= tolerance * total.max(f64::MIN_POSITIVE);
-            if is_done || leaves.len() > MOST {
-                return Estimate {
-                    value: total,
-                    error,
-                };
-            }
-            leaves.order_by_key(|leaf| OrderedFloat(leaf.error));
-            let split = leaves.split_off(leaves.len() - worst(&leaves, error));
-            let parts: Vec<[Rectangle; 4]> = parallel::map(&split, |leaf| self.divided(leaf));
-            leaves.extend(parts.into_iter().flatten());
-        }
-    }
-
-    /// To either side along slide and tilt; `None` where the minimum has no play along one of them.
-    fn spreads(&self) -> Option<[[Spread; 2]; 2]> {
-        let peak = line(self.basin, [0.0, 0.0], &self.weight);
-        let spread = |axis: usize, end: f64| {
-            let at = |x: f64| match axis {
-                0 => [x, 0.0],
-                _ => [0.0, x],
-            };
-            let mut scale = end;
-            while line(self.basin, at(scale), &self.weight) < FALLEN * peak && scale.abs() > NO_PLAY
-            {
-                scale /= 2.0;
-            }
-            let range = libm::asinh(end / scale).max(1e-3);
-            (Spread { end, range }, scale.abs() > NO_PLAY)
-        };
-        let ends = self.basin.extent();
-        let found = [0, 1].map(|axis| ends[axis].map(|end| spread(axis, end)));
-        let has_play = found.iter().all(|sides| sides.iter().any(|side| side.1));
-        has_play.then(|| found.map(|sides| sides.map(|side| side.0)))
-    }
-
-    fn divided(&self, leaf: &Rectangle) -> [Rectangle; 4] {
-        let [a, b] = leaf.sides.map(|[low, high]| {
-            let middle = (low + high) / 2.0;
-            [[low, middle], [middle, high]]
-        });
-        let mut parts: [Rectangle; 4] =
-            std::array::from_fn(|k| self.rectangle(leaf.spreads, [a[k % 2], b[k / 2]]));
-        let off = (sum(&parts, |part| part.value) - leaf.value).abs() / 4.0;
-        for part in &mut parts {
-            part.error = off;
-        }
-        parts
-    }
-
-    /// Gauss' rule over a rectangle; of the error nothing is known yet.
-    fn rectangle(&self, spreads: [Spread; 2], sides: [[f64; 2]; 2]) -> Rectangle {
-        let place = |k: usize, x: f64| {
-            let [low, high] = sides[k];
-            spreads[k].place((low + high) / 2.0 + (high - low) / 2.0 * x)
-        };
-        let mut value = 0.0;
-        for (x, wx) in GAUSS {
-            let [slide, by_slide] = place(0, x);
-            for (y, wy) in GAUSS {
-                let [tilt, by_tilt] = place(1, y);
-                let line = line(self.basin, [slide, tilt], &self.weight);
-                value += wx * wy * by_slide * by_tilt * line;
-            }
-        }
-        let area = (sides[0][1] - sides[0][0]) * (sides[1][1] - sides[1][0]);
-        Rectangle {
-            spreads,
-            sides,
-            value: value * area / 4.0,
-            error: f64::INFINITY,
-        }
+        [0, 1].map(|k| [ends[k][0] - self.spacing[k], ends[k][1] + self.spacing[k]])
     }
 }
 
-/// How many of the worst, which come last, make up most of the error; all of which nothing is known.
-fn worst(leaves: &[Rectangle], error: f64) -> usize {
-    let mut rest = 0.9 * error;
-    let chosen = leaves.iter().rev().take_while(|leaf| {
-        let take = leaf.error.is_infinite() || (error.is_finite() && rest > 0.0);
-        rest -= if error.is_finite() { leaf.error } else { 0.0 };
-        take && leaf.error > 0.0
-    });
-    chosen.count()
-}
-
-fn sum(leaves: &[Rectangle], of: impl Fn(&Rectangle) -> f64) -> f64 {
-    leaves.iter().map(of).sum()
+/// Whether two intervals have a point in common.
+fn meet(a: &[f64; 2], b: &[f64; 2]) -> bool {
+    a[0] <= b[1] && b[0] <= a[1]
 }

@@ -2,9 +2,8 @@
 
 use nalgebra::Vector2;
 
-use super::map::{Grid, Sample, evenly, with_energies};
+use super::grid::{Grid, Sample, evenly, sampled};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::{Face, Pair};
 
@@ -106,33 +105,23 @@ impl ApproachSlices {
         let tilts = evenly(-settings.tilt, settings.tilt, settings.samples);
         let gaps = evenly(0.0, settings.gap, settings.samples);
         let slides = evenly(-settings.slide, settings.slide, settings.samples);
-        let gap = sampled(problem, &tilts, &gaps, |tilt, gap| {
-            approach.before_contact(problem, tilt, 0.0, gap)
-        });
-        let slide = sampled(problem, &tilts, &slides, |tilt, slide| {
-            approach.before_contact(problem, tilt, slide, 0.0)
-        });
-        Self { gap, slide }
+        let grid = |y: Vec<f64>, configuration: &Configurations| Grid {
+            values: sampled(problem, [y.len(), tilts.len()], |row, column| {
+                configuration(tilts[column], y[row])
+            }),
+            x: tilts.clone(),
+            y,
+        };
+        Self {
+            gap: grid(gaps, &|tilt, gap| {
+                approach.before_contact(problem, tilt, 0.0, gap)
+            }),
+            slide: grid(slides, &|tilt, slide| {
+                approach.before_contact(problem, tilt, slide, 0.0)
+            }),
+        }
     }
 }
 
-fn sampled(
-    problem: &Problem,
-    x: &[f64],
-    y: &[f64],
-    configuration: impl Fn(f64, f64) -> Option<Configuration> + Sync,
-) -> Grid<Sample> {
-    let values = parallel::flat_map(y, |&y| {
-        let row: Vec<_> = x.iter().map(|&x| configuration(x, y)).collect();
-        let free: Vec<_> = row.iter().flatten().copied().collect();
-        let mut samples = with_energies(problem, &free).into_iter();
-        row.into_iter()
-            .map(move |q| q.and_then(|_| samples.next()))
-            .collect::<Vec<_>>()
-    });
-    Grid {
-        x: x.to_vec(),
-        y: y.to_vec(),
-        values,
-    }
-}
+/// The configuration at each place of a slice, where there is one.
+type Configurations<'a> = dyn Fn(f64, f64) -> Option<Configuration> + Sync + 'a;

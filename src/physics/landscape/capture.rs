@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::minimum::{Known, Outcome};
+use super::minimum::{Known, Outcome, learn};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -50,7 +50,7 @@ pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Opti
         Outcome::Stuck(q) => Some(q),
         Outcome::Free => None,
     };
-    let outcomes = known.learn(problem, &all.collect::<Vec<_>>());
+    let outcomes = learn(problem, &all.collect::<Vec<_>>(), &mut known);
     outcomes.into_iter().map(rest).collect()
 }
 

@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch, closest_admissible};
-use crate::problem::{Problem, Symmetry};
-use crate::roadmap::profile::{Knot, inner_extremes};
+use crate::problem::Problem;
+use crate::roadmap::Point;
+use crate::roadmap::knot::{Knot, inner_extremes};
 
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
 const RESIDUAL: f64 = 1e-12;
@@ -29,38 +30,6 @@ const RISE: f64 = 0.01;
 /// surface that the tiles turn on cuts some 0.03 mm into it; a wall thinner than this has no place
 /// on a tile.
 const GRAZE: f64 = 1e-4;
-
-/// A configuration with its energy (J) and the energy's gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// The configuration.
-    pub q: Configuration,
-    /// U (J).
-    pub energy: f64,
-    /// Of U, by x and y (J/m) and by theta (J/rad).
-    pub gradient: Vector3<f64>,
-}
-
-impl Point {
-    /// The point at a configuration, its energy worked out.
-    pub fn new(problem: &Problem, q: Configuration) -> Self {
-        let (energy, gradient) = problem.energy_and_gradient(&q);
-        Self {
-            q,
-            energy,
-            gradient,
-        }
-    }
-
-    /// What a symmetry makes of it: it turns the plane by the fixed tile's turn.
-    pub fn image(&self, symmetry: &Symmetry) -> Self {
-        Self {
-            q: symmetry.apply(&self.q),
-            energy: self.energy,
-            gradient: symmetry.turned(&self.gradient),
-        }
-    }
-}
 
 /// Length of a step in the mass metric (m).
 pub fn length(step: &Vector3<f64>, metric: &Matrix3<f64>) -> f64 {
@@ -168,22 +137,12 @@ pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
     (share > EQUILIBRIUM).then(|| projected.heading(share))
 }
 
-/// One step downhill of `size` (m, mass metric), sliding along contact. `None` where no such step
-/// leads to a free configuration of lower energy.
+/// One step of `size` (m, mass metric) from a point where motion heads this way, sliding along contact.
+/// `None` where no such step leads to a free configuration of lower energy.
 ///
 /// Contacts that are pressed on stay closed, though the surface may curve away from the straight
 /// step; contacts in the way shorten the step or turn it aside.
-pub fn step_downhill(problem: &Problem, point: &Point, size: f64) -> Option<Point> {
-    step_along(problem, point, &downhill(problem, point)?, size)
-}
-
-/// The same where it is known where the motion heads at the point.
-pub(super) fn step_along(
-    problem: &Problem,
-    point: &Point,
-    heading: &Heading,
-    size: f64,
-) -> Option<Point> {
+pub fn step_along(problem: &Problem, point: &Point, heading: &Heading, size: f64) -> Option<Point> {
     let wanted = heading.direction * size;
     let margin = reach(problem, &wanted) + MARGIN;
     let (straight, settled) = if problem.has_room(&point.q, margin) {

@@ -6,38 +6,10 @@
 
 use nalgebra::{Rotation2, Vector2};
 
+use super::grid::{Grid, Sample, evenly};
 use super::orientation::{Found, Search};
-use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
-
-/// Values on a grid, row by row from the lowest y; `None` where no free configuration belongs to
-/// the grid point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Grid<T> {
-    /// Abscissas (m, or rad where the grid says so), ascending.
-    pub x: Vec<f64>,
-    /// Ordinates (m), ascending.
-    pub y: Vec<f64>,
-    /// One value a grid point.
-    pub values: Vec<Option<T>>,
-}
-
-impl<T> Grid<T> {
-    /// The value at a grid point.
-    pub fn value(&self, column: usize, row: usize) -> Option<&T> {
-        self.values[row * self.x.len() + column].as_ref()
-    }
-}
-
-/// A free configuration and its energy U (J).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Where the tiles do not overlap.
-    pub configuration: Configuration,
-    /// U there (J).
-    pub energy: f64,
-}
 
 /// A rectangle of the plane with a grid on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,26 +91,6 @@ impl EnergyMap {
 const NARROW: usize = 3;
 /// Halvings of the way between a free and a blocked point in search of the border.
 const HALVINGS: usize = 4;
-
-/// `count` numbers from `low` to `high`, both included.
-pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
-    let last = (count - 1) as f64;
-    (0..count)
-        .map(|i| low + (high - low) * i as f64 / last)
-        .collect()
-}
-
-pub(super) fn with_energies(problem: &Problem, free: &[Configuration]) -> Vec<Sample> {
-    let mut energies = vec![0.0; free.len()];
-    problem.potential().energies(free, &mut energies);
-    free.iter()
-        .zip(energies)
-        .map(|(&configuration, energy)| Sample {
-            configuration,
-            energy,
-        })
-        .collect()
-}
 
 /// What is free at each point of a grid.
 struct Field<'a> {

@@ -4,13 +4,15 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::constrained::{self, Point, downhill, step_along};
+use super::constrained::{self, downhill, step_along};
 use super::foresight::Past;
-use super::slides::{Slides, Stretch};
+use super::known::Stretch;
+pub use super::known::{Known, Outcome};
 use super::stationary::{self, Stationary};
 use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::{Problem, Symmetry};
+use crate::roadmap::Point;
 
 /// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
@@ -31,22 +33,8 @@ const FIRST: usize = 32;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
-/// A minimum this close (m, metric of the space) to a verified one is the same, found again.
-const SAME: f64 = 1e-7;
 /// A configuration is clearly lower than another if its energy is by this fraction.
 const CLEARLY: f64 = 1e-9;
-
-/// Where a descent ended.
-#[derive(Clone, Debug)]
-pub enum Outcome {
-    /// At a minimum.
-    Minimum(Box<Stationary>),
-    /// The tiles are far apart.
-    Free,
-    /// No step goes down from here, but no minimum could be verified: the accuracy of the energy is
-    /// exhausted, or corners of both tiles meet.
-    Stuck(Configuration),
-}
 
 /// A descent: its way, start and end included, and where it ended.
 #[derive(Clone, Debug)]
@@ -75,48 +63,6 @@ impl Descent {
     }
 }
 
-/// What is known of where motions end.
-#[derive(Clone, Debug, Default)]
-pub struct Known {
-    /// Minima around which all is known to lie higher: a motion that ends in one of them need not
-    /// look around again.
-    minima: Vec<Configuration>,
-    /// A motion that comes on one of them need not be followed any farther.
-    slides: Slides,
-}
-
-impl Known {
-    /// These minima.
-    pub fn minima(minima: impl Iterator<Item = Configuration>) -> Self {
-        Self {
-            minima: minima.collect(),
-            slides: Slides::default(),
-        }
-    }
-
-    /// Where overdamped motions from several starts lead; how they slid there is known from now on.
-    /// The same on any number of threads.
-    pub fn learn(&mut self, problem: &Problem, starts: &[Configuration]) -> Vec<Outcome> {
-        let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
-        while outcomes.len() < starts.len() {
-            // As many again as there were, which may come on the slides of those.
-            let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
-            let new = &starts[outcomes.len()..next];
-            let descents = parallel::map(new, |q| approach(problem, q, self));
-            for descent in descents {
-                self.slides.add(descent.stretches, &descent.outcome);
-                outcomes.push(descent.outcome);
-            }
-        }
-        outcomes
-    }
-
-    fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
-        let is_same = |known: &Configuration| problem.space.distance(known, q) <= SAME;
-        self.minima.iter().any(is_same)
-    }
-}
-
 /// Down from `start` roughly by overdamped motion, `v = -M^-1 grad U`, sliding along contact, until a
 /// minimum or far apart: where ways part, it may take the other one.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
@@ -136,9 +82,21 @@ pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Desc
     follow(problem, start, known, ASIDE, |q| !problem.space.contains(q))
 }
 
-/// Where that leads, if nothing is known: into a minimum or over the table's rim.
-pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
-    approach(problem, start, &Known::default()).outcome
+/// Where overdamped motions from several starts lead; how they slid there is known from now on. The same
+/// on any number of threads.
+pub fn learn(problem: &Problem, starts: &[Configuration], known: &mut Known) -> Vec<Outcome> {
+    let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
+    while outcomes.len() < starts.len() {
+        // As many again as there were, which may come on the slides of those.
+        let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
+        let new = &starts[outcomes.len()..next];
+        let descents = parallel::map(new, |q| approach(problem, q, known));
+        for descent in descents {
+            known.add(descent.stretches, &descent.outcome);
+            outcomes.push(descent.outcome);
+        }
+    }
+    outcomes
 }
 
 /// Follows the motion to where it comes to rest or is free; a step may end so far `aside` of it (m).
@@ -182,7 +140,7 @@ fn trace(
         }
         let along = motion.take().or_else(|| downhill(problem, &here));
         if let Some(along) = &along
-            && let Some(outcome) = known.slides.lead(problem, &here.q, along)
+            && let Some(outcome) = known.lead(problem, &here.q, along)
         {
             return outcome.clone();
         }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::map::{Sample, with_energies};
+use super::grid::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::{Contact, TOUCH};
 use crate::interruption;

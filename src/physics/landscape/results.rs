@@ -3,13 +3,16 @@
 use ordered_float::OrderedFloat;
 use serde::{Deserialize, Serialize};
 
+use crate::budget::Ended;
 use crate::configuration::Configuration;
+use crate::potential::Unbounded;
+use crate::roadmap::knot;
 
 /// States whose energies differ by less than this share are as deep as each other.
 pub const SAME_ENERGY: f64 = 1e-6;
 
 /// Whether a state is the wanted bond.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StateKind {
     /// The two target faces coincide.
     Bond,
@@ -18,7 +21,7 @@ pub enum StateKind {
 }
 
 /// A proportion found by sampling, with its 95 % Wilson interval.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proportion {
     /// How many were counted.
     pub count: usize,
@@ -67,7 +70,7 @@ impl Proportion {
 }
 
 /// Shares of the far starts that end in no reported state.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncaptured {
     /// Those that come to rest, in something too shallow to be reported.
     pub at_rest: Proportion,
@@ -83,7 +86,7 @@ impl Uncaptured {
 }
 
 /// A local minimum of the energy over the free configurations.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Its place in the list of states.
     pub id: usize,
@@ -120,9 +123,7 @@ impl State {
 }
 
 /// One end of a barrier.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Place {
     /// A state by its id.
     State(usize),
@@ -131,7 +132,7 @@ pub enum Place {
 }
 
 /// A point of a pathway.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathwayPoint {
     /// Length along the pathway in the metric of the configuration space (m).
     pub s: f64,
@@ -151,12 +152,7 @@ pub type Pathway = Vec<PathwayPoint>;
 /// Mechanical work against the energy along a pathway, forwards and backwards (J): the sums of its
 /// climbs and of its falls.
 pub fn work(pathway: &Pathway) -> [f64; 2] {
-    let mut work = [0.0; 2];
-    for pair in pathway.windows(2) {
-        let climb = pair[1].energy - pair[0].energy;
-        work[usize::from(climb < 0.0)] += climb.abs();
-    }
-    work
+    knot::work(pathway.iter().map(|point| point.energy))
 }
 
 /// What is proved of the highest energy on the best way between two places.
@@ -217,8 +213,22 @@ impl SaddleBounds {
     }
 }
 
+/// Why barriers have no certified bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
+pub enum Uncertified {
+    /// None was asked for.
+    #[error("no proof was asked for")]
+    Unasked,
+    /// It took more.
+    #[error("{} before the first bounds", .0.describe())]
+    Ended(Ended),
+    /// None can be.
+    #[error(transparent)]
+    Unbounded(#[from] Unbounded),
+}
+
 /// The barrier between two places: the least possible highest energy of a free path.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Barrier {
     /// Where it starts.
     pub from: Place,
@@ -310,7 +320,7 @@ pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
 }
 
 /// A pathway by another cost than the highest energy.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Alternative {
     /// Where it starts.
     pub from: Place,
@@ -325,7 +335,7 @@ pub struct Alternative {
 }
 
 /// What a pathway is the cheapest by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PathwayCost {
     /// Work against the energy (J).
     Work,

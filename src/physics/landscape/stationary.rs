@@ -9,11 +9,12 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
-use super::constrained::{self, Point, Projected, length};
+use super::constrained::{self, Projected, length};
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Touch};
 use crate::order::Order;
 use crate::problem::{Problem, Symmetry};
+use crate::roadmap::Point;
 
 /// Step of the second differences (m, mass metric): errors of the Hessian of 1e-4 for magnets a
 /// centimetre apart, and rounding far below that.

@@ -7,9 +7,8 @@
 use std::f64::consts::TAU;
 
 use super::approach::Approach;
-use super::map::{evenly, with_energies};
+use super::grid::{evenly, sampled};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::interruption;
 use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::symmetry::rotations;
@@ -32,17 +31,11 @@ impl Volume {
         configuration: impl Fn([usize; 3]) -> Option<Configuration> + Sync,
     ) -> Self {
         let [planes, rows, columns] = [0, 1, 2].map(|k| axes[k].len());
-        let energies = parallel::flat_map(0..planes * rows, |row| {
-            interruption::check();
-            let row: Vec<_> = (0..columns)
-                .map(|column| configuration([row / rows, row % rows, column]))
-                .collect();
-            let free: Vec<_> = row.iter().flatten().copied().collect();
-            let mut samples = with_energies(problem, &free).into_iter();
-            row.into_iter()
-                .map(move |q| q.and_then(|_| samples.next()).map(|sample| sample.energy))
-                .collect::<Vec<_>>()
+        let samples = sampled(problem, [planes * rows, columns], |row, column| {
+            configuration([row / rows, row % rows, column])
         });
+        let energies = samples.into_iter().map(|sample| Some(sample?.energy));
+        let energies = energies.collect();
         Self { axes, energies }
     }
 }

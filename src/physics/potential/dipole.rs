@@ -17,11 +17,8 @@
 //! Edges: U falls as `r^-3` and tends to 0 at infinity; at r = 0 it is infinite in magnitude, and
 //! here taken as plus infinity. `|U| <= 2 K / r^3`, attained by dipoles in line.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
-use super::lever::Lever;
-use super::{Potential, finite, motion};
-use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 
@@ -67,75 +64,4 @@ pub fn pair(m1: Vector2<f64>, m2: Vector2<f64>, r: Vector2<f64>) -> (f64, Vector
 /// The dipoles of a tile's magnets.
 pub fn dipoles(magnets: &[Magnet]) -> Vec<Dipole> {
     magnets.iter().map(Dipole::from).collect()
-}
-
-/// The interaction energy of two sets of point dipoles, one in each tile, by the plain formula:
-/// what [`super::DipolePotential`] is checked against.
-#[derive(Clone, Debug)]
-pub struct ScalarDipoles {
-    fixed: Vec<Dipole>,
-    moving: Vec<Dipole>,
-    lever: Lever,
-}
-
-impl ScalarDipoles {
-    /// Of the fixed and the moving tile's dipoles, each in its tile's frame.
-    pub fn new(fixed: &[Dipole], moving: &[Dipole]) -> Self {
-        Self {
-            fixed: fixed.to_vec(),
-            moving: moving.to_vec(),
-            lever: Lever::of(moving.iter().map(|d| d.position)),
-        }
-    }
-}
-
-impl ScalarDipoles {
-    fn derivative_bound(&self, q: &Configuration, reach: f64, terms: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for second in &self.moving {
-            let position = q.transform(second.position);
-            for first in &self.fixed {
-                let r = (position - first.position).norm() - reach;
-                let k = MU0_OVER_4PI * first.moment.norm() * second.moment.norm();
-                sum += motion::bound(terms, k, r);
-            }
-        }
-        sum
-    }
-}
-
-impl Potential for ScalarDipoles {
-    fn energy(&self, q: &Configuration) -> f64 {
-        self.energy_and_gradient(q).0
-    }
-
-    fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let rotation = q.rotation();
-        let mut energy = 0.0;
-        let mut gradient = Vector3::zeros();
-        for second in &self.moving {
-            let arm = rotation * second.position;
-            let m2 = rotation * second.moment;
-            for first in &self.fixed {
-                let (u, force, slope) = pair(first.moment, m2, q.position() + arm - first.position);
-                let torque = arm.x * force.y - arm.y * force.x;
-                energy += u;
-                gradient += Vector3::new(-force.x, -force.y, slope - torque);
-            }
-        }
-        finite(energy, gradient)
-    }
-
-    /// The sum of the bounds of all pairs that [`motion`] derives.
-    fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.derivative_bound(q, reach, &motion::second_derivative(self.lever.turn()))
-    }
-
-    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.derivative_bound(q, reach, &motion::fourth_derivative(self.lever.turn()))
-    }
-
-    fn displacement(&self, step: Vector3<f64>) -> f64 {
-        self.lever.displacement(step)
-    }
 }

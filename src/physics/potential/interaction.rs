@@ -25,32 +25,8 @@ use std::sync::LazyLock;
 
 use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
-use super::{CuboidPotential, DipolePotential, Potential, ShieldedPotential};
+use super::{CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential};
 use crate::tile::Tile;
-
-/// How magnets are modelled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MagnetModel {
-    /// Point dipoles at the blocks' centres.
-    #[default]
-    Dipole,
-    /// Uniformly magnetised blocks.
-    Cuboid,
-}
-
-impl MagnetModel {
-    /// What design files call each model.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
-
-    /// What design files call this model.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Dipole => "dipole",
-            Self::Cuboid => "cuboid",
-        }
-    }
-}
 
 /// What acts between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]

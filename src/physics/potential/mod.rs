@@ -41,6 +41,7 @@ pub mod dipole;
 pub(crate) mod groups;
 pub mod interaction;
 mod lever;
+mod model;
 pub mod motion;
 mod patches;
 pub mod shielding;
@@ -52,7 +53,8 @@ pub use batch::DipolePotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
 pub use groups::MANY_PAIRS;
-pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, MagnetModel, Unbounded};
+pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, Unbounded};
+pub use model::MagnetModel;
 pub use shielding::ShieldedPotential;
 
 /// A potential energy over configurations.

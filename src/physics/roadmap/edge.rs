@@ -2,8 +2,10 @@
 
 use ordered_float::OrderedFloat;
 
-use super::Milestone;
-use super::profile::{Profile, ProfileTolerance};
+use super::knot::work;
+use super::point::Point;
+use super::profile::Profile;
+use super::stretch::ProfileTolerance;
 use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
@@ -64,7 +66,7 @@ pub(crate) const SIDE_BY_SIDE: usize = 64;
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
 pub fn edges(
     problem: &Problem,
-    milestones: &[Milestone],
+    milestones: &[Point],
     pairs: &[(u32, u32)],
     settings: &EdgeSettings,
 ) -> Vec<Edge> {
@@ -88,17 +90,17 @@ pub fn edges(
 /// Those of some pairs of milestones between which the straight motion is free.
 pub fn free_motions(
     problem: &Problem,
-    milestones: &[Milestone],
+    milestones: &[Point],
     pairs: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
-    let configurations: Vec<Configuration> = milestones.iter().map(|m| m.configuration).collect();
+    let configurations: Vec<Configuration> = milestones.iter().map(|m| m.q).collect();
     problem.free_motions(&configurations, pairs)
 }
 
 /// The costs of some straight motions, their energies asked together.
 pub(crate) fn costs_side_by_side(
     problem: &Problem,
-    ends: &[[&Milestone; 2]],
+    ends: &[[&Point; 2]],
     settings: &EdgeSettings,
 ) -> Vec<EdgeCosts> {
     let profiles = Profile::of_many(problem, ends, &settings.tolerance);
@@ -108,24 +110,23 @@ pub(crate) fn costs_side_by_side(
 }
 
 /// The costs of the straight motion between two milestones.
-pub fn costs(problem: &Problem, ends: [&Milestone; 2], settings: &EdgeSettings) -> EdgeCosts {
+pub fn costs(problem: &Problem, ends: [&Point; 2], settings: &EdgeSettings) -> EdgeCosts {
     costs_side_by_side(problem, &[ends], settings)[0]
 }
 
 fn costs_of_profile(
     problem: &Problem,
     profile: &Profile,
-    [a, b]: [&Milestone; 2],
+    [a, b]: [&Point; 2],
     settings: &EdgeSettings,
 ) -> EdgeCosts {
     let peak = profile.peak();
-    let work = profile.work();
-    let length = problem.space.distance(&a.configuration, &b.configuration);
+    let length = problem.space.distance(&a.q, &b.q);
     EdgeCosts {
         peak: peak.energy,
         peak_at: peak.t,
         length,
-        work: [work.0, work.1],
+        work: profile.work(),
         minus_ln_probability: improbabilities(profile.energies(steps(length, settings)), settings),
     }
 }
@@ -147,12 +148,6 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     let highest = (0..energies.len())
         .max_by_key(|&k| OrderedFloat(energies[k]))
         .unwrap_or(0);
-    let mut work = [0.0; 2];
-    for pair in energies.windows(2) {
-        let climb = pair[1] - pair[0];
-        work[0] += climb.max(0.0);
-        work[1] += (-climb).max(0.0);
-    }
     let count = steps(length, settings);
     let evenly = (0..=count).map(|k| {
         let s = k as f64 / count as f64 * length;
@@ -167,7 +162,7 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
         peak: energies[highest],
         peak_at: along[highest] / length.max(f64::MIN_POSITIVE),
         length,
-        work,
+        work: work(energies.iter().copied()),
         minus_ln_probability: improbabilities(evenly, settings),
     }
 }

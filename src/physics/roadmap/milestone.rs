@@ -21,7 +21,7 @@ use nalgebra::Vector2;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::Milestone;
+use super::point::Point;
 use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
@@ -73,7 +73,7 @@ pub struct MilestoneSettings {
 const MOST_PROPOSALS: usize = 10_000;
 
 /// Draws the milestones, in the order of their random streams.
-pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Milestone> {
+pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Point> {
     parallel::flat_map(0..settings.count, |i| {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         rng.set_stream(i as u64);
@@ -81,7 +81,7 @@ pub fn milestones(problem: &Problem, settings: &MilestoneSettings) -> Vec<Milest
     })
 }
 
-fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Option<Milestone> {
+fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Option<Point> {
     for _ in 0..MOST_PROPOSALS {
         let q = propose(problem, rng);
         if !problem.is_free(&q) {
@@ -89,8 +89,8 @@ fn draw(problem: &Problem, acceptance: &Acceptance, rng: &mut ChaCha8Rng) -> Opt
         }
         let (energy, gradient) = problem.energy_and_gradient(&q);
         if rng.random::<f64>() < acceptance.probability(energy) {
-            return Some(Milestone {
-                configuration: q,
+            return Some(Point {
+                q,
                 energy,
                 gradient,
             });

@@ -2,48 +2,25 @@
 //! motions between them with their costs.
 
 pub mod edge;
+pub(crate) mod knot;
 pub mod milestone;
 pub mod neighbour;
+mod point;
 pub mod profile;
 mod stretch;
 
-use nalgebra::Vector3;
-
 pub use edge::{Edge, EdgeCosts, EdgeSettings};
 pub use milestone::{Acceptance, MilestoneSettings};
-pub use profile::ProfileTolerance;
+pub use point::Point;
+pub use stretch::ProfileTolerance;
 
-use crate::configuration::Configuration;
 use crate::problem::Problem;
-
-/// A configuration of the roadmap with its energy (J) and the energy's gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Milestone {
-    /// Where it is.
-    pub configuration: Configuration,
-    /// U (J).
-    pub energy: f64,
-    /// Of U, by x and y (J/m) and by theta (J/rad).
-    pub gradient: Vector3<f64>,
-}
-
-impl Milestone {
-    /// The milestone at a configuration, its energy worked out.
-    pub fn new(problem: &Problem, configuration: Configuration) -> Self {
-        let (energy, gradient) = problem.energy_and_gradient(&configuration);
-        Self {
-            configuration,
-            energy,
-            gradient,
-        }
-    }
-}
 
 /// Milestones and the free motions between neighbours.
 #[derive(Clone, Debug, Default)]
 pub struct Roadmap {
     /// By their numbers.
-    pub milestones: Vec<Milestone>,
+    pub milestones: Vec<Point>,
     /// Between milestones, by their numbers in `milestones`.
     pub edges: Vec<Edge>,
     /// Pairs of neighbours of whose motions nothing is known yet.
@@ -73,47 +50,23 @@ pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
 }
 
 impl Roadmap {
-    /// Draws the milestones and joins each to its nearest ones. `watch` is told of each stage.
-    pub fn build(
-        problem: &Problem,
-        settings: &RoadmapSettings,
-        watch: &mut dyn FnMut(&'static str),
-    ) -> Self {
-        let (milestones, pairs) = drawn(problem, settings, watch);
-        let edges = edge::edges(problem, &milestones, &pairs, &settings.edges);
-        Self {
-            milestones,
-            edges,
-            untried: Vec::new(),
-        }
-    }
-
-    /// The same, but whether the motions are free and what they cost is left to be found out by who
-    /// needs it ([`crate::landscape::transition_network`]): of most, nobody ever asks.
+    /// Draws the milestones and joins each to its nearest ones. Whether the motions are free and what
+    /// they cost is left to be found out by who needs it ([`crate::landscape::transition_network`]): of
+    /// most, nobody ever asks. `watch` is told of each stage.
     pub fn untried(
         problem: &Problem,
         settings: &RoadmapSettings,
         watch: &mut dyn FnMut(&'static str),
     ) -> Self {
-        let (milestones, pairs) = drawn(problem, settings, watch);
+        watch("milestones");
+        let milestones = milestone::milestones(problem, &settings.milestones);
+        watch("neighbours");
+        let untried = neighbour::neighbour_pairs(&milestones, &problem.space, settings.neighbours);
+        watch("edges");
         Self {
             milestones,
             edges: Vec::new(),
-            untried: pairs,
+            untried,
         }
     }
-}
-
-/// Milestones, and the pairs of neighbours among them.
-fn drawn(
-    problem: &Problem,
-    settings: &RoadmapSettings,
-    watch: &mut dyn FnMut(&'static str),
-) -> (Vec<Milestone>, Vec<(u32, u32)>) {
-    watch("milestones");
-    let milestones = milestone::milestones(problem, &settings.milestones);
-    watch("neighbours");
-    let pairs = neighbour::neighbour_pairs(&milestones, &problem.space, settings.neighbours);
-    watch("edges");
-    (milestones, pairs)
 }

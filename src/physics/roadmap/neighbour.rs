@@ -6,9 +6,8 @@ use std::num::NonZeroUsize;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use ordered_float::OrderedFloat;
 
-use super::Milestone;
+use super::point::Point;
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::interruption;
 use crate::parallel;
 
 /// Neighbours per milestone that a roadmap of n milestones needs for its paths to tend to the best
@@ -30,10 +29,10 @@ pub struct NeighbourSearch<'a> {
 
 impl<'a> NeighbourSearch<'a> {
     /// Over milestones, which are numbered as they come.
-    pub fn new(milestones: &[Milestone], space: &'a ConfigurationSpace) -> Self {
+    pub fn new(milestones: &[Point], space: &'a ConfigurationSpace) -> Self {
         let points: Vec<[f64; 3]> = milestones
             .iter()
-            .map(|m| point(&m.configuration, space.rho, 0.0))
+            .map(|m| point(&m.q, space.rho, 0.0))
             .collect();
         Self {
             tree: ImmutableKdTree::new_from_slice(&points)
@@ -81,7 +80,7 @@ fn point(q: &Configuration, rho: f64, turn: f64) -> [f64; 3] {
 /// All pairs (smaller index, larger index) in which one milestone is among the other's `k`
 /// nearest, sorted.
 pub fn neighbour_pairs(
-    milestones: &[Milestone],
+    milestones: &[Point],
     space: &ConfigurationSpace,
     k: usize,
 ) -> Vec<(u32, u32)> {
@@ -91,8 +90,7 @@ pub fn neighbour_pairs(
     let k = k.min(milestones.len() - 1);
     let search = NeighbourSearch::new(milestones, space);
     let near: Vec<Vec<u32>> = parallel::map(milestones, |milestone| {
-        interruption::check();
-        let found = search.nearest(&milestone.configuration, k + 1);
+        let found = search.nearest(&milestone.q, k + 1);
         found.into_iter().map(|(_, index)| index).collect()
     });
     let mut later: Vec<Vec<u32>> = vec![Vec::new(); milestones.len()];

@@ -3,30 +3,11 @@
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
-use super::Milestone;
-use super::stretch::{Bends, Motion, Stretch};
+use super::knot::{Knot, cubic, inner_extremes, work};
+use super::point::Point;
+use super::stretch::{Bends, Motion, ProfileTolerance, Stretch};
 use crate::order::Order;
 use crate::problem::Problem;
-
-/// How closely a profile follows the energy.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct ProfileTolerance {
-    /// Allowed error of the highest energy, relative to itself.
-    pub relative: f64,
-    /// Error allowed in any case (J).
-    pub absolute: f64,
-}
-
-/// A point of a profile.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Knot {
-    /// Fraction of the motion, 0 to 1.
-    pub t: f64,
-    /// U (J).
-    pub energy: f64,
-    /// dU/dt (J).
-    pub slope: f64,
-}
 
 /// The energy along a motion as a cubic spline: knots in order, both ends included, and the
 /// spline's own highest and lowest points between them. The energy nowhere exceeds the larger of
@@ -58,12 +39,7 @@ impl Profile {
     /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
     /// where the cubic foretells the energy in its middle. That is a check, no proof; proved bounds
     /// of barriers come from the certificate.
-    pub fn new(
-        problem: &Problem,
-        a: &Milestone,
-        b: &Milestone,
-        tolerance: &ProfileTolerance,
-    ) -> Self {
+    pub fn new(problem: &Problem, a: &Point, b: &Point, tolerance: &ProfileTolerance) -> Self {
         let mut one = Self::of_many(problem, &[[a, b]], tolerance);
         one.pop().expect("one profile for one motion")
     }
@@ -72,7 +48,7 @@ impl Profile {
     /// potential's batches; each is sampled as it would be alone.
     pub fn of_many(
         problem: &Problem,
-        pairs: &[[&Milestone; 2]],
+        pairs: &[[&Point; 2]],
         tolerance: &ProfileTolerance,
     ) -> Vec<Self> {
         let motions: Vec<Motion> = pairs
@@ -154,14 +130,8 @@ impl Profile {
     }
 
     /// Mechanical work against the energy, forwards and backwards (J): the sum of all climbs.
-    pub fn work(&self) -> (f64, f64) {
-        let mut work = (0.0, 0.0);
-        for pair in self.knots.windows(2) {
-            let climb = pair[1].energy - pair[0].energy;
-            work.0 += climb.max(0.0);
-            work.1 += (-climb).max(0.0);
-        }
-        work
+    pub fn work(&self) -> [f64; 2] {
+        work(self.knots.iter().map(|knot| knot.energy))
     }
 
     /// The energy (J) at `count + 1` evenly spaced points from end to end.
@@ -175,45 +145,4 @@ impl Profile {
             cubic(&self.knots[i - 1], &self.knots[i], t)
         })
     }
-}
-
-/// The cubic through the values and slopes of two knots.
-pub(super) fn cubic(a: &Knot, b: &Knot, t: f64) -> f64 {
-    let h = b.t - a.t;
-    let u = (t - a.t) / h;
-    let (u2, u3) = (u * u, u * u * u);
-    a.energy * (2.0 * u3 - 3.0 * u2 + 1.0)
-        + a.slope * h * (u3 - 2.0 * u2 + u)
-        + b.energy * (3.0 * u2 - 2.0 * u3)
-        + b.slope * h * (u3 - u2)
-}
-
-/// Where the cubic through two knots is highest or lowest between them, in order.
-pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
-    // The derivative by u = (t - a.t) / h is p u^2 + 2 q u + r.
-    let h = b.t - a.t;
-    let climb = b.energy - a.energy;
-    let (first, last) = (a.slope * h, b.slope * h);
-    let p = 3.0 * (first + last) - 6.0 * climb;
-    let q = 3.0 * climb - 2.0 * first - last;
-    let r = first;
-    let root = (q * q - p * r).sqrt();
-    // Of the two forms of each root the one in which nothing cancels.
-    let sum = -(q + root.copysign(q));
-    let (mut low, mut high) = (sum / p, r / sum);
-    if low > high {
-        std::mem::swap(&mut low, &mut high);
-    }
-    let (a, b) = (*a, *b);
-    [low, high]
-        .into_iter()
-        .filter(|u| *u > 1e-9 && *u < 1.0 - 1e-9)
-        .map(move |u| {
-            let t = a.t + u * h;
-            Knot {
-                t,
-                energy: cubic(&a, &b, t),
-                slope: 0.0,
-            }
-        })
 }

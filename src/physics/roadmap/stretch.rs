@@ -2,10 +2,19 @@
 
 use nalgebra::Vector3;
 
-use super::Milestone;
-use super::profile::{Knot, ProfileTolerance, cubic};
+use super::knot::{Knot, cubic};
+use super::point::Point;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
+
+/// How closely a profile follows the energy.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ProfileTolerance {
+    /// Allowed error of the highest energy, relative to itself.
+    pub relative: f64,
+    /// Error allowed in any case (J).
+    pub absolute: f64,
+}
 
 /// A stretch of one of many motions.
 #[derive(Clone, Copy)]
@@ -65,21 +74,21 @@ pub(super) struct Motion<'a> {
 impl<'a> Motion<'a> {
     pub fn new(
         problem: &'a Problem,
-        a: &Milestone,
-        b: &Milestone,
+        a: &Point,
+        b: &Point,
         tolerance: &'a ProfileTolerance,
     ) -> Self {
-        let step = a.configuration.step_to(&b.configuration);
+        let step = a.q.step_to(&b.q);
         Self {
             problem,
-            from: a.configuration,
+            from: a.q,
             step,
             displacement: problem.potential().displacement(step),
             tolerance,
         }
     }
 
-    pub fn ends(&self, [a, b]: [&Milestone; 2]) -> [Knot; 2] {
+    pub fn ends(&self, [a, b]: [&Point; 2]) -> [Knot; 2] {
         [(0.0, a), (1.0, b)].map(|(t, milestone)| Knot {
             t,
             energy: milestone.energy,

@@ -1,7 +1,9 @@
 //! What is asked about words, and answered in one go.
 
+use super::candidates::number;
+use super::effort::Effort;
 use super::frontier::{self, Point};
-use super::search::{self, Effort, Found};
+use super::search::{self, Found};
 use super::{Judgement, Lags, Task, Word};
 
 /// What is asked.
@@ -30,10 +32,10 @@ pub struct Answer {
     /// Where a number of words was asked for: no so many have a wider gap than this.
     pub gap_upper: Option<f64>,
     /// Where a frontier was asked for: its points, from the widest gap on.
-    pub frontier: Vec<(Point, Option<Judgement>)>,
+    pub frontier: Vec<Point>,
     /// Where contacts leave the gap asked for undecided: how many words there are just beyond the
     /// tie.
-    pub beyond: Option<(Point, Option<Judgement>)>,
+    pub beyond: Option<Point>,
     /// How many words there were to choose from, and whether they were all.
     pub candidates: usize,
     /// See there.
@@ -55,28 +57,20 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
     let judged = |words: &[Word]| Judgement::of(words, energies, &task.rules);
     match question {
         Question::Gap(gap) => {
-            let mut part = Effort {
-                seed: effort.seed,
-                budget: effort.budget.share(1.0 - FOR_BEYOND),
-            };
-            let found = search::largest(task, gap, usize::MAX, &mut part);
-            effort.budget.give_back(&part.budget);
-            let beyond = beyond(task, gap, effort).map(|point| {
-                let judgement = judged(&point.found.words);
-                (point, judgement)
+            let found = effort.share(1.0 - FOR_BEYOND, |part| {
+                search::largest(task, gap, usize::MAX, part)
             });
             Answer {
                 judgement: judged(&found.words),
-                beyond,
+                beyond: beyond(task, gap, energies, effort),
                 ..of(found)
             }
         }
         Question::Count(count) => {
             let widest = frontier::widest(task, count, effort);
-            let found = widest.found;
             let upper = match widest.proved {
                 true => widest.words.len(),
-                false => found.upper.max(count),
+                false => widest.found.upper.max(count),
             };
             Answer {
                 judgement: judged(&widest.words),
@@ -84,33 +78,21 @@ pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Eff
                 upper,
                 proved: widest.proved,
                 gap_upper: Some(widest.upper),
-                ..of(Found {
-                    words: Vec::new(),
-                    ..found
-                })
+                ..of(widest.found)
             }
         }
         Question::Frontier => {
-            let points = frontier::frontier(task, MOST_OF_FRONTIER, effort);
-            let points: Vec<(Point, Option<Judgement>)> = points
-                .into_iter()
-                .map(|point| {
-                    let judgement = judged(&point.found.words);
-                    (point, judgement)
-                })
-                .collect();
+            let points = frontier::frontier(task, MOST_OF_FRONTIER, energies, effort);
             let distance = |point: &Point| (point.asked - MIDDLE).abs();
-            let middle = points
-                .iter()
-                .min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)))
-                .cloned();
-            let Some((point, judgement)) = middle else {
+            let middle = points.iter();
+            let middle = middle.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let Some(middle) = middle.cloned() else {
                 return of(search::largest(task, MIDDLE, usize::MAX, effort));
             };
             Answer {
-                judgement,
+                judgement: middle.judgement,
                 frontier: points,
-                ..of(point.found)
+                ..of(middle.found)
             }
         }
     }
@@ -132,17 +114,12 @@ fn of(found: Found) -> Answer {
 
 /// The words of a gap half a contact narrower, where contacts make a tie of the gap asked for that
 /// only neighbours' lags decide.
-fn beyond(task: &Task, gap: f64, effort: &mut Effort) -> Option<Point> {
+fn beyond(task: &Task, gap: f64, energies: &Lags, effort: &mut Effort) -> Option<Point> {
     let magnets = task.magnets as f64;
     let contacts = (1.0 - gap) * magnets;
     let rest = task.rest() / task.lags.contact();
     let tied = (contacts - contacts.round()).abs() < 1e-6 && rest > 0.0 && rest < 0.5;
-    let few = super::candidates::number(task.places, task.magnets) <= MOST_BEYOND
-        || task.magnets < task.places;
-    if !tied || !few || task.rules.fault.is_some() || contacts.round() >= magnets {
-        return None;
-    }
-    let asked = 1.0 - (contacts.round() + 0.5) / magnets;
-    let found = search::largest(task, asked, usize::MAX, effort);
-    Some(Point { asked, found })
+    let few = number(task.places, task.magnets) <= MOST_BEYOND || task.magnets < task.places;
+    let is_asked = tied && few && task.rules.fault.is_none() && contacts.round() < magnets;
+    is_asked.then(|| Point::of(task, contacts.round() as usize, energies, effort))
 }

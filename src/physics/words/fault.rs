@@ -22,6 +22,15 @@ pub enum Fault {
 pub type Faulty = [Option<usize>; 2];
 
 impl Fault {
+    /// What each is called.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("missing=1", Self::Missing), ("flipped=1", Self::Flipped)];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize].0
+    }
+
     /// How often the energy of a magnet's pairs is lost.
     fn factor(self) -> f64 {
         match self {

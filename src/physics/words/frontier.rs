@@ -1,8 +1,10 @@
 //! Gap against number: the widest gap of so many words, and the number of words at every gap.
 
 use super::Task;
-use super::search::{self, Effort, Found};
-use super::set::Weighed;
+use super::effort::Effort;
+use super::lag::Lags;
+use super::search::{self, Found};
+use super::set::{Judgement, Weighed};
 use super::word::Word;
 
 /// The widest gap of so many words.
@@ -77,28 +79,21 @@ pub fn widest(task: &Task, count: usize, effort: &mut Effort) -> Widest {
         words: best.words.clone(),
         gap: low,
         proved: proved_high <= low + SAME_GAP || low >= 1.0,
-        upper: if proved_high <= low + SAME_GAP {
-            low
-        } else {
-            proved_high
+        upper: match proved_high <= low + SAME_GAP {
+            true => low,
+            false => proved_high,
         },
         found: best,
     }
 }
 
 fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> Found {
-    let mut part = Effort {
-        seed: effort.seed,
-        budget: effort.budget.share(FOR_A_STEP),
-    };
-    let found = search::largest(task, gap, count, &mut part);
-    effort.budget.give_back(&part.budget);
-    found
+    effort.share(FOR_A_STEP, |part| search::largest(task, gap, count, part))
 }
 
 /// So many of the words, those taken away whose loss widens the gap most.
 fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
-    let mut set = Weighed::new(task, words.to_vec());
+    let mut set = Weighed::new(&task.lags, &task.rules, words.to_vec());
     while set.words().len() > count {
         set.drop_worst();
     }
@@ -112,25 +107,33 @@ pub struct Point {
     pub asked: f64,
     /// What was found.
     pub found: Found,
+    /// What it is worth; `None` of no words.
+    pub judgement: Option<Judgement>,
+}
+
+impl Point {
+    /// The words with at most so many net contacts in wrong meetings, told apart halfway between those
+    /// and one more; what they are worth is told in `energies`.
+    pub(super) fn of(task: &Task, contacts: usize, energies: &Lags, effort: &mut Effort) -> Self {
+        let asked = 1.0 - (contacts as f64 + 0.5) / task.magnets as f64;
+        let found = search::largest(task, asked, usize::MAX, effort);
+        Self {
+            asked,
+            judgement: Judgement::of(&found.words, energies, &task.rules),
+            found,
+        }
+    }
 }
 
 /// The number of words for every number of net contacts t that wrong meetings may have, from the
 /// widest gap on: at gaps halfway between those of t and t + 1 contacts, so that neighbours' lags
 /// decide nothing. Ends where more than `most` words are found.
-pub fn frontier(task: &Task, most: usize, effort: &mut Effort) -> Vec<Point> {
-    let magnets = task.magnets;
-    let mut points = Vec::new();
-    for contacts in 0..magnets {
-        let asked = 1.0 - (contacts as f64 + 0.5) / magnets as f64;
-        let mut part = Effort {
-            seed: effort.seed,
-            budget: effort.budget.share(1.0 / (magnets - contacts) as f64),
-        };
-        let found = search::largest(task, asked, usize::MAX, &mut part);
-        effort.budget.give_back(&part.budget);
-        let enough = found.words.len() > most;
-        points.push(Point { asked, found });
-        if enough {
+pub fn frontier(task: &Task, most: usize, energies: &Lags, effort: &mut Effort) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::new();
+    for contacts in 0..task.magnets {
+        let share = 1.0 / (task.magnets - contacts) as f64;
+        points.push(effort.share(share, |part| Point::of(task, contacts, energies, part)));
+        if points[contacts].found.words.len() > most {
             break;
         }
     }

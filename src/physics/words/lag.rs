@@ -67,7 +67,6 @@ impl Bar {
 /// J(d) (J) for d = 0, 1, 2 ... places: of two north poles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lags {
-    energies: Vec<f64>,
     /// J(|d|) from the least d on.
     either_way: Vec<f64>,
     /// The sum of the k largest magnitudes but for the first (J), those of either side apart.
@@ -103,21 +102,16 @@ impl Lags {
             sum += magnitude;
             sum
         });
+        let either_way = energies[1..].iter().rev().chain(&energies);
         Self {
             beside: std::iter::once(0.0).chain(largest).collect(),
-            either_way: energies[1..]
-                .iter()
-                .rev()
-                .chain(&energies)
-                .copied()
-                .collect(),
-            energies,
+            either_way: either_way.copied().collect(),
         }
     }
 
     /// J(0) (J).
     pub fn contact(&self) -> f64 {
-        self.energies[0]
+        self.apart(0)
     }
 
     /// The most (J) that all pairs but the facing ones add to the energy of two words, of which one
@@ -130,21 +124,21 @@ impl Lags {
     /// J(d) (J) of magnets d places apart, either way.
     #[inline]
     pub(super) fn apart(&self, d: i32) -> f64 {
-        let energy = self.energies.get(d.unsigned_abs() as usize);
-        energy.copied().unwrap_or(0.0)
+        let at = (self.either_way.len() / 2) as i32 + d;
+        self.either_way.get(at as usize).copied().unwrap_or(0.0)
     }
 
     /// `sum_d J(d) c(s + d)` (J).
     pub fn energy(&self, correlations: &Correlations, s: i32) -> f64 {
         let last = correlations.places as i32 - 1;
         (-last..=last)
-            .map(|l| self.energies[(l - s).unsigned_abs() as usize] * f64::from(correlations.at(l)))
+            .map(|l| self.apart(l - s) * f64::from(correlations.at(l)))
             .sum()
     }
 
     /// The same at all slides, side by side: each the sum of the same terms in the same order.
     pub(super) fn energies(&self, correlations: &Correlations) -> BySlide {
-        let count = self.energies.len();
+        let count = self.either_way.len() / 2 + 1;
         let mut sums = [0.0; 2 * MOST_PLACES];
         for (l, value) in correlations.values[..count].iter().enumerate() {
             if *value == 0 {

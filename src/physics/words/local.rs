@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::budget::Budget;
 use crate::parallel;
 
+use super::effort::Effort;
 use super::graph::Graph;
 
 /// Walks of their own through the same graph.
@@ -27,13 +28,8 @@ const STEP: u64 = 24;
 const FORGET_AFTER: u32 = 2;
 
 /// A large clique, from a known one on; stops at the size `enough`.
-pub fn search(
-    graph: &Graph,
-    known: Vec<usize>,
-    enough: usize,
-    seed: u64,
-    budget: &mut Budget,
-) -> Vec<usize> {
+pub fn search(graph: &Graph, known: Vec<usize>, enough: usize, effort: &mut Effort) -> Vec<usize> {
+    let (seed, budget) = (effort.seed, &mut effort.budget);
     let mut best = known;
     if graph.is_empty() {
         return best;

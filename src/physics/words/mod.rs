@@ -23,6 +23,7 @@ pub mod clique;
 pub mod constraint;
 pub mod continuous;
 pub mod crosstalk;
+mod effort;
 pub mod fault;
 pub mod frontier;
 pub mod graph;
@@ -38,6 +39,7 @@ mod tests;
 
 pub use answer::{Answer, Question, answer};
 pub use constraint::Constraints;
+pub use effort::Effort;
 pub use fault::Fault;
 pub use lag::{Bar, BarError, Lags, PAPER_FACE};
 pub use rules::{Faces, Meeting, Rules, Shape};

@@ -18,6 +18,11 @@ pub enum Faces {
     Mates,
 }
 
+impl Faces {
+    /// What each is called.
+    pub const NAMES: [(&'static str, Self); 2] = [("all", Self::All), ("mates", Self::Mates)];
+}
+
 /// What complementary shapes the faces have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
@@ -28,6 +33,20 @@ pub enum Shape {
     Shared,
     /// Knobs on words, slots on mates: words meet mates only, and do not slide.
     Polar,
+}
+
+impl Shape {
+    /// What each is called.
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("none", Self::None),
+        ("shared", Self::Shared),
+        ("polar", Self::Polar),
+    ];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize].0
+    }
 }
 
 /// Which meetings are wrong.

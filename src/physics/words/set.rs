@@ -1,6 +1,5 @@
 //! Sets of words, judged.
 
-use super::Task;
 use super::lag::Lags;
 use super::rules::{Meeting, Rules};
 use super::word::Word;
@@ -20,28 +19,19 @@ pub struct Judgement {
 impl Judgement {
     /// Of words, each with its mate; `None` of no words.
     pub fn of(words: &[Word], lags: &Lags, rules: &Rules) -> Option<Self> {
-        let bonds = words.iter().map(|word| rules.bond(lags, *word));
-        let bond = bonds.reduce(f64::min)?;
-        let strongest_from = |i: usize| {
-            let found = words[i..]
-                .iter()
-                .filter_map(|v| rules.strongest(lags, words[i], *v));
-            found.reduce(Meeting::stronger)
-        };
-        let strongest = parallel::flat_map(0..words.len(), strongest_from);
-        let worst = strongest.into_iter().reduce(Meeting::stronger);
-        let energy = worst.map_or(f64::INFINITY, |worst| worst.energy);
+        let set = Weighed::new(lags, rules, words.to_vec());
         Some(Self {
-            bond,
-            worst,
-            gap: gap(bond, energy),
+            bond: set.bond()?,
+            worst: set.worst_meeting(),
+            gap: set.gap()?,
         })
     }
 }
 
 /// Words, with what the strongest wrong meeting of every two comes to, so that some can be taken away.
 pub(super) struct Weighed<'a> {
-    task: &'a Task,
+    lags: &'a Lags,
+    rules: &'a Rules,
     words: Vec<Word>,
     /// Depths (J).
     bonds: Vec<f64>,
@@ -50,8 +40,7 @@ pub(super) struct Weighed<'a> {
 }
 
 impl<'a> Weighed<'a> {
-    pub fn new(task: &'a Task, words: Vec<Word>) -> Self {
-        let (lags, rules) = (&task.lags, &task.rules);
+    pub fn new(lags: &'a Lags, rules: &'a Rules, words: Vec<Word>) -> Self {
         let energy = |u: &Word, v: &Word| {
             let worst = rules.strongest(lags, *u, *v);
             worst.map_or(f64::INFINITY, |worst| worst.energy)
@@ -60,13 +49,19 @@ impl<'a> Weighed<'a> {
         Self {
             bonds: words.iter().map(|word| rules.bond(lags, *word)).collect(),
             wrong: parallel::map(0..words.len(), from),
-            task,
+            lags,
+            rules,
             words,
         }
     }
 
     pub fn words(&self) -> &[Word] {
         &self.words
+    }
+
+    /// The depth (J) of the weakest bond; `None` of no words.
+    fn bond(&self) -> Option<f64> {
+        self.bonds.iter().copied().reduce(f64::min)
     }
 
     /// The first two words that meet most strongly where they should not, and the energy (J).
@@ -78,22 +73,23 @@ impl<'a> Weighed<'a> {
         all.fold(first, |least, it| if it.0 < least.0 { it } else { least })
     }
 
+    fn worst_meeting(&self) -> Option<Meeting> {
+        let (energy, [i, j]) = self.worst();
+        let meeting = || {
+            self.rules
+                .strongest(self.lags, self.words[i], self.words[j])
+        };
+        (energy < f64::INFINITY).then(meeting).flatten()
+    }
+
     /// As [`Judgement`] has it; `None` of no words.
     pub fn gap(&self) -> Option<f64> {
-        let bond = self.bonds.iter().copied().reduce(f64::min)?;
-        Some(gap(bond, self.worst().0))
+        Some(gap(self.bond()?, self.worst().0))
     }
 
     /// Takes a word of the strongest wrong meeting away.
     pub fn drop_worst(&mut self) {
-        let (energy, [i, j]) = self.worst();
-        let worst = match energy < f64::INFINITY {
-            true => self
-                .task
-                .rules
-                .strongest(&self.task.lags, self.words[i], self.words[j]),
-            false => None,
-        };
+        let worst = self.worst_meeting();
         let in_worst = |word: &Word| {
             worst.is_some_and(|it| [it.first, it.second, it.second.mate()].contains(word))
         };

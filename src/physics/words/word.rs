@@ -165,16 +165,6 @@ impl Word {
             .find(|d| magnets & (magnets >> d) != 0)
             .unwrap_or(usize::MAX)
     }
-
-    /// The same word pushed to the first place: what slides cannot tell apart.
-    pub fn shifted_to_first(self) -> Self {
-        let empty = (self.north | self.south).trailing_zeros().min(63);
-        Self {
-            north: self.north >> empty,
-            south: self.south >> empty,
-            ..self
-        }
-    }
 }
 
 impl PartialOrd for Word {
@@ -265,6 +255,5 @@ mod tests {
         assert_eq!(word.longest_run(), 3);
         assert_eq!(word.least_spacing(), 1);
         assert_eq!(word.excess(), 2);
-        assert_eq!(word.shifted_to_first().to_string(), "NN.NS...");
     }
 }

@@ -4,26 +4,22 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::assembly::{Assembly, Built, TileSet, Wiring, WordSearch, proofread};
-use tilebind::design::WordSet;
-use tilebind::kinetics::bond::Shaking;
+use tilebind::assembly::Request;
 use tilebind::report::assembly::document;
 use tilebind::report::plots::Sheet;
-use tilebind::words::Rules;
 
 use crate::design::Design;
-use crate::words::{word_set, word_shape};
+use crate::request::request;
+use crate::words::word_set;
 use crate::{convert, fault, job};
-
-/// Most tiles along a block's edge.
-const LARGEST_BLOCK: usize = 6;
 
 /// Build a tile set of words: what engines of tile assembly read, with energies in units of kT.
 ///
 /// Parameters
 /// ----------
 /// tiles : str or os.PathLike
-///     A tile set as xgrow (``.tiles``) or rgrow (YAML, JSON) read it.
+///     A tile set as xgrow (``.tiles``) or rgrow (YAML, JSON) read it; or ``"lattice"`` (every tile its
+///     own place) or ``"homogeneous"`` (all the same tile) with `lattice`, ``"square"`` with `side`.
 /// words : sequence of str or Mapping, optional
 ///     Words enough for its glues, one for each axis on which a glue is used: those of
 ///     :func:`words`, or a whole set with the keys of its file. Searched by default.
@@ -33,6 +29,10 @@ const LARGEST_BLOCK: usize = 6;
 ///     Effective energy of the shaking (J).
 /// coverage : float, optional
 ///     Share of the table that tiles cover.
+/// lattice : sequence of int, optional
+///     Rows and columns of a lattice.
+/// side : int, optional
+///     Of a counted square, in tiles.
 /// proofread : int, optional
 ///     Blocks of so many tiles a side in place of tiles.
 /// length : int, optional
@@ -45,6 +45,8 @@ const LARGEST_BLOCK: usize = 6;
 ///     Complementary shapes of the faces.
 /// pitch : float, optional
 ///     From place to place (m).
+/// model : {"dipole", "cuboid"}, optional
+///     Of the magnets; the design's by default.
 /// seconds : float, optional
 ///     Work to spend on words, as what takes about so many seconds of a core; it is counted.
 /// seed : int, optional
@@ -63,92 +65,26 @@ const LARGEST_BLOCK: usize = 6;
 /// ValueError
 ///     Where the words do not suffice.
 #[pyfunction]
-#[pyo3(signature = (tiles, words = None, *, design = None, kt, coverage = 0.3, proofread = 1,
-                    length = None, magnets = None, gap = None, shape = "none", pitch = None,
-                    seconds = 20.0, seed = 1, progress = None))]
-#[allow(clippy::too_many_arguments)]
+#[pyo3(signature = (tiles, words = None, *, design = None, progress = None, **asked))]
 pub fn assemble<'py>(
     py: Python<'py>,
     tiles: PathBuf,
     words: Option<&Bound<'py, PyAny>>,
     design: Option<Py<Design>>,
-    kt: f64,
-    coverage: f64,
-    proofread: usize,
-    length: Option<usize>,
-    magnets: Option<usize>,
-    gap: Option<f64>,
-    shape: &str,
-    pitch: Option<f64>,
-    seconds: f64,
-    seed: u64,
     progress: Option<bool>,
+    asked: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    fault::positive("kt", Some(kt))?;
-    fault::fraction("coverage", coverage)?;
-    if !(1..=LARGEST_BLOCK).contains(&proofread) {
-        return Err(fault::value(format!(
-            "proofread = {proofread}: from 1 to {LARGEST_BLOCK} tiles a side"
-        )));
-    }
-    let tiles = TileSet::load(&tiles).map_err(|error| fault::design(py, &error))?;
-    fault::positive("pitch", pitch)?;
-    fault::positive("seconds", Some(seconds))?;
-    let rules = Rules {
-        shape: word_shape(shape)?,
-        ..Rules::default()
-    };
-    let searched = WordSearch {
-        pitch,
-        model: None,
-        length,
-        magnets,
-        gap,
-        rules,
-        seed,
-        seconds,
-    };
+    let asked: Request = request(asked)?;
+    let refused = |why| fault::refused(py, &why);
+    let tiles = asked.tile_set(&tiles).map_err(refused)?;
+    let words = words.map(|words| word_set(py, words, asked.model));
+    let words = words.transpose()?;
     let design = design.map(|design| design.get().content.clone());
     let design = design.as_ref().map(|content| &content.design);
-    let set = proofread::blocks(&tiles, proofread);
-    let wiring = Wiring::new(&set).map_err(fault::value)?;
-    let (words, words_toml, tried) = match words {
-        Some(words) => {
-            let (words, text) = word_set(py, words)?;
-            (words, text, Vec::new())
-        }
-        None => {
-            let found = job::run(py, progress, |told| {
-                told.tell(0.0, "words".to_owned());
-                searched.run(&wiring, design)
-            })?;
-            let (text, tried) = found.map_err(fault::value)?;
-            let words = WordSet::parse(&text, "the words found", None);
-            (
-                words.map_err(|error| fault::design(py, &error))?,
-                text,
-                tried,
-            )
-        }
-    };
-    let shaking = Shaking { kt, coverage };
     let files = job::run(py, progress, |told| {
         told.tell(0.0, "assembly".to_owned());
-        Built::new(&set, &words, shaking).map(|built| {
-            let assembly = Assembly {
-                built: &built,
-                words: &words,
-                words_toml,
-                design,
-                tried,
-                lattice: None,
-                rules,
-                proofread,
-                seed,
-            };
-            document(&assembly).files(&Sheet::SCREEN, "tilebind assemble")
-        })
+        let assembly = asked.build(&tiles, words, design)?;
+        Ok(document(&assembly).files(&Sheet::SCREEN, "tilebind assemble"))
     })?;
-    let files = files.map_err(fault::value)?.map_err(fault::value)?;
-    convert::files(py, files)
+    convert::files(py, files.map_err(refused)?.map_err(fault::value)?)
 }

@@ -5,8 +5,8 @@ use std::fmt::Display;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use tilebind::design;
-use tilebind::request::Refusal;
+use tilebind::request::Unanswered;
+use tilebind::{Refused, design};
 
 /// The exception `tilebind.DesignError` of a fault, with its place and its mend.
 pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
@@ -15,14 +15,15 @@ pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
 
 /// A fault that has no place in a file.
 pub fn of_design(py: Python<'_>, file: &str, message: String, help: &str) -> PyErr {
-    let fault = design::DesignError {
-        file: file.to_owned(),
-        place: None,
-        message,
-        help: help.to_owned(),
-        also: Vec::new(),
-    };
-    design(py, &fault)
+    design(py, &design::DesignError::new(file, None, message, help))
+}
+
+/// Why a job is not done: a `ValueError`, of a file `tilebind.DesignError`.
+pub fn refused(py: Python<'_>, why: &Refused) -> PyErr {
+    match why {
+        Refused::File(fault) => design(py, fault),
+        Refused::Asked(message) => value(message),
+    }
 }
 
 fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Bound<'py, PyAny>> {
@@ -41,7 +42,7 @@ fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Boun
 }
 
 /// Why there is no answer: a `ValueError` where what was asked for has none.
-pub fn of(error: impl Refusal) -> PyErr {
+pub fn of(error: impl Unanswered) -> PyErr {
     match error.is_of_the_question() {
         true => value(error.to_string().replace("--", "")),
         false => run(error),
@@ -66,14 +67,4 @@ pub fn positive(name: &str, number: Option<f64>) -> PyResult<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// A `ValueError` unless a share is above 0 and below 1.
-pub fn fraction(name: &str, number: f64) -> PyResult<()> {
-    if number > 0.0 && number < 1.0 {
-        return Ok(());
-    }
-    Err(value(format!(
-        "{name} must be between 0 and 1, not {number}"
-    )))
 }

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use tilebind::interruption::{Interrupted, Interruption};
 use tilebind::memory;
 use tilebind::observer::Observer;
-use tilebind::request::Refusal;
+use tilebind::request::Unanswered;
 
 use crate::fault;
 
@@ -78,7 +78,7 @@ pub fn run<T: Send>(
 }
 
 /// Long work that may have no answer, with a bar as [`run`] has it.
-pub fn answer<T: Send, E: Refusal + Send>(
+pub fn answer<T: Send, E: Unanswered + Send>(
     py: Python<'_>,
     progress: Option<bool>,
     work: impl FnOnce(&Told) -> Result<T, E> + Send,

@@ -1,35 +1,32 @@
 //! Sets of barcodes that bind their mates and nothing else.
 
 use pyo3::prelude::*;
-use tilebind::budget::Budget;
-use tilebind::design::WordSet;
-use tilebind::report::crosstalk as crosstalk_report;
-use tilebind::report::words as report;
-use tilebind::word_sets::{self, Request, Spaced};
-use tilebind::words::continuous::Wanted;
-use tilebind::words::crosstalk::{Stage, TOLERANCE};
-use tilebind::words::search::Effort;
-use tilebind::words::word::MOST_PLACES;
-use tilebind::words::{
-    Bar, Constraints, Faces, Fault, Lags, PAPER_FACE, Question, Rules, Shape, Task, answer,
-};
+use pyo3::types::PyDict;
+use tilebind::design::{MagnetModel, WordSet};
+use tilebind::report::{crosstalk as crosstalk_report, words as report};
+use tilebind::word_sets::{CrosstalkRequest, Request};
 
 use crate::design::Design;
+use crate::request::request;
 use crate::{convert, fault, job};
 
 /// Find sets of barcodes that bind their mates and nothing else.
 ///
 /// Parameters
 /// ----------
-/// length : int
-///     Magnets of a word.
+/// length : int, optional
+///     Magnets of a word; with `slots`, `magnets` says the same.
 /// gap : float, optional
 ///     Least gap, from 0 to 1: the answer is the largest set.
 /// count : int, optional
 ///     Words wanted: the answer is the set with the widest gap. With neither, the number of words
 ///     for every number of contacts.
+/// contacts : int, optional
+///     Judge by counted contacts: wrong meetings have at most so many matches more than mismatches.
 /// slots : int, optional
 ///     Places of a face, of which `length` hold magnets: spacing is part of the code.
+/// magnets : int, optional
+///     Magnets of a word with `slots` or `continuous`; `length` by default.
 /// continuous : bool, optional
 ///     Magnets may lie anywhere along the face, at least a pitch apart: positions and poles are
 ///     found together, wrong meetings judged over all poses. Takes `gap` or `count`.
@@ -43,7 +40,7 @@ use crate::{convert, fault, job};
 ///     Complementary shapes.
 /// flip : bool, optional
 ///     Tiles may lie upside down.
-/// tolerate : {"missing", "flipped"}, optional
+/// tolerate : {"missing=1", "flipped=1"}, optional
 ///     The words hold though one magnet of every face is missing, or lies the wrong way round.
 /// pitch : float, optional
 ///     From place to place (m).
@@ -51,6 +48,18 @@ use crate::{convert, fault, job};
 ///     As many north as south poles, or one more.
 /// max_run : int, optional
 ///     Longest run of equal poles.
+/// min_mismatch : sequence of int, optional
+///     Least mismatches of two words aligned, of a word and a complement aligned, and of either over
+///     every slide (what hangs over counts).
+/// consecutive : sequence of int, optional
+///     Least and greatest length of the longest run of consecutive matches of two words over all slides.
+/// min_bond : float, optional
+///     Least depth of a bond (J).
+/// word_word, word_mate, mate_mate : sequence of float, optional
+///     Between which two energies (J) the lowest one of two words, of a word and another's mate, of two
+///     mates lies, over all slides.
+/// model : {"dipole", "cuboid"}, optional
+///     Of the magnets; the design's by default.
 /// seconds : float, optional
 ///     Work to spend, as what takes about so many seconds of a core; it is counted.
 /// seed : int, optional
@@ -62,146 +71,24 @@ use crate::{convert, fault, job};
 ///     As ``tilebind words --json``: `words`, `count`, `upper_bound`, `proved`, `gap`, `bond_J`,
 ///     `worst`; with `continuous` also `positions_m`.
 #[pyfunction]
-#[pyo3(signature = (length, *, gap = None, count = None, slots = None, continuous = false,
-                    face = None, design = None, faces = "all", shape = "none", flip = false,
-                    tolerate = None, pitch = None, balanced = false, max_run = None,
-                    seconds = 20.0, seed = 1, progress = None))]
-#[allow(clippy::too_many_arguments)]
+#[pyo3(signature = (length = None, *, design = None, progress = None, **asked))]
 pub fn words<'py>(
     py: Python<'py>,
-    length: usize,
-    gap: Option<f64>,
-    count: Option<usize>,
-    slots: Option<usize>,
-    continuous: bool,
-    face: Option<f64>,
+    length: Option<&Bound<'py, PyAny>>,
     design: Option<Py<Design>>,
-    faces: &str,
-    shape: &str,
-    flip: bool,
-    tolerate: Option<&str>,
-    pitch: Option<f64>,
-    balanced: bool,
-    max_run: Option<usize>,
-    seconds: f64,
-    seed: u64,
     progress: Option<bool>,
+    asked: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let places = slots.unwrap_or(length);
-    if length == 0 || places < length || places > MOST_PLACES {
-        return Err(fault::value(format!(
-            "length must be at least 1, slots at least as many and at most {MOST_PLACES}"
-        )));
-    }
-    fault::positive("seconds", Some(seconds))?;
-    let question = match (gap, count) {
-        (Some(_), Some(_)) => return Err(fault::value("give gap or count, not both")),
-        (Some(gap), None) if (0.0..=1.0).contains(&gap) => Question::Gap(gap),
-        (Some(_), None) => return Err(fault::value("a gap lies between 0 and 1")),
-        (None, Some(0)) => return Err(fault::value("count must be at least 1")),
-        (None, Some(count)) => Question::Count(count),
-        (None, None) => Question::Frontier,
-    };
-    let rules = Rules {
-        faces: match faces {
-            "all" => Faces::All,
-            "mates" => Faces::Mates,
-            _ => return Err(fault::value("faces are \"all\" or \"mates\"")),
-        },
-        shape: word_shape(shape)?,
-        flip,
-        fault: match tolerate {
-            None => None,
-            Some("missing") => Some(Fault::Missing),
-            Some("flipped") => Some(Fault::Flipped),
-            Some(_) => return Err(fault::value("tolerated are \"missing\" or \"flipped\"")),
-        },
-    };
-    let (bar, whole) = bar(design.as_ref(), pitch)?;
-    if continuous {
-        if slots.is_some() || rules.shape != Shape::None || rules.fault.is_some() {
-            return Err(fault::value(
-                "slots, shape and tolerate do not go with continuous=True",
-            ));
-        }
-        fault::positive("face", face)?;
-        let wanted = Wanted {
-            magnets: length,
-            bar,
-            face: face.unwrap_or(whole),
-            words_meet: rules.faces == Faces::All,
-            flip,
-            balanced,
-            longest_run: max_run,
-        };
-        let found = job::run(py, progress, |told| {
-            told.tell(0.0, "words".to_owned());
-            Spaced::search(&wanted, question, seed, seconds)
-        })?;
-        let found = found.map_err(fault::value)?;
-        return convert::json(py, &report::document_of_spaced(&found).report());
-    }
-    if face.is_some() {
-        return Err(fault::value("face goes with continuous=True"));
-    }
-    let least_spacing = (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize;
-    if (length - 1) * least_spacing >= places {
-        return Err(fault::value(format!(
-            "magnets {} m wide do not fit side by side {} m apart: give a wider pitch",
-            bar.size[1], bar.pitch
-        )));
-    }
-    let energies = Lags::new(&bar, places);
-    let constraints = Constraints {
-        balanced,
-        longest_run: max_run,
-        least_spacing,
-        ..Constraints::default()
-    };
-    let task = Task {
-        places,
-        magnets: length,
-        lags: energies.clone(),
-        rules,
-        constraints,
-    };
-    let mut effort = Effort {
-        seed,
-        budget: Budget::seconds(seconds),
-    };
-    let answer = job::run(py, progress, |told| {
+    let asked = asked.map_or_else(|| Ok(PyDict::new(py)), |asked| asked.copy())?;
+    asked.set_item("length", length)?;
+    let asked: Request = request(Some(&asked))?;
+    let design = design.map(|design| design.get().content.clone());
+    let found = job::run(py, progress, |told| {
         told.tell(0.0, "words".to_owned());
-        answer(&task, question, &energies, &mut effort)
+        asked.search(design.as_ref().map(|content| &content.design))
     })?;
-    let request = Request {
-        design: design.map(|design| design.get().content.design.name.clone()),
-        bar,
-        task,
-        question,
-        contacts: None,
-        seed,
-        seconds,
-        energies,
-    };
-    convert::json(py, &report::document(&request, &answer).report())
-}
-
-/// A complementary shape by its name.
-pub fn word_shape(name: &str) -> PyResult<Shape> {
-    match name {
-        "none" => Ok(Shape::None),
-        "shared" => Ok(Shape::Shared),
-        "polar" => Ok(Shape::Polar),
-        _ => Err(fault::value("a shape is \"none\", \"shared\" or \"polar\"")),
-    }
-}
-
-/// The magnets of words, and the length of the face (m).
-fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> {
-    fault::positive("pitch", pitch)?;
-    let design = design.map(|design| &design.get().content.design);
-    let (bar, face) = word_sets::bar(design, pitch, None).map_err(fault::value)?;
-    Ok((bar, face.unwrap_or(PAPER_FACE)))
+    let found = found.map_err(|why| fault::refused(py, &why))?;
+    convert::json(py, &report::document(&found).report())
 }
 
 /// The strongest attraction of every two words of a set over all poses, with their mates.
@@ -212,8 +99,10 @@ fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> 
 ///     The words, without their mates, or a whole set with the keys of its file.
 /// certify : float or bool, optional
 ///     Prove that no attraction is stronger, to within so many J; True for a quarter of a contact.
-/// cells : int, optional
-///     Spent on the proof at most.
+/// certify_cells : int, optional
+///     Cells spent on the proof at most.
+/// model : {"dipole", "cuboid"}, optional
+///     Of the magnets; the set's by default.
 /// progress : bool, optional
 ///
 /// Returns
@@ -221,42 +110,33 @@ fn bar(design: Option<&Py<Design>>, pitch: Option<f64>) -> PyResult<(Bar, f64)> 
 /// dict
 ///     As ``tilebind crosstalk --json``: `words`, `strongest_J`, `lower_J`, `poses`.
 #[pyfunction]
-#[pyo3(signature = (words, *, certify = None, cells = 8_000_000, progress = None))]
+#[pyo3(signature = (words, *, progress = None, **asked))]
 pub fn crosstalk<'py>(
     py: Python<'py>,
     words: &Bound<'py, PyAny>,
-    certify: Option<&Bound<'py, PyAny>>,
-    cells: usize,
     progress: Option<bool>,
+    asked: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (set, _) = word_set(py, words)?;
-    let stage = Stage::new(
-        set.stage.pair.as_ref().clone(),
-        set.stage.interaction.clone(),
-    );
-    let usual = || TOLERANCE * stage.contact_energy();
-    let tolerance = match certify.filter(|certify| !certify.is_none()) {
-        None => None,
-        Some(certify) => match certify.extract::<bool>() {
-            Ok(wanted) => wanted.then(usual),
-            Err(_) => Some(certify.extract()?),
-        },
-    };
-    fault::positive("certify", tolerance)?;
+    let asked: CrosstalkRequest = request(asked)?;
+    let (set, _) = word_set(py, words, asked.model)?;
     let found = job::run(py, progress, |told| {
         told.tell(0.0, "crosstalk".to_owned());
-        stage.crosstalk(&set.words, tolerance.map(|tolerance| (tolerance, cells)))
+        asked.crosstalk(&set)
     })?;
     convert::json(py, &crosstalk_report::document(&set, &found).report())
 }
 
 /// A set of words and its file, from a list of them or the keys of the file.
-pub fn word_set(py: Python<'_>, words: &Bound<'_, PyAny>) -> PyResult<(WordSet, String)> {
+pub fn word_set(
+    py: Python<'_>,
+    words: &Bound<'_, PyAny>,
+    model: Option<MagnetModel>,
+) -> PyResult<(WordSet, String)> {
     let table = match convert::toml(words)? {
         toml::Value::Table(table) => table,
         list => toml::Table::from_iter([("words".to_owned(), list)]),
     };
     let text = table.to_string();
-    let set = WordSet::parse(&text, "words.toml", None);
+    let set = WordSet::parse(&text, "words.toml", model);
     Ok((set.map_err(|error| fault::design(py, &error))?, text))
 }

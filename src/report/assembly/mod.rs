@@ -35,15 +35,15 @@ pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
             picture::grown(assembly, title, sheet)
         })],
         beside: beside(assembly),
-        origin: format!("seed {}", assembly.seed),
+        origin: format!("seed {}", assembly.request.seed),
         ..Document::default()
     }
 }
 
 // One line an entry.
 #[rustfmt::skip]
-fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
-    let built = assembly.built;
+fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
+    let (built, request) = (&assembly.built, &assembly.request);
     let (set, matrix, grown) = (&built.set, &built.matrix, &built.grown);
     let codes = |faces: std::ops::Range<usize>| -> Value {
         faces.map(|face| matrix.code(face).to_string()).collect()
@@ -55,9 +55,9 @@ fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
     });
     let deeper = built.deeper();
     let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
-    let mut deepest: Vec<_> = slides.iter().filter(|it| it.2.deepest.is_some()).collect();
+    let mut deepest: Vec<_> = slides.iter().filter(|it| it.deepest.is_some()).collect();
     let all = slid(assembly, deepest.clone());
-    deepest.order_by(|a, b| energy(a).total_cmp(&energy(b)));
+    deepest.order_by(|a, b| a.energy().total_cmp(&b.energy()));
     deepest.truncate(SHOWN);
     Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
@@ -67,8 +67,8 @@ fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
             "glues": set.glues.len(),
             "words_needed": built.wiring.bonds.len(),
             "tau": set.tau(),
-            "proofread": assembly.proofread,
-            "lattice": assembly.lattice,
+            "proofread": request.proofread,
+            "lattice": request.lattice,
         }))
         .fact("tiles", "tiles", set.tiles.len()).in_view()
         .fact("words", "words", built.wiring.bonds.len()).in_view().noted("one a glue and axis")
@@ -112,7 +112,7 @@ fn entries(assembly: &Assembly, slides: &[(usize, usize, Slid)]) -> Entries {
         .table(tiles(assembly))
         .table(pairs(assembly).in_file("pairs").in_data())
         .data("faces_tried", assembly.tried.iter().map(tried).collect::<Value>())
-        .data("seed", assembly.seed)
+        .data("seed", request.seed)
 }
 
 fn kt(energy: f64) -> String {
@@ -148,7 +148,7 @@ fn tried(choice: &Choice) -> Value {
 #[rustfmt::skip]
 fn tiles(assembly: &Assembly) -> Table {
     type Row<'a> = (usize, &'a TileType);
-    let built = assembly.built;
+    let built = &assembly.built;
     let counts = built.grown.counts(built.set.tiles.len());
     let faces = |it: &Row| -> Value {
         let face = |side: usize| built.face(it.0, side).map(|face| assembly.face(face));
@@ -174,7 +174,7 @@ fn tiles(assembly: &Assembly) -> Table {
 #[rustfmt::skip]
 fn bonds(assembly: &Assembly) -> Table {
     type Row<'a> = (usize, &'a Bond);
-    let built = assembly.built;
+    let built = &assembly.built;
     let glues = |it: &Row| json!(it.1.glues.each_ref().map(|glues| {
         glues.iter().map(|glue| &built.set.glues[*glue].name).collect::<Vec<_>>()
     }));
@@ -195,27 +195,23 @@ fn bonds(assembly: &Assembly) -> Table {
         .listing(LISTED)
 }
 
-fn energy(slid: &(usize, usize, Slid)) -> f64 {
-    slid.2.deepest.map_or(0.0, |it| it.1)
-}
-
 /// The deepest slid meetings of faces.
 #[rustfmt::skip]
-fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a (usize, usize, Slid)>) -> Table {
-    let built = assembly.built;
+fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
+    let built = &assembly.built;
     let pitch = assembly.words.stage.pitch.unwrap_or_default();
-    let slide = |it: &(usize, usize, Slid)| it.2.deepest.map_or(0, |it| it.0);
-    let depth = |it: &(usize, usize, Slid)| energy(it) / built.shaking.kt;
+    let slide = |it: &Slid| it.deepest.map_or(0, |it| it.0);
+    let depth = |it: &Slid| it.energy() / built.shaking.kt;
     rows(all)
-        .column("first", "first", "a face", |it| assembly.face(it.0))
-        .column("second", "second", "the face that it meets", |it| assembly.face(it.1))
+        .column("first", "first", "a face", |it| assembly.face(it.faces[0]))
+        .column("second", "second", "the face that it meets", |it| assembly.face(it.faces[1]))
         .column("slide", "slid by", "places", move |it| slide(it))
         .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
-        .column("energy_J", "energy", "of the deepest slid meeting that holds", |it| energy(it)).digits(4)
+        .column("energy_J", "energy", "of the deepest slid meeting that holds", |it| it.energy()).digits(4)
         .column("energy_kT", "depth", "over kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
         .column("holds_alone", "holds alone", "whether it holds a tile by itself, against Gmc", move |it| -depth(it) > built.gmc)
-        .column("slides_to_aligned", "", "", |it| it.2.captured[0])
-        .column("slides_to_slid", "", "", |it| it.2.captured[1])
+        .column("slides_to_aligned", "", "", |it| it.captured[0])
+        .column("slides_to_slid", "", "", |it| it.captured[1])
         .table("slid")
 }
 
@@ -224,7 +220,7 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a (usize, usize, Slid)>) -> Table
 /// of the design.
 #[rustfmt::skip]
 fn pairs(assembly: &Assembly) -> Table {
-    let built = assembly.built;
+    let built = &assembly.built;
     let met = designs::named(assembly).into_iter().filter_map(|(name, met)| {
         let (bond, rest) = built.whole(&met)?;
         Some((name, bond, -built.matrix.bond(bond), rest))
@@ -254,7 +250,7 @@ fn beside(assembly: &Assembly) -> Files {
         ("sheet.md", sheet::sheet(assembly)),
     ];
     let files = files.map(|(name, text)| (name.to_owned(), text));
-    let designs = designs::all(assembly).into_iter();
+    let designs = designs::all(assembly);
     let designs = designs.map(|(name, text)| (format!("designs/{name}.toml"), text));
     let all = files.into_iter().chain(designs);
     all.map(|(name, text)| (name, text.into_bytes())).collect()

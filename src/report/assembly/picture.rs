@@ -34,11 +34,9 @@ fn kinds(set: &TileSet) -> (Vec<(&str, String)>, Vec<usize>) {
         let known = kinds.iter().position(|kind| kind.0 == name);
         of_tile.push(known.unwrap_or(kinds.len()));
         if known.is_none() {
-            let own = tile.color.as_deref().filter(|it| {
-                it.len() == 7
-                    && it.starts_with('#')
-                    && it[1..].bytes().all(|c| c.is_ascii_hexdigit())
-            });
+            let is_hex = |it: &str| it.len() == 6 && it.bytes().all(|c| c.is_ascii_hexdigit());
+            let own = tile.color.as_deref();
+            let own = own.filter(|it| it.strip_prefix('#').is_some_and(is_hex));
             let colour = own.unwrap_or(COLOURS[kinds.len() % COLOURS.len()]);
             kinds.push((name, colour.to_owned()));
         }

@@ -1,29 +1,26 @@
 //! The sheet for the workshop.
 
+use crate::document::rows;
 use crate::markdown::markdown_table;
-use jobs::assembly::{Assembly, Axis};
+use jobs::assembly::{Assembly, Axis, TileType};
 use physics::units::si;
 
 /// Which magnets on which face of which tile, and how many of each.
 pub(super) fn sheet(assembly: &Assembly) -> String {
-    let built = assembly.built;
+    let built = &assembly.built;
     let (set, grown) = (&built.set, &built.grown);
     let counts = grown.counts(set.tiles.len());
     let magnet = assembly.magnet();
     let [length, width, thickness] = magnet.size.map(|x| (1e5 * x).round() / 100.0);
     let magnets = |tile: usize| -> usize {
         let faces = (0..4).filter_map(|side| built.face(tile, side));
-        faces
-            .map(|face| built.matrix.code(face).magnets() as usize)
-            .sum()
+        let magnets = faces.map(|face| built.matrix.code(face).magnets() as usize);
+        magnets.sum()
     };
     let tiles: usize = counts.iter().sum();
-    let all: usize = counts
-        .iter()
-        .enumerate()
-        .map(|(tile, count)| count * magnets(tile))
-        .sum();
-    let mut text = format!(
+    let all = counts.iter().enumerate();
+    let all: usize = all.map(|(tile, count)| count * magnets(tile)).sum();
+    let text = format!(
         "# {}: to be made\n\n{tiles} tiles with {all} magnets of {length} x {width} x {thickness} mm \
          (magnetised along the first, {} each){}.\n\nTiles are squares of {} seen from above; a code is \
          read counter-clockwise along its face, N for a north pole out, S for a south pole, . for an \
@@ -31,54 +28,39 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
          draws the tiles of any file in `designs/` for a cutter.\n\n## Tiles\n\n",
         set.name,
         si(magnet.moment, "A m2", 4),
-        if grown.complete {
-            ""
-        } else {
-            ", of which the assembly can have more: these are the first"
+        match grown.complete {
+            true => "",
+            false => ", of which the assembly can have more: these are the first",
         },
         si(assembly.words.stage.pair.fixed.faces[0].length(), "m", 4),
         si(assembly.words.stage.pitch.unwrap_or_default(), "m", 4),
     );
-    let head = [
-        "tile",
-        "how many",
-        "magnets each",
-        "north",
-        "east",
-        "south",
-        "west",
-    ];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for (number, tile) in set.tiles.iter().enumerate() {
-        let face = |side| match built.face(number, side) {
+    let face = |side| {
+        move |(number, _): &(usize, &TileType)| match built.face(*number, side) {
             Some(face) => format!("{} {}", assembly.face(face), built.matrix.code(face)),
             None => "empty".to_owned(),
-        };
-        let mut row = vec![
-            tile.name.clone(),
-            counts[number].to_string(),
-            magnets(number).to_string(),
-        ];
-        row.extend((0..4).map(face));
-        rows.push(row);
-    }
-    text += &markdown_table(&rows);
-    text += "\n## Words\n\n";
-    let head = ["word", "code", "mate", "axis", "bond"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for (word, bond) in built.wiring.bonds.iter().enumerate() {
-        let code = built.matrix.words[word];
-        rows.push(vec![
-            assembly.face(word),
-            code.to_string(),
-            code.mate().to_string(),
-            match bond.axis {
-                Axis::Horizontal => "word east, mate west",
-                Axis::Vertical => "word north, mate south",
-            }
-            .to_owned(),
-            si(built.matrix.bond(word), "J", 4),
-        ]);
-    }
-    text + &markdown_table(&rows)
+        }
+    };
+    let tiles = rows(set.tiles.iter().enumerate())
+        .column("", "tile", "", |it: &(usize, &TileType)| it.1.name.clone())
+        .column("", "how many", "", |it| counts[it.0])
+        .column("", "magnets each", "", |it| magnets(it.0))
+        .column("", "north", "", face(0))
+        .column("", "east", "", face(1))
+        .column("", "south", "", face(2))
+        .column("", "west", "", face(3));
+    let code = |word: usize| built.matrix.words[word];
+    let axis = |axis: Axis| match axis {
+        Axis::Horizontal => "word east, mate west",
+        Axis::Vertical => "word north, mate south",
+    };
+    let words = rows(built.wiring.bonds.iter().enumerate())
+        .column("", "word", "", |it| assembly.face(it.0))
+        .column("", "code", "", |it| code(it.0).to_string())
+        .column("", "mate", "", |it| code(it.0).mate().to_string())
+        .column("", "axis", "", |it| axis(it.1.axis))
+        .column("", "bond", "", |it| si(built.matrix.bond(it.0), "J", 4));
+    let [tiles, words] = [tiles.table("tiles"), words.table("words")];
+    let [tiles, words] = [tiles, words].map(|table| markdown_table(&table.texts()));
+    text + &tiles + "\n## Words\n\n" + &words
 }

@@ -94,7 +94,7 @@ impl Table {
     }
 
     /// What people see on a terminal, its head first.
-    fn texts(&self) -> Vec<Vec<String>> {
+    pub(crate) fn texts(&self) -> Vec<Vec<String>> {
         let printed: Vec<usize> = self
             .viewed()
             .filter(|k| self.heads[*k].is_printed)

@@ -15,7 +15,7 @@ use crate::plots::scale::{EnergyScale, VIK};
 use jobs::design::Design;
 use physics::configuration::Configuration;
 use physics::landscape::approach::Approach;
-use physics::landscape::map::evenly;
+use physics::landscape::grid::evenly;
 use physics::landscape::volume::{InFront, Volume, around};
 use physics::landscape::{Place, State};
 use physics::potential::{DipolePotential, Potential};

@@ -15,7 +15,7 @@ use super::{energy, length};
 use crate::csv::table;
 use crate::names::face;
 use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};
-use physics::landscape::map::{Grid, Sample};
+use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
 use physics::units::prefix_of;
 

@@ -9,7 +9,7 @@ use super::marks::{Box4, outline, polyline};
 use super::picture::{Area, Bitmap, PictureError, Underlay};
 use super::scale::{COLOURS, EnergyScale, HATCH, colour};
 use super::style::{Chart, INK, SMALL, Text, pixel, units};
-use physics::landscape::map::{Grid, Sample};
+use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
 
 /// The positions on a scale that colours are given to, and two colours for the hatching of what

@@ -7,13 +7,12 @@ use crate::document::{Document, Entries, Part, Table, rows};
 use crate::values::{pose, positive_zero};
 use jobs::word_sets::{Spaced, file};
 use physics::units::si;
-use physics::words::Question;
 use physics::words::continuous::SpacedWord;
 use physics::words::crosstalk::Crosstalk;
 use physics::words::set::name;
 
 /// What there is to know of words with magnets anywhere.
-pub fn document(spaced: &Spaced) -> Document<'_> {
+pub(super) fn document(spaced: &Spaced) -> Document<'_> {
     let headline = headline(spaced);
     let set = file::of_spaced(&headline, &spaced.words, &spaced.bar, spaced.face);
     let judged = spaced.judged.as_ref();
@@ -29,7 +28,7 @@ pub fn document(spaced: &Spaced) -> Document<'_> {
         beside: [("words.toml".to_owned(), set.into_bytes())].into(),
         origin: format!(
             "seed {}; {} magnets at least {} apart on faces of {}; all poses in which two faces can meet",
-            spaced.seed,
+            spaced.request.seed,
             spaced.bar.model.name(),
             si(spaced.bar.pitch, "m", 3),
             si(spaced.face, "m", 3),
@@ -39,24 +38,19 @@ pub fn document(spaced: &Spaced) -> Document<'_> {
 }
 
 fn headline(spaced: &Spaced) -> String {
-    match (&spaced.judged, spaced.asked) {
+    match (&spaced.judged, spaced.request.gap) {
         (Some((set, found)), _) => format!(
             "{}; at least so many, no upper bound known",
             crosstalk::headline(set, found)
         ),
-        (None, Question::Gap(gap)) => format!("none found with the gap {gap}, nothing proved"),
-        (None, _) => "none found, nothing proved".to_owned(),
+        (None, Some(gap)) => format!("none found with the gap {gap}, nothing proved"),
+        (None, None) => "none found, nothing proved".to_owned(),
     }
 }
 
 // One line an entry.
 #[rustfmt::skip]
 fn entries(spaced: &Spaced) -> Entries {
-    let (gap, count) = match spaced.asked {
-        Question::Gap(gap) => (Some(gap), None),
-        Question::Count(count) => (None, Some(count)),
-        Question::Frontier => (None, None),
-    };
     let judged = spaced.judged.as_ref().map(|(set, found)| (set, found));
     let found = judged.map(|it| it.1);
     let worst = judged.and_then(|(set, found)| Some((set, found, found.strongest_wrong()?)));
@@ -82,18 +76,18 @@ fn entries(spaced: &Spaced) -> Entries {
             .viewed(worst.map_or(String::new(), |it| si(it.2.energy, "J", 4)))
             .noted(worst.map_or(String::new(), |(set, found, it)| crosstalk::met(set, found, &it)))
         .table(words(&spaced.words).in_view())
-        .data("seed", spaced.seed)
+        .data("seed", spaced.request.seed)
         .data("settings", json!({
             "continuous": true,
-            "gap": gap,
-            "count": count,
+            "gap": spaced.request.gap,
+            "count": spaced.request.count,
             "face_m": spaced.face,
             "least_spacing_m": spaced.bar.pitch,
             "model": spaced.bar.model.name(),
             "magnet_size_m": spaced.bar.size,
             "magnet_moment_Am2": spaced.bar.moment,
             "inset_m": spaced.bar.inset,
-            "seconds": spaced.seconds,
+            "seconds": spaced.request.seconds,
         }));
     judged.iter().fold(entries, |entries, (set, found)| {
         let [all, strongest] = crosstalk::tables(set, found);

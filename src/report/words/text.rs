@@ -1,13 +1,14 @@
 //! The answer in words.
 
-use jobs::word_sets::Request;
+use jobs::word_sets::Sought;
 use physics::units::si;
 use physics::words::set::name;
-use physics::words::{Answer, Faces, Fault, Meeting, Question, Shape, Word};
+use physics::words::{Fault, Meeting, Question, Rules, Shape, Word};
 
 /// The first sentence: how many words, how sure, the weakest bond and the strongest wrong meeting.
-pub(super) fn headline(request: &Request, answer: &Answer) -> String {
-    let many = match request.question {
+pub(super) fn headline(sought: &Sought) -> String {
+    let answer = &sought.answer;
+    let many = match sought.question {
         Question::Gap(_) => how_many(answer.words.len(), answer.upper),
         Question::Count(count) if answer.words.is_empty() => match answer.proved {
             true => format!("no {count} words have a gap, proved"),
@@ -24,7 +25,7 @@ pub(super) fn headline(request: &Request, answer: &Answer) -> String {
             }
         }
         Question::Frontier => {
-            let asked = answer.frontier.iter().map(|it| it.0.asked);
+            let asked = answer.frontier.iter().map(|it| it.asked);
             let nearest = asked.min_by(|a, b| (a - 0.5).abs().total_cmp(&(b - 0.5).abs()));
             let many = how_many(answer.words.len(), answer.upper);
             format!("at the gap {:.4}: {many}", nearest.unwrap_or(0.5))
@@ -39,7 +40,7 @@ pub(super) fn headline(request: &Request, answer: &Answer) -> String {
             let attraction = si(-worst.energy, "J", 4);
             format!(
                 "strongest wrong meeting {attraction}: {}",
-                told(&worst, request, answer)
+                told(&worst, sought)
             )
         }
         Some(_) => "nothing wrong attracts".to_owned(),
@@ -62,30 +63,29 @@ pub(super) fn how_many(count: usize, upper: usize) -> String {
 }
 
 /// A face of the set by its name: `A`, or `A*` of a mate.
-pub(super) fn face(word: Word, answer: &Answer) -> String {
-    let find = |word| answer.words.iter().position(|other| *other == word);
+pub(super) fn face(word: Word, sought: &Sought) -> String {
+    let find = |word| sought.answer.words.iter().position(|other| *other == word);
     let own = find(word).map(name);
     let named = own.or_else(|| find(word.mate()).map(|k| name(k) + "*"));
     named.unwrap_or_else(|| word.to_string())
 }
 
 /// `A on B*, slid 40 mm`.
-pub(super) fn told(meeting: &Meeting, request: &Request, answer: &Answer) -> String {
-    let [first, second] = [meeting.first, meeting.second].map(|word| face(word, answer));
+pub(super) fn told(meeting: &Meeting, sought: &Sought) -> String {
+    let [first, second] = [meeting.first, meeting.second].map(|word| face(word, sought));
     let slide = match meeting.slide {
         0 => "not slid".to_owned(),
-        slide => format!("slid {}", si(f64::from(slide) * request.bar.pitch, "m", 3)),
+        slide => format!("slid {}", si(f64::from(slide) * sought.bar.pitch, "m", 3)),
     };
     let flipped = if meeting.flipped { ", turned over" } else { "" };
     format!("{first} on {second}{flipped}, {slide}")
 }
 
 /// How faces meet, in words.
-pub(super) fn meetings(request: &Request) -> String {
-    let rules = &request.task.rules;
-    let who = match (rules.faces, rules.words_meet()) {
-        (Faces::All, true) | (_, true) => "every face can meet every face",
-        _ => "words meet mates only",
+pub(super) fn meetings(rules: &Rules) -> String {
+    let who = match rules.words_meet() {
+        true => "every face can meet every face",
+        false => "words meet mates only",
     };
     let slides = match rules.shape {
         Shape::None => "at every slide by whole places",
@@ -97,12 +97,4 @@ pub(super) fn meetings(request: &Request) -> String {
         Fault::Flipped => ", one magnet of each face the wrong way round",
     });
     format!("{who}, {slides}{flip}{fault}")
-}
-
-/// As `--tolerate` names it.
-pub(super) fn fault(fault: Fault) -> &'static str {
-    match fault {
-        Fault::Missing => "missing=1",
-        Fault::Flipped => "flipped=1",
-    }
 }

@@ -96,7 +96,7 @@ fn build(problem: &Problem, depth: f64, count: usize, neighbours: Option<usize>)
     let free = edge::free_motions(problem, &milestones, &pairs);
     times.push(Instant::now());
     assert_eq!(free.len(), edges.len());
-    let places: Vec<_> = milestones.iter().map(|m| m.configuration).collect();
+    let places: Vec<_> = milestones.iter().map(|m| m.q).collect();
     std::hint::black_box(problem.energies(&places));
     times.push(Instant::now());
     Built {

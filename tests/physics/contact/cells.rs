@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
-use tilebind::contact::cells::{CellContact, ContactCells, Cut};
+use tilebind::contact::cells::{ContactCells, Cut};
 use tilebind::tile::Outline;
 
 use super::{near_contact, regular, saw, square};
@@ -38,17 +38,17 @@ fn no_free_configuration_is_blocked_or_cut_off() {
                     std::array::from_fn(|i| cell.half[i] * rng.random_range(-1.0..=1.0));
                 let free = contact.is_free(&cell.centre.moved(d.into()));
                 match &verdict {
-                    CellContact::Blocked => {
+                    None => {
                         blocked += 1;
                         assert!(!free, "{cell:?} {d:?}");
                     }
-                    CellContact::Open { cuts, corners, .. } => {
+                    Some(cuts) => {
                         let holds = |c: &Cut| c.form.at(d) + c.slack >= 0.0;
-                        let allowed = cuts.iter().all(holds)
-                            && corners.iter().all(|pair| pair.iter().any(holds));
+                        let allowed = cuts.all.iter().all(holds)
+                            && cuts.corners.iter().all(|pair| pair.iter().any(holds));
                         assert!(allowed || !free, "{cell:?} {d:?}");
-                        cut += usize::from(!cuts.is_empty());
-                        cornered += usize::from(!corners.is_empty());
+                        cut += usize::from(!cuts.all.is_empty());
+                        cornered += usize::from(!cuts.corners.is_empty());
                         cut_off += usize::from(!allowed);
                     }
                 }
@@ -82,9 +82,9 @@ fn cells_do_not_depend_on_how_corners_are_numbered() {
                 centre: near_contact(&plain, &mut rng),
                 half: [size; 3],
             };
-            let counts = |contact: &Contact| match ContactCells::new(contact).classify(&cell) {
-                CellContact::Blocked => None,
-                CellContact::Open { cuts, corners, .. } => Some((cuts.len(), corners.len())),
+            let counts = |contact: &Contact| {
+                let found = ContactCells::new(contact).classify(&cell);
+                found.map(|found| (found.all.len(), found.corners.len()))
             };
             let expected = counts(&plain);
             cuts += expected.map_or(0, |counts| counts.0);
@@ -111,6 +111,6 @@ fn corners_that_cross_with_no_vertex_inside_are_blocked() {
             centre: crossed,
             half: [half, half, 10.0 * half],
         };
-        assert_eq!(cells.classify(&cell), CellContact::Blocked, "{half}");
+        assert_eq!(cells.classify(&cell), None, "{half}");
     }
 }

@@ -41,7 +41,7 @@ fn outlines_are_as_far_apart_as_their_convex_parts() {
             let expected = expected.unwrap().distance;
             assert!((clearance - expected).abs() < 1e-8, "{shape} {q:?}");
             apart += 1;
-            let found = |[least, most]: [f64; 2]| contact.finder().distance(&q, [least, most]);
+            let found = |[least, most]: [f64; 2]| contact.distance(&q, [least, most]);
             assert_eq!(found([0.0, 1.0]), clearance);
             assert_eq!(found([0.0, expected / 2.0]), expected / 2.0);
             let near = found([2.0 * expected, 1.0]);

@@ -6,7 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::contact::{Contact, ContactPoint, PointFinder};
+use tilebind::contact::{Contact, ContactPoint};
 use tilebind::tile::Pair;
 
 use crate::designs;
@@ -23,7 +23,6 @@ const SHAPES: [&str; 6] = [
 struct Tiles {
     pair: Arc<Pair>,
     contact: Contact,
-    finder: PointFinder,
 }
 
 fn tiles(shape: &str) -> Tiles {
@@ -31,15 +30,14 @@ fn tiles(shape: &str) -> Tiles {
     let (fixed, moving) = (&pair.fixed.outline, &pair.moving.outline);
     Tiles {
         contact: Contact::new(fixed, moving),
-        finder: PointFinder::new(fixed, moving),
         pair,
     }
 }
 
 impl Tiles {
     fn points(&self, q: &Configuration, margin: f64) -> Vec<ContactPoint> {
-        let pairs = self.finder.near(q, 1.5 * margin);
-        self.finder.points(q, margin, &pairs)
+        let pairs = self.contact.near(q, 1.5 * margin);
+        self.contact.points(q, margin, &pairs)
     }
 
     /// Free configurations about the bond, from flush to a few millimetres away and askew, and
@@ -131,7 +129,7 @@ fn swapping_the_tiles_swaps_the_points() {
     for shape in SHAPES {
         let tiles = tiles(shape);
         let (fixed, moving) = (tiles.contact.fixed(), tiles.contact.moving());
-        let swapped = PointFinder::new(moving, fixed);
+        let swapped = Contact::new(moving, fixed);
         for q in tiles.near_contact(40) {
             let back = q.inverse();
             let here = tiles.points(&q, 5e-4);

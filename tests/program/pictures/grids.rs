@@ -5,7 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::landscape::approach::{Approach, ApproachSlices, SliceSettings};
-use tilebind::landscape::map::{EnergyMap, Grid, Sample, Window};
+use tilebind::landscape::grid::{Grid, Sample};
+use tilebind::landscape::map::{EnergyMap, Window};
 
 use super::paper_tile::{BOUND, pair};
 

@@ -6,13 +6,12 @@ use kurbo::Affine;
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
-use super::super::error::Span;
+use super::super::error::{Result, Span};
 use super::super::quantity;
-use super::super::reader::Result;
 use super::super::source::Source;
 use super::path::{SHAPES, draw};
 use super::pen::{Pen, Stroke, points};
-use super::scale::scale;
+use super::scale::{scale, span};
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 
@@ -292,13 +291,6 @@ fn is_svg(node: Node) -> bool {
     node.tag_name()
         .namespace()
         .is_none_or(|uri| uri == NAMESPACE)
-}
-
-/// The name in an element's tag.
-pub(super) fn span(node: Node) -> Span {
-    let start = node.range().start + 1;
-    let name = node.tag_name().name().len();
-    (start..start + name).into()
 }
 
 /// The properties in an element's `style`.

@@ -2,8 +2,9 @@
 
 use nalgebra::Vector2;
 
+use super::super::error::Result;
 use super::super::quantity;
-use super::super::reader::{Result, Section};
+use super::super::reader::Section;
 use super::super::source::Source;
 use super::document::{Line, Shape};
 use super::simplify::simplified;

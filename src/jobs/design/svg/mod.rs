@@ -42,7 +42,8 @@ pub(super) use scale::UNITS;
 use std::collections::HashMap;
 
 use super::drawings;
-use super::reader::{Entry, Result, Section, nearest_help};
+use super::error::Result;
+use super::reader::{Entry, Section, nearest_help};
 use super::source::Source;
 use document::{Shape, Skipped};
 use physics::tile::profile::CHORD_ERROR;
@@ -61,7 +62,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
         drawings,
         faults,
         ..
-    } = entry.source();
+    } = entry.source;
     let text = drawings.text(file, name).map_err(|error| {
         let message = format!("cannot read the drawing \"{name}\": {error}");
         entry.error(
@@ -105,7 +106,7 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
     if kinds.len() > MOST_TOLD {
         told.push(format!("and {} more kinds", kinds.len() - MOST_TOLD));
     }
-    source.drawings.note(source.error(
+    source.drawings.note(source.doubt(
         first,
         format!("not read of the drawing: {}", told.join(", ")),
         "what belongs to the shape is to be converted to a path; delete the rest",

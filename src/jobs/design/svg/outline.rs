@@ -3,8 +3,9 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
+use super::super::error::Result;
 use super::super::quantity;
-use super::super::reader::{Entry, Result};
+use super::super::reader::Entry;
 use super::super::source::Source;
 use super::document::Shape;
 use super::line::apart;

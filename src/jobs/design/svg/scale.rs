@@ -6,9 +6,8 @@ use kurbo::Affine;
 use roxmltree::Node;
 use svgtypes::{AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::super::reader::Result;
+use super::super::error::{Result, Span};
 use super::super::source::Source;
-use super::document::span;
 use super::path::{INCH, metres};
 
 /// How much the scales along x and y, or two statements of the same scale, may differ.
@@ -110,6 +109,13 @@ fn stated_scale(
     );
     let help = "give the drawing a size of the proportions of its view box";
     Err(source.error(span(root), message, help))
+}
+
+/// The name in an element's tag.
+pub(super) fn span(node: Node) -> Span {
+    let start = node.range().start + 1;
+    let name = node.tag_name().name().len();
+    (start..start + name).into()
 }
 
 fn agree(a: f64, b: f64) -> bool {

@@ -1,7 +1,7 @@
 //! Fewer points for lines that are drawn with very many, as tracing programs draw them.
 
+use super::super::error::Result;
 use super::super::quantity::four_digits;
-use super::super::reader::Result;
 use super::super::source::Source;
 use super::document::Shape;
 use physics::tile::profile::CHORD_ERROR;
@@ -60,7 +60,7 @@ pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
         );
         source
             .drawings
-            .note(source.error(shape.span, message, help));
+            .note(source.doubt(shape.span, message, help));
     }
     Ok(lines)
 }

@@ -41,37 +41,39 @@ pub struct Cut {
 
 impl Cut {
     /// The one of a pair that is satisfied more easily, judged at the cell's centre.
-    pub(crate) fn easier([a, b]: &[Self; 2]) -> &Self {
+    fn easier([a, b]: &[Self; 2]) -> &Self {
         if a.form.value > b.form.value { a } else { b }
     }
 }
 
-/// What contact says about a cell.
-#[derive(Clone, Debug, PartialEq)]
-pub enum CellContact {
-    /// No configuration of the cell is free.
-    Blocked,
-    /// The free configurations satisfy every one of `cuts` and at least one cut of each pair in
-    /// `corners`.
-    Open {
-        /// Conditions that all hold.
-        cuts: Vec<Cut>,
-        /// Pairs of conditions of which one holds at least.
-        corners: Vec<[Cut; 2]>,
-        /// How deep (m) a probed point lies inside the other tile at the centre, where no cut
-        /// tells; 0 if none does.
-        depth: f64,
-    },
+/// What contact says about a cell that is not proved blocked: the free configurations satisfy every one
+/// of the cuts, and at least one of each pair at a corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cuts {
+    /// Conditions that all hold.
+    pub all: Vec<Cut>,
+    /// Pairs of conditions of which one holds at least.
+    pub corners: Vec<[Cut; 2]>,
+    /// How deep (m) a probed point lies inside the other tile at the centre, where no cut tells; 0 if
+    /// none does.
+    pub depth: f64,
 }
 
-impl CellContact {
-    /// A cell that contact says nothing of.
-    pub fn open() -> Self {
-        Self::Open {
-            cuts: Vec::new(),
-            corners: Vec::new(),
-            depth: 0.0,
-        }
+impl Cuts {
+    /// Those that all hold, and the easier one of each pair.
+    pub(crate) fn easiest(&self) -> impl Iterator<Item = &Cut> {
+        self.all.iter().chain(self.corners.iter().map(Cut::easier))
+    }
+
+    /// Whether contact says nothing of the cell.
+    pub fn is_none(&self) -> bool {
+        self.all.is_empty() && self.corners.is_empty() && self.depth == 0.0
+    }
+
+    /// Whether one of them holds nowhere in the cell.
+    fn is_violated(&self, cell: &Cell) -> bool {
+        let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
+        self.all.iter().any(violated) || self.corners.iter().any(|pair| pair.iter().all(violated))
     }
 }
 
@@ -85,14 +87,6 @@ pub struct ContactCells {
     contact: Contact,
     fixed: Side,
     moving: Side,
-}
-
-/// What is found out about a cell, bit by bit.
-#[derive(Default)]
-struct Findings {
-    cuts: Vec<Cut>,
-    corners: Vec<[Cut; 2]>,
-    depth: f64,
 }
 
 impl ContactCells {
@@ -111,25 +105,25 @@ impl ContactCells {
         of(&self.fixed) + of(&self.moving)
     }
 
-    /// What contact says about a cell.
-    pub fn classify(&self, cell: &Cell) -> CellContact {
+    /// What contact says about a cell; `None` where no configuration of it is free.
+    pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let q = &cell.centre;
         let (fixed, moving) = (&self.fixed.outline, &self.moving.outline);
         let apart = q.position().norm() - fixed.circumradius() - moving.circumradius();
         if apart > cell.travel() + RELAXED {
-            return CellContact::open();
+            return Some(Cuts::default());
         }
         // No support of a part changes by more than its points move, nor does the overlap's depth.
         let farthest = cell.reach(moving.circumradius());
         if self.contact.is_clear_by(q, farthest + RELAXED) {
-            return CellContact::open();
+            return Some(Cuts::default());
         }
         if !self.contact.overlaps_at_most(q, farthest + RELAXED) {
-            return CellContact::Blocked;
+            return None;
         }
         let turn = q.rotation();
         let position = q.position();
-        let mut findings = Findings::default();
+        let mut cuts = Cuts::default();
         let moving_reach =
             |p: Vector2<f64>, radius: f64| cell.reach(p.norm() + radius) + radius + RELAXED;
         let moving_in_fixed = Sweeping {
@@ -150,11 +144,8 @@ impl ContactCells {
             reach: &fixed_reach,
             cut: &|w, edge| moving_edge_cut(moving, edge, w - position, q, cell),
         };
-        if moving_in_fixed.look(&mut findings) && fixed_in_moving.look(&mut findings) {
-            findings.conclude(cell)
-        } else {
-            CellContact::Blocked
-        }
+        let is_open = moving_in_fixed.look(&mut cuts) && fixed_in_moving.look(&mut cuts);
+        (is_open && !cuts.is_violated(cell)).then_some(cuts)
     }
 }
 
@@ -171,16 +162,16 @@ struct Sweeping<'a> {
 
 impl Sweeping<'_> {
     /// Notes what the points say; false where the cell is blocked.
-    fn look(&self, findings: &mut Findings) -> bool {
+    fn look(&self, cuts: &mut Cuts) -> bool {
         let blocks = |p: &Vector2<f64>| {
             self.other
                 .holds_disc((self.place)(*p), (self.reach)(*p, 0.0))
         };
         !self.probes.inner.iter().any(blocks)
-            && self.look_below(&self.probes.probe_tree.root(), findings)
+            && self.look_below(&self.probes.probe_tree.root(), cuts)
     }
 
-    fn look_below(&self, branch: &Branch, findings: &mut Findings) -> bool {
+    fn look_below(&self, branch: &Branch, cuts: &mut Cuts) -> bool {
         let at = (self.place)(branch.centre);
         let reach = (self.reach)(branch.centre, branch.radius);
         if at.norm() > self.other.outline.circumradius() + reach {
@@ -191,17 +182,17 @@ impl Sweeping<'_> {
         }
         let tree = &self.probes.probe_tree;
         if branch.radius < DENSE * (self.reach)(branch.centre, 0.0) {
-            return self.look_at(tree.first(branch), findings);
+            return self.look_at(tree.first(branch), cuts);
         }
         match tree.below(branch) {
-            Below::Branches(branches) => branches
-                .iter()
-                .all(|branch| self.look_below(branch, findings)),
-            Below::Pieces(pieces) => pieces.iter().all(|&k| self.look_at(k, findings)),
+            Below::Branches(branches) => {
+                branches.iter().all(|branch| self.look_below(branch, cuts))
+            }
+            Below::Pieces(pieces) => pieces.iter().all(|&k| self.look_at(k, cuts)),
         }
     }
 
-    fn look_at(&self, k: usize, findings: &mut Findings) -> bool {
+    fn look_at(&self, k: usize, cuts: &mut Cuts) -> bool {
         let p = self.probes.probes[k];
         let reach = (self.reach)(p, 0.0);
         match self
@@ -209,33 +200,17 @@ impl Sweeping<'_> {
             .verdict((self.place)(p), reach, k.is_multiple_of(2))
         {
             Verdict::Blocked => return false,
-            Verdict::Inside(depth) => findings.depth = findings.depth.max(depth),
+            Verdict::Inside(depth) => cuts.depth = cuts.depth.max(depth),
             Verdict::Edges([i, j]) => {
-                findings.cuts.push((self.cut)(p, i));
+                cuts.all.push((self.cut)(p, i));
                 if i != j {
-                    findings.cuts.push((self.cut)(p, j));
+                    cuts.all.push((self.cut)(p, j));
                 }
             }
-            Verdict::Corner(edges) => findings.corners.push(edges.map(|edge| (self.cut)(p, edge))),
+            Verdict::Corner(edges) => cuts.corners.push(edges.map(|edge| (self.cut)(p, edge))),
             Verdict::Nothing => {}
         }
         true
-    }
-}
-
-impl Findings {
-    fn conclude(self, cell: &Cell) -> CellContact {
-        let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
-        if self.cuts.iter().any(violated)
-            || self.corners.iter().any(|pair| pair.iter().all(violated))
-        {
-            return CellContact::Blocked;
-        }
-        CellContact::Open {
-            cuts: self.cuts,
-            corners: self.corners,
-            depth: self.depth,
-        }
     }
 }
 

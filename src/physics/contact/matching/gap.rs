@@ -7,6 +7,7 @@ use super::{Facing, TOUCHING};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::tile::Outline;
+use crate::tile::outline::signed_area;
 
 /// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
 /// contact (of such pairs of edges), what neither tile fills.
@@ -21,7 +22,7 @@ pub(super) fn gap_area(
     let hull = hull(points);
     let placed = moving.vertices().iter().map(|p| q.transform(*p)).collect();
     let filled = area_within(fixed.vertices().to_vec(), &hull) + area_within(placed, &hull);
-    let gap = area(&hull) - filled;
+    let gap = signed_area(&hull) - filled;
     // What rounding leaves of outlines that fit.
     if gap < TOUCHING * TOUCHING.sqrt() {
         0.0
@@ -30,22 +31,11 @@ pub(super) fn gap_area(
     }
 }
 
-/// The area (m^2) of a polygon, counter-clockwise.
-fn area(polygon: &[Vector2<f64>]) -> f64 {
-    let next = polygon.iter().cycle().skip(1);
-    polygon
-        .iter()
-        .zip(next)
-        .map(|(a, b)| a.perp(b))
-        .sum::<f64>()
-        / 2.0
-}
-
 /// The area (m^2) of what a polygon has in a convex one, both counter-clockwise: clipped by side
 /// after side (Sutherland and Hodgman 1974). Edges that the clipping doubles enclose nothing.
 fn area_within(polygon: Vec<Vector2<f64>>, hull: &[Vector2<f64>]) -> f64 {
     let sides = (0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()]]);
-    area(&sides.fold(polygon, |left, side| clipped(&left, side)))
+    signed_area(&sides.fold(polygon, |left, side| clipped(&left, side)))
 }
 
 /// What of a polygon lies left of the line from a to b.

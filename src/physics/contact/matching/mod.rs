@@ -83,8 +83,7 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
 }
 
 fn edge(outline: &Outline, i: usize) -> [Vector2<f64>; 2] {
-    let vertices = outline.vertices();
-    [vertices[i], vertices[(i + 1) % vertices.len()]]
+    outline.edge(i).into()
 }
 
 fn perimeter(outline: &Outline) -> f64 {

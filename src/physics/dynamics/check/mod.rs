@@ -40,7 +40,7 @@ mod checker;
 
 use super::{Body, Motion};
 use crate::configuration::Configuration;
-use crate::landscape::minimum::Known;
+use crate::landscape::minimum::{Known, learn};
 use crate::landscape::{Barrier, Place, State};
 use crate::parallel;
 use crate::problem::Problem;
@@ -250,7 +250,7 @@ fn slides_below(problem: &Problem, states: &[State], barriers: &[(usize, &Barrie
         barrier.pathway.iter().step_by(every)
     });
     let starts: Vec<Configuration> = points.map(|point| point.configuration).collect();
-    known.learn(problem, &starts);
+    learn(problem, &starts, &mut known);
     known
 }
 

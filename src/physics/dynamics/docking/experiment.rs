@@ -1,8 +1,14 @@
 //! One docking experiment: a trajectory at a time, and what their ends are counted as.
 
-use super::{Docking, DockingError, DockingRun, DockingSettings, End, MatchRule, Trap, stream};
+use std::cmp::Reverse;
+
+use rand_chacha::ChaCha8Rng;
+
+use super::{
+    Docking, DockingError, DockingRun, DockingSettings, End, MatchRule, Start, Trap, stream,
+};
 use crate::configuration::Configuration;
-use crate::dynamics::{Body, Simulation, Snapshot, Stop};
+use crate::dynamics::{Body, Motion, Run, Simulation, Snapshot, Stop};
 use crate::landscape::Proportion;
 use crate::landscape::minimum::{Known, Outcome, approach};
 use crate::order::Order;
@@ -14,7 +20,7 @@ const SAME_TRAP: f64 = 5e-3;
 /// Tiles that overlap a little are set apart by this much more than that (m).
 const CLEAR: f64 = 1e-6;
 /// Steps in contact between two looks at whether the tiles are matched.
-pub(super) const STEPS_BETWEEN_LOOKS: usize = 5;
+const STEPS_BETWEEN_LOOKS: usize = 5;
 
 /// What all trajectories of a docking experiment share.
 pub(super) struct Experiment<'a> {
@@ -41,43 +47,50 @@ impl<'a> Experiment<'a> {
         })
     }
 
-    pub fn run(&self, index: usize) -> Ended {
+    /// The start of a trajectory, and its random numbers.
+    pub fn start(&self, index: usize) -> (Start, ChaCha8Rng) {
         let mut rng = stream(self.settings.seed, index);
-        let start = self.settings.starts.draw(self.pair, &mut rng);
-        let mut since = None;
+        (self.settings.starts.draw(self.pair, &mut rng), rng)
+    }
+
+    /// A trajectory until it is over. `look` is told now and again, and of its last moment, whether
+    /// the tiles are matched.
+    pub fn watched(
+        &self,
+        start: &Motion,
+        rng: &mut ChaCha8Rng,
+        look: &mut dyn FnMut(&Snapshot, bool),
+        is_over: &dyn Fn(&Configuration) -> bool,
+    ) -> Run {
+        let mut look = |now: &Snapshot| look(now, self.rule.holds(&now.motion.configuration));
         let mut steps = 0;
-        let mut look = |snapshot: &Snapshot| {
-            let matched = self.rule.holds(&snapshot.motion.configuration);
-            since = if matched {
-                since.or(Some(snapshot.time))
-            } else {
-                None
-            };
-        };
-        let run = self.simulation.run(
-            &start.motion,
-            self.settings.duration,
-            &mut rng,
-            &mut |snapshot| {
-                steps += 1;
-                if !snapshot.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
-                    look(snapshot);
-                }
-                false
-            },
-        );
+        let duration = self.settings.duration;
+        let run = self.simulation.run(start, duration, rng, &mut |now| {
+            steps += 1;
+            if !now.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
+                look(now);
+            }
+            is_over(&now.motion.configuration)
+        });
         look(&run.last);
+        run
+    }
+
+    pub fn run(&self, index: usize) -> Ended {
+        let (start, mut rng) = self.start(index);
+        let mut since = None;
+        let mut look = |now: &Snapshot, is_matched: bool| {
+            since = is_matched.then(|| since.unwrap_or(now.time));
+        };
+        let run = self.watched(&start.motion, &mut rng, &mut look, &|_| false);
         let caught = run.stop == Stop::Rest || run.last.total() < 0.0;
         let mut trap = None;
         let end = match since {
             Some(since) => End::Bound { since },
             None if run.last.in_contact_range && caught => {
-                trap = minimum_below(
-                    self.problem,
-                    &run.last.motion.configuration,
-                    &Known::default(),
-                )
-                .map(|q| (q, self.problem.energy(&q)));
+                let last = &run.last.motion.configuration;
+                trap = minimum_below(self.problem, last, &Known::default())
+                    .map(|q| (q, self.problem.energy(&q)));
                 End::Trapped { trap: None }
             }
             None => End::Free,
@@ -96,27 +109,23 @@ impl<'a> Experiment<'a> {
     /// Counts the ends, telling traps apart.
     pub fn docking(&self, ended: Vec<Ended>, wall_s: f64) -> Docking {
         let n = ended.len();
-        let mut places: Vec<(Configuration, f64, usize)> = Vec::new();
+        // Minima with the numbers of the runs that ended there.
+        let mut places: Vec<(Configuration, f64, Vec<usize>)> = Vec::new();
         let mut runs = Vec::with_capacity(n);
-        for (mut run, minimum) in ended {
-            if let Some((q, energy)) = minimum {
-                let known = places
-                    .iter()
-                    .position(|(p, ..)| self.rule.distance(&self.problem.space, &q, p) < SAME_TRAP);
-                let number = known.unwrap_or_else(|| {
-                    places.push((q, energy, 0));
-                    places.len() - 1
-                });
-                places[number].2 += 1;
-                run.end = End::Trapped { trap: Some(number) };
-            }
+        for (number, (run, minimum)) in ended.into_iter().enumerate() {
             runs.push(run);
+            let Some((q, energy)) = minimum else { continue };
+            let is_same =
+                |p: &Configuration| self.rule.distance(&self.problem.space, &q, p) < SAME_TRAP;
+            match places.iter_mut().find(|(p, ..)| is_same(p)) {
+                Some((.., caught)) => caught.push(number),
+                None => places.push((q, energy, vec![number])),
+            }
         }
-        let mut order: Vec<usize> = (0..places.len()).collect();
-        order.order_by_key(|&k| std::cmp::Reverse(places[k].2));
-        for run in &mut runs {
-            if let End::Trapped { trap: Some(number) } = &mut run.end {
-                *number = order.iter().position(|k| k == number).unwrap_or(*number);
+        places.order_by_key(|(.., caught)| Reverse(caught.len()));
+        for (trap, (.., caught)) in places.iter().enumerate() {
+            for &run in caught {
+                runs[run].end = End::Trapped { trap: Some(trap) };
             }
         }
         let count = |is: &dyn Fn(&End) -> bool| {
@@ -128,12 +137,12 @@ impl<'a> Experiment<'a> {
             bound: count(&|end| matches!(end, End::Bound { .. })),
             trapped: count(&|end| matches!(end, End::Trapped { .. })),
             free: count(&|end| matches!(end, End::Free)),
-            traps: order
-                .iter()
-                .map(|&k| Trap {
-                    configuration: places[k].0,
-                    energy: places[k].1,
-                    caught: Proportion::new(places[k].2, n),
+            traps: places
+                .into_iter()
+                .map(|(configuration, energy, caught)| Trap {
+                    configuration,
+                    energy,
+                    caught: Proportion::new(caught.len(), n),
                 })
                 .collect(),
             runs,

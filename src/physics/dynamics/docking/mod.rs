@@ -7,7 +7,7 @@ mod rate;
 mod release;
 mod starts;
 
-use experiment::{Experiment, STEPS_BETWEEN_LOOKS};
+use experiment::Experiment;
 pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell};
 pub use matching::MatchRule;
@@ -174,23 +174,18 @@ pub fn trajectory(
     let mut settings = settings.clone();
     settings.motion.longest_step = settings.motion.longest_step.min(interval);
     let experiment = Experiment::new(problem, &settings)?;
-    let mut rng = stream(settings.seed, index);
-    let start = settings.starts.draw(experiment.pair, &mut rng);
-    let mut snapshots = vec![experiment.simulation.snapshot(&start.motion)];
+    let (start, mut rng) = experiment.start(index);
+    let simulation = &experiment.simulation;
+    let mut snapshots = vec![simulation.snapshot(&start.motion)];
     let mut last = None;
-    experiment.simulation.run(
-        &start.motion,
-        settings.duration,
-        &mut rng,
-        &mut |snapshot| {
-            let earlier = snapshots.last().map_or(0.0, |s: &Snapshot| s.time);
-            if snapshot.time - earlier >= 0.5 * interval {
-                snapshots.push(*snapshot);
-            }
-            last = Some(*snapshot);
-            false
-        },
-    );
+    simulation.run(&start.motion, settings.duration, &mut rng, &mut |now| {
+        let earlier = snapshots.last().map_or(0.0, |s: &Snapshot| s.time);
+        if now.time - earlier >= 0.5 * interval {
+            snapshots.push(*now);
+        }
+        last = Some(*now);
+        false
+    });
     snapshots.extend(last.filter(|last| snapshots.last() != Some(last)));
     Ok(snapshots)
 }

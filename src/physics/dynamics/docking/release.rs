@@ -1,8 +1,10 @@
 //! The off-rate: how soon bound tiles come loose.
 
-use super::{DockingError, DockingSettings, MatchRule, OnRate, STEPS_BETWEEN_LOOKS, stream};
+use super::experiment::Experiment;
+use super::{DockingError, DockingSettings, OnRate, stream};
+use crate::configuration::Configuration;
 use crate::dynamics::trajectory::thermal_velocity;
-use crate::dynamics::{Body, Motion, Simulation, Snapshot};
+use crate::dynamics::{Motion, Snapshot};
 use crate::parallel;
 use crate::problem::Problem;
 
@@ -27,40 +29,31 @@ pub fn releases(
     settings: &DockingSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Release>, DockingError> {
-    let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
-    let body = Body::of_tile(&pair.moving);
-    let simulation = Simulation::new(problem, body, &settings.motion)?;
-    let rule = MatchRule::new(problem, settings.threshold)?;
+    let experiment = Experiment::new(problem, settings)?;
     let kt = settings.motion.shaking.unwrap_or(0.0);
     let release = |index: usize| {
         let mut rng = stream(settings.seed, index);
         let start = Motion {
-            configuration: pair.bound,
-            velocity: thermal_velocity(&body, kt, &mut rng),
+            configuration: experiment.pair.bound,
+            velocity: thermal_velocity(&experiment.simulation.body, kt, &mut rng),
         };
-        let (mut steps, mut matched_last, mut is_matched) = (0, 0.0, true);
-        let mut look = |snapshot: &Snapshot| {
-            is_matched = rule.holds(&snapshot.motion.configuration);
+        let (mut matched_last, mut left) = (0.0, false);
+        let mut look = |now: &Snapshot, is_matched: bool| {
+            left = !is_matched;
             if is_matched {
-                matched_last = snapshot.time;
+                matched_last = now.time;
             }
         };
-        let run = simulation.run(&start, settings.duration, &mut rng, &mut |snapshot| {
-            steps += 1;
-            if !snapshot.in_contact_range || steps % STEPS_BETWEEN_LOOKS == 0 {
-                look(snapshot);
-            }
-            problem.space.is_far(&snapshot.motion.configuration)
-        });
-        look(&run.last);
+        let is_far = |q: &Configuration| problem.space.is_far(q);
+        experiment.watched(&start, &mut rng, &mut look, &is_far);
         done();
         Release {
-            time: if is_matched {
-                settings.duration
-            } else {
+            time: if left {
                 matched_last
+            } else {
+                settings.duration
             },
-            left: !is_matched,
+            left,
         }
     };
     Ok(parallel::map(0..settings.runs, release))

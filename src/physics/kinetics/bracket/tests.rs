@@ -17,23 +17,19 @@ fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
     let pins = nodes.pins(mesh, 1, |id| held.contains(&id).then_some(0));
     let left_out = vec![false; mesh.leaves.len()];
     let network = field.network(&nodes, &pins, 1).unwrap();
-    let fluxes = network.fluxes();
     let loads = loads(mesh, &nodes, &left_out);
     let system = System::new(mesh, &nodes, &pins);
     let time = system.loaded(&loads, None).unwrap();
-    let source = |cell: usize| {
-        let element = mesh.leaves[cell].element.as_ref();
-        element.map_or(0.0, |element| element.load.iter().sum())
-    };
-    let like = fluxes.potentials(&nodes, &time);
-    let flux = fluxes.of(&source, &like).unwrap();
+    let source = |cell: usize| mesh.held(cell);
+    let like = network.potentials(&nodes, &time);
+    let flux = network.of(&source, &like).unwrap();
     let held: f64 = time.iter().zip(&loads).map(|(a, b)| a * b).sum();
     let gap = Gap {
         flux: &flux,
         values: &time,
         source: &source,
     };
-    let by_cells: f64 = fluxes.products(mesh, &nodes, &gap, &gap).iter().sum();
+    let by_cells: f64 = network.products(mesh, &nodes, &gap, &gap).iter().sum();
     let in_all = flux.cost - held;
     assert!(
         (by_cells / in_all - 1.0).abs() < 0.15,

@@ -1,6 +1,6 @@
 //! The cells of a mesh as conductors of fluxes.
 
-use std::sync::{MutexGuard, PoisonError};
+use std::sync::PoisonError;
 
 use super::Field;
 use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
@@ -10,15 +10,15 @@ use crate::parallel;
 /// hardly follow.
 const MOST: f64 = 4.0;
 
-/// What fluxes cost in cells (1/rad), as far as it is known.
+/// What is known of fluxes in cells.
 #[derive(Default)]
 pub(super) struct Costs {
-    /// Spread as one profile says for the whole mesh: it, and what they cost.
-    layer: (Option<Profile>, Vec<Option<Box<Resistance>>>),
-    /// Spread as the energy is: how that is from each cell, over its sides in the end, and the costs.
+    /// How e^(-U/kT) falls, from each cell.
     own: Vec<Option<Spread>>,
-    spreads: Vec<Spread>,
-    local: Vec<Option<Box<Resistance>>>,
+    /// How fluxes were spread last where that was the same for the whole mesh.
+    profile: Option<Profile>,
+    /// What fluxes cost in each cell (1/rad), spread so.
+    known: Vec<Option<(Spread, Box<Resistance>)>>,
 }
 
 impl Field<'_> {
@@ -27,13 +27,10 @@ impl Field<'_> {
         let (mut sum, mut all) = (0.0, 0.0);
         for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
             let energy = element.energy(&nodes.of(id, values));
-            let middle = leaf.low.map(|low| (low + leaf.size() / 2) as f64);
-            let [_, phi, theta] = self.mesh.chart.coordinates(middle);
+            let [_, phi, theta] = self.mesh.chart.coordinates(leaf.at([0.5; 3]));
             let ray = self.mesh.chart.ray([phi, theta]);
-            let (_, slope) = self
-                .problem
-                .potential()
-                .energy_and_gradient(&ray.configuration(0.0));
+            let potential = self.problem.potential();
+            let (_, slope) = potential.energy_and_gradient(&ray.configuration(0.0));
             let rate = (slope.x * libm::cos(phi) + slope.y * libm::sin(phi)) * ray.length / self.kt;
             if rate.is_finite() {
                 sum += energy * rate.max(0.0);
@@ -43,44 +40,64 @@ impl Field<'_> {
         Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
     }
 
-    /// The cells as conductors between places, for fluxes that follow e^(-U/kT) along s.
+    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes
+    /// that follow e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let count = self.mesh.leaves.len();
-        costs.own.resize(count, None);
-        let is_known = |id: &usize| costs.own[*id].is_some();
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(|id| !is_known(id)).collect();
-        let found: Vec<_> = parallel::map(&new, |&id| self.falls(id));
+        costs.own.resize(self.mesh.leaves.len(), None);
+        let new = self.live(|id| costs.own[id].is_none());
+        let found = parallel::map(&new, |&id| Some(self.falls(id)));
         for (id, spread) in new.into_iter().zip(found) {
-            costs.own[id] = Some(spread);
+            costs.own[id] = spread;
         }
+        // A function that is 1 at a place's corners is so all over the cells that have no others.
+        let place = |id: usize| -> Option<usize> {
+            let corners = nodes.corners[id].iter();
+            let sources = corners.flat_map(|&n| &nodes.sources[n as usize]);
+            let mut places = sources.map(|&(of, _)| pins[of as usize]);
+            let first = places.next()??;
+            places.all(|other| other == Some(first)).then_some(first)
+        };
         let spreads = spreads(&self.mesh, &costs.own);
-        costs.local.resize(count, None);
-        costs.spreads.resize(count, Spread::default());
-        let is_new = |id: &usize| costs.local[*id].is_none() || costs.spreads[*id] != spreads[*id];
+        self.spread(&mut costs, &spreads, &place, &|_| false, rim)
+    }
+
+    /// Undivided cells with free configurations of which something holds.
+    fn live(&self, holds: impl Fn(usize) -> bool) -> Vec<usize> {
         let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(is_new).collect();
-        let found = self.resistances(&new, |id| spreads[id]);
+        cells.filter(|&id| holds(id)).collect()
+    }
+
+    /// The cells as conductors of fluxes that are spread so.
+    fn spread(
+        &self,
+        Costs { known, .. }: &mut Costs,
+        spreads: &[Spread],
+        place: &dyn Fn(usize) -> Option<usize>,
+        is_left_out: &dyn Fn(usize) -> bool,
+        rim: usize,
+    ) -> Option<Network> {
+        known.resize_with(spreads.len(), || None);
+        let new = self.live(|id| known[id].as_ref().is_none_or(|it| it.0 != spreads[id]));
+        let found = parallel::map(&new, |&id| {
+            let (chart, leaf) = (&self.mesh.chart, &self.mesh.leaves[id]);
+            let cost = self.integrator.resistance(chart, leaf, &spreads[id]);
+            Some((spreads[id], Box::new(cost)))
+        });
         for (id, cost) in new.into_iter().zip(found) {
-            costs.local[id] = Some(Box::new(cost));
+            known[id] = cost;
         }
-        costs.spreads = spreads;
-        Network::new(&self.mesh, nodes, pins, rim, &costs.spreads, &costs.local)
+        Network::new(&self.mesh, place, is_left_out, rim, known)
     }
 
     /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
     fn falls(&self, id: usize) -> Spread {
         let leaf = &self.mesh.leaves[id];
-        let ends = self.mesh.along(id);
+        let chart = &self.mesh.chart;
+        let ends = leaf.along(chart);
         let at = |aside: [f64; 2]| {
-            let size = leaf.size() as f64;
-            let [_, phi, theta] = self.mesh.chart.coordinates([
-                0.0,
-                leaf.low[1] as f64 + aside[0] * size,
-                leaf.low[2] as f64 + aside[1] * size,
-            ]);
-            let qs = self.mesh.chart.places([phi, theta], ends);
+            let [_, phi, theta] = chart.coordinates(leaf.at([0.0, aside[0], aside[1]]));
+            let qs = chart.places([phi, theta], ends);
             let weight = |q| self.integrator.power(self.problem.energy(&q));
             let [near, far] = qs.map(weight);
             Profile::falling((near - far).clamp(-MOST, MOST), ends)
@@ -90,19 +107,6 @@ impl Field<'_> {
             profiles: sides.map(at),
             tilts: leaf.element.as_ref().map_or([0.0; 2], |it| it.tilts()),
         }
-    }
-
-    fn resistances(
-        &self,
-        cells: &[usize],
-        spread: impl Fn(usize) -> Spread + Sync,
-    ) -> Vec<Resistance> {
-        let resistance = |&id: &usize| {
-            let leaf = &self.mesh.leaves[id];
-            self.integrator
-                .resistance(&self.mesh.chart, leaf, &spread(id))
-        };
-        parallel::map(cells, resistance)
     }
 
     /// The cells as conductors between places given by the cells that they are made of, through none
@@ -116,30 +120,12 @@ impl Field<'_> {
         rim: usize,
         like: &[f64],
     ) -> Option<(Network, Profile)> {
-        let (profile, costs) = self.costs(nodes, like);
-        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
-        let (mesh, known) = (&self.mesh, &costs.layer.1);
-        let network = Network::between(mesh, place, is_left_out, rim, &spreads, known)?;
-        Some((network, profile))
-    }
-
-    /// What fluxes like a function's cost in all cells.
-    fn costs(&self, nodes: &Nodes, like: &[f64]) -> (Profile, MutexGuard<'_, Costs>) {
         let found = self.profile(nodes, like);
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let (known, of) = &mut costs.layer;
-        let profile = known.filter(|known| known.is_like(&found));
-        let profile = profile.unwrap_or_else(|| {
-            of.clear();
-            *known.insert(found)
-        });
-        of.resize(self.mesh.leaves.len(), None);
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        let new: Vec<usize> = cells.filter(|id| of[*id].is_none()).collect();
-        let found = self.resistances(&new, |_| Spread::even(profile));
-        for (id, cost) in new.into_iter().zip(found) {
-            of[id] = Some(Box::new(cost));
-        }
-        (profile, costs)
+        let known = costs.profile.filter(|known| known.is_like(&found));
+        let profile = *costs.profile.insert(known.unwrap_or(found));
+        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
+        let network = self.spread(&mut costs, &spreads, place, is_left_out, rim)?;
+        Some((network, profile))
     }
 }

@@ -37,15 +37,15 @@ pub(in crate::kinetics) struct Chart {
     /// Where s begins.
     wall: Wall,
     /// Where it ends (m).
-    radius: f64,
+    pub radius: f64,
     /// First cells along s, phi and theta.
-    pub(in crate::kinetics) cells: [i64; 3],
+    pub cells: [i64; 3],
     /// Their size (1, rad, rad).
     step: [f64; 3],
     /// First cells in theta by which a turn in phi turns theta on.
     shift: i64,
     /// How many configurations the chart shows as one.
-    copies: usize,
+    pub copies: usize,
 }
 
 impl Chart {
@@ -91,58 +91,48 @@ impl Chart {
         }
     }
 
-    /// How many configurations the chart shows as one.
-    pub(in crate::kinetics) fn copies(&self) -> usize {
-        self.copies
-    }
-
-    /// Where s ends (m).
-    pub(in crate::kinetics) fn radius(&self) -> f64 {
-        self.radius
-    }
-
     /// Where s begins, if that is the same everywhere (m).
-    pub(in crate::kinetics) fn circle(&self) -> f64 {
+    pub fn circle(&self) -> f64 {
         self.ray([0.0; 2]).radius(0.0)
     }
 
     /// Whether all of it is free, for it begins at contact.
-    pub(in crate::kinetics) fn is_fitted(&self) -> bool {
+    pub fn is_fitted(&self) -> bool {
         !matches!(self.wall, Wall::Circle(_))
     }
 
     /// The turn (rad) of the fixed tile onto itself that phi goes through.
-    pub(in crate::kinetics) fn turn(&self) -> f64 {
+    pub fn turn(&self) -> f64 {
         self.step[1] * self.cells[1] as f64
     }
 
     /// Size of a cell of this level (1, rad, rad).
-    pub(in crate::kinetics) fn size(&self, level: u8) -> [f64; 3] {
+    pub fn size(&self, level: u8) -> [f64; 3] {
         self.step.map(|step| step / f64::from(1u32 << level))
     }
 
     /// Size of a cell of this level (m) along the ray that a configuration lies on.
-    pub(in crate::kinetics) fn depth(&self, level: u8, q: &Configuration) -> f64 {
+    pub fn depth(&self, level: u8, q: &Configuration) -> f64 {
         self.ray([libm::atan2(q.y, q.x), q.theta]).length * self.size(level)[0]
     }
 
     /// (s, phi, theta) of a place (1, rad, rad).
-    pub(in crate::kinetics) fn coordinates(&self, place: [f64; 3]) -> [f64; 3] {
+    pub fn coordinates(&self, place: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.origin[i] + self.step[i] * place[i] / UNITS as f64)
     }
 
     /// The ray at (phi, theta).
-    pub(in crate::kinetics) fn ray(&self, at: [f64; 2]) -> Ray {
+    pub fn ray(&self, at: [f64; 2]) -> Ray {
         self.wall.ray(at, self.radius)
     }
 
     /// The configurations at two s on the ray at (phi, theta).
-    pub(in crate::kinetics) fn places(&self, at: [f64; 2], s: [f64; 2]) -> [Configuration; 2] {
+    pub fn places(&self, at: [f64; 2], s: [f64; 2]) -> [Configuration; 2] {
         self.wall.places(at, self.radius, s)
     }
 
     /// The place of a configuration, folded, in smallest units.
-    pub(in crate::kinetics) fn place(&self, q: &Configuration) -> [f64; 3] {
+    pub fn place(&self, q: &Configuration) -> [f64; 3] {
         let phi = libm::atan2(q.y, q.x);
         let s = self.ray([phi, q.theta]).part(libm::hypot(q.x, q.y));
         let raw = [s, phi, q.theta];
@@ -156,18 +146,19 @@ impl Chart {
         place
     }
 
-    fn period(&self) -> [f64; 3] {
+    /// How far it is once round, in smallest units; along s, to the end.
+    pub(super) fn period(&self) -> [f64; 3] {
         self.cells.map(|n| (n * UNITS) as f64)
     }
 
     /// Whether a place is at the outer end of s.
-    pub(in crate::kinetics) fn is_outer(&self, [s, ..]: Place) -> bool {
+    pub fn is_outer(&self, [s, ..]: Place) -> bool {
         s == self.cells[0] * UNITS
     }
 
     /// A whole place, folded; `None` beyond the ends of s, the outer one included where `closed` is
     /// false.
-    pub(in crate::kinetics) fn fold(&self, place: Place, closed: bool) -> Option<Place> {
+    pub fn fold(&self, place: Place, closed: bool) -> Option<Place> {
         let [s, phi, theta] = place;
         let period = self.cells.map(|n| n * UNITS);
         let is_inside = (0..period[0]).contains(&s) || (closed && s == period[0]);
@@ -179,7 +170,7 @@ impl Chart {
 
     /// A box of configurations around the mesh's cell with this lower corner, where s begins on a
     /// circle.
-    pub(in crate::kinetics) fn around(&self, low: Place, level: u8) -> Cell {
+    pub fn around(&self, low: Place, level: u8) -> Cell {
         let mut size = self.size(level);
         let [s, phi, theta] = self.coordinates(low.map(|units| units as f64));
         let ray = self.ray([phi, theta]);

@@ -2,11 +2,23 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::chart::Chart;
-use super::octree::Leaf;
-use super::wall::Ray;
+/// A point of an integral.
+pub(super) struct Point {
+    /// In parts of the cell's size.
+    pub part: [f64; 3],
+    /// What gradients by the parts are multiplied with, but for the weight.
+    pub metric: Matrix3<f64>,
+    /// The cell's volume if it were the same everywhere.
+    pub volume: f64,
+    /// Its share of the cell.
+    pub share: f64,
+    /// Weight and load.
+    pub weights: [f64; 2],
+    /// U (J).
+    pub energy: f64,
+}
 
-/// The integrals over the free part of a cell, its eight corners numbered as in [`Leaf::corner`].
+/// The integrals over the free part of a cell, its eight corners numbered as in [`super::Leaf::corner`].
 #[derive(Clone, Debug)]
 pub(in crate::kinetics) struct Element {
     /// Of w grad(i) . grad(j), the upper triangle row by row (rad), the weight w kept in bounds.
@@ -42,6 +54,32 @@ impl Element {
         }
     }
 
+    /// Adds a point to the integrals.
+    pub(super) fn add(&mut self, point: &Point) {
+        let [weight, load] = point.weights;
+        let metric = point.metric * (point.share * weight);
+        let volume = point.share * point.volume;
+        let gradients = gradients(point.part);
+        let flows = gradients.map(|gradient| metric * gradient);
+        let mut entry = 0;
+        for i in 0..8 {
+            for flow in &flows[i..] {
+                self.stiffness[entry] += gradients[i].dot(flow);
+                entry += 1;
+            }
+        }
+        self.weight += weight * volume;
+        self.free += volume;
+        for (sum, shape) in self.load.iter_mut().zip(shapes(point.part)) {
+            *sum += load * volume * shape;
+        }
+    }
+
+    /// What of the load it holds (m^2 rad).
+    pub fn held(&self) -> f64 {
+        self.load.iter().sum()
+    }
+
     /// The entry of the stiffness for two corners.
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         let (i, j) = (i.min(j), i.max(j));
@@ -51,7 +89,7 @@ impl Element {
     /// How the load is tilted along phi and theta: as 1 + tilt (2 u - 1) at the part u of the size,
     /// the mean of u as it is; no more than falls to 0.
     pub fn tilts(&self) -> [f64; 2] {
-        let all: f64 = self.load.iter().sum();
+        let all = self.held();
         [1, 2].map(|axis| {
             let upper = (0..8).filter(|corner| corner >> axis & 1 == 1);
             let mean = upper.map(|corner| self.load[corner]).sum::<f64>() / all;
@@ -78,96 +116,19 @@ impl Element {
     }
 }
 
-/// A cell's integrals as they grow.
-pub(super) struct Sum<'a> {
-    pub chart: &'a Chart,
-    pub leaf: &'a Leaf,
-    pub element: Element,
-    /// How much of the cell is free, as a share of it, and the integral of U over that (J).
-    pub free: [f64; 2],
+/// A function's value at a point of the cell, given in parts of its size, from those at the corners.
+pub(in crate::kinetics) fn value(part: [f64; 3], corners: &[f64; 8]) -> f64 {
+    shapes(part).iter().zip(corners).map(|(s, v)| s * v).sum()
 }
 
-impl<'a> Sum<'a> {
-    /// Of a cell of which nothing has been integrated.
-    pub fn new(chart: &'a Chart, leaf: &'a Leaf) -> Self {
-        Self {
-            chart,
-            leaf,
-            element: Element::new(Matrix3::zeros()),
-            free: [0.0; 2],
-        }
-    }
-
-    /// (s, phi, theta) of a point given in parts of the cell's size.
-    pub fn coordinates(&self, part: [f64; 3]) -> [f64; 3] {
-        let size = self.leaf.size() as f64;
-        self.chart.coordinates(std::array::from_fn(|i| {
-            self.leaf.low[i] as f64 + part[i] * size
-        }))
-    }
-
-    /// s of a part of the cell's size.
-    pub fn along(&self, part: f64) -> f64 {
-        self.coordinates([part, 0.0, 0.0])[0]
-    }
-
-    /// The ray through a point of the cell's face.
-    pub fn ray(&self, [v, w]: [f64; 2]) -> Ray {
-        let [_, phi, theta] = self.coordinates([0.0, v, w]);
-        self.chart.ray([phi, theta])
-    }
-
-    /// Gradients by x, y and theta of the parts at a point of a ray, as columns.
-    pub fn gradients(&self, ray: &Ray, s: f64) -> Matrix3<f64> {
-        let mut by = ray.gradients(s);
-        let sizes = self.chart.size(self.leaf.level);
-        for (mut column, size) in by.column_iter_mut().zip(sizes) {
-            column /= size;
-        }
-        by
-    }
-
-    /// What gradients by the parts are multiplied with at a point, but for the weight, and the
-    /// cell's volume if it were the same everywhere.
-    pub fn metric(&self, part: [f64; 3], ray: &Ray, inverse: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
-        let s = self.along(part[0]);
-        let size: f64 = self.chart.size(self.leaf.level).iter().product();
-        let volume = ray.volume(s) * size;
-        let by = self.gradients(ray, s);
-        (by.transpose() * inverse * by * volume, volume)
-    }
-
-    /// Adds a point on a ray with the inverse of the mass metric there, its share of the cell and
-    /// its weights, the one kept in bounds and the other not.
-    pub fn add(
-        &mut self,
-        part: [f64; 3],
-        ray: &Ray,
-        inverse: &Matrix3<f64>,
-        share: f64,
-        weights: [f64; 2],
-    ) {
-        let (metric, volume) = self.metric(part, ray, inverse);
-        let (metric, volume) = (metric * (share * weights[0]), share * volume);
-        let gradients = gradients(part);
-        let flows = gradients.map(|gradient| metric * gradient);
-        let mut entry = 0;
-        for i in 0..8 {
-            for flow in &flows[i..] {
-                self.element.stiffness[entry] += gradients[i].dot(flow);
-                entry += 1;
-            }
-        }
-        self.element.weight += weights[0] * volume;
-        self.element.free += volume;
-        for (load, shape) in self.element.load.iter_mut().zip(shapes(part)) {
-            *load += weights[1] * volume * shape;
-        }
-    }
+/// Its gradient by the parts.
+pub(in crate::kinetics) fn slope(part: [f64; 3], corners: &[f64; 8]) -> Vector3<f64> {
+    let each = gradients(part).into_iter().zip(corners);
+    each.map(|(gradient, value)| gradient * *value).sum()
 }
 
 /// The shape functions of the corners at a point of the cell, given in parts of its size.
-pub(in crate::kinetics) fn shapes(part: [f64; 3]) -> [f64; 8] {
+pub(super) fn shapes(part: [f64; 3]) -> [f64; 8] {
     std::array::from_fn(|number| {
         (0..3)
             .map(|i| {
@@ -182,7 +143,7 @@ pub(in crate::kinetics) fn shapes(part: [f64; 3]) -> [f64; 8] {
 }
 
 /// Their gradients by the parts.
-pub(in crate::kinetics) fn gradients(part: [f64; 3]) -> [Vector3<f64>; 8] {
+pub(super) fn gradients(part: [f64; 3]) -> [Vector3<f64>; 8] {
     std::array::from_fn(|number| {
         let value = |i: usize| {
             if number >> i & 1 == 1 {

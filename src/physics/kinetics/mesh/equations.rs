@@ -10,12 +10,11 @@ const SHRUNK: f64 = 1e-9;
 const MOST_STEPS: usize = 20_000;
 
 /// Calls with every entry (row, column, value) of a matrix; entries at one place add up.
-pub(super) type Entries<'a> = Box<dyn Fn(&mut dyn FnMut(usize, usize, f64)) + Sync + 'a>;
+pub(super) type Entries<'a> = dyn Fn(&mut dyn FnMut(usize, usize, f64)) + 'a;
 
 /// A positive matrix in which some values are given and the others are to be found, its rows and
 /// columns scaled so that the diagonal is 1.
-pub(super) struct Equations<'a> {
-    entries: Entries<'a>,
+pub(super) struct Equations {
     /// The number of each value among the unknowns.
     unknown: Vec<Option<u32>>,
     /// One over the root of each unknown's diagonal.
@@ -33,9 +32,10 @@ pub(super) struct Equations<'a> {
 #[error("conjugate gradients did not converge")]
 pub struct Unsolved;
 
-impl<'a> Equations<'a> {
-    /// For so many values, of which some are to be found.
-    pub fn new(count: usize, is_asked: &dyn Fn(usize) -> bool, entries: Entries<'a>) -> Self {
+impl Equations {
+    /// For so many values, of which some are to be found, with the matrix that is asked for its entries
+    /// again later.
+    pub fn new(count: usize, is_asked: &dyn Fn(usize) -> bool, entries: &Entries) -> Self {
         let mut diagonal = vec![0.0; count];
         entries(&mut |i, j, entry| {
             if i == j {
@@ -63,7 +63,6 @@ impl<'a> Equations<'a> {
         let (starts, columns, before) = CsrMatrix::from(&before).disassemble();
         let short = |all: Vec<usize>| all.into_iter().map(|k| k as u32).collect();
         Self {
-            entries,
             unknown,
             scale,
             starts: short(starts),
@@ -82,7 +81,13 @@ impl<'a> Equations<'a> {
     ///
     /// # Errors
     /// Where they are not found.
-    pub fn solve(&self, given: &[f64], right: &[f64], guess: &[f64]) -> Result<Vec<f64>, Unsolved> {
+    pub fn solve(
+        &self,
+        entries: &Entries,
+        given: &[f64],
+        right: &[f64],
+        guess: &[f64],
+    ) -> Result<Vec<f64>, Unsolved> {
         let mut sides = vec![0.0; self.len()];
         let mut x = vec![0.0; self.len()];
         let unknowns = || {
@@ -93,7 +98,7 @@ impl<'a> Equations<'a> {
             sides[k] = right[i];
             x[k] = guess[i] / self.scale[k];
         }
-        (self.entries)(&mut |i, j, entry| {
+        entries(&mut |i, j, entry| {
             if let (Some(i), None) = (self.unknown[i], self.unknown[j]) {
                 sides[i as usize] -= entry * given[j];
             }
@@ -107,13 +112,6 @@ impl<'a> Equations<'a> {
             values[i] = x[k] * self.scale[k];
         }
         Ok(values)
-    }
-
-    /// The matrix times values.
-    pub fn product(&self, values: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; values.len()];
-        (self.entries)(&mut |i, j, entry| out[i] += entry * values[j]);
-        out
     }
 
     /// Hestenes and Stiefel's method (1952), preconditioned by a symmetric sweep of Gauss and

@@ -13,8 +13,8 @@
 use crate::parallel;
 use nalgebra::{Matrix6, Vector6};
 
-use super::element::shapes;
-use super::equations::{Entries, Equations, Unsolved};
+use super::element::value;
+use super::equations::{Equations, Unsolved};
 use super::nodes::Nodes;
 use super::octree::Octree;
 use super::profile::{Resistance, Spread};
@@ -35,58 +35,31 @@ struct Conductor {
     means: [[f64; 3]; 7],
 }
 
-/// All fluxes on a mesh whose chart begins at contact, between places whose potential is given.
-pub(in crate::kinetics) struct Fluxes<'a> {
-    network: &'a Network,
-    equations: Equations<'a>,
-}
-
-/// The cells of a mesh as conductors.
+/// The cells of a mesh whose chart begins at contact as conductors, between places whose potential is
+/// given.
 pub(in crate::kinetics) struct Network {
     conductors: Vec<Conductor>,
     /// For each face the place that it is the end of.
     ends: Vec<Option<usize>>,
+    equations: Equations,
 }
 
 impl Network {
-    /// Between the places that corners belong to, and the rim, which is the place `rim`. A cell
-    /// belongs to a place if all of its corners do, so that a function which is 1 at the place's
-    /// corners is so all over it. `None` where the chart holds what is blocked.
+    /// Between places given by the cells that they are made of, and the rim, which is the place `rim`,
+    /// through none of the cells that are left out; `None` where the chart holds what is blocked.
     ///
-    /// `resistance` has what fluxes cost in a cell, spread as `spreads` says.
+    /// `costs` has how fluxes are spread in a cell, and what they cost so.
     pub fn new(
-        mesh: &Octree,
-        nodes: &Nodes,
-        pins: &[Option<usize>],
-        rim: usize,
-        spreads: &[Spread],
-        resistance: &[Option<Box<Resistance>>],
-    ) -> Option<Self> {
-        let place = |id: usize| -> Option<usize> {
-            let sources = nodes.corners[id]
-                .iter()
-                .flat_map(|&n| &nodes.sources[n as usize]);
-            let mut places = sources.map(|&(of, _)| pins[of as usize]);
-            let first = places.next()??;
-            places.all(|other| other == Some(first)).then_some(first)
-        };
-        Self::between(mesh, &place, &|_| false, rim, spreads, resistance)
-    }
-
-    /// Between places given by the cells that they are made of, and the rim, through none of the
-    /// cells that are left out.
-    pub fn between(
         mesh: &Octree,
         place: &dyn Fn(usize) -> Option<usize>,
         is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
-        spreads: &[Spread],
-        resistance: &[Option<Box<Resistance>>],
+        costs: &[Option<(Spread, Box<Resistance>)>],
     ) -> Option<Self> {
         if !mesh.chart.is_fitted() {
             return None;
         }
-        let (sides, mut ends) = sides(mesh, rim, spreads);
+        let (sides, mut ends) = sides(mesh, rim, costs);
         let mut cells = Vec::new();
         for (id, ..) in mesh.live().filter(|(id, ..)| !is_left_out(*id)) {
             let Some(place) = place(id) else {
@@ -98,37 +71,185 @@ impl Network {
             }
         }
         let conductor = |&id: &usize| {
-            let means = spreads[id].means(mesh.along(id));
-            Conductor::new(id, sides[id], resistance[id].as_deref()?, means)
+            let (spread, resistance) = costs[id].as_ref()?;
+            let means = spread.means(mesh.leaves[id].along(&mesh.chart));
+            Conductor::new(id, sides[id], resistance, means)
         };
         let conductors = parallel::map(&cells, conductor);
-        let conductors = conductors.into_iter().collect::<Option<_>>()?;
-        Some(Self { conductors, ends })
+        let conductors = conductors.into_iter().collect::<Option<Vec<_>>>()?;
+        let is_asked = |face: usize| ends[face].is_none();
+        let equations = Equations::new(ends.len(), &is_asked, &entries(&conductors));
+        Some(Self {
+            conductors,
+            ends,
+            equations,
+        })
     }
 
-    fn entries(&self) -> Entries<'_> {
-        Box::new(|call| {
-            for conductor in &self.conductors {
-                for (a, first) in conductor.sides.iter().enumerate() {
-                    for (b, second) in conductor.sides.iter().enumerate() {
-                        let entry = conductor.matrix[(a, b)];
-                        for (i, by_row) in first.faces() {
-                            for (j, by_column) in second.faces() {
-                                call(i, j, entry * by_row * by_column);
-                            }
+    fn solved(&self, given: &[f64], right: &[f64], like: &[f64]) -> Result<Vec<f64>, Unsolved> {
+        let entries = entries(&self.conductors);
+        self.equations.solve(&entries, given, right, like)
+    }
+
+    /// For each face 1 if it is the end of a place, and 0 otherwise.
+    pub fn given(&self, place: usize) -> Vec<f64> {
+        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
+        self.ends.iter().map(one).collect()
+    }
+
+    /// From a place to all others, found from a guess of the potentials. Its capacity (rad) is no
+    /// greater than theirs, but for the quadrature.
+    ///
+    /// # Errors
+    /// Where the linear system is not solved.
+    pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
+        let given = self.given(place);
+        let none = vec![0.0; given.len()];
+        let potentials = self.solved(&given, &none, like)?;
+        Ok(self.flux(&potentials, &|_| 0.0, &given))
+    }
+
+    /// From a source in each cell to the places. Its cost is no less than the integral of the source
+    /// times the function that it belongs to, but for the quadrature and for how the source changes
+    /// within cells otherwise than its spread has it. Found from a guess of the potentials.
+    ///
+    /// # Errors
+    /// Where the linear system is not solved.
+    pub fn of(
+        &self,
+        source: &(dyn Fn(usize) -> f64 + Sync),
+        like: &[f64],
+    ) -> Result<Flux, Unsolved> {
+        let none = vec![0.0; self.ends.len()];
+        let mut right = none.clone();
+        for conductor in &self.conductors {
+            let shares = conductor.share * source(conductor.cell);
+            for (side, own) in conductor.sides.iter().zip(&shares) {
+                for (face, share) in side.faces() {
+                    right[face] += share * own;
+                }
+            }
+        }
+        let potentials = self.solved(&none, &right, like)?;
+        Ok(self.flux(&potentials, source, &none))
+    }
+
+    fn flux(&self, potentials: &[f64], source: &dyn Fn(usize) -> f64, given: &[f64]) -> Flux {
+        let all = self
+            .conductors
+            .iter()
+            .map(|conductor| conductor.out(potentials, source(conductor.cell)));
+        self.weighed(all.collect(), source, given)
+    }
+
+    /// What flows out of the conductors' sides as a flux.
+    pub fn weighed(
+        &self,
+        all: Vec<Vector6<f64>>,
+        source: &dyn Fn(usize) -> f64,
+        given: &[f64],
+    ) -> Flux {
+        let mut into = vec![0.0; given.len()];
+        let (mut cost, mut lost) = (0.0, 0.0);
+        for (conductor, out) in self.conductors.iter().zip(&all) {
+            let own = source(conductor.cell);
+            cost += conductor.together((out, own), (out, own));
+            lost += (out.sum() - own).abs() + ROUNDING * out.abs().sum();
+            for (side, flux) in conductor.sides.iter().zip(out) {
+                for (face, share) in side.faces() {
+                    into[face] += share * flux;
+                }
+            }
+        }
+        let mut current = 0.0;
+        for ((flux, end), one) in into.iter().zip(&self.ends).zip(given) {
+            match end {
+                None => lost += flux.abs(),
+                Some(_) => current -= one * flux,
+            }
+        }
+        let carried = (current - lost).max(0.0);
+        Flux {
+            out: all,
+            carried,
+            cost,
+            capacity: if carried > 0.0 {
+                carried * carried / cost
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// What flows upwards through the six sides of each cell.
+    pub fn upwards<'a>(&'a self, flux: &'a Flux) -> impl Iterator<Item = (usize, [f64; 6])> + 'a {
+        let conductors = self.conductors.iter().zip(&flux.out);
+        conductors.map(|(conductor, out)| {
+            let upwards = |side: usize| {
+                if side.is_multiple_of(2) {
+                    -out[side]
+                } else {
+                    out[side]
+                }
+            };
+            (conductor.cell, std::array::from_fn(upwards))
+        })
+    }
+
+    /// The potentials on faces of a function on the mesh: its means there, a guess.
+    pub fn potentials(&self, nodes: &Nodes, values: &[f64]) -> Vec<f64> {
+        let mut potentials = vec![0.0; self.ends.len()];
+        for conductor in &self.conductors {
+            for (side, faces) in conductor.sides.iter().enumerate() {
+                if let Side::Whole([(face, _)]) = faces {
+                    potentials[*face as usize] = nodes.mean(conductor.cell, side, values);
+                }
+            }
+        }
+        potentials
+    }
+
+    /// For each cell the integral of the product of two gaps, `(J / w + grad f) w (J' / w + grad f')`.
+    pub fn products(&self, mesh: &Octree, nodes: &Nodes, first: &Gap, second: &Gap) -> Vec<f64> {
+        let mut products = vec![0.0; mesh.leaves.len()];
+        for (number, conductor) in self.conductors.iter().enumerate() {
+            let id = conductor.cell;
+            let Some(element) = &mesh.leaves[id].element else {
+                continue;
+            };
+            let means = &conductor.means;
+            let of = |gap: &Gap| (gap.flux.out[number], nodes.of(id, gap.values));
+            let ((out, own), (others_out, others)) = (of(first), of(second));
+            let sources = [first, second].map(|gap| (gap.source)(id));
+            let flows = conductor.together((&out, sources[0]), (&others_out, sources[1]));
+            let slopes: f64 = element
+                .times(&own)
+                .iter()
+                .zip(others)
+                .map(|(a, b)| a * b)
+                .sum();
+            let mixed = carried(&out, sources[0], &others, means)
+                + carried(&others_out, sources[1], &own, means);
+            products[id] = flows + slopes + mixed;
+        }
+        products
+    }
+}
+
+/// Calls with every entry of the potentials' matrix.
+fn entries(conductors: &[Conductor]) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) {
+    move |call| {
+        for conductor in conductors {
+            for (a, first) in conductor.sides.iter().enumerate() {
+                for (b, second) in conductor.sides.iter().enumerate() {
+                    let entry = conductor.matrix[(a, b)];
+                    for (i, by_row) in first.faces() {
+                        for (j, by_column) in second.faces() {
+                            call(i, j, entry * by_row * by_column);
                         }
                     }
                 }
             }
-        })
-    }
-
-    /// The fluxes, ready to be found.
-    pub fn fluxes(&self) -> Fluxes<'_> {
-        let is_asked = |face: usize| self.ends[face].is_none();
-        Fluxes {
-            network: self,
-            equations: Equations::new(self.ends.len(), &is_asked, self.entries()),
         }
     }
 }
@@ -205,156 +326,6 @@ pub(in crate::kinetics) struct Flux {
     pub capacity: f64,
 }
 
-impl Fluxes<'_> {
-    /// From a place to all others, found from a guess of the potentials. Its capacity (rad) is no
-    /// greater than theirs, but for the quadrature.
-    ///
-    /// # Errors
-    /// Where the linear system is not solved.
-    pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
-        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = self.network.ends.iter().map(one).collect();
-        let none = vec![0.0; given.len()];
-        let potentials = self.equations.solve(&given, &none, like)?;
-        Ok(self.flux(&potentials, &|_| 0.0, &given))
-    }
-
-    /// What flows from a place out of the conductors' sides, whatever it is, as a flux.
-    #[cfg(test)]
-    pub fn told(&self, place: usize, out: Vec<Vector6<f64>>) -> Flux {
-        let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = self.network.ends.iter().map(one).collect();
-        self.weighed(out, &|_| 0.0, &given)
-    }
-
-    /// From a source in each cell to the places. Its cost is no less than the integral of the source
-    /// times the function that it belongs to, but for the quadrature and for how the source changes
-    /// within cells otherwise than its spread has it. Found from a guess of the potentials.
-    ///
-    /// # Errors
-    /// Where the linear system is not solved.
-    pub fn of(
-        &self,
-        source: &(dyn Fn(usize) -> f64 + Sync),
-        like: &[f64],
-    ) -> Result<Flux, Unsolved> {
-        let none = vec![0.0; self.network.ends.len()];
-        let mut right = none.clone();
-        for conductor in &self.network.conductors {
-            let shares = conductor.share * source(conductor.cell);
-            for (side, own) in conductor.sides.iter().zip(&shares) {
-                for (face, share) in side.faces() {
-                    right[face] += share * own;
-                }
-            }
-        }
-        let potentials = self.equations.solve(&none, &right, like)?;
-        Ok(self.flux(&potentials, source, &none))
-    }
-
-    fn flux(&self, potentials: &[f64], source: &dyn Fn(usize) -> f64, given: &[f64]) -> Flux {
-        let all = self
-            .network
-            .conductors
-            .iter()
-            .map(|conductor| conductor.out(potentials, source(conductor.cell)));
-        self.weighed(all.collect(), source, given)
-    }
-
-    /// What flows out of the conductors' sides as a flux.
-    fn weighed(
-        &self,
-        all: Vec<Vector6<f64>>,
-        source: &dyn Fn(usize) -> f64,
-        given: &[f64],
-    ) -> Flux {
-        let mut into = vec![0.0; given.len()];
-        let (mut cost, mut lost) = (0.0, 0.0);
-        for (conductor, out) in self.network.conductors.iter().zip(&all) {
-            let own = source(conductor.cell);
-            cost += conductor.together((out, own), (out, own));
-            lost += (out.sum() - own).abs() + ROUNDING * out.abs().sum();
-            for (side, flux) in conductor.sides.iter().zip(out) {
-                for (face, share) in side.faces() {
-                    into[face] += share * flux;
-                }
-            }
-        }
-        let mut current = 0.0;
-        for ((flux, end), one) in into.iter().zip(&self.network.ends).zip(given) {
-            match end {
-                None => lost += flux.abs(),
-                Some(_) => current -= one * flux,
-            }
-        }
-        let carried = (current - lost).max(0.0);
-        Flux {
-            out: all,
-            carried,
-            cost,
-            capacity: if carried > 0.0 {
-                carried * carried / cost
-            } else {
-                0.0
-            },
-        }
-    }
-
-    /// What flows upwards through the six sides of each cell.
-    pub fn upwards<'a>(&'a self, flux: &'a Flux) -> impl Iterator<Item = (usize, [f64; 6])> + 'a {
-        let conductors = self.network.conductors.iter().zip(&flux.out);
-        conductors.map(|(conductor, out)| {
-            let upwards = |side: usize| {
-                if side.is_multiple_of(2) {
-                    -out[side]
-                } else {
-                    out[side]
-                }
-            };
-            (conductor.cell, std::array::from_fn(upwards))
-        })
-    }
-
-    /// The potentials on faces of a function on the mesh: its means there, a guess.
-    pub fn potentials(&self, nodes: &Nodes, values: &[f64]) -> Vec<f64> {
-        let mut potentials = vec![0.0; self.network.ends.len()];
-        for conductor in &self.network.conductors {
-            for (side, faces) in conductor.sides.iter().enumerate() {
-                if let Side::Whole([(face, _)]) = faces {
-                    potentials[*face as usize] = nodes.mean(conductor.cell, side, values);
-                }
-            }
-        }
-        potentials
-    }
-
-    /// For each cell the integral of the product of two gaps, `(J / w + grad f) w (J' / w + grad f')`.
-    pub fn products(&self, mesh: &Octree, nodes: &Nodes, first: &Gap, second: &Gap) -> Vec<f64> {
-        let mut products = vec![0.0; mesh.leaves.len()];
-        for (number, conductor) in self.network.conductors.iter().enumerate() {
-            let id = conductor.cell;
-            let Some(element) = &mesh.leaves[id].element else {
-                continue;
-            };
-            let means = &conductor.means;
-            let of = |gap: &Gap| (gap.flux.out[number], nodes.of(id, gap.values));
-            let ((out, own), (others_out, others)) = (of(first), of(second));
-            let sources = [first, second].map(|gap| (gap.source)(id));
-            let flows = conductor.together((&out, sources[0]), (&others_out, sources[1]));
-            let slopes: f64 = element
-                .times(&own)
-                .iter()
-                .zip(others)
-                .map(|(a, b)| a * b)
-                .sum();
-            let mixed = carried(&out, sources[0], &others, means)
-                + carried(&others_out, sources[1], &own, means);
-            products[id] = flows + slopes + mixed;
-        }
-        products
-    }
-}
-
 /// A flux and a function that would be one if both were exact.
 pub(in crate::kinetics) struct Gap<'a> {
     pub flux: &'a Flux,
@@ -366,13 +337,6 @@ pub(in crate::kinetics) struct Gap<'a> {
 /// The integral of J . grad f over a cell: what f has at the sides, less what it has at the source.
 /// Where J crosses the sides on average and where the source is, is given in parts of the cell's size.
 fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], means: &[[f64; 3]; 7]) -> f64 {
-    let at = |part: [f64; 3]| -> f64 {
-        shapes(part)
-            .iter()
-            .zip(values)
-            .map(|(shape, value)| shape * value)
-            .sum()
-    };
-    let across = (0..6).map(|side| out[side] * at(means[side]));
-    across.sum::<f64>() - source * at(means[6])
+    let across = (0..6).map(|side| out[side] * value(means[side], values));
+    across.sum::<f64>() - source * value(means[6], values)
 }

@@ -15,7 +15,7 @@ mod system;
 mod wall;
 
 pub(super) use chart::{Chart, UNITS};
-pub(super) use element::{Element, gradients, shapes};
+pub(super) use element::{Element, slope, value};
 pub use equations::Unsolved;
 pub(super) use flux::{Gap, Network};
 pub(super) use nodes::Nodes;

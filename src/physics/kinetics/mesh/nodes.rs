@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::chart::Place;
-use super::element::shapes;
+use super::element::{shapes, value};
 use super::octree::Octree;
 use crate::configuration::Configuration;
 
@@ -95,7 +95,7 @@ impl Nodes {
         let &cell = held.iter().find(|&&id| mesh.leaves[id].element.is_some())?;
         let leaf = &mesh.leaves[cell];
         let place = mesh.chart.place(q);
-        let period = mesh.chart.cells.map(|n| (n * super::chart::UNITS) as f64);
+        let period = mesh.chart.period();
         let part = std::array::from_fn(|i| {
             // The side of the period that the cell lies on.
             let middle = leaf.low[i] as f64 + leaf.size() as f64 / 2.0;
@@ -105,8 +105,7 @@ impl Nodes {
             }
             (aside / leaf.size() as f64 + 0.5).clamp(0.0, 1.0)
         });
-        let values = self.of(cell, values);
-        Some(shapes(part).iter().zip(values).map(|(s, v)| s * v).sum())
+        Some(value(part, &self.of(cell, values)))
     }
 
     /// Values at all corners from those that do not hang.

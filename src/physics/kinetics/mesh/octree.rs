@@ -54,6 +54,25 @@ impl Leaf {
     pub fn corner(&self, number: usize) -> Place {
         std::array::from_fn(|i| self.low[i] + if number >> i & 1 == 1 { self.size() } else { 0 })
     }
+
+    /// A point given in parts of its size, in smallest units.
+    pub fn at(&self, part: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| self.low[i] as f64 + part[i] * self.size() as f64)
+    }
+
+    /// Where it begins and ends in s.
+    pub fn along(&self, chart: &Chart) -> [f64; 2] {
+        [0.0, 1.0].map(|part| chart.coordinates(self.at([part, 0.0, 0.0]))[0])
+    }
+
+    /// A place just beyond the middle of one of its sides: 2 i and 2 i + 1 are the lower and upper
+    /// ones along coordinate i.
+    pub fn beyond(&self, side: usize) -> Place {
+        let mut place = self.low.map(|low| low + self.size() / 2);
+        let axis = side / 2;
+        place[axis] = self.low[axis] + if side % 2 == 1 { self.size() } else { -1 };
+        place
+    }
 }
 
 /// The cells: first those into which the chart is divided, in rows along theta, then their parts.
@@ -68,20 +87,15 @@ impl Octree {
     /// The first cells.
     pub fn new(chart: Chart, rho: f64) -> Self {
         let [n, m, l] = chart.cells;
-        let mut mesh = Self {
-            chart,
-            leaves: Vec::new(),
-            rho,
+        let first = |cell: i64| {
+            let low = [cell / (m * l), cell / l % m, cell % l].map(|cell| cell * UNITS);
+            Leaf::new(low, 0, false, None)
         };
-        for i in 0..n {
-            for j in 0..m {
-                for k in 0..l {
-                    let low = [i, j, k].map(|cell| cell * UNITS);
-                    mesh.leaves.push(Leaf::new(low, 0, false, None));
-                }
-            }
+        Self {
+            chart,
+            leaves: (0..n * m * l).map(first).collect(),
+            rho,
         }
-        mesh
     }
 
     /// The undivided cell that holds the unit cell with this lower corner.
@@ -146,19 +160,26 @@ impl Octree {
 
     /// The undivided cells that hold free configurations, with their numbers.
     pub fn live(&self) -> impl Iterator<Item = (usize, &Leaf, &Element)> {
-        let live = self
-            .leaves
-            .iter()
-            .enumerate()
-            .filter(|(_, leaf)| leaf.is_live());
+        let live = self.leaves.iter().enumerate();
+        let live = live.filter(|(_, leaf)| leaf.is_live());
         live.filter_map(|(id, leaf)| Some((id, leaf, leaf.element.as_deref()?)))
     }
 
-    /// Where a cell begins and ends in s.
-    pub fn along(&self, id: usize) -> [f64; 2] {
-        let leaf = &self.leaves[id];
-        let at = |low: i64| self.chart.coordinates([low as f64, 0.0, 0.0])[0];
-        [at(leaf.low[0]), at(leaf.low[0] + leaf.size())]
+    /// The lowest energy (J) met in a cell; infinite where nothing is free.
+    pub fn lowest(&self, id: usize) -> f64 {
+        let element = self.leaves[id].element.as_ref();
+        element.map_or(f64::INFINITY, |element| element.lowest)
+    }
+
+    /// What a cell holds of the load (m^2 rad).
+    pub fn held(&self, id: usize) -> f64 {
+        let element = self.leaves[id].element.as_ref();
+        element.map_or(0.0, |element| element.held())
+    }
+
+    /// Whether a cell lies along the outer end of the chart.
+    pub fn is_outer(&self, id: usize) -> bool {
+        self.chart.is_outer(self.leaves[id].corner(7))
     }
 
     /// For each cell those that share a face with it.
@@ -173,12 +194,8 @@ impl Octree {
             if !leaf.is_live() || !is_one(leaf) {
                 continue;
             }
-            let half = leaf.size() / 2;
-            for face in 0..6 {
-                let mut place = leaf.low.map(|low| low + half);
-                let (axis, upper) = (face / 2, face % 2 == 1);
-                place[axis] = leaf.low[axis] + if upper { leaf.size() } else { -1 };
-                if let Some(other) = self.find(place)
+            for side in 0..6 {
+                if let Some(other) = self.find(leaf.beyond(side))
                     && is_one(&self.leaves[other])
                 {
                     beside[id].push(other as u32);

@@ -1,17 +1,15 @@
 //! Integrals over what is free of a cell: line by line along s, where contact is found to a hair and
 //! the steps follow the energy, and between the lines as finely as they differ.
 
-use std::cell::{Cell, RefCell};
-
 use nalgebra::Matrix3;
 
 use super::chart::Chart;
-use super::element::{Element, Sum};
+use super::element::{Element, Point};
 use super::octree::Leaf;
 use super::profile::{Resistance, Spread};
 use super::wall::Ray;
 use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells};
+use crate::contact::cells::ContactCells;
 use crate::interruption;
 use crate::problem::Problem;
 
@@ -63,21 +61,6 @@ struct Line {
     sums: [f64; 2],
 }
 
-/// A point of an integral.
-struct Point<'a> {
-    /// In parts of the cell's size.
-    part: [f64; 3],
-    ray: &'a Ray,
-    /// The inverse of the mass metric.
-    inverse: Matrix3<f64>,
-    /// Its share of the cell.
-    share: f64,
-    /// Weight and load.
-    weights: [f64; 2],
-    /// U (J).
-    energy: f64,
-}
-
 impl<'a> Integrator<'a> {
     pub fn new(problem: &'a Problem, kt: f64, level: f64, ground: f64) -> Self {
         Self {
@@ -96,31 +79,20 @@ impl<'a> Integrator<'a> {
         let found = contact.map(|cells| cells.classify(&chart.around(leaf.low, leaf.level)));
         let cut = match found {
             None => false,
-            Some(CellContact::Blocked) => return (None, true),
-            Some(CellContact::Open {
-                cuts,
-                corners,
-                depth,
-            }) => !(cuts.is_empty() && corners.is_empty() && depth == 0.0),
+            Some(None) => return (None, true),
+            Some(Some(cuts)) => !cuts.is_none(),
         };
-        let mut sum = Sum::new(chart, leaf);
-        let middle = sum.ray([0.5; 2]);
-        sum.element.gradients = middle.upright() * sum.gradients(&middle, sum.along(0.5));
-        let add = |sum: &mut Sum, point: &Point| {
-            sum.free[0] += point.share;
-            sum.free[1] += point.share * point.energy;
-            sum.add(
-                point.part,
-                point.ray,
-                &point.inverse,
-                point.share,
-                point.weights,
-            );
-        };
-        self.fill(&mut sum, [[0.0, 1.0]; 2], cut, 0, &add);
-        let Sum {
-            mut element, free, ..
-        } = sum;
+        let mut lines = Lines::new(self, chart, leaf, cut);
+        let middle = lines.ray([0.5; 2]);
+        let gradients = middle.upright() * lines.gradients(&middle, lines.along(0.5));
+        let mut element = Element::new(gradients);
+        let mut free = [0.0; 2];
+        lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
+            free[0] += point.share;
+            free[1] += point.share * point.energy;
+            element.add(point);
+        });
+        [element.lowest, element.highest] = lines.range;
         element.mean = free[1] / free[0];
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
@@ -132,109 +104,143 @@ impl<'a> Integrator<'a> {
 
     /// The integral of the load (m^2 rad) over where U in a cell is below a limit (J).
     pub fn held_below(&self, chart: &Chart, leaf: &Leaf, limit: f64) -> f64 {
-        let mut sum = Sum::new(chart, leaf);
-        let held = Cell::new(0.0);
-        let add = |sum: &mut Sum, point: &Point| {
+        let mut held = 0.0;
+        let mut lines = Lines::new(self, chart, leaf, !chart.is_fitted());
+        lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
             if point.energy < limit {
-                let (_, volume) = sum.metric(point.part, point.ray, &point.inverse);
-                held.set(held.get() + point.share * volume * point.weights[1]);
+                held += point.share * point.volume * point.weights[1];
             }
-        };
-        self.fill(&mut sum, [[0.0, 1.0]; 2], !chart.is_fitted(), 0, &add);
-        held.get()
+        });
+        held
     }
 
     /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart, where
     /// they are spread so.
     pub fn resistance(&self, chart: &Chart, leaf: &Leaf, spread: &Spread) -> Resistance {
-        let mut sum = Sum::new(chart, leaf);
-        let ends = [0.0, 1.0].map(|part| sum.along(part));
-        let cost = RefCell::new(Resistance::zeros());
-        let add = |sum: &mut Sum, point: &Point| {
-            let (metric, _) = sum.metric(point.part, point.ray, &point.inverse);
-            let Some(inverse) = metric.try_inverse() else {
-                return;
-            };
-            let fluxes = spread.fluxes(point.part, ends);
-            let scale = point.share / point.weights[0];
-            *cost.borrow_mut() += fluxes.transpose() * (inverse * scale) * fluxes;
-        };
-        self.fill(&mut sum, [[0.0, 1.0]; 2], false, 0, &add);
-        cost.into_inner()
+        let mut lines = Lines::new(self, chart, leaf, false);
+        let ends = leaf.along(chart);
+        let mut cost = Resistance::zeros();
+        lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
+            if let Some(inverse) = point.metric.try_inverse() {
+                let fluxes = spread.fluxes(point.part, ends);
+                let scale = point.share / point.weights[0];
+                cost += fluxes.transpose() * (inverse * scale) * fluxes;
+            }
+        });
+        cost
+    }
+}
+
+/// The lines through a cell over which integrals are taken.
+struct Lines<'a> {
+    of: &'a Integrator<'a>,
+    chart: &'a Chart,
+    leaf: &'a Leaf,
+    /// Whether contact may block some of it.
+    cut: bool,
+    /// The least and the greatest U met (J).
+    range: [f64; 2],
+}
+
+impl<'a> Lines<'a> {
+    fn new(of: &'a Integrator, chart: &'a Chart, leaf: &'a Leaf, cut: bool) -> Self {
+        Self {
+            of,
+            chart,
+            leaf,
+            cut,
+            range: [f64::INFINITY, f64::NEG_INFINITY],
+        }
+    }
+
+    /// (s, phi, theta) of a point given in parts of the cell's size.
+    fn coordinates(&self, part: [f64; 3]) -> [f64; 3] {
+        self.chart.coordinates(self.leaf.at(part))
+    }
+
+    /// s of a part of the cell's size.
+    fn along(&self, part: f64) -> f64 {
+        self.coordinates([part, 0.0, 0.0])[0]
+    }
+
+    /// The ray through a point of the cell's face.
+    fn ray(&self, [v, w]: [f64; 2]) -> Ray {
+        let [_, phi, theta] = self.coordinates([0.0, v, w]);
+        self.chart.ray([phi, theta])
+    }
+
+    /// Gradients by x, y and theta of the parts at a point of a ray, as columns.
+    fn gradients(&self, ray: &Ray, s: f64) -> Matrix3<f64> {
+        let mut by = ray.gradients(s);
+        let sizes = self.chart.size(self.leaf.level);
+        for (mut column, size) in by.column_iter_mut().zip(sizes) {
+            column /= size;
+        }
+        by
     }
 
     /// Calls with the points along lines through a part of the face, given by its ends in phi and
     /// theta.
-    fn fill(
-        &self,
-        sum: &mut Sum,
-        face: [[f64; 2]; 2],
-        cut: bool,
-        halved: usize,
-        add: &dyn Fn(&mut Sum, &Point),
-    ) {
+    fn fill(&mut self, face: [[f64; 2]; 2], halved: usize, add: &mut dyn FnMut(&Point)) {
         let place = |axis: usize, k: usize| {
             let [from, to] = face[axis];
             from + GAUSS[k] * (to - from)
         };
         let lines: [Line; 4] =
-            std::array::from_fn(|k| self.line(sum, [place(0, k & 1), place(1, k >> 1)], cut));
-        if let Some(axis) = uneven(&lines, cut, sum.leaf.level, halved) {
+            std::array::from_fn(|k| self.line([place(0, k & 1), place(1, k >> 1)]));
+        if let Some(axis) = uneven(&lines, self.cut, self.leaf.level, halved) {
             let [from, to] = face[axis];
             let middle = 0.5 * (from + to);
             for ends in [[from, middle], [middle, to]] {
                 let mut half = face;
                 half[axis] = ends;
-                self.fill(sum, half, cut, halved + 1, add);
+                self.fill(half, halved + 1, add);
             }
             return;
         }
         let share = face.iter().map(|[from, to]| to - from).product::<f64>() / 4.0;
+        let size: f64 = self.chart.size(self.leaf.level).iter().product();
         for line in &lines {
             for &(u, width, weights, energy) in &line.points {
                 let part = [u, line.at[0], line.at[1]];
-                let metric = self.problem.mass_metric(sum.coordinates(part)[2]);
-                let inverse = metric.try_inverse().unwrap_or_else(Matrix3::identity);
-                let share = share * width;
-                add(
-                    sum,
-                    &Point {
-                        part,
-                        ray: &line.ray,
-                        inverse,
-                        share,
-                        weights,
-                        energy,
-                    },
-                );
+                let [s, _, theta] = self.coordinates(part);
+                let inverse = self.of.problem.mass_metric(theta).try_inverse();
+                let inverse = inverse.unwrap_or_else(Matrix3::identity);
+                let volume = line.ray.volume(s) * size;
+                let by = self.gradients(&line.ray, s);
+                add(&Point {
+                    part,
+                    metric: by.transpose() * inverse * by * volume,
+                    volume,
+                    share: share * width,
+                    weights,
+                    energy,
+                });
             }
         }
     }
 
     /// A line through a cell.
-    fn line(&self, sum: &mut Sum, at: [f64; 2], cut: bool) -> Line {
+    fn line(&mut self, at: [f64; 2]) -> Line {
         let mut line = Line {
-            ray: sum.ray(at),
+            ray: self.ray(at),
             at,
             points: Vec::new(),
             sums: [0.0; 2],
         };
-        for [from, to] in self.free_parts(sum, &line.ray, cut) {
-            self.extend(sum, &mut line, [from, to]);
+        for ends in self.free_parts(&line.ray) {
+            self.extend(&mut line, ends);
         }
         line
     }
 
     /// The free parts of a line.
-    fn free_parts(&self, sum: &Sum, ray: &Ray, cut: bool) -> Vec<[f64; 2]> {
-        if !cut {
-            return vec![[0.0, 1.0]];
-        }
-        let Some(contact) = &self.problem.contact else {
+    fn free_parts(&self, ray: &Ray) -> Vec<[f64; 2]> {
+        let Some(contact) = self.of.problem.contact.as_ref().filter(|_| self.cut) else {
             return vec![[0.0, 1.0]];
         };
         interruption::check();
-        let [from, to] = [0.0, 1.0].map(|u| ray.configuration(sum.along(u)));
+        let [from, to] = [0.0, 1.0].map(|u| ray.configuration(self.along(u)));
         let way = to.position() - from.position();
         let length = way.norm();
         let free = contact.free_stretches(&from, way / length, length);
@@ -244,12 +250,13 @@ impl<'a> Integrator<'a> {
     }
 
     /// Adds a free part to a line.
-    fn extend(&self, sum: &mut Sum, line: &mut Line, [from, to]: [f64; 2]) {
-        let place = |u: f64| line.ray.configuration(sum.along(u));
-        let potential = self.problem.potential();
+    fn extend(&mut self, line: &mut Line, [from, to]: [f64; 2]) {
+        let Integrator { kt, .. } = *self.of;
+        let place = |u: f64| line.ray.configuration(self.along(u));
+        let potential = self.of.problem.potential();
         let mut ends = [0.0; 3];
         potential.energies(&[from, 0.5 * (from + to), to].map(place), &mut ends);
-        let change = (ends[0] - ends[1]).abs().max((ends[1] - ends[2]).abs()) / self.kt;
+        let change = (ends[0] - ends[1]).abs().max((ends[1] - ends[2]).abs()) / kt;
         let panels = (2.0 * change / PANEL).ceil().clamp(1.0, PANELS);
         let width = (to - from) / panels;
         let us: Vec<f64> = (0..panels as usize)
@@ -258,14 +265,14 @@ impl<'a> Integrator<'a> {
         let qs: Vec<Configuration> = us.iter().map(|&u| place(u)).collect();
         let mut energies = vec![0.0; qs.len()];
         potential.energies(&qs, &mut energies);
-        sum.element.lowest = ends.iter().copied().fold(sum.element.lowest, f64::min);
-        sum.element.highest = ends.iter().copied().fold(sum.element.highest, f64::max);
+        let [lowest, highest] = self.range;
+        self.range = [
+            ends.into_iter().fold(lowest, f64::min),
+            ends.into_iter().fold(highest, f64::max),
+        ];
         for (u, energy) in us.into_iter().zip(energies) {
-            let above = |level: f64| (level - energy) / self.kt;
-            let weights = [
-                libm::exp(above(self.level).clamp(LEAST, GREATEST)),
-                libm::exp(above(self.ground).min(FARTHEST)),
-            ];
+            let load = ((self.of.ground - energy) / kt).min(FARTHEST);
+            let weights = [self.of.power(energy), load].map(libm::exp);
             for (sum, weight) in line.sums.iter_mut().zip(weights) {
                 *sum += weight * width / 2.0;
             }

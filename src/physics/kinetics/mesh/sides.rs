@@ -1,7 +1,7 @@
 //! The sides of cells, and the faces that they are made of.
 
 use super::octree::Octree;
-use super::profile::Spread;
+use super::profile::{Resistance, Spread};
 
 /// What lies beyond a cell's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,19 +30,16 @@ impl Side {
 pub(super) fn sides(
     mesh: &Octree,
     rim: usize,
-    spreads: &[Spread],
+    costs: &[Option<(Spread, Box<Resistance>)>],
 ) -> (Vec<[Side; 6]>, Vec<Option<usize>>) {
     let mut sides = vec![[Side::Closed; 6]; mesh.leaves.len()];
     let mut ends = Vec::new();
     let mut parts: Vec<(usize, usize, u32, usize)> = Vec::new();
     for (id, leaf, _) in mesh.live() {
         for side in 0..6 {
-            let half = leaf.size() / 2;
-            let mut place = leaf.low.map(|low| low + half);
-            let (axis, is_upper) = (side / 2, side % 2 == 1);
-            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
+            let is_upper = side % 2 == 1;
             let face = ends.len() as u32;
-            let Some(other) = mesh.find(place) else {
+            let Some(other) = mesh.find(leaf.beyond(side)) else {
                 // Contact, or the rim.
                 if is_upper {
                     ends.push(Some(rim));
@@ -69,13 +66,13 @@ pub(super) fn sides(
     for four in parts.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let (cell, side, ..) = four[0];
         let share = |part: usize| {
-            let (whole, [from, to]) = (mesh.along(cell), mesh.along(part));
-            match side / 2 {
-                0 => 0.25,
-                _ => {
-                    let profile = spreads[cell].of(side);
+            let [whole, [from, to]] = [cell, part].map(|id| mesh.leaves[id].along(&mesh.chart));
+            match &costs[cell] {
+                Some((spread, _)) if side >= 2 => {
+                    let profile = spread.of(side);
                     0.5 * (profile.share(to, whole) - profile.share(from, whole))
                 }
+                _ => 0.25,
             }
         };
         let faces: Vec<_> = four.iter().map(|part| (part.2, share(part.3))).collect();
@@ -94,13 +91,9 @@ pub(in crate::kinetics) fn spreads(mesh: &Octree, own: &[Option<Spread>]) -> Vec
     for (id, leaf, _) in mesh.live() {
         let mut spread = own[id].unwrap_or_default();
         for side in 2..6 {
-            let half = leaf.size() / 2;
-            let mut place = leaf.low.map(|low| low + half);
-            let (axis, is_upper) = (side / 2, side % 2 == 1);
-            place[axis] = leaf.low[axis] + if is_upper { leaf.size() } else { -1 };
-            let beyond = mesh.find(place).filter(|&other| {
+            let beyond = mesh.find(leaf.beyond(side)).filter(|&other| {
                 let level = mesh.leaves[other].level;
-                level < leaf.level || level == leaf.level && !is_upper
+                level < leaf.level || level == leaf.level && side % 2 == 0
             });
             if let Some(other) = beyond.and_then(|other| own[other]) {
                 spread.profiles[side - 2] = *other.of(side ^ 1);

@@ -6,20 +6,22 @@ use super::octree::Octree;
 
 /// The stiffness of the corners whose values are to be found.
 pub(in crate::kinetics) struct System<'a> {
+    mesh: &'a Octree,
     nodes: &'a Nodes,
     pins: &'a [Option<usize>],
-    equations: Equations<'a>,
+    equations: Equations,
 }
 
 impl<'a> System<'a> {
     /// With the values given at corners that belong to a place.
     pub fn new(mesh: &'a Octree, nodes: &'a Nodes, pins: &'a [Option<usize>]) -> Self {
         let is_asked = |node: usize| !nodes.is_hanging(node) && pins[node].is_none();
-        let entries = move |call: &mut dyn FnMut(usize, usize, f64)| each_entry(mesh, nodes, call);
+        let equations = Equations::new(nodes.len(), &is_asked, &entries(mesh, nodes));
         Self {
+            mesh,
             nodes,
             pins,
-            equations: Equations::new(nodes.len(), &is_asked, Box::new(entries)),
+            equations,
         }
     }
 
@@ -54,27 +56,39 @@ impl<'a> System<'a> {
     ) -> Result<Vec<f64>, Unsolved> {
         let none = vec![0.0; self.pins.len()];
         let guess = guess.unwrap_or(&none);
-        let mut values = self.equations.solve(given, load, guess)?;
+        let entries = entries(self.mesh, self.nodes);
+        let mut values = self.equations.solve(&entries, given, load, guess)?;
         self.nodes.interpolate(&mut values);
         Ok(values)
     }
 
-    /// What flows out of each corner that does not hang: the stiffness times the values (rad).
-    pub fn fluxes(&self, values: &[f64]) -> Vec<f64> {
-        self.equations.product(values)
+    /// What flows into each of so many places (rad).
+    pub fn flows(&self, values: &[f64], places: usize) -> Vec<f64> {
+        // Out of each corner that does not hang: the stiffness times the values.
+        let mut out = vec![0.0; values.len()];
+        entries(self.mesh, self.nodes)(&mut |i, j, entry| out[i] += entry * values[j]);
+        let mut into = vec![0.0; places];
+        for (pin, out) in self.pins.iter().zip(out) {
+            if let Some(place) = pin {
+                into[*place] -= out;
+            }
+        }
+        into
     }
 }
 
 /// Calls with every entry that a cell adds to the stiffness of corners that do not hang.
-fn each_entry(mesh: &Octree, nodes: &Nodes, call: &mut dyn FnMut(usize, usize, f64)) {
-    for (id, _, element) in mesh.live() {
-        let corners = nodes.corners[id];
-        for (a, &corner) in corners.iter().enumerate() {
-            for (b, &other) in corners.iter().enumerate() {
-                let entry = element.entry(a, b);
-                for &(i, by_i) in &nodes.sources[corner as usize] {
-                    for &(j, by_j) in &nodes.sources[other as usize] {
-                        call(i as usize, j as usize, entry * by_i * by_j);
+fn entries(mesh: &Octree, nodes: &Nodes) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) {
+    move |call| {
+        for (id, _, element) in mesh.live() {
+            let corners = nodes.corners[id];
+            for (a, &corner) in corners.iter().enumerate() {
+                for (b, &other) in corners.iter().enumerate() {
+                    let entry = element.entry(a, b);
+                    for &(i, by_i) in &nodes.sources[corner as usize] {
+                        for &(j, by_j) in &nodes.sources[other as usize] {
+                            call(i as usize, j as usize, entry * by_i * by_j);
+                        }
                     }
                 }
             }

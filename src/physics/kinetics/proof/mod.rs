@@ -37,8 +37,8 @@ mod tests;
 mod wall;
 
 use super::field::Field;
-use super::mesh::{Nodes, Profile, System};
-use super::sets::is_at_the_rim;
+use super::mesh::{Leaf, Nodes, Profile, System};
+use super::sets::{Beside, flood};
 use crate::configuration::Configuration;
 use crate::parallel;
 use piece::{Ground, Piece, Range};
@@ -114,7 +114,7 @@ struct Cells {
 /// the integrals that are asked for this close together; `None` where nothing can be proved on this
 /// mesh. Divides cells.
 pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Option<Capacity> {
-    let problem = field.problem();
+    let problem = field.problem;
     let bounds = problem.bounds().ok()?;
     // The centre of mass is the reference point, or coordinates are not upright.
     let metric = problem.mass_metric(0.0);
@@ -138,10 +138,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let mut cells = Vec::new();
     for _ in 0..=DIVISIONS {
         let energies = energies(field, &even, sets);
-        cells = sets
-            .iter()
-            .map(|set| Cells::new(field, &energies, set))
-            .collect();
+        let beside = field.mesh.neighbours();
+        let of = |set| Cells::new(field, &beside, &energies, set);
+        cells = sets.iter().map(of).collect();
         let is_lost = |(_, cells): &(&Set, &Cells)| !cells.inner.iter().any(|inner| *inner);
         let lost = sets.iter().zip(&cells).filter(is_lost);
         let open: Vec<usize> = lost
@@ -154,12 +153,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
         cells.clear();
     }
     let mesh = &field.mesh;
-    let touches_rim = |(id, wide): (usize, &bool)| *wide && is_at_the_rim(mesh, &mesh.leaves[id]);
-    if cells.is_empty()
-        || cells
-            .iter()
-            .any(|it| it.wide.iter().enumerate().any(touches_rim))
-    {
+    let is_wide = |id: usize| cells.iter().any(|cells| cells.wide[id]);
+    let touches_rim = |id: usize| is_wide(id) && mesh.is_outer(id);
+    if cells.is_empty() || (0..mesh.leaves.len()).any(touches_rim) {
         return None;
     }
     let nodes = &Nodes::new(mesh);
@@ -167,7 +163,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     // Where contact reaches to where tiles are free, as at corners, both are done without.
     let is_narrow = |id: usize| {
         let leaf = &mesh.leaves[id];
-        leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf.level, NARROW)
+        leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf, NARROW)
     };
     let narrow: Vec<bool> = parallel::map(0..mesh.leaves.len(), is_narrow);
     // Dirichlet's side.
@@ -197,10 +193,9 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let inside = |id: usize| (0..sets.len()).find(|&set| cells[set].inner[id]);
     let (network, profile) =
         field.network_between(nodes, &inside, &|id| narrow[id], rim, &trial)?;
-    let fluxes = network.fluxes();
-    let flux = fluxes.from(0, &fluxes.potentials(nodes, &trial)).ok()?;
+    let flux = network.from(0, &network.potentials(nodes, &trial)).ok()?;
     let mut upwards = vec![None; mesh.leaves.len()];
-    for (cell, sides) in fluxes.upwards(&flux) {
+    for (cell, sides) in network.upwards(&flux) {
         upwards[cell] = Some(sides);
     }
     let is_others = |id: usize| cells[1..].iter().any(|cells| cells.inner[id]);
@@ -215,8 +210,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     roles.extend(rim::pieces(mesh, &even, &cells[0], sets[0].below));
     let load = |is_asked: &dyn Fn(usize) -> bool| -> f64 {
         let asked = mesh.live().filter(|(id, ..)| is_asked(*id));
-        let each = asked.map(|(.., element)| element.load.iter().sum::<f64>());
-        each.sum()
+        asked.map(|(.., element)| element.held()).sum()
     };
     let held = load(&|id| cells[0].inner[id]);
     let around = load(&|id| !is_others(id));
@@ -253,13 +247,8 @@ fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
             let limits = sets.iter().flat_map(|set| [set.below, set.wide]);
             limits.into_iter().any(|limit| low < limit && high >= limit)
         };
-        range(
-            ground,
-            Piece::whole(id, &leaves[id]),
-            leaves[id].level,
-            &is_open,
-            0,
-        )
+        let leaf = &leaves[id];
+        range(ground, Piece::whole(id, leaf), leaf, &is_open, 0)
     };
     parallel::map(0..leaves.len(), of)
 }
@@ -267,11 +256,11 @@ fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
 fn range(
     ground: &Ground,
     piece: Piece,
-    level: u8,
+    leaf: &Leaf,
     is_open: &dyn Fn(Range) -> bool,
     halved: usize,
 ) -> Range {
-    let place = ground.place(&piece, level);
+    let place = ground.place(&piece, leaf);
     let found = place
         .as_ref()
         .map_or([f64::NEG_INFINITY, f64::INFINITY], |place| {
@@ -283,47 +272,34 @@ fn range(
     let axis = place.map_or(halved % 3, |place| place.axis());
     let halves = piece
         .halves(axis)
-        .map(|half| range(ground, half, level, is_open, halved + 1));
+        .map(|half| range(ground, half, leaf, is_open, halved + 1));
     let [[a, b], [c, d]] = halves;
     [a.min(c).max(found[0]), b.max(d).min(found[1])]
 }
 
 /// Whether rays through a piece may have no length, looked at in so many halvings.
-fn is_narrow(ground: &Ground, piece: Piece, level: u8, halvings: usize) -> bool {
-    let place = ground.place(&piece, level);
+fn is_narrow(ground: &Ground, piece: Piece, leaf: &Leaf, halvings: usize) -> bool {
+    let place = ground.place(&piece, leaf);
     let is_clear = place.as_ref().is_some_and(|place| !place.is_narrow());
     if is_clear || halvings == 0 {
         return !is_clear && place.is_some();
     }
     let axis = place.map_or(halvings % 3, |place| place.axis());
     let mut halves = piece.halves(axis).into_iter();
-    halves.any(|half| is_narrow(ground, half, level, halvings - 1))
+    halves.any(|half| is_narrow(ground, half, leaf, halvings - 1))
 }
 
 impl Cells {
-    fn new(field: &Field, energies: &[Range], set: &Set) -> Self {
-        let mesh = &field.mesh;
-        let beside = mesh.neighbours();
-        let held = mesh.holding(&set.at);
-        let flood = |is_in: &dyn Fn(usize) -> bool| {
-            let mut inside = vec![false; mesh.leaves.len()];
-            let mut open: Vec<usize> = held.iter().copied().filter(|&id| is_in(id)).collect();
-            for &id in &open {
-                inside[id] = true;
-            }
-            while let Some(id) = open.pop() {
-                for other in beside[id].iter().map(|&other| other as usize) {
-                    if is_in(other) && !std::mem::replace(&mut inside[other], true) {
-                        open.push(other);
-                    }
-                }
-            }
-            inside
+    fn new(field: &Field, beside: &Beside, energies: &[Range], set: &Set) -> Self {
+        let joined = |is_in: &dyn Fn(usize) -> bool| {
+            let mut from = field.mesh.holding(&set.at);
+            from.retain(|&id| is_in(id));
+            flood(beside, from, is_in)
         };
         Self {
-            wide: flood(&|id| energies[id][0] < set.wide),
-            outer: flood(&|id| energies[id][0] < set.below),
-            inner: flood(&|id| energies[id][1] < set.below),
+            wide: joined(&|id| energies[id][0] < set.wide),
+            outer: joined(&|id| energies[id][0] < set.below),
+            inner: joined(&|id| energies[id][1] < set.below),
         }
     }
 }

@@ -66,8 +66,13 @@ pub(super) struct Place {
     r: Expansion,
     length: Expansion,
     by: [Expansion; 2],
-    /// Edges (m), by which the piece is halved.
+    /// Where it lies in its cell, in parts of that one's size.
+    within: [Expansion; 3],
+    /// Half its sizes by s, phi and theta, and its edges (m), by which it is halved.
+    half: [f64; 3],
     edges: [f64; 3],
+    /// Its part of its cell.
+    share: f64,
 }
 
 /// Bounds of an integral of something that is not negative.
@@ -77,16 +82,18 @@ pub(super) type Range = [f64; 2];
 pub(super) const UNKNOWN: Range = [0.0, f64::INFINITY];
 
 impl Ground<'_> {
-    /// Where a piece lies; `None` where it is too large to tell.
-    pub fn place(&self, piece: &Piece, level: u8) -> Option<Place> {
+    /// Where a piece of a cell lies; `None` where it is too large to tell.
+    pub fn place(&self, piece: &Piece, leaf: &Leaf) -> Option<Place> {
         let middle = std::array::from_fn(|i| piece.low[i] + piece.size[i] / 2.0);
         let [s, phi, theta] = self.chart.coordinates(middle);
-        let half = self.halves(piece, level);
+        let (size, whole) = (self.chart.size(leaf.level), leaf.size() as f64);
+        let parts = piece.size.map(|size| size / whole);
+        let half: [f64; 3] = std::array::from_fn(|i| 0.5 * size[i] * parts[i]);
         let s = Expansion::along(s, 0, half[0]);
         let phi = Expansion::along(phi, 1, half[1]);
         let theta = Expansion::along(theta, 2, half[2]);
         let surface = self.wall.over(phi, theta)?;
-        let length = Expansion::constant(self.chart.radius()) - surface.at;
+        let length = Expansion::constant(self.chart.radius) - surface.at;
         let r = surface.at + s * length;
         let (x, y) = (r * phi.cos(), r * phi.sin());
         let axes = [x, y, theta];
@@ -143,6 +150,12 @@ impl Ground<'_> {
             r,
             length,
             by: surface.slopes,
+            within: std::array::from_fn(|i| {
+                let low = (piece.low[i] - leaf.low[i] as f64) / whole;
+                Expansion::along(low + 0.5 * parts[i], i, 0.5 * parts[i])
+            }),
+            half,
+            share: parts.iter().product(),
             edges: [
                 2.0 * length.value * half[0],
                 2.0 * r.value * half[1],
@@ -151,37 +164,13 @@ impl Ground<'_> {
         })
     }
 
-    /// Half the sizes of a piece by s, phi and theta.
-    fn halves(&self, piece: &Piece, level: u8) -> [f64; 3] {
-        let size = self.chart.size(level);
-        let parts = self.parts(piece, level);
-        std::array::from_fn(|i| 0.5 * size[i] * parts[i])
-    }
-
-    /// The sizes of a piece as parts of those of its cell.
-    fn parts(&self, piece: &Piece, level: u8) -> [f64; 3] {
-        let whole = (crate::kinetics::mesh::UNITS >> level) as f64;
-        piece.size.map(|size| size / whole)
-    }
-
-    /// Where a piece of a cell lies in it, in parts of its size.
-    fn within(&self, piece: &Piece, leaf: &Leaf) -> [Expansion; 3] {
-        let parts = self.parts(piece, leaf.level);
-        let whole = leaf.size() as f64;
-        std::array::from_fn(|i| {
-            let low = (piece.low[i] - leaf.low[i] as f64) / whole;
-            Expansion::along(low + 0.5 * parts[i], i, 0.5 * parts[i])
-        })
-    }
-
     /// Bounds of the integral of e^((level - U)/kT) |grad h|^2 over a piece (rad), for a function's
     /// values at the cell's corners.
-    pub fn energy(&self, place: &Place, piece: &Piece, leaf: &Leaf, values: &[f64; 8]) -> Range {
+    pub fn energy(&self, place: &Place, leaf: &Leaf, values: &[f64; 8]) -> Range {
         let sizes = self.chart.size(leaf.level);
-        let by_part = differences(values, &self.within(piece, leaf));
+        let by_part = differences(values, &place.within);
         let [along, around, turning]: [Expansion; 3] =
             std::array::from_fn(|i| by_part[i].widened(JUMP).times(1.0 / sizes[i]));
-        let volume = 8.0 * self.halves(piece, leaf.level).iter().product::<f64>();
         let parts = || {
             let over = place.length.inverse()?;
             let less = (Expansion::constant(1.0) - place.s) * along * over;
@@ -192,16 +181,15 @@ impl Ground<'_> {
                     * (place.length * place.r).root()?.times(1.0 / self.rho),
             ])
         };
-        parts().map_or(UNKNOWN, |parts| place.squares(&parts, 1.0, volume))
+        parts().map_or(UNKNOWN, |parts| place.squares(&parts, 1.0, place.volume()))
     }
 
     /// Bounds of the integral of e^((U - level)/kT) |J|^2 over a piece (1/rad), for the fluxes upwards
     /// through the six sides of its cell.
-    pub fn cost(&self, place: &Place, piece: &Piece, leaf: &Leaf, fluxes: &[f64; 6]) -> Range {
+    pub fn cost(&self, place: &Place, leaf: &Leaf, fluxes: &[f64; 6]) -> Range {
         let sizes = self.chart.size(leaf.level);
-        let [_, v, w] = self.within(piece, leaf);
-        let ends = [leaf.low[0], leaf.low[0] + leaf.size()]
-            .map(|s| self.chart.coordinates([s as f64, 0.0, 0.0])[0]);
+        let [_, v, w] = place.within;
+        let ends = leaf.along(self.chart);
         let [share, density] = self.spread(place.s, ends);
         let between = |axis: usize, at: Expansion| {
             let [lower, upper] = [fluxes[2 * axis], fluxes[2 * axis + 1]];
@@ -210,8 +198,7 @@ impl Ground<'_> {
         let along = between(0, share).times(sizes[0]);
         let around = (between(1, v) * density).times(sizes[1]);
         let turning = (between(2, w) * density).times(sizes[2]);
-        let volume =
-            self.parts(piece, leaf.level).iter().product::<f64>() / sizes.iter().product::<f64>();
+        let volume = place.share / sizes.iter().product::<f64>();
         let parts = || {
             let root = (place.r * place.length).inverse()?.root()?;
             let less = Expansion::constant(1.0) - place.s;
@@ -242,14 +229,13 @@ impl Ground<'_> {
     }
 
     /// Bounds of the integral of e^((level - U)/kT) over a piece (m^2 rad).
-    pub fn load(&self, place: &Place, piece: &Piece, leaf: &Leaf) -> Range {
-        let volume = 8.0 * self.halves(piece, leaf.level).iter().product::<f64>();
+    pub fn load(&self, place: &Place) -> Range {
         match (place.r * place.length).root() {
-            Some(root) => place.squares(&[root], 1.0, volume),
+            Some(root) => place.squares(&[root], 1.0, place.volume()),
             // About the centre.
             None => {
                 let whole = (place.r * place.length).range()[1].max(0.0).sqrt();
-                let [_, upper] = place.squares(&[Expansion::constant(whole)], 1.0, volume);
+                let [_, upper] = place.squares(&[Expansion::constant(whole)], 1.0, place.volume());
                 [0.0, upper]
             }
         }
@@ -263,6 +249,11 @@ impl Place {
         let least = self.value - sway + self.off[0];
         let most = self.value + sway + self.off[1];
         [level - kt * most, level - kt * least]
+    }
+
+    /// By s, phi and theta.
+    fn volume(&self) -> f64 {
+        8.0 * self.half.iter().product::<f64>()
     }
 
     /// Whether rays may have no length: contact may reach to where tiles are free.

@@ -42,7 +42,7 @@ pub(super) fn pieces(
     };
     let lies_below = |at: usize| {
         let piece = part(at);
-        let place = ground.place(&piece, mesh.leaves[piece.cell].level);
+        let place = ground.place(&piece, &mesh.leaves[piece.cell]);
         place.is_some_and(|place| place.energies(ground.kt, ground.level)[1] < below)
     };
     let count = rim.len() * all;
@@ -89,19 +89,12 @@ pub(super) fn pieces(
             }
         }
     }
-    let role = |at: usize| {
-        let load = match inside[at] {
+    let role = |at: usize| Role {
+        load: Some(match inside[at] {
             true => Load::All,
             false => Load::Below(below),
-        };
-        let load = Some(load);
-        (
-            part(at),
-            Role {
-                load,
-                ..Role::default()
-            },
-        )
+        }),
+        ..Role::default()
     };
-    (0..count).map(role).collect()
+    (0..count).map(|at| (part(at), role(at))).collect()
 }

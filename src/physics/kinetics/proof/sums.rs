@@ -73,37 +73,32 @@ pub(super) fn bounded(
         interruption::check();
         let leaf = &mesh.leaves[piece.cell];
         let role = &roles[number].1;
-        let place = ground.place(&piece, leaf.level);
-        let of = |asked: bool, find: &dyn Fn(&Place) -> Range| match asked {
-            true => place.as_ref().map_or(UNKNOWN, find),
-            false => [0.0; 2],
-        };
-        let energy = |place: &Place| match &role.values {
-            Some(values) => ground.energy(place, &piece, leaf, values),
-            None => [0.0; 2],
-        };
-        let cost = |place: &Place| match &role.fluxes {
-            Some(fluxes) => ground.cost(place, &piece, leaf, fluxes),
-            None => [0.0; 2],
-        };
-        let load = |place: &Place| match role.load {
-            Some(Load::All) => ground.load(place, &piece, leaf),
-            Some(Load::Below(limit)) if place.energies(ground.kt, ground.level)[0] < limit => {
+        let place = ground.place(&piece, leaf);
+        let of = |find: &dyn Fn(&Place) -> Range| place.as_ref().map_or(UNKNOWN, find);
+        let load = |asked: Load| {
+            of(&|place| match asked {
+                Load::All => ground.load(place),
                 // That is as near as it comes.
-                [ground.load(place, &piece, leaf)[1]; 2]
-            }
-            _ => [0.0; 2],
+                Load::Below(limit) if place.energies(ground.kt, ground.level)[0] < limit => {
+                    [ground.load(place)[1]; 2]
+                }
+                Load::Below(_) => [0.0; 2],
+            })
         };
-        let around = |place: &Place| ground.load(place, &piece, leaf);
+        let energy = |values: &[f64; 8]| of(&|place| ground.energy(place, leaf, values));
+        let cost = |fluxes: &[f64; 6]| of(&|place| ground.cost(place, leaf, fluxes));
+        let around = role.around.then_some(Load::All);
+        let sums = [
+            role.values.as_ref().map(energy),
+            role.fluxes.as_ref().map(cost),
+            role.load.map(load),
+            around.map(load),
+        ];
         let longest = (0..3).max_by(|a, b| piece.size[*a].total_cmp(&piece.size[*b]));
         Part {
             role: number,
-            sums: [
-                of(role.values.is_some(), &energy),
-                of(role.fluxes.is_some(), &cost),
-                of(role.load.is_some(), &load),
-                of(role.around, &around),
-            ],
+            // What is not asked is nothing.
+            sums: sums.map(Option::unwrap_or_default),
             axis: place.as_ref().map_or(longest.unwrap_or(0), Place::axis),
             piece,
         }

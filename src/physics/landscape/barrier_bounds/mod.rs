@@ -9,12 +9,11 @@ use std::collections::VecDeque;
 use super::catalogue::{Catalogue, LEAST_GAIN};
 use super::minimax::{Bracket, Certifier, Effort, End};
 use super::pathway::{self, Limits};
-use super::results::{Barrier, Pathway, Place, StateKind, highest_point};
+use super::results::{Barrier, Pathway, Place, StateKind, Uncertified, highest_point};
 use crate::budget::{Allowance, Ended};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
 use crate::order::Order;
-use crate::potential::Unbounded;
 use crate::problem::Problem;
 
 pub use schedule::widths;
@@ -59,22 +58,6 @@ impl Claims {
         let is_out_of_the_bond = is_from(StateKind::Bond) && barrier.to == Place::Free;
         self == Self::All || is_out_of_the_bond || is_from(StateKind::Trap)
     }
-}
-
-/// Why barriers have no certified bounds.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
-)]
-pub enum Uncertified {
-    /// None was asked for.
-    #[error("no proof was asked for")]
-    Unasked,
-    /// It took more.
-    #[error("{} before the first bounds", .0.describe())]
-    Ended(Ended),
-    /// None can be.
-    #[error(transparent)]
-    Unbounded(#[from] Unbounded),
 }
 
 /// What certifying took.

@@ -44,9 +44,8 @@ pub struct Catalogue {
 impl Catalogue {
     /// Takes the catalogue of a survey. Minima are left out whose escape barrier is below
     /// `least_depth`, a fraction of the deepest energy.
-    pub fn of_survey(problem: &Problem, survey: &Exploration, least_depth: f64) -> Self {
+    pub fn of_survey(survey: &Exploration, least_depth: f64) -> Self {
         Reader {
-            problem,
             survey,
             least_depth,
         }

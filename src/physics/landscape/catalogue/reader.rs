@@ -8,14 +8,13 @@ use super::Catalogue;
 use crate::configuration::Configuration;
 use crate::landscape::exploration::Exploration;
 use crate::landscape::meeting::{magnet_pairs, touching_faces};
-use crate::landscape::pathway::{self, Lowest};
+use crate::landscape::pathway;
 use crate::landscape::results::{
     Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
 };
 use crate::landscape::transition_network::Cost;
 use crate::order::Order;
 use crate::parallel;
-use crate::problem::Problem;
 
 /// A state this close (m, metric of the space) to the bound configuration is the bound one: the
 /// bond may settle a little beside the configuration in which the faces coincide.
@@ -25,8 +24,7 @@ const BOUND: f64 = 5e-3;
 const TELLABLE: f64 = 1e6;
 
 pub(super) struct Reader<'a> {
-    pub problem: &'a Problem,
-    pub survey: &'a Exploration,
+    pub survey: &'a Exploration<'a>,
     /// Least escape barrier of what is reported, as a fraction of the deepest energy.
     pub least_depth: f64,
 }
@@ -69,11 +67,12 @@ impl Reader<'_> {
 
     fn distance_to_bound(&self, found: usize) -> f64 {
         let distance = |bound| {
-            self.problem
+            self.survey
+                .problem
                 .space
                 .distance(&self.configuration(found), bound)
         };
-        let pair = self.problem.pair.as_ref();
+        let pair = self.survey.problem.pair.as_ref();
         pair.map_or(f64::INFINITY, |pair| distance(&pair.bound))
     }
 
@@ -159,7 +158,7 @@ impl Reader<'_> {
     /// The states of a class. What symmetries keep is the first one's.
     fn states(&self, class: &Class, ids: &Ids, is_bound: bool) -> Vec<State> {
         let first = class[0];
-        let pair = self.problem.pair.as_deref();
+        let pair = self.survey.problem.pair.as_deref();
         let (attracting, repelling) = pair.map_or((0, 0), |pair| {
             magnet_pairs(&pair.fixed, &pair.moving, &self.configuration(first))
         });
@@ -186,8 +185,8 @@ impl Reader<'_> {
     /// The pairs of faces that touch.
     fn faces(&self, found: usize) -> Vec<(usize, usize)> {
         let q = self.configuration(found);
-        let pair = self.problem.pair.as_deref();
-        let pair = pair.zip(self.problem.contact.as_ref());
+        let pair = self.survey.problem.pair.as_deref();
+        let pair = pair.zip(self.survey.problem.contact.as_ref());
         pair.map(|(pair, contact)| touching_faces(contact, &pair.fixed, &pair.moving, &q))
             .unwrap_or_default()
     }
@@ -196,15 +195,14 @@ impl Reader<'_> {
     fn barrier_to(&self, found: usize, goals: &HashSet<usize>, ids: &Ids) -> Option<Barrier> {
         let node = self.node(found);
         let own = self.energy(found).abs();
-        let depth = if self.problem.is_dear() {
-            own.max(self.problem.depth())
+        let depth = if self.survey.problem.is_dear() {
+            own.max(self.survey.problem.depth())
         } else {
             own
         };
         let is_reported = |goal: &usize| *goal == self.survey.free || ids.contains_key(goal);
         let reported: HashSet<usize> = goals.iter().copied().filter(is_reported).collect();
-        let Lowest { end, pathway } = pathway::lowest(
-            self.problem,
+        let (end, pathway) = pathway::lowest(
             &self.survey.network,
             node,
             [goals, &reported],
@@ -295,14 +293,14 @@ impl Reader<'_> {
         };
         // From where less is around.
         let (cost, route) = if from.0 == Place::Free {
-            network.cheapest_into(self.problem, from.1, to.1, cost)?
+            network.cheapest_into(from.1, to.1, cost)?
         } else {
             let goals = HashSet::from([to.1]);
-            let (_, total, route) = network.cheapest(self.problem, from.1, &goals, cost)?;
+            let (_, total, route) = network.cheapest(from.1, &goals, cost)?;
             (total, route)
         };
         let depth = self.energy(0).abs();
-        let pathway = pathway::along(self.problem, network, &route, None, 2e-3 * depth);
+        let pathway = pathway::along(network, &route, None, 2e-3 * depth);
         (!pathway.is_empty()).then_some(Alternative {
             from: from.0,
             to: to.0,

@@ -2,13 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::{Exploration, ExplorationSettings};
+use super::Exploration;
 use crate::configuration::Configuration;
-use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Outcome, approach, descend_among};
 use crate::landscape::stationary::Stationary;
 use crate::parallel;
-use crate::problem::Problem;
+use crate::roadmap::Point;
 
 /// Ways that are followed into one state.
 const FOLLOWED: usize = 3;
@@ -19,41 +18,36 @@ const SAME: f64 = 1e-4;
 /// So close (m, metric of the space) to the bound configuration a state is the bond.
 const BOUND: f64 = 5e-3;
 
-impl Exploration {
+impl Exploration<'_> {
     /// Adds the minima that far starts are known to come to rest in, below an energy (J), and that
     /// are no states yet.
-    pub fn add_rests(
-        &mut self,
-        problem: &Problem,
-        ends: &[Option<Configuration>],
-        below: f64,
-        settings: &ExplorationSettings,
-    ) {
-        let is_new = |end: &&Configuration| self.state_at(problem, end, SAME).is_none();
+    pub fn add_rests(&mut self, ends: &[Option<Configuration>], below: f64) {
+        let is_new = |end: &&Configuration| self.state_at(end, SAME).is_none();
         let new: Vec<&Configuration> = ends.iter().flatten().filter(is_new).collect();
         let known = self.known();
         let found: Vec<Stationary> = parallel::flat_map(&new, |end| {
-            match descend_among(problem, end, &known).outcome {
+            match descend_among(self.problem, end, &known).outcome {
                 Outcome::Minimum(found) if found.point.energy < below => Some(*found),
                 _ => None,
             }
         });
         if !found.is_empty() {
-            self.add(problem, &found, settings);
+            self.add(&found);
         }
     }
 
     /// Adds the descents of some far starts to the network, each given with where it is known to
     /// end: the first ones of those that end in a state.
-    pub fn add_arrivals(&mut self, problem: &Problem, far: &[(Configuration, Configuration)]) {
+    pub fn add_arrivals(&mut self, far: &[(Configuration, Configuration)]) {
+        let problem = self.problem;
         let mut followed: HashMap<usize, usize> = HashMap::new();
         let wanted = |(_, end): &&(Configuration, Configuration)| {
-            let Some(state) = self.state_at(problem, end, SAME) else {
+            let Some(state) = self.state_at(end, SAME) else {
                 return false;
             };
             let count = followed.entry(state).or_default();
             *count += 1;
-            *count <= self.most_followed(problem, state)
+            *count <= self.most_followed(state)
         };
         let starts: Vec<Configuration> =
             far.iter().filter(wanted).map(|(start, _)| *start).collect();
@@ -67,18 +61,19 @@ impl Exploration {
                 continue;
             };
             descent.way.drain(..last);
-            let Some(end) = self.arrive(problem, &descent) else {
+            let Some(end) = self.arrive(&descent) else {
                 continue;
             };
             let first = descent.way[0];
             let node = self.network.add_node(Some((first.q, first.energy)));
             self.network.add_same(node, self.free, first.energy);
-            self.network.add_way(problem, node, end, descent.way);
+            self.network.add_way(node, end, descent.way);
         }
-        self.network.span(problem);
+        self.network.span();
     }
 
-    fn most_followed(&self, problem: &Problem, state: usize) -> usize {
+    fn most_followed(&self, state: usize) -> usize {
+        let problem = self.problem;
         let q = self.states[state].minimum.point.q;
         let pair = problem.pair.as_ref();
         let is_bond = pair.is_some_and(|pair| problem.space.distance(&q, &pair.bound) < BOUND);

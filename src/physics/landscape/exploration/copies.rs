@@ -11,7 +11,7 @@ use crate::roadmap::EdgeCosts;
 /// A way that is no lower than this share of its energy is as low as another one.
 const AS_LOW: f64 = 1e-9;
 
-impl Exploration {
+impl Exploration<'_> {
     /// Of each class of states the lowest merge with another state of the class, and the lowest with
     /// any other or `free`, ascending.
     pub(super) fn lowest_merges(&self) -> Vec<Merge> {
@@ -20,7 +20,8 @@ impl Exploration {
 
     /// Leads out of all states of a class as low as out of the one from which the lowest way is known:
     /// along its images.
-    pub(super) fn share(&mut self, problem: &Problem) {
+    pub(super) fn share(&mut self) {
+        let problem = self.problem;
         if problem.symmetries.len() < 2 {
             return;
         }
@@ -46,14 +47,14 @@ impl Exploration {
         for (merge, peak, route) in lowest {
             let is_sideways = kind(&class_of, &merge).1;
             for symmetry in &problem.symmetries[1..] {
-                let copy = self.image_node(problem, merge.upper, symmetry);
+                let copy = self.image_node(merge.upper, symmetry);
                 let is_as_low = |own: &f64| *own <= peak + AS_LOW * peak.abs();
                 if !own.get(&(copy, is_sideways)).is_some_and(is_as_low) {
-                    self.add_image(problem, copy, &route, symmetry);
+                    self.add_image(copy, &route, symmetry);
                 }
             }
         }
-        self.network.span(problem);
+        self.network.span();
     }
 
     /// The states, by their places in the list, of which the others are images.
@@ -65,16 +66,11 @@ impl Exploration {
     }
 
     /// Adds a straight motion between the nodes of two states with its images.
-    pub(super) fn add_motion_and_images(
-        &mut self,
-        problem: &Problem,
-        nodes: [usize; 2],
-        costs: EdgeCosts,
-    ) {
+    pub(super) fn add_motion_and_images(&mut self, nodes: [usize; 2], costs: EdgeCosts) {
         let link = self.network.add_motion(nodes[0], nodes[1], costs);
         let mut known = HashSet::from([nodes]);
-        for symmetry in &problem.symmetries {
-            let [from, to] = nodes.map(|node| self.image_node(problem, node, symmetry));
+        for symmetry in &self.problem.symmetries {
+            let [from, to] = nodes.map(|node| self.image_node(node, symmetry));
             if !known.contains(&[to, from]) && known.insert([from, to]) {
                 self.network.add_image(link, [from, to], symmetry);
             }
@@ -88,17 +84,11 @@ impl Exploration {
     }
 
     /// Adds the image of a route, from the image of its first node.
-    pub(super) fn add_image(
-        &mut self,
-        problem: &Problem,
-        mut here: usize,
-        route: &Route,
-        symmetry: &Symmetry,
-    ) {
+    pub(super) fn add_image(&mut self, mut here: usize, route: &Route, symmetry: &Symmetry) {
         for &(number, forwards) in route {
             let link = &self.network.links[number];
             let next = if forwards { link.to } else { link.from };
-            let next = self.image_node(problem, next as usize, symmetry);
+            let next = self.image_node(next as usize, symmetry);
             let ends = if forwards { [here, next] } else { [next, here] };
             self.network.add_image(number, ends, symmetry);
             here = next;
@@ -106,18 +96,13 @@ impl Exploration {
     }
 
     /// The image of a node: that of a state is a state's, others are new.
-    pub(super) fn image_node(
-        &mut self,
-        problem: &Problem,
-        node: usize,
-        symmetry: &Symmetry,
-    ) -> usize {
+    pub(super) fn image_node(&mut self, node: usize, symmetry: &Symmetry) -> usize {
         let Some((q, energy)) = self.network.nodes[node] else {
             return node;
         };
         let q = symmetry.apply(&q);
         let is_state = self.states.iter().any(|state| state.node == node);
-        let state = is_state.then(|| self.state_at(problem, &q, SAME));
+        let state = is_state.then(|| self.state_at(&q, SAME));
         match state.flatten() {
             Some(state) => self.states[state].node,
             None => self.network.add_node(Some((q, energy))),

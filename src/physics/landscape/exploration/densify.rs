@@ -13,20 +13,21 @@ use crate::landscape::constrained;
 use crate::landscape::transition_network::Merge;
 use crate::parallel;
 use crate::problem::Problem;
-use crate::roadmap::{Milestone, edge};
+use crate::roadmap::{Point, edge};
 
-impl Exploration {
+impl Exploration<'_> {
     /// Joins a state's node to the network by milestones around it, where none of its copies is
     /// joined. Where energies are dear, of very many magnets, straight motions to other states and to
     /// `free` have to do.
-    pub(super) fn join(&mut self, problem: &Problem, node: usize, settings: &ExplorationSettings) {
+    pub(super) fn join(&mut self, node: usize) {
+        let settings = self.settings;
         let Some((centre, energy)) = self.network.nodes[node] else {
             return;
         };
         let class = self.states.iter().find(|state| state.node == node);
         let class = class.map(|state| state.class);
         let mut copies = self.states.iter().filter(|copy| Some(copy.class) == class);
-        if problem.is_dear() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
+        if self.problem.is_dear() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
             return;
         }
         for radius in [1e-3, 1e-2, 3e-2] {
@@ -36,28 +37,22 @@ impl Exploration {
                 highest: energy.abs() + settings.edge.tolerance.absolute,
                 number: node as u64,
             };
-            self.densify_at(problem, &place, settings);
+            self.densify_at(&place);
         }
     }
 
     /// Adds milestones around the meeting places that are still no transition states, and notes
     /// how far that has moved them.
-    pub(super) fn densify(
-        &mut self,
-        problem: &Problem,
-        open: &[Merge],
-        round: u64,
-        settings: &ExplorationSettings,
-    ) {
+    pub(super) fn densify(&mut self, open: &[Merge], round: u64) {
         let before: HashMap<usize, Merge> =
             self.merges().into_iter().map(|m| (m.upper, m)).collect();
         let still: Vec<Merge> = open
             .iter()
             .filter_map(|merge| before.get(&merge.upper).copied())
-            .filter(|merge| !self.is_settled(merge, settings))
+            .filter(|merge| !self.is_settled(merge))
             .collect();
         for merge in &still {
-            self.densify_around(problem, merge, round, settings);
+            self.densify_around(merge, round);
         }
         let after: HashMap<usize, Merge> =
             self.merges().into_iter().map(|m| (m.upper, m)).collect();
@@ -69,31 +64,27 @@ impl Exploration {
         }
     }
 
-    fn densify_around(
-        &mut self,
-        problem: &Problem,
-        merge: &Merge,
-        round: u64,
-        settings: &ExplorationSettings,
-    ) {
+    fn densify_around(&mut self, merge: &Merge, round: u64) {
         let Some((centre, along)) = self.meeting_place(merge.link) else {
             return;
         };
         let place = Place {
             centre,
-            radius: problem.space.length(along).clamp(2e-3, 0.03),
+            radius: self.problem.space.length(along).clamp(2e-3, 0.03),
             highest: self.network.costs(merge.link).peak,
             number: (round << 32) + merge.link as u64,
         };
-        self.densify_at(problem, &place, settings);
+        self.densify_at(&place);
     }
 
-    fn densify_at(&mut self, problem: &Problem, place: &Place, settings: &ExplorationSettings) {
-        let added = added_milestones(problem, place, settings);
+    fn densify_at(&mut self, place: &Place) {
+        let settings = self.settings;
+        let problem = self.problem;
+        let added = added_milestones(problem, place, &self.settings);
         let (centre, radius) = (place.centre, place.radius);
         // Old nodes around the place, then the new ones; links among them all that involve a new
         // one.
-        let mut around: Vec<(usize, Milestone)> = self
+        let mut around: Vec<(usize, Point)> = self
             .network
             .nodes
             .iter()
@@ -101,18 +92,16 @@ impl Exploration {
             .filter_map(|(i, node)| {
                 let (q, _) = (*node)?;
                 (problem.space.distance(&q, &centre) <= 2.0 * radius)
-                    .then(|| (i, Milestone::new(problem, q)))
+                    .then(|| (i, Point::new(problem, q)))
             })
             .collect();
         let old = around.len();
         for milestone in added {
-            let node = self
-                .network
-                .add_node(Some((milestone.configuration, milestone.energy)));
+            let node = self.network.add_node(Some((milestone.q, milestone.energy)));
             around.push((node, milestone));
         }
         let pairs = pairs_with_new(problem, &around, old, 12);
-        let milestones: Vec<Milestone> = around.iter().map(|a| a.1).collect();
+        let milestones: Vec<Point> = around.iter().map(|a| a.1).collect();
         for found in edge::edges(problem, &milestones, &pairs, &settings.edge) {
             let [from, to] = [found.from, found.to].map(|end| around[end as usize].0);
             self.network.add_motion(from, to, found.costs);
@@ -136,7 +125,7 @@ fn added_milestones(
     problem: &Problem,
     place: &Place,
     settings: &ExplorationSettings,
-) -> Vec<Milestone> {
+) -> Vec<Point> {
     parallel::flat_map(0..settings.added_milestones, |i| {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed ^ place.number.rotate_left(16));
         rng.set_stream((1 << 32) + i as u64);
@@ -144,7 +133,7 @@ fn added_milestones(
         let step = Vector3::new(draw(), draw(), draw() / problem.space.rho) * place.radius;
         let aim = place.centre.moved(step);
         let q = constrained::settle(problem, &aim, place.radius)?;
-        let milestone = Milestone::new(problem, q);
+        let milestone = Point::new(problem, q);
         (milestone.energy < place.highest).then_some(milestone)
     })
 }
@@ -152,14 +141,14 @@ fn added_milestones(
 /// For each new configuration (from `old` on) its `k` nearest among all.
 fn pairs_with_new(
     problem: &Problem,
-    around: &[(usize, Milestone)],
+    around: &[(usize, Point)],
     old: usize,
     k: usize,
 ) -> Vec<(u32, u32)> {
     let nearest = |i: usize| {
-        let here = &around[i].1.configuration;
+        let here = &around[i].1.q;
         let others = (0..around.len()).filter(|&j| j != i);
-        let distance = |j: usize| problem.space.distance(here, &around[j].1.configuration);
+        let distance = |j: usize| problem.space.distance(here, &around[j].1.q);
         let mut near: Vec<(OrderedFloat<f64>, usize)> =
             others.map(|j| (OrderedFloat(distance(j)), j)).collect();
         if k < near.len() {

@@ -3,13 +3,13 @@
 
 use ordered_float::OrderedFloat;
 
-use super::{Exploration, ExplorationSettings, siblings, slides};
+use super::{Exploration, siblings, slides};
 use crate::configuration::Configuration;
-use crate::landscape::constrained::Point;
 use crate::landscape::minimum::{Descent, descend_among};
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;
+use crate::roadmap::Point;
 
 /// No minimum is looked for closer than this (m) to a known one.
 const KNOWN: f64 = 1e-4;
@@ -22,15 +22,10 @@ const HELD: f64 = 1e-3;
 /// Of very many magnets no meeting is looked at so close to a lower one, in pitches.
 const AROUND: f64 = 0.75;
 
-impl Exploration {
+impl Exploration<'_> {
     /// Looks for minima where those known so far, but for the first few, would be on other pairs of
     /// faces or in the mirror, until there are no more.
-    pub(super) fn find_siblings(
-        &mut self,
-        problem: &Problem,
-        mut known: usize,
-        settings: &ExplorationSettings,
-    ) {
+    pub(super) fn find_siblings(&mut self, mut known: usize) {
         while known < self.states.len() {
             let fresh = self.states[known..].iter().map(|state| {
                 let Point { q, energy, .. } = state.minimum.point;
@@ -38,13 +33,14 @@ impl Exploration {
             });
             let fresh: Vec<(Configuration, f64)> = fresh.collect();
             known = self.states.len();
-            self.look_near(problem, siblings::siblings(problem, &fresh), settings);
+            self.look_near(siblings::siblings(self.problem, &fresh));
         }
     }
 
     /// Looks for minima where faces slide along each other, and where the outlines lie on each other
     /// along much of their length, on faces or elsewhere.
-    pub(super) fn find_meetings(&mut self, problem: &Problem, settings: &ExplorationSettings) {
+    pub(super) fn find_meetings(&mut self) {
+        let problem = self.problem;
         let known = self.states.len();
         let held = -HELD * problem.depth();
         let slid = slides::slid_meetings(problem);
@@ -56,31 +52,29 @@ impl Exploration {
         });
         if problem.is_dear() {
             places = lowest_around(problem, places, AROUND * slides::pitch(problem));
-            let most = settings.most_kinds.map(|kinds| MEETINGS_A_KIND * kinds);
+            let most = self
+                .settings
+                .most_kinds
+                .map(|kinds| MEETINGS_A_KIND * kinds);
             places.truncate(most.unwrap_or(usize::MAX));
         }
         let places = places.into_iter().map(|(_, q)| q).collect();
-        self.look_near(problem, places, settings);
-        self.find_siblings(problem, known, settings);
+        self.look_near(places);
+        self.find_siblings(known);
     }
 
     /// Follows the energy down from places that are not near known minima.
-    fn look_near(
-        &mut self,
-        problem: &Problem,
-        places: Vec<Configuration>,
-        settings: &ExplorationSettings,
-    ) {
+    fn look_near(&mut self, places: Vec<Configuration>) {
         let places: Vec<Configuration> = places
             .into_iter()
-            .filter(|q| self.state_at(problem, q, KNOWN).is_none())
+            .filter(|q| self.state_at(q, KNOWN).is_none())
             .collect();
         let verified = self.known();
         let descents: Vec<Descent> =
-            parallel::map(&places, |q| descend_among(problem, q, &verified));
+            parallel::map(&places, |q| descend_among(self.problem, q, &verified));
         for descent in &descents {
-            if let Some(end) = self.arrive(problem, descent) {
-                self.join(problem, end, settings);
+            if let Some(end) = self.arrive(descent) {
+                self.join(end);
             }
         }
     }

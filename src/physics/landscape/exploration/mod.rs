@@ -86,10 +86,12 @@ pub struct LeftOut {
 }
 
 /// What a survey found.
-#[derive(Debug)]
-pub struct Exploration {
+pub struct Exploration<'a> {
+    /// Whose landscape it is.
+    pub problem: &'a Problem,
+    settings: ExplorationSettings,
     /// All motions that were found free, with their costs.
-    pub network: Network,
+    pub network: Network<'a>,
     /// The minima.
     pub states: Vec<FoundState>,
     /// The node that stands for `free`.
@@ -98,92 +100,71 @@ pub struct Exploration {
     pub transition_states: Vec<(Stationary, usize)>,
     /// Meeting places that are not transition states: link and the last change of its energy (J).
     pub unpolished: HashMap<usize, f64>,
-    /// Rounds that were needed.
-    pub rounds: usize,
     /// Kinds of states that were found and not looked at closely, and the energy (J) of the deepest.
     pub left_out: Option<LeftOut>,
 }
 
-impl Exploration {
-    /// Surveys the landscape around a roadmap. `guesses` are configurations that may lie near
-    /// minima, besides the problem's flush meetings.
-    pub fn new(
-        problem: &Problem,
-        roadmap: Roadmap,
-        guesses: &[Configuration],
-        settings: &ExplorationSettings,
-    ) -> Self {
-        let mut survey = Self::of_roadmap(problem, roadmap, &settings.edge);
-        survey.explore(problem, guesses, settings);
-        survey
-    }
-
+impl<'a> Exploration<'a> {
     /// Finds states, transition states and ways from the roadmap, and from guesses besides.
-    pub fn explore(
-        &mut self,
-        problem: &Problem,
-        guesses: &[Configuration],
-        settings: &ExplorationSettings,
-    ) {
+    pub fn explore(&mut self, guesses: &[Configuration]) {
+        let problem = self.problem;
         // Every configuration is as low as every other: none is a state.
         if problem.is_inert() {
-            self.network.span(problem);
+            self.network.span();
             return;
         }
         let guesses = [problem.flush_meetings(), guesses].concat();
-        self.find_states(problem, &guesses, settings);
-        self.find_siblings(problem, 0, settings);
-        self.find_meetings(problem, settings);
-        if let Some(most) = settings.most_kinds {
+        self.find_states(&guesses);
+        self.find_siblings(0);
+        self.find_meetings();
+        if let Some(most) = self.settings.most_kinds {
             self.keep_deepest(most);
         }
-        self.settle(problem, 0, settings);
+        self.settle(0);
     }
 
     /// Adds minima that were found otherwise, and how they are joined to the others.
-    pub fn add(
-        &mut self,
-        problem: &Problem,
-        minima: &[Stationary],
-        settings: &ExplorationSettings,
-    ) {
+    pub fn add(&mut self, minima: &[Stationary]) {
         let fresh = self.states.len();
         for minimum in minima {
-            let node = self.state_node(problem, minimum);
-            self.join(problem, node, settings);
+            let node = self.state_node(minimum);
+            self.join(node);
         }
-        self.settle(problem, fresh, settings);
+        self.settle(fresh);
     }
 
     /// Looks more closely, in rounds, at where basins meet. States from `fresh` on are new.
-    fn settle(&mut self, problem: &Problem, fresh: usize, settings: &ExplorationSettings) {
-        self.join_neighbours(problem, fresh, settings);
-        self.withdraw(problem, fresh, settings);
-        self.network.span(problem);
+    fn settle(&mut self, fresh: usize) {
+        self.join_neighbours(fresh);
+        self.withdraw(fresh);
+        self.network.span();
         let mut tried = HashSet::new();
-        for round in 0..settings.most_rounds {
-            self.rounds = round;
+        for round in 0..self.settings.most_rounds {
             // A transition state that is found from one copy only is found for all.
-            let merges = if problem.is_dear() {
+            let merges = if self.problem.is_dear() {
                 self.lowest_merges()
             } else {
                 self.merges()
             };
-            let places = self.unsettled(merges, settings);
-            self.polish(problem, &places, &mut tried);
-            let open = self.unsettled(self.lowest_merges(), settings);
+            let places = self.unsettled(merges);
+            self.polish(&places, &mut tried);
+            let open = self.unsettled(self.lowest_merges());
             if open.is_empty() {
                 break;
             }
-            self.densify(problem, &open, round as u64, settings);
-            self.network.span(problem);
+            self.densify(&open, round as u64);
+            self.network.span();
         }
-        self.share(problem);
+        self.share();
     }
 
     /// The roadmap as it is, nothing looked at more closely yet.
-    pub fn of_roadmap(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
-        let mut network = Network::new(problem, roadmap, settings);
+    pub fn of_roadmap(
+        problem: &'a Problem,
+        roadmap: Roadmap,
+        settings: &ExplorationSettings,
+    ) -> Self {
+        let mut network = Network::new(problem, roadmap, &settings.edge);
         let free = network.add_node(None);
         for node in 0..free {
             let far = network.nodes[node].filter(|known| problem.space.is_far(&known.0));
@@ -192,24 +173,21 @@ impl Exploration {
             }
         }
         Self {
+            problem,
+            settings: *settings,
             network,
             states: Vec::new(),
             free,
             transition_states: Vec::new(),
             unpolished: HashMap::new(),
-            rounds: 0,
             left_out: None,
         }
     }
 
     /// Follows the energy down from the guesses and from every milestone that has no lower
     /// neighbour.
-    fn find_states(
-        &mut self,
-        problem: &Problem,
-        guesses: &[Configuration],
-        settings: &ExplorationSettings,
-    ) {
+    fn find_states(&mut self, guesses: &[Configuration]) {
+        let problem = self.problem;
         let nodes = self.network.local_minima();
         let mut starts: Vec<(Option<usize>, Configuration)> =
             guesses.iter().map(|q| (None, *q)).collect();
@@ -224,13 +202,13 @@ impl Exploration {
             let descents: Vec<Descent> =
                 parallel::map(some, |(_, q)| descend_among(problem, q, &known));
             for ((node, _), descent) in some.iter().zip(descents) {
-                let end = self.arrive(problem, &descent);
+                let end = self.arrive(&descent);
                 match (*node, end) {
                     (Some(node), Some(end)) => {
-                        self.network.add_way(problem, node, end, descent.way);
+                        self.network.add_way(node, end, descent.way);
                     }
                     // A guess is not in the network yet.
-                    (None, Some(end)) => self.join(problem, end, settings),
+                    (None, Some(end)) => self.join(end),
                     _ => {}
                 }
             }
@@ -269,9 +247,9 @@ impl Exploration {
     }
 
     /// The node in which a descent ended, made if need be.
-    pub fn arrive(&mut self, problem: &Problem, descent: &Descent) -> Option<usize> {
+    pub fn arrive(&mut self, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
-            Outcome::Minimum(minimum) => Some(self.state_node(problem, minimum)),
+            Outcome::Minimum(minimum) => Some(self.state_node(minimum)),
             Outcome::Free => {
                 let last = descent.way.last()?;
                 let node = self.network.add_node(Some((last.q, last.energy)));
@@ -283,9 +261,10 @@ impl Exploration {
     }
 
     /// The node of a minimum. One that is new becomes a state with all its images.
-    fn state_node(&mut self, problem: &Problem, minimum: &Stationary) -> usize {
+    fn state_node(&mut self, minimum: &Stationary) -> usize {
+        let problem = self.problem;
         let q = minimum.point.q;
-        if let Some(known) = self.state_at(problem, &q, SAME) {
+        if let Some(known) = self.state_at(&q, SAME) {
             return self.states[known].node;
         }
         let class = self.states.len();
@@ -304,8 +283,8 @@ impl Exploration {
     }
 
     /// The state within `tolerance` (m, metric of the space) of a configuration.
-    pub fn state_at(&self, problem: &Problem, q: &Configuration, tolerance: f64) -> Option<usize> {
-        let distance = |s: &FoundState| problem.space.distance(&s.minimum.point.q, q);
+    pub fn state_at(&self, q: &Configuration, tolerance: f64) -> Option<usize> {
+        let distance = |s: &FoundState| self.problem.space.distance(&s.minimum.point.q, q);
         (0..self.states.len())
             .map(|i| (i, distance(&self.states[i])))
             .filter(|(_, d)| *d <= tolerance)
@@ -324,17 +303,17 @@ impl Exploration {
         self.network.merges(&labelled)
     }
 
-    fn unsettled(&self, mut merges: Vec<Merge>, settings: &ExplorationSettings) -> Vec<Merge> {
-        merges.retain(|merge| !self.is_settled(merge, settings));
+    fn unsettled(&self, mut merges: Vec<Merge>) -> Vec<Merge> {
+        merges.retain(|merge| !self.is_settled(merge));
         merges
     }
 
-    fn is_settled(&self, merge: &Merge, settings: &ExplorationSettings) -> bool {
+    fn is_settled(&self, merge: &Merge) -> bool {
         if self.transition_states.iter().any(|(_, l)| *l == merge.link) {
             return true;
         }
         let bottom = self.network.nodes[merge.upper].map_or(0.0, |n| n.1);
-        let allowed = settings.settled * (self.network.costs(merge.link).peak - bottom);
+        let allowed = self.settings.settled * (self.network.costs(merge.link).peak - bottom);
         self.unpolished
             .get(&merge.link)
             .is_some_and(|moved| moved.abs() <= allowed)

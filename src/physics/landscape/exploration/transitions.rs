@@ -7,36 +7,37 @@ use nalgebra::Vector3;
 use super::copies::distinct;
 use super::{Exploration, SAME};
 use crate::configuration::Configuration;
-use crate::landscape::constrained::{self, Point};
+use crate::landscape::constrained;
 use crate::landscape::minimum::{Descent, Known, descend_among};
 use crate::landscape::stationary::{self, Stationary};
-use crate::landscape::transition_network::{Merge, Way};
+use crate::landscape::transition_network::Merge;
 use crate::parallel;
 use crate::problem::{Problem, Symmetry};
+use crate::roadmap::Point;
 
 /// How far (m, mass metric) from a transition state its descents start.
 const OFF_SADDLE: f64 = 2e-4;
 
-impl Exploration {
+impl Exploration<'_> {
     /// Looks for the transition states of meeting places and adds those found, with their
     /// symmetric images.
-    pub(super) fn polish(&mut self, problem: &Problem, open: &[Merge], tried: &mut HashSet<usize>) {
+    pub(super) fn polish(&mut self, open: &[Merge], tried: &mut HashSet<usize>) {
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
-        self.add_transition_states_near(problem, &places, &problem.symmetries);
+        self.add_transition_states_near(&places, &self.problem.symmetries);
     }
 
     /// Looks for the transition states near some places, each given with the direction in which it
     /// is to be passed, and adds those found, with what the symmetries make of them.
     pub fn add_transition_states_near(
         &mut self,
-        problem: &Problem,
         places: &[(Configuration, Vector3<f64>)],
         symmetries: &[Symmetry],
     ) {
+        let problem = self.problem;
         let found = parallel::flat_map(places, |(q, along)| {
             stationary::transition_state(problem, q, along)
                 .filter(|found| problem.is_free(&found.point.q))
@@ -61,18 +62,13 @@ impl Exploration {
             };
             for symmetry in distinct(problem, symmetries, &saddle.point.q) {
                 let sides = [&first, &second].map(|side| side.image(symmetry));
-                self.add_transition_state(problem, saddle.image(symmetry), sides);
+                self.add_transition_state(saddle.image(symmetry), sides);
             }
         }
     }
 
-    fn add_transition_state(
-        &mut self,
-        problem: &Problem,
-        saddle: Stationary,
-        [first, second]: [Descent; 2],
-    ) {
-        let ends = [&first, &second].map(|side| self.arrive(problem, side));
+    fn add_transition_state(&mut self, saddle: Stationary, [first, second]: [Descent; 2]) {
+        let ends = [&first, &second].map(|side| self.arrive(side));
         let [Some(from), Some(to)] = ends else {
             return;
         };
@@ -80,7 +76,7 @@ impl Exploration {
         way.reverse();
         way.push(saddle.point);
         way.extend(second.way);
-        let link = self.network.add_way(problem, from, to, way);
+        let link = self.network.add_way(from, to, way);
         self.transition_states.push((saddle, link));
     }
 
@@ -88,13 +84,12 @@ impl Exploration {
     pub(super) fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
         let q = self.network.peak_configuration(number)?;
         let along = match self.network.way(number) {
-            Way::Same => return None,
-            Way::Straight => {
+            Some(points) => points.first()?.q.step_to(&points.last()?.q),
+            None => {
                 let link = &self.network.links[number];
                 let [a, b] = [link.from, link.to].map(|node| self.network.nodes[node as usize]);
                 a?.0.step_to(&b?.0)
             }
-            Way::Points(points) => points.first()?.q.step_to(&points.last()?.q),
         };
         Some((q, along))
     }

@@ -7,12 +7,12 @@ use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
 use super::copies::distinct;
-use super::{Exploration, ExplorationSettings, FoundState};
+use super::{Exploration, FoundState};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::constrained;
 use crate::parallel;
 use crate::problem::Problem;
-use crate::roadmap::{EdgeCosts, Milestone, edge};
+use crate::roadmap::{EdgeCosts, Point, edge};
 
 /// Straight ways lead from a state to so many others no farther away than this (m, metric of the
 /// space).
@@ -23,15 +23,11 @@ const MOST_MILESTONES: usize = 6;
 /// Contacts within this distance (m) count as closed.
 const CLOSED: f64 = 1e-6;
 
-impl Exploration {
+impl Exploration<'_> {
     /// Joins states, those from `fresh` on and others, to those closest to them where a straight motion
     /// is free: a passage without play beside a state may lead on to a lower one.
-    pub(super) fn join_neighbours(
-        &mut self,
-        problem: &Problem,
-        fresh: usize,
-        settings: &ExplorationSettings,
-    ) {
+    pub(super) fn join_neighbours(&mut self, fresh: usize) {
+        let problem = self.problem;
         let at = |state: usize| self.states[state].minimum.point.q;
         let pairs: BTreeSet<[usize; 2]> = self
             .firsts()
@@ -52,26 +48,22 @@ impl Exploration {
         let pairs: Vec<[usize; 2]> = pairs.into_iter().collect();
         let found: Vec<([usize; 2], EdgeCosts)> = parallel::flat_map(&pairs, |&pair| {
             let [from, to] = pair.map(at);
-            let ends = [from, to].map(|q| Milestone::new(problem, q));
-            let weighed = || edge::costs(problem, ends.each_ref(), &settings.edge);
+            let ends = [from, to].map(|q| Point::new(problem, q));
+            let weighed = || edge::costs(problem, ends.each_ref(), &self.settings.edge);
             let is_free = problem.motion_is_free(&from, &to);
             is_free.then(|| (pair, weighed()))
         });
         for (pair, costs) in found {
             let nodes = pair.map(|state| self.states[state].node);
-            self.add_motion_and_images(problem, nodes, costs);
+            self.add_motion_and_images(nodes, costs);
         }
     }
 
     /// Joins states to `free` by straight motions away from what they touch, where nothing else
     /// does; of very many magnets, which nothing joined to milestones, all from `fresh` on. Shapes
     /// that fit without play leave a tile a single direction, which sampled milestones cannot meet.
-    pub(super) fn withdraw(
-        &mut self,
-        problem: &Problem,
-        fresh: usize,
-        settings: &ExplorationSettings,
-    ) {
+    pub(super) fn withdraw(&mut self, fresh: usize) {
+        let problem = self.problem;
         let joined = self.network.joined_to(self.free);
         let is_open =
             |state: &&FoundState| problem.is_dear() && state.class >= fresh || !joined[state.node];
@@ -81,9 +73,9 @@ impl Exploration {
             .filter(is_open)
             .map(|state| state.class)
             .collect();
-        let ways: Vec<(usize, Vec<(Milestone, EdgeCosts)>)> =
+        let ways: Vec<(usize, Vec<(Point, EdgeCosts)>)> =
             parallel::map(&Vec::from_iter(open), |&first| {
-                (first, self.ways_out(problem, first, settings))
+                (first, self.ways_out(first))
             });
         let known = self.network.nodes.len();
         for (first, ways) in ways {
@@ -91,22 +83,23 @@ impl Exploration {
             let here = self.states[first].minimum.point.q;
             let copies = distinct(problem, &problem.symmetries, &here);
             for (far, costs) in ways {
-                let end = self.network.add_node(Some((far.configuration, far.energy)));
+                let end = self.network.add_node(Some((far.q, far.energy)));
                 let out = self.network.add_motion(node, end, costs);
                 let same = self.network.add_same(end, self.free, far.energy);
                 let route = vec![(out, true), (same, true)];
                 for symmetry in &copies[1..] {
-                    let copy = self.image_node(problem, node, symmetry);
-                    self.add_image(problem, copy, &route, symmetry);
+                    let copy = self.image_node(node, symmetry);
+                    self.add_image(copy, &route, symmetry);
                 }
             }
         }
-        self.join_to_milestones(problem, known);
+        self.join_to_milestones(known);
     }
 
     /// Joins nodes, those from `fresh` on, to the milestones nearest to them: from where one state is
     /// withdrawn to the way to another.
-    fn join_to_milestones(&mut self, problem: &Problem, fresh: usize) {
+    fn join_to_milestones(&mut self, fresh: usize) {
+        let problem = self.problem;
         let at = |node: usize| self.network.nodes[node].map(|known| known.0);
         let nearest = |here: Configuration| {
             let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
@@ -128,21 +121,17 @@ impl Exploration {
     }
 
     /// Straight motions from a state away from what it touches to where the tiles are far apart.
-    fn ways_out(
-        &self,
-        problem: &Problem,
-        state: usize,
-        settings: &ExplorationSettings,
-    ) -> Vec<(Milestone, EdgeCosts)> {
+    fn ways_out(&self, state: usize) -> Vec<(Point, EdgeCosts)> {
+        let problem = self.problem;
         let here = self.states[state].minimum.point.q;
-        let from = Milestone::new(problem, here);
+        let from = Point::new(problem, here);
         let ends = directions(problem, &here)
             .into_iter()
             .filter_map(|direction| farthest(&problem.space, &here, direction));
         let free = ends.filter(|far| problem.motion_is_free(&here, far));
         free.map(|far| {
-            let to = Milestone::new(problem, far);
-            let costs = edge::costs(problem, [&from, &to], &settings.edge);
+            let to = Point::new(problem, far);
+            let costs = edge::costs(problem, [&from, &to], &self.settings.edge);
             (to, costs)
         })
         .collect()

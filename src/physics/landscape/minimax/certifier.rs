@@ -1,21 +1,21 @@
 //! The certifier: one subdivision of the configuration space that serves many queries.
 
 use super::ends::Ends;
-use super::landscape::Landscape;
 use super::lower::Assessment;
 use super::proved::Proofs;
-use super::query::{Goal, Query, SHARPNESS};
 use super::store::{Key, Store};
 use super::upper::ProvedPath;
 use super::ways::Ways;
-use super::{Bracket, CertifyError, Effort, End, Progress};
 use crate::budget::{Allowance, Budget, Ended};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
-use crate::interruption;
-use crate::landscape::Uncertified;
+use crate::landscape::bounded::Bounded;
+use crate::landscape::results::Uncertified;
 use crate::parallel;
-use crate::potential::bounds::CellBounds;
+use crate::potential::CellBounds;
+
+/// A pathway's energy is bounded to this share of the tolerance.
+pub(super) const SHARPNESS: f64 = 0.05;
 
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: usize = 3;
@@ -27,7 +27,7 @@ const AT_ONCE: usize = 64;
 /// Certifies barriers of one landscape. What one query finds out about the landscape serves the
 /// next ones.
 pub struct Certifier<'a> {
-    pub(super) landscape: Landscape<'a>,
+    pub(super) bounded: Bounded<'a>,
     pub(super) store: Store,
     pub(super) ends: Ends,
     pub(super) assessed: usize,
@@ -53,9 +53,8 @@ impl<'a> Certifier<'a> {
         contact: Option<&'a Contact>,
         space: &'a ConfigurationSpace,
     ) -> Self {
-        let mut certifier = Self::untried(bounds, contact, space, Allowance::UNLIMITED);
-        certifier.assess_first(usize::MAX);
-        certifier
+        let unlimited = Self::within(bounds, contact, space, Allowance::UNLIMITED);
+        unlimited.expect("work without end")
     }
 
     /// The same, for all of whose queries together so much may be spent: no less than the bounds over
@@ -72,22 +71,8 @@ impl<'a> Certifier<'a> {
         if allowed.is_none() {
             return Err(Uncertified::Unasked);
         }
-        let mut certifier = Self::untried(bounds, contact, space, allowed);
-        certifier.assess_first(AT_ONCE);
-        match certifier.ended() {
-            Some(ended) => Err(Uncertified::Ended(ended)),
-            None => Ok(certifier),
-        }
-    }
-
-    fn untried(
-        bounds: &'a dyn CellBounds,
-        contact: Option<&'a Contact>,
-        space: &'a ConfigurationSpace,
-        allowed: Allowance,
-    ) -> Self {
-        Self {
-            landscape: Landscape::new(bounds, contact, space),
+        let mut certifier = Self {
+            bounded: Bounded::new(bounds, contact, space),
             store: Store::new(space),
             ends: Ends::default(),
             assessed: 0,
@@ -95,26 +80,20 @@ impl<'a> Certifier<'a> {
             foreseen: Vec::new(),
             proofs: Proofs::default(),
             ways: Ways::default(),
-        }
-    }
-
-    /// Assesses the first cells, so many at once, unless the work ends before: then it is good for
-    /// nothing.
-    fn assess_first(&mut self, at_once: usize) {
-        let keys = Store::first_keys();
+        };
         let mut first = Vec::new();
-        for keys in keys.chunks(at_once.min(keys.len())) {
-            let (landscape, store) = (&self.landscape, &self.store);
+        for keys in Store::first_keys().chunks(AT_ONCE) {
+            let (bounded, store) = (&certifier.bounded, &certifier.store);
             first.extend(parallel::flat_map(keys, |key| {
-                interruption::check();
-                Some((*key, landscape.assess(&store.cell(key))?))
+                Some((*key, bounded.assess(&store.cell(key))?))
             }));
-            self.assessed += keys.len();
-            if self.ended().is_some() {
-                return;
+            certifier.assessed += keys.len();
+            if let Some(ended) = certifier.ended() {
+                return Err(Uncertified::Ended(ended));
             }
         }
-        self.store.fill(&first);
+        certifier.store.fill(&first);
+        Ok(certifier)
     }
 
     /// Counts work besides that on bounds.
@@ -124,7 +103,7 @@ impl<'a> Certifier<'a> {
 
     /// What ends the work here, if anything does.
     pub fn ended(&mut self) -> Option<Ended> {
-        self.landscape.bounds.pay(&mut self.budget);
+        self.bounded.pay(&mut self.budget);
         self.budget.ended()
     }
 
@@ -137,11 +116,11 @@ impl<'a> Certifier<'a> {
             if self.ended().is_some() {
                 return;
             }
-            let landscape = &self.landscape;
+            let bounded = &self.bounded;
             let foreseen = parallel::map(paths, |(from, known, tolerance)| {
                 let path = from_its_start(*from, known);
                 Foreseen {
-                    proved: known_path(landscape, &path, *tolerance),
+                    proved: known_path(bounded, &path, *tolerance),
                     path,
                     tolerance: *tolerance,
                 }
@@ -155,80 +134,8 @@ impl<'a> Certifier<'a> {
         let is_it = |known: &&Foreseen| known.tolerance == tolerance && known.path == path;
         match self.foreseen.iter().find(is_it) {
             Some(known) => known.proved.clone(),
-            None => known_path(&self.landscape, path, tolerance),
+            None => known_path(&self.bounded, path, tolerance),
         }
-    }
-
-    /// Brackets the minimax energy from `from` to `to`. `known` is a pathway between them, if one
-    /// is known; it need not be exactly free, as it is lifted off contact where it touches.
-    ///
-    /// # Errors
-    /// Where an end is not free or not on the table.
-    pub fn bracket(
-        &mut self,
-        from: &Configuration,
-        to: &End,
-        known: &[Configuration],
-        effort: &Effort,
-    ) -> Result<Bracket, CertifyError> {
-        self.bracket_watched(from, to, known, effort, &mut |_| true)
-    }
-
-    /// The same, telling `watch` of every round; where it returns false the query stops with what
-    /// is known.
-    ///
-    /// # Errors
-    /// Where an end is not free or not on the table.
-    pub fn bracket_watched(
-        &mut self,
-        from: &Configuration,
-        to: &End,
-        known: &[Configuration],
-        effort: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Bracket, CertifyError> {
-        self.landscape.check(from)?;
-        if let Some(to) = to.configuration() {
-            self.landscape.check(to)?;
-        }
-        Ok(self.run(from, &(*to).into(), known, effort, watch))
-    }
-
-    /// Brackets the minimax energy from `from` to the first of the `goals` or to tiles far apart.
-    /// `known` is a pathway to one of them, its end included, if one is known.
-    ///
-    /// # Errors
-    /// Where the start or a goal is not free or not on the table.
-    pub fn escape(
-        &mut self,
-        from: &Configuration,
-        goals: &[Configuration],
-        known: &[Configuration],
-        effort: &Effort,
-    ) -> Result<Bracket, CertifyError> {
-        for end in std::iter::once(from).chain(goals) {
-            self.landscape.check(end)?;
-        }
-        Ok(self.run(from, &Goal::Any(goals), known, effort, &mut |_| true))
-    }
-
-    /// What follows from all that was proved so far (J): no path between two ends is lower.
-    pub fn proved(&self, from: &Configuration, to: &End) -> f64 {
-        self.proofs.least(from, &(*to).into())
-    }
-
-    fn run(
-        &mut self,
-        from: &Configuration,
-        to: &Goal,
-        known: &[Configuration],
-        effort: &Effort,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Bracket {
-        let bracket = Query::new(self, *from, to, effort, known).run(watch);
-        let end = bracket.pathway.last();
-        self.proofs.add(from, to, &bracket.bounds, end);
-        bracket
     }
 
     /// Takes note of a proved pathway, from end to end.
@@ -236,8 +143,8 @@ impl<'a> Certifier<'a> {
         if self.ways.include(points) {
             return;
         }
-        let proof = self.landscape.proof();
-        let way: Vec<_> = points.iter().map(|q| (*q, proof.value(q).0)).collect();
+        let value = |q: &Configuration| self.bounded.value(q).0;
+        let way: Vec<_> = points.iter().map(|q| (*q, value(q))).collect();
         let start = self.ends.holding(&self.store, &points[0]);
         self.ways.add(&self.store, start, &way);
     }
@@ -260,7 +167,6 @@ impl<'a> Certifier<'a> {
     /// many of them could be subdivided.
     pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
         let divided: Vec<_> = parallel::map(ids, |&id| {
-            interruption::check();
             let leaf = self.store.leaf(id);
             self.parts(&leaf.key, &leaf.known, level)
         });
@@ -290,7 +196,7 @@ impl<'a> Certifier<'a> {
                 };
                 assessed += 2;
                 smaller.extend(halves.into_iter().filter_map(|half| {
-                    let part = self.landscape.assess(&self.store.cell(&half))?;
+                    let part = self.bounded.assess(&self.store.cell(&half))?;
                     Some((half, part.within(&known)))
                 }));
             }
@@ -306,8 +212,7 @@ pub(super) fn from_its_start(from: Configuration, known: &[Configuration]) -> Ve
     std::iter::once(&from).chain(others).copied().collect()
 }
 
-fn known_path(landscape: &Landscape, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
-    interruption::check();
-    let proof = landscape.proof();
-    proof.prove(path, SHARPNESS * tolerance, f64::INFINITY).ok()
+fn known_path(bounded: &Bounded, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
+    let proved = bounded.prove(path, SHARPNESS * tolerance, f64::INFINITY);
+    proved.ok()
 }

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::flood::Seeds;
-use super::landscape::Landscape;
-use super::query::Goal;
+use super::level::Seeds;
+use super::proved::Goal;
 use super::store::Store;
-use crate::configuration::Configuration;
+use crate::cell::Cell;
+use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::landscape::bounded::Bounded;
 use crate::order::Order;
 
 /// The leaves of a store that hold something, by their numbers; only leaves that were added since
@@ -43,29 +44,23 @@ impl Ends {
     pub fn seeds(
         &mut self,
         store: &Store,
-        landscape: &Landscape,
+        bounded: &Bounded,
         from: &Configuration,
-        to: &Goal,
+        goal: &Goal,
     ) -> Seeds {
         let low = |ids: Vec<u32>| ids.into_iter().map(|id| (id, f64::NEG_INFINITY)).collect();
-        Seeds {
-            from: low(self.holding(store, from)),
-            to: match to {
-                Goal::At(to) => low(self.holding(store, to)),
-                Goal::Free => self.far(store, landscape).to_vec(),
-                Goal::Any(goals) => {
-                    let mut all: Vec<(u32, f64)> = goals
-                        .iter()
-                        .flat_map(|goal| low(self.holding(store, goal)))
-                        .collect();
-                    all.extend(self.far(store, landscape));
-                    // Of a leaf that holds both, what comes first.
-                    all.order_by_key(|(id, _)| *id);
-                    all.dedup_by_key(|(id, _)| *id);
-                    all
-                }
-            },
+        let from: Vec<(u32, f64)> = low(self.holding(store, from));
+        let places = goal.places.iter();
+        let mut to: Vec<(u32, f64)> = places
+            .flat_map(|place| low(self.holding(store, place)))
+            .collect();
+        if goal.free {
+            to.extend(self.far(store, bounded));
         }
+        // Of a leaf that holds several, what comes first.
+        to.order_by_key(|(id, _)| *id);
+        to.dedup_by_key(|(id, _)| *id);
+        Seeds { from, to }
     }
 
     /// The leaves that hold a configuration.
@@ -81,15 +76,33 @@ impl Ends {
     }
 
     /// The leaves that hold configurations with the tiles far apart.
-    fn far(&mut self, store: &Store, landscape: &Landscape) -> &[(u32, f64)] {
+    fn far(&mut self, store: &Store, bounded: &Bounded) -> &[(u32, f64)] {
         self.far.look(store, |id| {
             let leaf = store.leaf(id);
             let cell = store.cell(&leaf.key);
-            if landscape.space.is_far(&cell.centre) {
+            if bounded.space.is_far(&cell.centre) {
                 return Some(leaf.known.estimate);
             }
-            let end = landscape.far_end(&cell)?;
-            Some(landscape.proof().value(&end).1)
+            let end = far_end(bounded.space, &cell)?;
+            Some(bounded.value(&end).1)
         })
     }
+}
+
+/// A configuration with the tiles far apart, near the middle of a cell that holds one; `None` if the
+/// cell is proved to hold none.
+pub(super) fn far_end(space: &ConfigurationSpace, cell: &Cell) -> Option<Configuration> {
+    let centre = cell.centre;
+    // The one that is farthest from the origin in the plane, at the cell's middle angle.
+    let away = |centre: f64, half: f64| centre + half.copysign(centre);
+    let [x, y] = [away(centre.x, cell.half[0]), away(centre.y, cell.half[1])];
+    let farthest = Configuration::new(x, y, centre.theta);
+    if !space.is_far(&farthest) {
+        return None;
+    }
+    let stretch = space.free_distance / libm::hypot(centre.x, centre.y);
+    let stretch = stretch.max(1.0) * (1.0 + 1e-12);
+    let near = Configuration::new(centre.x * stretch, centre.y * stretch, centre.theta);
+    let fits = space.contains(&near) && space.is_far(&near);
+    Some(if fits { near } else { farthest })
 }

@@ -3,15 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::level::ordered;
+use super::level::{Seeds, ordered};
 use super::store::Store;
-
-/// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
-/// them.
-pub(super) struct Seeds {
-    pub from: Vec<(u32, f64)>,
-    pub to: Vec<(u32, f64)>,
-}
 
 /// What a flood from one end of a query finds on its way to the other.
 pub(super) struct Watershed {
@@ -102,16 +95,16 @@ pub(super) fn watershed(
 impl<'a> Flood<'a> {
     fn new(store: &'a Store, seeds: &Seeds, level: f64, known: &[(u32, f64)]) -> Self {
         let ranks = if level < f64::INFINITY {
-            store.by_energy()
+            &store.by_energy
         } else {
-            store.by_overlap()
+            &store.by_overlap
         };
         let ground = |(lower, rank): (&f64, &f64)| Ground {
             rank: *rank,
             before: DRY,
             state: if *lower <= level { 0 } else { BARRED },
         };
-        let mut ground: Vec<Ground> = store.lowers().iter().zip(ranks).map(ground).collect();
+        let mut ground: Vec<Ground> = store.lowers.iter().zip(ranks).map(ground).collect();
         for &(id, energy) in known {
             let settled = energy + SETTLED * (energy - store.lower(id));
             if settled < level {
@@ -255,7 +248,7 @@ mod tests {
     fn minimax(store: &Store, seeds: &Seeds, level: f64, off: &[u32]) -> Option<f64> {
         let passable = |id: u32| store.lower(id) <= level && !off.contains(&id);
         let goal = |id: u32| seeds.to.iter().find(|seed| seed.0 == id).map(|seed| seed.1);
-        let rank = |id: u32| goal(id).unwrap_or(store.by_energy()[id as usize]);
+        let rank = |id: u32| goal(id).unwrap_or(store.by_energy[id as usize]);
         let mut best = vec![f64::INFINITY; store.len()];
         let mut queue = BinaryHeap::new();
         for &(id, energy) in seeds.from.iter().filter(|seed| passable(seed.0)) {
@@ -320,7 +313,7 @@ mod tests {
                 for pair in chain.windows(2) {
                     assert!(store.neighbours(pair[0]).contains(&pair[1]));
                 }
-                let rank = |id: &u32| store.by_energy()[*id as usize];
+                let rank = |id: &u32| store.by_energy[*id as usize];
                 let energy = if end == 900 { 0.1 } else { 0.2 };
                 let over = inner.iter().map(rank).fold(energy, f64::max);
                 assert_eq!(Some(over), lowest);

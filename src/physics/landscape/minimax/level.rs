@@ -3,8 +3,14 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::flood::Seeds;
 use super::store::Store;
+
+/// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
+/// them.
+pub(super) struct Seeds {
+    pub from: Vec<(u32, f64)>,
+    pub to: Vec<(u32, f64)>,
+}
 
 /// The least level (J) at which a chain of touching leaves with lower bounds of at most that level
 /// joins the ends: no free path between them stays below it. Infinite where no chain does.

@@ -3,9 +3,9 @@
 use ordered_float::OrderedFloat;
 
 use crate::cell::{Cell, Quadratic};
-use crate::contact::cells::{CellContact, ContactCells, Cut};
-use crate::landscape::metered::Metered;
-use crate::potential::bounds::{CellBounds, Enclosure};
+use crate::contact::cells::{Cut, Cuts};
+use crate::landscape::bounded::Bounded;
+use crate::potential::bounds::Enclosure;
 
 /// What is known of a cell that is not proved blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,87 +52,42 @@ impl Assessment {
 /// deeper it lies.
 const OVERLAPPING: f64 = 1e30;
 
-/// Assesses a cell; `None` where it is proved blocked. `lever` (m) says how far a turn by one
-/// radian moves the tile.
-pub(super) fn assess(
-    bounds: &Metered,
-    contact: Option<&ContactCells>,
-    lever: f64,
-    cell: &Cell,
-) -> Option<Assessment> {
-    let verdict = contact.map_or_else(CellContact::open, |contact| contact.classify(cell));
-    bounds.count(work(contact, &verdict));
-    match verdict {
-        CellContact::Blocked => None,
-        _ => assess_open(&bounds.enclose(cell), &verdict, lever, cell),
+impl Bounded<'_> {
+    /// Assesses a cell; `None` where it is proved blocked.
+    pub(super) fn assess(&self, cell: &Cell) -> Option<Assessment> {
+        let cuts = self.classify(cell)?;
+        Some(assess(&self.enclose(cell), &cuts, self.lever, cell))
     }
 }
 
-/// Units of work that contact with a cell takes, and bounds over what it leaves.
-pub(in crate::landscape) fn work(contact: Option<&ContactCells>, found: &CellContact) -> u64 {
-    let edges = contact.map_or(0, ContactCells::edges) as u64;
-    let bounds = match found {
-        CellContact::Open { cuts, corners, .. } => {
-            let cuts = cuts.len() as u64;
-            cuts + corners.len() as u64 * (2 * cuts + 2)
-        }
-        CellContact::Blocked => 0,
-    };
-    A_CELL + AN_EDGE * edges + A_CUT * bounds
-}
-
-/// Units of work that a cell takes, each edge that it may touch, and each cut in a bound.
-const A_CELL: u64 = 100;
-const AN_EDGE: u64 = 15;
-const A_CUT: u64 = 10;
-
-/// Assesses a cell of whose energy and contact this is known.
-pub(crate) fn assess_open(
-    enclosure: &Enclosure,
-    contact: &CellContact,
-    lever: f64,
-    cell: &Cell,
-) -> Option<Assessment> {
-    let CellContact::Open {
-        cuts,
-        corners,
-        depth,
-    } = contact
-    else {
-        return None;
-    };
-    let tight = Lagrangian::tightest(enclosure, &cell.half, cuts, corners);
-    let deepest = cuts
-        .iter()
-        .map(|cut| cut.form.value)
-        .chain(corners.iter().map(|[a, b]| a.form.value.max(b.form.value)))
-        .fold(*depth, |deepest, gap| deepest.max(-gap));
-    let estimate = if *depth > 0.0 {
-        OVERLAPPING * (1.0 + depth / cell.reach(lever))
+/// Assesses a cell of whose energy and contact this is known. `lever` (m) says how far a turn by one
+/// radian moves the tile.
+pub(crate) fn assess(enclosure: &Enclosure, cuts: &Cuts, lever: f64, cell: &Cell) -> Assessment {
+    let tight = Lagrangian::tightest(enclosure, &cell.half, cuts);
+    let gaps = cuts.easiest().map(|cut| cut.form.value);
+    let deepest = gaps.fold(cuts.depth, |deepest, gap| deepest.max(-gap));
+    let estimate = if cuts.depth > 0.0 {
+        OVERLAPPING * (1.0 + cuts.depth / cell.reach(lever))
     } else {
-        enclosure.form.value + pushed_out(&enclosure.form, cuts, corners, lever)
+        enclosure.form.value + pushed_out(&enclosure.form, cuts, lever)
     };
-    Some(Assessment {
+    Assessment {
         lower: tight.lower,
         estimate,
         overlap: deepest / cell.reach(lever) + cell.reach(lever) / lever,
         axis: widest(&tight.form, enclosure, cell, lever),
-    })
+    }
 }
 
 /// Change of the energy (J), to first order, on the shortest way from the centre to where the
 /// most violated cut is satisfied.
-fn pushed_out(energy: &Quadratic, cuts: &[Cut], corners: &[[Cut; 2]], lever: f64) -> f64 {
-    let Some(cut) = cuts
-        .iter()
-        .chain(corners.iter().map(Cut::easier))
-        .min_by_key(|cut| OrderedFloat(cut.form.value))
-    else {
+fn pushed_out(energy: &Quadratic, cuts: &Cuts, lever: f64) -> f64 {
+    let worst = cuts
+        .easiest()
+        .min_by_key(|cut| OrderedFloat(cut.form.value));
+    let Some(cut) = worst.filter(|cut| cut.form.value < 0.0) else {
         return 0.0;
     };
-    if cut.form.value >= 0.0 {
-        return 0.0;
-    }
     let weights = [1.0, 1.0, 1.0 / (lever * lever)];
     let product =
         |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|i| a[i] * b[i] * weights[i]).sum::<f64>();
@@ -169,19 +124,12 @@ pub(in crate::landscape) struct Lagrangian {
 }
 
 impl Lagrangian {
-    /// The greatest of the bounds that all cuts give together with one of each pair in `corners`.
-    pub fn tightest(
-        enclosure: &Enclosure,
-        half: &[f64; 3],
-        cuts: &[Cut],
-        corners: &[[Cut; 2]],
-    ) -> Self {
-        let mut tight = Self::new(enclosure, half, cuts);
-        for pair in corners {
-            let [a, b] = pair.map(|cut| {
-                let cuts = [cuts, &[cut]].concat();
-                Self::new(enclosure, half, &cuts)
-            });
+    /// The greatest of the bounds that all cuts give together with one of each pair at a corner.
+    pub fn tightest(enclosure: &Enclosure, half: &[f64; 3], cuts: &Cuts) -> Self {
+        let all = &cuts.all[..];
+        let mut tight = Self::new(enclosure, half, all);
+        for pair in &cuts.corners {
+            let [a, b] = pair.map(|cut| Self::new(enclosure, half, &[all, &[cut]].concat()));
             let weaker = if a.lower < b.lower { a } else { b };
             if weaker.lower > tight.lower {
                 tight = weaker;

@@ -39,13 +39,12 @@
 mod certifier;
 mod ends;
 mod flood;
-mod landscape;
 mod level;
 pub(crate) mod lower;
 mod proved;
 mod query;
 mod store;
-pub(super) mod upper;
+mod upper;
 mod ways;
 
 use crate::configuration::Configuration;
@@ -79,20 +78,6 @@ pub struct Effort {
     pub tolerance: f64,
     /// Cells assessed in this query, about, at which to stop with what is known.
     pub cells: usize,
-}
-
-/// How far a query is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Cells assessed in this query.
-    pub cells: usize,
-    /// Rounds of subdivision in this query.
-    pub rounds: usize,
-    /// Cells in the divide between the two ends, or as many of them as can be subdivided at once: 0
-    /// when the bracket is narrow enough.
-    pub divide: usize,
-    /// The upper bound (J) so far.
-    pub upper: Option<f64>,
 }
 
 /// Bounds of a barrier's highest energy, and the pathway that proves the upper one.

@@ -4,31 +4,48 @@
 //! an ultrametric: of the three between A, B and C the two highest are equal. What leads from A to the
 //! first of some places leads to none of them lower.
 
-use super::query::Goal;
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
 
-/// Between a configuration and the first of some places.
+/// Where a path may end.
+#[derive(Clone)]
+pub(super) struct Goal {
+    /// At any of these,
+    pub places: Vec<Configuration>,
+    /// or, if so, with the tiles far apart.
+    pub free: bool,
+}
+
+impl Goal {
+    pub fn at(place: Configuration) -> Self {
+        Self {
+            places: vec![place],
+            free: false,
+        }
+    }
+
+    /// The only place, if there is one only.
+    pub fn only(&self) -> Option<&Configuration> {
+        match &self.places[..] {
+            [place] if !self.free => Some(place),
+            _ => None,
+        }
+    }
+
+    /// Whether what is said of this is said of all that another one consists of, too.
+    fn includes(&self, other: &Self) -> bool {
+        self.free >= other.free && other.places.iter().all(|q| self.places.contains(q))
+    }
+}
+
+/// What is known between a configuration and the first of some places.
 struct Proved {
     from: Configuration,
-    /// Whether far apart is one of the places, beside these.
-    free: bool,
-    to: Vec<Configuration>,
+    to: Goal,
     /// No path is lower (J).
     lower: f64,
     /// A path to this configuration is no higher (J).
     way: Option<(Configuration, f64)>,
-}
-
-impl Proved {
-    /// Whether what it says of its places it says of a goal too.
-    fn includes(&self, goal: &Goal) -> bool {
-        match goal {
-            Goal::At(q) => self.to.contains(q),
-            Goal::Free => self.free,
-            Goal::Any(goals) => self.free && goals.iter().all(|q| self.to.contains(q)),
-        }
-    }
 }
 
 /// All that was proved.
@@ -40,19 +57,13 @@ impl Proofs {
     pub fn add(
         &mut self,
         from: &Configuration,
-        goal: &Goal,
+        to: &Goal,
         bounds: &SaddleBounds,
         end: Option<&Configuration>,
     ) {
-        let (free, to) = match goal {
-            Goal::At(q) => (false, vec![*q]),
-            Goal::Free => (true, Vec::new()),
-            Goal::Any(goals) => (true, goals.to_vec()),
-        };
         self.0.push(Proved {
             from: *from,
-            free,
-            to,
+            to: to.clone(),
             lower: bounds.lower.unwrap_or(f64::NEG_INFINITY),
             way: end.copied().zip(bounds.upper),
         });
@@ -73,12 +84,13 @@ impl Proofs {
 
     /// The greatest lower bound (J) that was proved.
     fn between(&self, from: &Configuration, goal: &Goal) -> f64 {
+        let back = goal.only().map(|q| (*q, Goal::at(*from)));
+        let leads = |proved: &Proved, from: &Configuration, to: &Goal| {
+            proved.from == *from && proved.to.includes(to)
+        };
         let is_between = |proved: &&Proved| {
-            let back = || match goal {
-                Goal::At(q) => proved.from == *q && proved.includes(&Goal::At(*from)),
-                _ => false,
-            };
-            proved.from == *from && proved.includes(goal) || back()
+            let is_back = back.iter().any(|(q, from)| leads(proved, q, from));
+            is_back || leads(proved, from, goal)
         };
         let found = self.0.iter().filter(is_between);
         found
@@ -116,12 +128,12 @@ mod tests {
                 if from == to || from == other {
                     continue;
                 }
-                let goals = [at(to), at(other)];
+                let places = vec![at(to), at(other)];
                 let first = truth(from, to).min(truth(from, other));
                 let (goal, highest) = if rng.random_bool(0.3) {
-                    (Goal::Any(&goals), first)
+                    (Goal { places, free: true }, first)
                 } else {
-                    (Goal::At(at(to)), truth(from, to))
+                    (Goal::at(at(to)), truth(from, to))
                 };
                 let bounds = SaddleBounds {
                     lower: Some(highest - 1e-3),
@@ -132,7 +144,7 @@ mod tests {
             }
             for (from, to) in (0..PLACES).flat_map(|a| (0..PLACES).map(move |b| (a, b))) {
                 if from != to {
-                    let goal = Goal::At(at(to));
+                    let goal = Goal::at(at(to));
                     let least = proofs.least(&at(from), &goal);
                     assert!(least <= truth(from, to), "{least}");
                     over_others += usize::from(least > proofs.between(&at(from), &goal));

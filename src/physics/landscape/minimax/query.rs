@@ -1,11 +1,14 @@
 //! One query: the search for a pathway and for the proof that none lies much lower.
 
-use super::certifier::{Certifier, from_its_start};
-use super::flood::{Seeds, watershed};
-use super::level::least_level;
+use super::certifier::{Certifier, SHARPNESS, from_its_start};
+use super::ends::far_end;
+use super::flood::watershed;
+use super::level::{Seeds, least_level};
+use super::proved::Goal;
 use super::upper::ProvedPath;
-use super::{Bracket, Effort, End, Progress};
+use super::{Bracket, CertifyError, Effort, End};
 use crate::configuration::Configuration;
+use crate::interruption;
 use crate::landscape::results::SaddleBounds;
 
 /// Leaves subdivided in one round: at least this many, and this share of those that the query added.
@@ -21,35 +24,85 @@ const BATCH: usize = 512;
 const LEAF: u64 = 2;
 const FLOODED: u64 = 50;
 
-/// A pathway's energy is bounded to this share of the tolerance.
-pub(super) const SHARPNESS: f64 = 0.05;
-
 /// A new pathway is looked for where the pass lies below the best one by the first share of the
 /// tolerance, and taken where it is lower by the second.
 const WORTHWHILE: f64 = 0.25;
 const GAIN: f64 = 0.1;
 
-/// Where a path may end.
-pub(super) enum Goal<'g> {
-    At(Configuration),
-    Free,
-    /// At any of these, or with the tiles far apart.
-    Any(&'g [Configuration]),
-}
-
-impl From<End> for Goal<'_> {
-    fn from(end: End) -> Self {
-        match end {
-            End::At(q) => Self::At(q),
-            End::Free => Self::Free,
+impl From<&End> for Goal {
+    fn from(end: &End) -> Self {
+        let place = end.configuration().copied();
+        Self {
+            free: place.is_none(),
+            places: place.into_iter().collect(),
         }
     }
 }
 
-pub(super) struct Query<'q, 'a> {
+impl Certifier<'_> {
+    /// Brackets the minimax energy from `from` to `to`. `known` is a pathway between them, if one
+    /// is known; it need not be exactly free, as it is lifted off contact where it touches.
+    ///
+    /// # Errors
+    /// Where an end is not free or not on the table.
+    pub fn bracket(
+        &mut self,
+        from: &Configuration,
+        to: &End,
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        self.run(from, &to.into(), known, effort)
+    }
+
+    /// Brackets the minimax energy from `from` to the first of the `goals` or to tiles far apart.
+    /// `known` is a pathway to one of them, its end included, if one is known.
+    ///
+    /// # Errors
+    /// Where the start or a goal is not free or not on the table.
+    pub fn escape(
+        &mut self,
+        from: &Configuration,
+        goals: &[Configuration],
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        let places = goals.to_vec();
+        self.run(from, &Goal { places, free: true }, known, effort)
+    }
+
+    /// What follows from all that was proved so far (J): no path between two ends is lower.
+    pub fn proved(&self, from: &Configuration, to: &End) -> f64 {
+        self.proofs.least(from, &to.into())
+    }
+
+    fn run(
+        &mut self,
+        from: &Configuration,
+        to: &Goal,
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        for end in std::iter::once(from).chain(&to.places) {
+            if !self.bounded.space.contains(end) {
+                return Err(CertifyError::OffTheTable(*end));
+            }
+            let contact = self.bounded.contact;
+            if contact.is_some_and(|contact| !contact.is_free(end)) {
+                return Err(CertifyError::NotFree(*end));
+            }
+        }
+        let bracket = Query::new(self, *from, to, effort, known).run();
+        let end = bracket.pathway.last();
+        self.proofs.add(from, to, &bracket.bounds, end);
+        Ok(bracket)
+    }
+}
+
+struct Query<'q, 'a> {
     certifier: &'q mut Certifier<'a>,
     from: Configuration,
-    to: &'q Goal<'q>,
+    to: &'q Goal,
     effort: Effort,
     assessed_before: usize,
     leaves_before: usize,
@@ -70,18 +123,15 @@ impl<'q, 'a> Query<'q, 'a> {
     pub fn new(
         certifier: &'q mut Certifier<'a>,
         from: Configuration,
-        to: &'q Goal<'q>,
+        to: &'q Goal,
         effort: &Effort,
         known: &[Configuration],
     ) -> Self {
-        let proof = certifier.landscape.proof();
-        let mut floor = proof.value(&from).0;
-        let mut from_behind = false;
-        if let Goal::At(to) = to {
-            let end = proof.value(to).0;
-            from_behind = end > floor;
-            floor = floor.max(end);
-        }
+        let value = |q: &Configuration| certifier.bounded.value(q).0;
+        let mut floor = value(&from);
+        let end = to.only().map_or(f64::NEG_INFINITY, value);
+        let from_behind = end > floor;
+        floor = floor.max(end);
         let proved = certifier.proofs.least(&from, to);
         floor = floor.max(proved);
         let mut query = Self {
@@ -110,7 +160,7 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     /// Searches until the bracket is narrow enough or the effort is spent.
-    pub fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bracket {
+    pub fn run(mut self) -> Bracket {
         while self.level() > self.floor {
             let level = self.level();
             let seeds = self.seeds();
@@ -120,12 +170,6 @@ impl<'q, 'a> Query<'q, 'a> {
             let found = watershed(store, &seeds, (level, &known), most);
             let (leaves, flooded) = (store.len() as u64, found.flooded as u64);
             self.certifier.spend(leaves * LEAF + flooded * FLOODED);
-            let going_on = watch(&Progress {
-                cells: self.cells(),
-                rounds: self.rounds,
-                divide: found.divide.len(),
-                upper: self.best.as_ref().map(|path| path.upper),
-            });
             let Some((pass, mut chain)) = found.pass else {
                 self.caged = self.best.is_none();
                 break;
@@ -144,7 +188,7 @@ impl<'q, 'a> Query<'q, 'a> {
                     }
                 }
             }
-            if !going_on || self.spent() || self.subdivide(&to_divide, level) == 0 {
+            if self.spent() || self.subdivide(&to_divide, level) == 0 {
                 break;
             }
             self.rounds += 1;
@@ -164,7 +208,7 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     fn spent(&mut self) -> bool {
-        crate::interruption::check();
+        interruption::check();
         self.cells() >= self.effort.cells || self.certifier.ended().is_some()
     }
 
@@ -179,19 +223,12 @@ impl<'q, 'a> Query<'q, 'a> {
         count
     }
 
-    fn prove(&self, path: &[Configuration], ceiling: f64) -> Result<ProvedPath, usize> {
-        let sharpness = SHARPNESS * self.effort.tolerance;
-        self.certifier
-            .landscape
-            .proof()
-            .prove(path, sharpness, ceiling)
-    }
-
     /// Tries to prove a lower pathway along a chain of leaves; else says which leaves are to blame.
     fn improve(&mut self, chain: &[u32]) -> Result<(), Vec<u32>> {
         let (path, owners) = self.path_along(chain);
         let ceiling = self.level() + (1.0 - GAIN) * self.effort.tolerance;
-        match self.prove(&path, ceiling) {
+        let sharpness = SHARPNESS * self.effort.tolerance;
+        match self.certifier.bounded.prove(&path, sharpness, ceiling) {
             Ok(proved) if proved.upper <= ceiling || self.best.is_none() => {
                 self.certifier.note_way(&proved.points);
                 self.best = Some(proved);
@@ -220,15 +257,10 @@ impl<'q, 'a> Query<'q, 'a> {
         if chain.len() > 1 {
             path.pop();
         }
-        let landscape = &self.certifier.landscape;
-        let end = match self.to {
-            Goal::At(to) => Some(*to),
-            Goal::Free => landscape.far_end(&cell(last)),
-            Goal::Any(goals) => {
-                let inside = goals.iter().find(|q| cell(last).contains(q)).copied();
-                inside.or_else(|| landscape.far_end(&cell(last)))
-            }
-        };
+        let cell = cell(last);
+        let inside = self.to.places.iter().find(|q| cell.contains(q)).copied();
+        let space = self.certifier.bounded.space;
+        let end = inside.or_else(|| far_end(space, &cell).filter(|_| self.to.free));
         path.extend(end.map(|end| (end, last)));
         path.into_iter().unzip()
     }
@@ -237,34 +269,26 @@ impl<'q, 'a> Query<'q, 'a> {
     fn joined_to_the_ends(&self, known: &[Configuration]) -> Option<Vec<Configuration>> {
         let last = known.last()?;
         let mut path = from_its_start(self.from, known);
-        match self.to {
-            Goal::At(to) if to != last => path.push(*to),
-            _ if !self.is_end(last) => return None,
-            _ => {}
+        if !self.is_end(last) {
+            path.push(*self.to.only()?);
         }
         Some(path)
     }
 
     /// Whether a pathway may end here.
     fn is_end(&self, q: &Configuration) -> bool {
-        let landscape = &self.certifier.landscape;
-        let is_far = landscape.space.is_far(q);
-        match self.to {
-            Goal::At(to) => q == to,
-            Goal::Free => is_far,
-            Goal::Any(goals) => is_far || goals.contains(q),
-        }
+        self.to.places.contains(q) || self.to.free && self.certifier.bounded.space.is_far(q)
     }
 
     /// The leaves that hold either end, first that from which floods rise.
     fn seeds(&mut self) -> Seeds {
         let Certifier {
             store,
-            landscape,
+            bounded,
             ends,
             ..
         } = &mut *self.certifier;
-        let Seeds { from, to } = ends.seeds(store, landscape, &self.from, self.to);
+        let Seeds { from, to } = ends.seeds(store, bounded, &self.from, self.to);
         if self.from_behind {
             Seeds { from: to, to: from }
         } else {

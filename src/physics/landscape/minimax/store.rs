@@ -71,9 +71,11 @@ pub(super) struct Store {
     leaves: Vec<Leaf>,
     // What the floods look at most, side by side.
     neighbours: Vec<Vec<u32>>,
-    lower: Vec<f64>,
-    by_energy: Vec<f64>,
-    by_overlap: Vec<f64>,
+    pub lowers: Vec<f64>,
+    /// The rank of each leaf in a flood by energy,
+    pub by_energy: Vec<f64>,
+    /// and in one by overlap.
+    pub by_overlap: Vec<f64>,
 }
 
 impl Store {
@@ -82,7 +84,7 @@ impl Store {
             half_size: space.half_size,
             leaves: Vec::new(),
             neighbours: Vec::new(),
-            lower: Vec::new(),
+            lowers: Vec::new(),
             by_energy: Vec::new(),
             by_overlap: Vec::new(),
         }
@@ -139,22 +141,7 @@ impl Store {
 
     /// A leaf's lower bound of the energy (J).
     pub fn lower(&self, id: u32) -> f64 {
-        self.lower[id as usize]
-    }
-
-    /// Those of all leaves that are or ever were.
-    pub fn lowers(&self) -> &[f64] {
-        &self.lower
-    }
-
-    /// The rank of each leaf in a flood by energy.
-    pub fn by_energy(&self) -> &[f64] {
-        &self.by_energy
-    }
-
-    /// The rank of each leaf in a flood by overlap.
-    pub fn by_overlap(&self) -> &[f64] {
-        &self.by_overlap
+        self.lowers[id as usize]
     }
 
     /// Number of leaves that are or ever were.
@@ -199,7 +186,7 @@ impl Store {
                 self.neighbours[n as usize].push(id);
             }
             self.neighbours.push(neighbours);
-            self.lower.push(known.lower);
+            self.lowers.push(known.lower);
             self.by_energy.push(known.by_energy());
             self.by_overlap.push(known.overlap);
             self.leaves.push(Leaf {

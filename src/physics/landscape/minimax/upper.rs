@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
 use crate::cell::Cell;
-use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::configuration::Configuration;
 use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
-use crate::potential::bounds::CellBounds;
+use crate::landscape::bounded::Bounded;
 
 /// How far (m) inner points of a pathway are lifted off contact, so that a chord between two of
 /// them does not cut into it.
@@ -35,13 +35,7 @@ pub(in crate::landscape) struct ProvedPath {
     pub points: Vec<Configuration>,
 }
 
-pub(in crate::landscape) struct PathProof<'a> {
-    pub bounds: &'a dyn CellBounds,
-    pub contact: Option<&'a Contact>,
-    pub space: &'a ConfigurationSpace,
-}
-
-impl PathProof<'_> {
+impl Bounded<'_> {
     /// Proves a pathway through the given points: straight stretches, lifted off contact and
     /// refined where they cannot be proved as they are. The energy's bound is sharpened until it
     /// exceeds the highest energy met by no more than `tolerance` (J).
@@ -179,7 +173,7 @@ impl PathProof<'_> {
 
     /// Lower and upper bound of the energy (J) of one configuration; they differ by rounding only.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
-        let known = self.bounds.enclose(&Cell {
+        let known = self.enclose(&Cell {
             centre: *q,
             half: [0.0; 3],
         });
@@ -219,7 +213,7 @@ impl PathProof<'_> {
             .map(|(k, w)| (w[0], w[1], k, 0))
             .collect();
         while let Some((a, b, stretch, depth)) = open.pop() {
-            let known = self.bounds.enclose(&Cell::spanned_by(&a, &b));
+            let known = self.enclose(&Cell::spanned_by(&a, &b));
             let highest = known.form.greatest_along(&a.step_to(&b).into()) + known.high;
             if highest <= level + tolerance || depth == FINEST {
                 if highest > give_up {

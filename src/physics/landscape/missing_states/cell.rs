@@ -3,13 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;
 
+use super::exits::Opened;
 use crate::cell::{Cell, Quadratic};
-use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells, Cut, PossibleContact};
+use crate::contact::cells::{Cuts, PossibleContact};
 use crate::contact::{Constraint, EdgeOf, Touch, closest_admissible};
-use crate::landscape::metered::Metered;
-use crate::landscape::minimax::lower::{Lagrangian, work};
-use crate::potential::bounds::{CellBounds, Enclosure};
+use crate::landscape::bounded::Bounded;
+use crate::landscape::minimax::lower::Lagrangian;
+use crate::potential::bounds::Enclosure;
 
 /// Cells in which more contacts than these may be made are subdivided first.
 const MOST_CONTACTS: usize = 600;
@@ -35,19 +35,16 @@ pub(super) enum Verdict {
     Nothing,
     /// A step leads from each of them to a free one of lower energy.
     Falls,
-    /// A step leads from each of them into a wholly free box about this configuration, on which the
-    /// energy exceeds the cell's least, `lowest` (J), by at most the allowed rise.
-    Opens { into: Configuration, lowest: f64 },
+    /// A step leads from each of them into a wholly free box, on which the energy exceeds the cell's
+    /// least by at most the allowed rise.
+    Opens(Opened),
     /// None of this; what each coordinate's size costs, by which it should be halved.
     Open { lowest: f64, losses: [f64; 3] },
 }
 
 /// Proves cells.
 pub(super) struct CellProof<'a> {
-    pub bounds: &'a Metered<'a>,
-    pub contact: Option<&'a ContactCells>,
-    /// How far (m) a turn by one radian counts as moving the tile.
-    pub lever: f64,
+    pub bounded: &'a Bounded<'a>,
     /// Configurations above this energy (J) are of no concern.
     pub level: f64,
     /// Highest rise (J) on the way out of what is no trap.
@@ -56,20 +53,16 @@ pub(super) struct CellProof<'a> {
 
 impl CellProof<'_> {
     pub fn verdict(&self, cell: &Cell) -> Verdict {
-        let contact = self
-            .contact
-            .map_or_else(CellContact::open, |contact| contact.classify(cell));
-        self.bounds.count(work(self.contact, &contact));
-        let CellContact::Open { cuts, corners, .. } = contact else {
+        let Some(cuts) = self.bounded.classify(cell) else {
             return Verdict::Nothing;
         };
-        let enclosure = self.bounds.enclose(&widened(cell, SHORT_FALL));
-        let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts, &corners).lower;
+        let enclosure = self.bounded.enclose(&widened(cell, SHORT_FALL));
+        let lowest = Lagrangian::tightest(&enclosure, &cell.half, &cuts).lower;
         if lowest > self.level {
             return Verdict::Nothing;
         }
         let unknown = enclosure.high - enclosure.low;
-        let losses = match self.falls(cell, &enclosure, &cuts, &corners) {
+        let losses = match self.falls(cell, &enclosure, &cuts) {
             Some(Ok(())) => return Verdict::Falls,
             Some(Err(losses)) => losses,
             None => self.sizes(cell),
@@ -81,31 +74,30 @@ impl CellProof<'_> {
         opens.next().unwrap_or(open)
     }
 
-    /// The contacts that may be made by steps from the cell with components of at most `longest`
-    /// half sizes.
-    fn within_steps(&self, cell: &Cell, longest: f64) -> Option<Vec<PossibleContact>> {
-        self.possible(&widened(cell, longest))
-    }
-
+    /// The contacts that may be made in a cell, if they are not too many.
     fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
-        let Some(contact) = self.contact else {
+        let Some(contact) = &self.bounded.cells else {
             return Some(Vec::new());
         };
         let found = contact.possible(cell, MOST_CONTACTS);
         let count = found.as_ref().map_or(MOST_CONTACTS, Vec::len);
-        self.bounds.count(A_CONTACT * count as u64);
+        self.bounded.count(A_CONTACT * count as u64);
         found
     }
 
     /// Weights of a step's squared components.
     fn metric(&self) -> Matrix3<f64> {
-        Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.lever * self.lever))
+        Matrix3::from_diagonal(&Vector3::new(
+            1.0,
+            1.0,
+            self.bounded.lever * self.bounded.lever,
+        ))
     }
 
     /// A cell's half sizes (m).
     pub fn sizes(&self, cell: &Cell) -> [f64; 3] {
         let [x, y, theta] = cell.half;
-        [x, y, self.lever * theta]
+        [x, y, self.bounded.lever * theta]
     }
 
     /// What each coordinate's size costs of the fall (J) along a step: by how much it changes there,
@@ -126,16 +118,10 @@ impl CellProof<'_> {
     /// Whether one step leads downhill from every free configuration of the cell; if the one that is
     /// tried does not, what each coordinate's size costs. Short ones show the most, where the
     /// energy's slope is bounded; `room` is known of all that they sweep.
-    fn falls(
-        &self,
-        cell: &Cell,
-        room: &Enclosure,
-        cuts: &[Cut],
-        corners: &[[Cut; 2]],
-    ) -> Option<Result<(), [f64; 3]>> {
+    fn falls(&self, cell: &Cell, room: &Enclosure, cuts: &Cuts) -> Option<Result<(), [f64; 3]>> {
         let is_smooth = room.slope.is_finite();
         let longest = if is_smooth { SHORT_FALL } else { FALL };
-        let out = self.pushed_out(cell, cuts, corners);
+        let out = self.pushed_out(cell, cuts);
         let gradient = slope(&room.form, &out);
         // A step costs at least a third of what its components cost one by one.
         let gains = |i: usize| {
@@ -146,7 +132,7 @@ impl CellProof<'_> {
         if !(0..3).any(gains) {
             return None;
         }
-        let contacts = self.within_steps(cell, longest)?;
+        let contacts = self.possible(&widened(cell, longest))?;
         let metric = self.metric();
         let force = -(metric.try_inverse()? * gradient);
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
@@ -162,7 +148,7 @@ impl CellProof<'_> {
             return Some(losses);
         }
         let lowers = |known: &Enclosure, from: &Vector3<f64>, swept: &Cell| {
-            self.is_lowered(cell, &step, (known, from, swept), cuts, corners)
+            self.is_lowered(cell, &step, (known, from, swept), cuts)
         };
         // What is within a short step is known already, and so is that the step closes nothing.
         let falls = if is_smooth {
@@ -170,16 +156,15 @@ impl CellProof<'_> {
         } else {
             let swept = swept(cell, &step);
             self.closes_nothing(&swept, &step)
-                && lowers(&self.bounds.enclose(&swept), &(-step / 2.0), &swept)
+                && lowers(&self.bounded.enclose(&swept), &(-step / 2.0), &swept)
         };
         Some(if falls { Ok(()) } else { losses })
     }
 
     /// The offset from the centre, within the cell, of about the nearest free configuration.
-    fn pushed_out(&self, cell: &Cell, cuts: &[Cut], corners: &[[Cut; 2]]) -> Vector3<f64> {
+    fn pushed_out(&self, cell: &Cell, cuts: &Cuts) -> Vector3<f64> {
         let rows: Vec<Constraint> = cuts
-            .iter()
-            .chain(corners.iter().map(Cut::easier))
+            .easiest()
             .map(|cut| Constraint {
                 touch: NO_TOUCH,
                 gap: cut.form.value,
@@ -236,8 +221,7 @@ impl CellProof<'_> {
         cell: &Cell,
         step: &Vector3<f64>,
         (known, from, swept): (&Enclosure, &Vector3<f64>, &Cell),
-        cuts: &[Cut],
-        corners: &[[Cut; 2]],
+        cuts: &Cuts,
     ) -> bool {
         let change = change(&known.form, from, step);
         // The greatest change is minus the least of its negative.
@@ -245,7 +229,7 @@ impl CellProof<'_> {
             form: Quadratic::default().minus(1.0, &change),
             ..Enclosure::default()
         };
-        let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts, corners).lower;
+        let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts).lower;
         let slack = known.change(step, &swept.half) + 2.0 * known.form.rounding(&swept.half);
         let bend = quadratic(&known.form, step);
         // A part t of the step changes the form by t times its change, less t (1 - t) / 2 times
@@ -256,7 +240,7 @@ impl CellProof<'_> {
 
     /// Whether a step leads from every free configuration of the cell into a wholly free box.
     fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<Verdict> {
-        let contacts = self.within_steps(cell, longest)?;
+        let contacts = self.possible(&widened(cell, longest))?;
         let spare = 1e-9;
         let least = |c: &PossibleContact| spare - c.least(&cell.half);
         let step = self.opening_step(cell, &contacts, (Vector3::zeros(), longest), least)?;
@@ -271,12 +255,12 @@ impl CellProof<'_> {
         if !self.possible(&freed)?.is_empty() {
             return None;
         }
-        let known = self.bounds.enclose(&swept);
+        let known = self.bounded.enclose(&swept);
         let highest = known.form.greatest(&swept.half) + known.high;
-        (highest - lowest <= self.rise).then_some(Verdict::Opens {
-            into: freed.centre,
+        (highest - lowest <= self.rise).then_some(Verdict::Opens(Opened {
+            at: freed.centre,
             lowest,
-        })
+        }))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::exits::{SAME, SHARP};
-use super::search::{Search, Waiting};
+use super::search::{Queue, Search, push};
 use super::{Completeness, OpenRegion, regions};
 use crate::configuration::Configuration;
 use crate::landscape::catalogue::Catalogue;
@@ -11,7 +11,6 @@ use crate::landscape::exploration::Exploration;
 use crate::landscape::minimax::{Certifier, Effort};
 use crate::landscape::pathway;
 use crate::observer::Silent;
-use crate::problem::Problem;
 
 /// Cells spent on finding a way on from a minimum that is not listed.
 const CELLS: usize = 50_000;
@@ -24,7 +23,7 @@ impl Search<'_> {
         let (mut judged, mut closed) = (BTreeSet::new(), Vec::new());
         loop {
             let reached: BTreeSet<usize> = self.explained.iter().map(|cell| cell.2).collect();
-            let mut again = Waiting::default();
+            let mut again = Queue::none();
             for ending in reached {
                 let at = self.exits.endings[ending].minimum.point;
                 if !judged.insert(ending) || listed.holds(self.problem, &at.q) {
@@ -44,7 +43,7 @@ impl Search<'_> {
                     .explained
                     .extract_if(.., |cell| cell.2 == ending && cell.1 < least)
                 {
-                    again.push(cell, lowest);
+                    push(&mut again, cell, lowest);
                 }
             }
             if again.is_empty() {
@@ -73,7 +72,7 @@ impl Search<'_> {
         let problem = self.problem;
         let minimum = self.exits.endings[ending].minimum.point;
         let allowed = minimum.energy + self.exits.rise;
-        let known = known_way(problem, survey, listed, &minimum.q).unwrap_or_default();
+        let known = known_way(survey, listed, &minimum.q).unwrap_or_default();
         self.exits.prove(&known, allowed).or_else(|| {
             let goals: Vec<_> = listed.states.iter().map(|s| s.configuration).collect();
             let contact = problem.contact.as_ref();
@@ -90,12 +89,12 @@ impl Search<'_> {
 
 /// The lowest way that a survey knows from a minimum to a listed one, or to `free`.
 fn known_way(
-    problem: &Problem,
     survey: &Exploration,
     listed: &Catalogue,
     minimum: &Configuration,
 ) -> Option<Vec<Configuration>> {
-    let from = survey.states[survey.state_at(problem, minimum, SAME)?].node;
+    let problem = survey.problem;
+    let from = survey.states[survey.state_at(minimum, SAME)?].node;
     let is_listed = survey
         .states
         .iter()
@@ -104,11 +103,6 @@ fn known_way(
     goals.insert(survey.free);
     let depth = problem.depth();
     let scale = [depth, 2e-3 * depth];
-    let way = pathway::lowest(problem, &survey.network, from, [&goals, &goals], scale)?;
-    Some(
-        way.pathway
-            .iter()
-            .map(|point| point.configuration)
-            .collect(),
-    )
+    let (_, way) = pathway::lowest(&survey.network, from, [&goals, &goals], scale)?;
+    Some(way.iter().map(|point| point.configuration).collect())
 }

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
-use crate::landscape::metered::Metered;
-use crate::landscape::minimax::upper::PathProof;
+use crate::landscape::bounded::Bounded;
 use crate::landscape::minimum::{Outcome, descend};
 use crate::landscape::stationary::Stationary;
 use crate::order::Order;
@@ -26,7 +25,7 @@ const TOGETHER: usize = 16;
 pub(super) const SHARP: f64 = 0.1;
 
 /// A wholly free box about `at`: where a step leads from all of a cell.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Opened {
     pub at: Configuration,
     /// The least energy (J) in the cell.
@@ -55,8 +54,7 @@ struct Exit {
 /// The exits known so far, and the minima in which they end.
 pub(super) struct Exits<'a> {
     problem: &'a Problem,
-    /// Of the energy over cells.
-    pub bounds: Arc<Metered<'a>>,
+    pub bounded: Arc<Bounded<'a>>,
     pub rise: f64,
     exits: Vec<Exit>,
     pub endings: Vec<Ending>,
@@ -65,7 +63,7 @@ pub(super) struct Exits<'a> {
 impl<'a> Exits<'a> {
     pub fn new(
         problem: &'a Problem,
-        bounds: Arc<Metered<'a>>,
+        bounded: Arc<Bounded<'a>>,
         rise: f64,
         known: impl Iterator<Item = Stationary>,
     ) -> Self {
@@ -76,7 +74,7 @@ impl<'a> Exits<'a> {
         };
         Self {
             problem,
-            bounds,
+            bounded,
             rise,
             exits: Vec::new(),
             endings: known.map(ending).collect(),
@@ -160,12 +158,7 @@ impl<'a> Exits<'a> {
 
     /// The proved highest energy (J) of a pathway, where it is not above `allowed`.
     pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
-        let proof = PathProof {
-            bounds: &*self.bounds,
-            contact: self.problem.contact.as_ref(),
-            space: &self.problem.space,
-        };
-        let proved = proof.prove(way, SHARP * self.rise, allowed);
+        let proved = self.bounded.prove(way, SHARP * self.rise, allowed);
         proved.ok().map(|proved| proved.upper)
     }
 

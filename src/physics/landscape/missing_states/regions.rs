@@ -1,7 +1,6 @@
 //! Cells about which nothing is proved, taken together where they lie close to each other.
 
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 
 use ordered_float::OrderedFloat;
 use petgraph::unionfind::UnionFind;
@@ -93,12 +92,10 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
     }
     let mut regions: BTreeMap<usize, Part> = BTreeMap::new();
     for (i, part) in parts.into_iter().enumerate() {
-        match regions.entry(joined.find(i)) {
-            Entry::Occupied(mut known) => known.get_mut().add(&part),
-            Entry::Vacant(place) => {
-                place.insert(part);
-            }
-        }
+        regions
+            .entry(joined.find(i))
+            .and_modify(|known| known.add(&part))
+            .or_insert(part);
     }
     let mut regions: Vec<OpenRegion> = regions.into_values().map(|part| part.region).collect();
     regions.order_by_key(|region| OrderedFloat(region.lowest));

@@ -1,10 +1,7 @@
 //! The search, cell by cell.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 
 use super::CompletenessSettings;
@@ -13,17 +10,13 @@ use super::domain::Domain;
 use super::exits::{Exits, Opened};
 use crate::budget::{Budget, Ended};
 use crate::cell::Cell;
-use crate::contact::Contact;
-use crate::contact::cells::ContactCells;
-use crate::interruption;
-use crate::landscape::barrier_bounds::Uncertified;
+use crate::landscape::bounded::Bounded;
 use crate::landscape::exploration::Exploration;
-use crate::landscape::metered::Metered;
+use crate::landscape::results::Uncertified;
 use crate::landscape::stationary::Stationary;
 use crate::observer::Observer;
-use crate::parallel;
 use crate::problem::Problem;
-use crate::tile::Outline;
+use crate::subdivision::Waiting;
 
 /// Sides smaller than this (m or rad, half a side) are not halved: below it rounding rules.
 const SMALLEST: f64 = 1e-9;
@@ -38,7 +31,7 @@ pub struct Search<'a> {
     pub(super) exits: Exits<'a>,
     pub(super) below: f64,
     /// Cells of which nothing is proved, with the least energy (J) that each may hold.
-    pub(super) open: Vec<(Cell, f64)>,
+    pub open: Vec<(Cell, f64)>,
     /// Cells explained by a way to a minimum: the number of that ending.
     pub(super) explained: Vec<(Cell, f64, usize)>,
     /// Of the part of the space that is searched (m^2 rad).
@@ -48,35 +41,14 @@ pub struct Search<'a> {
     pub(super) ended: Option<Ended>,
 }
 
-/// Cells to be looked at: those halved least before the others, as there is no end of small ones
-/// where a tile has no play; of each size the lowest first.
-type Queue = BinaryHeap<Reverse<(i32, OrderedFloat<f64>, usize)>>;
+/// Cells to be looked at, each with the least energy (J) that it may hold: those halved least before
+/// the others, as there is no end of small ones where a tile has no play; of each size the lowest
+/// first.
+pub(super) type Queue = Waiting<(i32, OrderedFloat<f64>), (Cell, f64)>;
 
-/// The cells that wait, each with the least energy (J) that it may hold.
-#[derive(Default)]
-pub(super) struct Waiting {
-    queue: Queue,
-    cells: Vec<(Cell, f64)>,
-}
-
-impl Waiting {
-    pub fn push(&mut self, cell: Cell, lowest: f64) {
-        let halvings = -libm::log2(cell.half[0].max(cell.half[1])).floor() as i32;
-        let number = self.cells.len();
-        self.queue
-            .push(Reverse((halvings, OrderedFloat(lowest), number)));
-        self.cells.push((cell, lowest));
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.queue.is_empty()
-    }
-
-    fn next(&mut self, most: usize) -> Vec<(Cell, f64)> {
-        let next = std::iter::from_fn(|| self.queue.pop()).take(most);
-        next.map(|Reverse((.., number))| self.cells[number])
-            .collect()
-    }
+pub(super) fn push(queue: &mut Queue, cell: Cell, lowest: f64) {
+    let halvings = -libm::log2(cell.half[0].max(cell.half[1])).floor() as i32;
+    queue.push((halvings, OrderedFloat(lowest)), (cell, lowest));
 }
 
 impl<'a> Search<'a> {
@@ -92,7 +64,8 @@ impl<'a> Search<'a> {
         settings: &CompletenessSettings,
         observer: &dyn Observer,
     ) -> Result<Self, Uncertified> {
-        let bounds = Arc::new(Metered::new(problem.bounds()?));
+        let contact = problem.contact.as_ref();
+        let bounded = Arc::new(Bounded::new(problem.bounds()?, contact, &problem.space));
         if settings.allowed.is_none() || settings.cells == 0 {
             return Err(Uncertified::Unasked);
         }
@@ -102,7 +75,7 @@ impl<'a> Search<'a> {
             problem,
             settings: *settings,
             budget: Budget::new(settings.allowed),
-            exits: Exits::new(problem, bounds, settings.escape * depth, known),
+            exits: Exits::new(problem, bounded, settings.escape * depth, known),
             below: -settings.below * depth,
             open: Vec::new(),
             explained: Vec::new(),
@@ -110,73 +83,59 @@ impl<'a> Search<'a> {
             cells: 0,
             ended: None,
         };
-        let mut waiting = Waiting::default();
+        let mut queue = Queue::none();
         for cell in Domain::new(problem).first_cells() {
             search.volume += cell.volume();
-            waiting.push(cell, f64::NEG_INFINITY);
+            push(&mut queue, cell, f64::NEG_INFINITY);
         }
-        search.look_through(waiting, observer);
+        search.look_through(queue, observer);
         Ok(search)
     }
 
     /// Proves cells and their parts, until there are none left or the work is done that was allowed.
-    pub(super) fn look_through(&mut self, mut waiting: Waiting, observer: &dyn Observer) {
-        let problem = self.problem;
-        let bounds = self.exits.bounds.clone();
-        let contact = problem.contact.as_ref().map(ContactCells::new);
-        let moving = problem.contact.as_ref().map(Contact::moving);
-        let lever = moving.map_or(problem.space.rho, Outline::circumradius);
+    pub(super) fn look_through(&mut self, mut queue: Queue, observer: &dyn Observer) {
+        let bounded = self.exits.bounded.clone();
         let proof = CellProof {
-            bounds: &bounds,
-            contact: contact.as_ref(),
+            bounded: &bounded,
             level: self.below,
             rise: self.exits.rise,
-            lever,
         };
-        let domain = Domain::new(problem);
-        loop {
-            let batch = waiting.next(BATCH);
-            if batch.is_empty() {
-                return;
-            }
-            bounds.pay(&mut self.budget);
+        let domain = Domain::new(self.problem);
+        while !queue.is_empty() {
+            bounded.pay(&mut self.budget);
             self.ended = self.budget.ended();
             if self.ended.is_some() || self.cells >= self.settings.cells {
-                self.open.extend(batch);
-                self.open.extend(waiting.next(usize::MAX));
-                return;
+                break;
             }
-            self.look_at(&batch, &proof, |cell, lowest| {
-                if domain.meets(&cell) {
-                    waiting.push(cell, lowest);
+            let looked_at = queue.look(BATCH, |(cell, _)| proof.verdict(cell));
+            self.cells += looked_at.len();
+            for (cell, lowest, losses) in self.unproved(&proof, looked_at) {
+                match halves(&cell, &losses) {
+                    Some(halves) => halves
+                        .into_iter()
+                        .filter(|half| domain.meets(half))
+                        .for_each(|half| push(&mut queue, half, lowest)),
+                    None => self.open.push((cell, lowest)),
                 }
-            });
-            let left = waiting.queue.len();
-            observer.part("completeness", self.cells, self.cells + left);
+            }
+            observer.part("completeness", self.cells, self.cells + queue.len());
         }
+        self.open.extend(queue.into_cells());
     }
 
-    /// Proves cells, or hands on their halves.
-    fn look_at(
+    /// Cells of which nothing is proved, with the least energy (J) that each may hold and what each
+    /// coordinate's size costs.
+    fn unproved(
         &mut self,
-        batch: &[(Cell, f64)],
         proof: &CellProof,
-        mut hand_on: impl FnMut(Cell, f64),
-    ) {
-        let verdicts: Vec<Verdict> = parallel::map(batch, |(cell, _)| {
-            interruption::check();
-            proof.verdict(cell)
-        });
-        self.cells += batch.len();
-        let mut opened = Vec::new();
-        let mut left = Vec::new();
-        for ((cell, before), verdict) in batch.iter().zip(verdicts) {
+        looked_at: Vec<((Cell, f64), Verdict)>,
+    ) -> Vec<(Cell, f64, [f64; 3])> {
+        let (mut opened, mut left) = (Vec::new(), Vec::new());
+        for ((cell, before), verdict) in looked_at {
             match verdict {
                 Verdict::Nothing | Verdict::Falls => {}
-                Verdict::Opens { into, lowest } => {
-                    opened.push((*cell, Opened { at: into, lowest }))
-                }
-                Verdict::Open { lowest, losses } => left.push((*cell, lowest.max(*before), losses)),
+                Verdict::Opens(place) => opened.push((cell, place)),
+                Verdict::Open { lowest, losses } => left.push((cell, lowest.max(before), losses)),
             }
         }
         let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();
@@ -186,17 +145,7 @@ impl<'a> Search<'a> {
                 None => left.push((cell, place.lowest, proof.sizes(&cell))),
             }
         }
-        for (cell, lowest, losses) in left {
-            match halves(&cell, &losses) {
-                Some(halves) => halves.into_iter().for_each(|half| hand_on(half, lowest)),
-                None => self.open.push((cell, lowest)),
-            }
-        }
-    }
-
-    /// Whether all that lies below the level is led to a minimum, listed or not.
-    pub fn is_everything_explained(&self) -> bool {
-        self.open.is_empty()
+        left
     }
 
     /// Minima that the survey had missed.
@@ -209,15 +158,7 @@ impl<'a> Search<'a> {
 /// The halves of a cell along the coordinate whose size costs most; `None` where it is too small.
 fn halves(cell: &Cell, losses: &[f64; 3]) -> Option<[Cell; 2]> {
     let axis = (0..3).max_by_key(|&i| OrderedFloat(losses[i]))?;
-    (cell.half[axis] > SMALLEST).then(|| {
-        [-0.5, 0.5].map(|side| {
-            let mut part = *cell;
-            let mut step = Vector3::zeros();
-            step[axis] = side * cell.half[axis];
-            part.centre = cell.centre.moved(step);
-            // Rounding of the centre must leave no gap between the halves.
-            part.half[axis] = cell.half[axis] / 2.0 + 4.0 * f64::EPSILON * (1.0 + cell.half[axis]);
-            part
-        })
-    })
+    let size = cell.half[axis];
+    let half = size / 2.0 + 4.0 * f64::EPSILON * (1.0 + size);
+    (size > SMALLEST).then(|| cell.parts(axis, half))
 }

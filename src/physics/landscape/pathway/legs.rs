@@ -7,8 +7,9 @@ use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::landscape::results::Pathway;
 use crate::problem::Problem;
-use crate::roadmap::profile::{Knot, Profile};
-use crate::roadmap::{Milestone, ProfileTolerance};
+use crate::roadmap::knot::Knot;
+use crate::roadmap::profile::Profile;
+use crate::roadmap::{Point, ProfileTolerance};
 
 /// Overlap (m) let pass between two points that touch: a straight motion between them cuts into a
 /// surface that the tiles turn on. Between two such points nothing gets deeper than a tenth of a
@@ -39,18 +40,18 @@ const CLIMBS: usize = 12;
 /// points is linear to within `bend` (J). Empty where a motion between two of them cannot be made
 /// free by bending it round the tiles.
 pub fn of_configurations(problem: &Problem, all: &[Configuration], bend: f64) -> Pathway {
-    let all: Vec<Milestone> = all.iter().map(|q| Milestone::new(problem, *q)).collect();
+    let all: Vec<Point> = all.iter().map(|q| Point::new(problem, *q)).collect();
     of_milestones(problem, &all, bend)
 }
 
 /// The same where the energies are known.
-pub(super) fn of_milestones(problem: &Problem, all: &[Milestone], bend: f64) -> Pathway {
+pub(super) fn of_milestones(problem: &Problem, all: &[Point], bend: f64) -> Pathway {
     let mut pathway = Pathway::new();
     let corners = free_polyline(problem, all).unwrap_or_default();
     let Some(first) = corners.first() else {
         return pathway;
     };
-    push(problem, &mut pathway, first.configuration, first.energy);
+    push(problem, &mut pathway, first.q, first.energy);
     for ends in corners.windows(2) {
         add_leg(problem, &mut pathway, [&ends[0], &ends[1]], bend, PUSHED);
     }
@@ -59,8 +60,8 @@ pub(super) fn of_milestones(problem: &Problem, all: &[Milestone], bend: f64) -> 
 
 /// Through the configurations, with as many more between them as it takes for each straight motion
 /// to be free; `None` where halving does not get there.
-fn free_polyline(problem: &Problem, all: &[Milestone]) -> Option<Vec<Milestone>> {
-    let mut corners: Vec<Milestone> = all.first().copied().into_iter().collect();
+fn free_polyline(problem: &Problem, all: &[Point]) -> Option<Vec<Point>> {
+    let mut corners: Vec<Point> = all.first().copied().into_iter().collect();
     for next in all.iter().skip(1) {
         join(problem, &mut corners, next, DEEPEST)?;
     }
@@ -68,14 +69,14 @@ fn free_polyline(problem: &Problem, all: &[Milestone]) -> Option<Vec<Milestone>>
 }
 
 /// Appends a free way from the last corner to `to`, its middle pushed out of overlap where needed.
-fn join(problem: &Problem, corners: &mut Vec<Milestone>, to: &Milestone, depth: u32) -> Option<()> {
-    let ends = [&corners.last()?.configuration, &to.configuration];
+fn join(problem: &Problem, corners: &mut Vec<Point>, to: &Point, depth: u32) -> Option<()> {
+    let ends = [&corners.last()?.q, &to.q];
     if problem.motion_overlaps_at_most(ends[0], ends[1], OVERLAP) {
         corners.push(*to);
         return Some(());
     }
     let middle = middle(problem, ends[0], ends[1]).filter(|_| depth > 0)?;
-    let middle = Milestone::new(problem, middle);
+    let middle = Point::new(problem, middle);
     join(problem, corners, &middle, depth - 1)?;
     join(problem, corners, to, depth - 1)
 }
@@ -103,17 +104,11 @@ fn middle(problem: &Problem, from: &Configuration, to: &Configuration) -> Option
 
 /// Appends a free leg: its end, its summits and dips, and points between them where it is long or its
 /// energy bends.
-fn add_leg(
-    problem: &Problem,
-    pathway: &mut Pathway,
-    [a, b]: [&Milestone; 2],
-    bend: f64,
-    depth: u32,
-) {
+fn add_leg(problem: &Problem, pathway: &mut Pathway, [a, b]: [&Point; 2], bend: f64, depth: u32) {
     let leg = Leg {
         problem,
-        from: a.configuration,
-        to: b.configuration,
+        from: a.q,
+        to: b.q,
         bend,
     };
     let tolerance = ProfileTolerance {
@@ -121,7 +116,7 @@ fn add_leg(
         absolute: closeness(problem, bend),
     };
     let knots = Profile::new(problem, a, b, &tolerance).knots;
-    let mut last = (a.configuration, a.energy);
+    let mut last = (a.q, a.energy);
     for three in knots.windows(3) {
         let Some((t, energy)) = leg.extreme([&three[0], &three[1], &three[2]]) else {
             continue;
@@ -131,14 +126,14 @@ fn add_leg(
             leg.refine(pathway, last, (straight, energy));
             last = (straight, energy);
         } else if let Some(pushed) = leg.pushed_out(&last.0, &straight).filter(|_| depth > 0) {
-            let from = Milestone::new(problem, last.0);
-            let pushed = Milestone::new(problem, pushed);
+            let from = Point::new(problem, last.0);
+            let pushed = Point::new(problem, pushed);
             add_leg(problem, pathway, [&from, &pushed], bend, depth - 1);
             add_leg(problem, pathway, [&pushed, b], bend, depth - 1);
             return;
         }
     }
-    leg.refine(pathway, last, (b.configuration, b.energy));
+    leg.refine(pathway, last, (b.q, b.energy));
 }
 
 /// How closely (J) the energy is followed along a leg: of very many magnets as closely as along the

@@ -6,12 +6,11 @@ mod shortcut;
 
 use std::collections::HashSet;
 
-use super::constrained::Point;
 use super::results::{Pathway, PathwayPoint, highest_point};
-use super::transition_network::{Cost, Network, Route, Way};
+use super::transition_network::{Cost, Network, Route};
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::problem::Problem;
-use crate::roadmap::Milestone;
+use crate::roadmap::Point;
 
 pub use legs::of_configurations;
 use legs::of_milestones;
@@ -29,42 +28,32 @@ pub(super) const AMONG_FAR: f64 = 0.01;
 /// is not taken unseen.
 const HIGHER: f64 = 1e-7;
 
-/// The best way between two nodes.
-#[derive(Clone, Debug)]
-pub struct Lowest {
-    /// The node that it reaches.
-    pub end: usize,
-    /// From the first node to the one it reaches; never empty. Where detours could be cut short, it
-    /// may lie below what the network holds.
-    pub pathway: Pathway,
-}
-
 /// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
 /// highest energy the one with the least work to one of the `ends`, and of those the shortest. Steps
 /// are halved until the energy between two points is linear to within `bend` (J); energies are
-/// measured by `depth` (J).
+/// measured by `depth` (J). The node that it reaches, and the pathway, never empty: where detours could
+/// be cut short, it may lie below what the network holds.
 pub fn lowest(
-    problem: &Problem,
     network: &Network,
     from: usize,
     [goals, ends]: [&HashSet<usize>; 2],
     [depth, bend]: [f64; 2],
-) -> Option<Lowest> {
+) -> Option<(usize, Pathway)> {
     let limits = Limits::below(highest(network, from, goals, depth)?, depth);
     let cost = Cost::Below {
         highest: limits.highest,
         per_metre: limits.per_metre,
     };
-    let (end, _, route) = network.cheapest(problem, from, ends, cost)?;
+    let (end, _, route) = network.cheapest(from, ends, cost)?;
     let peak = |way: &Pathway| highest_point(way).map_or(f64::INFINITY, |point| point.energy);
-    let mut pathway = along(problem, network, &route, Some(&limits), bend);
+    let mut pathway = along(network, &route, Some(&limits), bend);
     if peak(&pathway) > limits.highest + HIGHER * depth {
-        let plain = along(problem, network, &route, None, bend);
+        let plain = along(network, &route, None, bend);
         pathway = [pathway, plain]
             .into_iter()
             .min_by(|a, b| peak(a).total_cmp(&peak(b)))?;
     }
-    (!pathway.is_empty()).then_some(Lowest { end, pathway })
+    (!pathway.is_empty()).then_some((end, pathway))
 }
 
 /// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
@@ -109,24 +98,19 @@ pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -
 
 /// The pathway along a route. Stretches of straight motions are cut short within the limits; steps
 /// are halved until the energy between two points is linear to within `bend` (J).
-pub fn along(
-    problem: &Problem,
-    network: &Network,
-    route: &Route,
-    limits: Option<&Limits>,
-    bend: f64,
-) -> Pathway {
-    let mut all: Vec<Milestone> = Vec::new();
+pub fn along(network: &Network, route: &Route, limits: Option<&Limits>, bend: f64) -> Pathway {
+    let problem = network.problem;
+    let mut all: Vec<Point> = Vec::new();
     for stretch in stretches(network, route) {
         let points = match stretch {
             Stretch::Way(points) => points,
             Stretch::Straight(points) => {
                 let shorter = limits.map(|limits| shortened(problem, &points, limits));
                 let points = shorter.unwrap_or(points).into_iter();
-                points.map(|q| Milestone::new(problem, q)).collect()
+                points.map(|q| Point::new(problem, q)).collect()
             }
         };
-        let ends = [all.last(), points.first()].map(|end| end.map(|it| it.configuration));
+        let ends = [all.last(), points.first()].map(|end| end.map(|it| it.q));
         let repeated = usize::from(!all.is_empty() && ends[0] == ends[1]);
         all.extend(points.into_iter().skip(repeated));
     }
@@ -149,18 +133,10 @@ fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, 
     });
 }
 
-fn milestone(point: &Point) -> Milestone {
-    Milestone {
-        configuration: point.q,
-        energy: point.energy,
-        gradient: point.gradient,
-    }
-}
-
 enum Stretch {
     Straight(Vec<Configuration>),
     /// Along which the energy is known.
-    Way(Vec<Milestone>),
+    Way(Vec<Point>),
 }
 
 /// A route's links, neighbouring straight motions taken together.
@@ -173,15 +149,14 @@ fn stretches(network: &Network, route: &Route) -> Vec<Stretch> {
             ends.reverse();
         }
         match network.way(number) {
-            Way::Same => {}
-            Way::Points(points) => {
-                let mut way: Vec<Milestone> = points.iter().map(milestone).collect();
+            Some(points) => {
+                let mut way = points.to_vec();
                 if !forwards {
                     way.reverse();
                 }
                 all.push(Stretch::Way(way));
             }
-            Way::Straight => {
+            None => {
                 let ends = ends.map(|node| network.nodes[node as usize].map(|n| n.0));
                 let [Some(a), Some(b)] = ends else { continue };
                 match all.last_mut() {

@@ -6,7 +6,7 @@ use crate::landscape::constrained;
 use crate::order::Order;
 use crate::problem::Problem;
 use crate::roadmap::profile::Profile;
-use crate::roadmap::{Milestone, ProfileTolerance};
+use crate::roadmap::{Point, ProfileTolerance};
 
 /// Longest step (m, metric of the space) between two points from which a detour may be cut short.
 const STEP: f64 = 0.02;
@@ -80,7 +80,7 @@ pub fn shortened(
 /// neighbours, out of overlap where it gets into it, as long as that costs less.
 fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
     let price = |way: [&Configuration; 3]| {
-        let milestones = way.map(|q| Milestone::new(problem, *q));
+        let milestones = way.map(|q| Point::new(problem, *q));
         let [a, b, c] = &milestones;
         let halves = [[a, b], [b, c]].map(|ends| motion(problem, ends, limits));
         let peak = halves[0].0.max(halves[1].0);
@@ -128,11 +128,7 @@ fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration>
 /// A polyline with those dips and detours bypassed that cost more than a straight motion between two
 /// points of it, the worst first: a route goes along whole links of a network, down to a state and up
 /// again, where it might have left the one for the other half-way.
-pub fn bypassed(
-    problem: &Problem,
-    mut milestones: Vec<Milestone>,
-    limits: &Limits,
-) -> Vec<Milestone> {
+pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &Limits) -> Vec<Point> {
     for _ in 0..BYPASSES {
         let Some((from, to)) = worst_detour(problem, &milestones, limits) else {
             break;
@@ -145,12 +141,12 @@ pub fn bypassed(
 /// Two points of a polyline between which a straight motion saves most, as far as was looked.
 fn worst_detour(
     problem: &Problem,
-    milestones: &[Milestone],
+    milestones: &[Point],
     limits: &Limits,
 ) -> Option<(usize, usize)> {
     let price = |from: usize, to: usize| {
         let [from, to] = [from, to].map(|k| &milestones[k]);
-        let ends = [from, to].map(|end| &end.configuration);
+        let ends = [from, to].map(|end| &end.q);
         let length = problem.space.distance(ends[0], ends[1]);
         (to.energy - from.energy).max(0.0) + limits.per_metre * length
     };
@@ -182,7 +178,7 @@ fn worst_detour(
 
 /// From each point the farthest is tried first, then the one half as far along, and so on.
 fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Vec<Configuration> {
-    let milestones: Vec<Milestone> = points.iter().map(|q| Milestone::new(problem, *q)).collect();
+    let milestones: Vec<Point> = points.iter().map(|q| Point::new(problem, *q)).collect();
     let mut price = 0.0;
     let mut prices = vec![price];
     for pair in milestones.windows(2) {
@@ -209,8 +205,8 @@ fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Ve
 
 /// Whether a straight motion is free, keeps to the limits and costs no more than `most` (J). What a few
 /// places of it tell is asked first: of a rough landscape most motions end there.
-fn is_motion_within(problem: &Problem, ends: [&Milestone; 2], limits: &Limits, most: f64) -> bool {
-    let [a, b] = ends.map(|end| &end.configuration);
+fn is_motion_within(problem: &Problem, ends: [&Point; 2], limits: &Limits, most: f64) -> bool {
+    let [a, b] = ends.map(|end| &end.q);
     let mut energies = [0.0; GLANCES];
     for k in COARSE_FIRST {
         let q = a.interpolate(b, k as f64 / (GLANCES + 1) as f64);
@@ -232,15 +228,15 @@ fn is_motion_within(problem: &Problem, ends: [&Milestone; 2], limits: &Limits, m
 }
 
 /// The highest energy (J) on a straight motion, and what it costs (J).
-fn motion(problem: &Problem, [a, b]: [&Milestone; 2], limits: &Limits) -> (f64, f64) {
+fn motion(problem: &Problem, [a, b]: [&Point; 2], limits: &Limits) -> (f64, f64) {
     let tolerance = ProfileTolerance {
         relative: 0.0,
         absolute: limits.tolerance,
     };
     let profile = Profile::new(problem, a, b, &tolerance);
-    let length = problem.space.distance(&a.configuration, &b.configuration);
+    let length = problem.space.distance(&a.q, &b.q);
     (
         profile.peak().energy,
-        profile.work().0 + limits.per_metre * length,
+        profile.work()[0] + limits.per_metre * length,
     )
 }

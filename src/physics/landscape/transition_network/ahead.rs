@@ -6,10 +6,42 @@
 //! and the climb D of the way: climbs add up to D at least, lengths to d, and -ln of transition
 //! probabilities as [`improbability_at_least`] says.
 
+use std::collections::HashSet;
+
 use super::Network;
-use super::routes::{Cost, Ends, Gone};
 use crate::configuration::Configuration;
 use crate::roadmap::edge::improbability_at_least;
+
+/// By which cost paths are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cost {
+    /// Mechanical work against the energy (J).
+    Work,
+    /// -ln of the transition probabilities.
+    Probability,
+    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
+    /// exceed `highest` (J).
+    Below {
+        /// No link's peak on the path may exceed this (J).
+        highest: f64,
+        /// Energy (J) for each metre of the way.
+        per_metre: f64,
+    },
+}
+
+/// Between which nodes a search goes.
+#[derive(Clone, Copy)]
+pub(super) struct Ends<'a> {
+    pub from: usize,
+    pub goals: &'a HashSet<usize>,
+}
+
+/// In which direction links are gone that a search finds one after the other.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Gone {
+    Forwards,
+    Backwards,
+}
 
 /// A place where a search may end.
 enum Goal {
@@ -20,7 +52,7 @@ enum Goal {
 
 /// What is ahead of each node.
 pub(super) struct Ahead<'a> {
-    network: &'a Network,
+    network: &'a Network<'a>,
     pub cost: Cost,
     pub gone: Gone,
     goals: Vec<Goal>,
@@ -29,7 +61,7 @@ pub(super) struct Ahead<'a> {
 }
 
 impl<'a> Ahead<'a> {
-    pub fn new(network: &'a Network, ends: Ends, cost: Cost, gone: Gone) -> Self {
+    pub fn new(network: &'a Network<'a>, ends: Ends, cost: Cost, gone: Gone) -> Self {
         let goal = |&node: &usize| match network.nodes[node] {
             Some((q, energy)) => Goal::At(q, energy),
             None => Goal::Free(network.far_energies()),
@@ -59,9 +91,9 @@ impl<'a> Ahead<'a> {
         };
         let to_goal = |goal: &Goal| {
             let (distance, ends) = match goal {
-                Goal::At(at, there) => (self.network.space.distance(&q, at), [*there; 2]),
+                Goal::At(at, there) => (self.network.problem.space.distance(&q, at), [*there; 2]),
                 Goal::Free(there) => {
-                    let apart = self.network.space.free_distance - q.position().norm();
+                    let apart = self.network.problem.space.free_distance - q.position().norm();
                     (apart.max(0.0), *there)
                 }
             };
@@ -75,7 +107,7 @@ impl<'a> Ahead<'a> {
     }
 }
 
-impl Network {
+impl Network<'_> {
     /// What a way of at least this length (m) that leads up by `climb` (J) costs at least.
     pub(super) fn least_cost(&self, cost: Cost, length: f64, climb: f64) -> f64 {
         match cost {
@@ -91,7 +123,7 @@ impl Network {
             .nodes
             .iter()
             .flatten()
-            .filter(|(q, _)| self.space.is_far(q));
+            .filter(|(q, _)| self.problem.space.is_far(q));
         far.fold(
             [f64::INFINITY, f64::NEG_INFINITY],
             |[low, high], (_, energy)| [low.min(*energy), high.max(*energy)],

@@ -2,15 +2,13 @@
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
-use std::iter::Peekable;
 
 use ordered_float::OrderedFloat;
 use petgraph::unionfind::UnionFind;
 
-use super::routes::Ends;
+use super::ahead::Ends;
 use super::{Link, Network, Route};
 use crate::parallel;
-use crate::problem::Problem;
 
 /// Links that are looked at for those that can be weighed at once.
 const LOOKED_AT: usize = 32;
@@ -30,57 +28,28 @@ pub struct Merge {
 /// its number.
 type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 
-/// Links in ascending order, to which some come back.
-struct Waiting {
-    ascending: Peekable<std::vec::IntoIter<ByPeak>>,
-    again: BinaryHeap<Reverse<ByPeak>>,
-}
-
-impl Waiting {
-    fn new(mut ascending: Vec<ByPeak>) -> Self {
-        ascending.sort_unstable();
-        Self {
-            ascending: ascending.into_iter().peekable(),
-            again: BinaryHeap::new(),
-        }
-    }
-
-    fn extend(&mut self, links: impl Iterator<Item = ByPeak>) {
-        self.again.extend(links.map(Reverse));
-    }
-
-    fn next(&mut self) -> Option<ByPeak> {
-        let first = self.ascending.peek();
-        let again = self.again.peek().map(|Reverse(again)| again);
-        if again.is_some_and(|again| first.is_none_or(|first| again < first)) {
-            return self.again.pop().map(|Reverse(again)| again);
-        }
-        self.ascending.next()
-    }
-}
-
-impl Network {
+impl Network<'_> {
     /// Works out which motions minimax paths use, so that merges need to look at later links only: the
     /// minimum spanning forest by peak. Links without motion are left out, as no route leads through
     /// `free`. Between any two nodes, the path in it has the lowest possible highest peak. Links of equal
     /// peak are taken by their lengths and numbers, so that there is one such forest only, and links
     /// that were not in it before are not in it later.
-    pub fn span(&mut self, problem: &Problem) {
+    pub fn span(&mut self) {
         let links = self.hung();
-        self.span_by(problem, Vec::new(), links);
+        self.span_by(Vec::new(), links);
     }
 
     /// The same of a network that was never spanned.
-    pub(super) fn span_first(&mut self, problem: &Problem) {
-        let tree = self.descents(problem);
-        self.span_by(problem, tree, (0..self.links.len() as u32).collect());
+    pub(super) fn span_first(&mut self) {
+        let tree = self.descents();
+        self.span_by(tree, (0..self.links.len() as u32).collect());
     }
 
     /// Goes on from a part of the forest, `tree`, with some links.
     ///
     /// Kruskal's algorithm: links wait by their peaks, those that are not weighed by what these are
     /// at least, and only those that might join something are weighed. Blocked ones join nothing.
-    fn span_by(&mut self, problem: &Problem, mut tree: Vec<u32>, links: Vec<u32>) {
+    fn span_by(&mut self, mut tree: Vec<u32>, links: Vec<u32>) {
         let is_same = |number: &u32| self.is_same(*number as usize);
         let (same, mut left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
         let mut joined = UnionFind::<u32>::new(self.nodes.len());
@@ -93,13 +62,14 @@ impl Network {
             !joined.equiv(link.from, link.to)
         });
         let by_peak = |number| self.by_peak(number);
-        let mut waiting = Waiting::new(parallel::map(&left, |&number| by_peak(number)));
+        let by_peak = parallel::map(&left, |&number| Reverse(by_peak(number)));
+        let mut waiting = BinaryHeap::from(by_peak);
         // Once a link has to be weighed, others that follow and join other parts of the forest; all
         // that are looked at meanwhile, and the parts that they touch.
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
         loop {
-            let next = waiting.next();
-            if let Some((_, _, number)) = next {
+            let next = waiting.pop();
+            if let Some(Reverse((_, _, number))) = next {
                 let Link { from, to, .. } = self.links[number as usize];
                 let parts = [from, to].map(|node| joined.find_mut(node));
                 if parts[0] == parts[1] || self.is_blocked(number as usize) {
@@ -121,8 +91,8 @@ impl Network {
                 if aside.is_empty() {
                     break;
                 }
-                self.weigh(problem, &open);
-                waiting.extend(aside.drain(..).map(|number| self.by_peak(number)));
+                self.weigh(&open);
+                waiting.extend(aside.drain(..).map(|number| Reverse(self.by_peak(number))));
                 open.clear();
                 touched.clear();
             }
@@ -144,7 +114,7 @@ impl Network {
 
     /// For each node the shortest link that leads down all the way, where there is one. It peaks at the
     /// node, as low as any that leads there, and is the first such one: it is in the spanning forest.
-    fn descents(&mut self, problem: &Problem) -> Vec<u32> {
+    fn descents(&mut self) -> Vec<u32> {
         let energy = |node: u32| self.nodes[node as usize].map(|known| known.1);
         let mut below: Vec<Vec<(OrderedFloat<f64>, u32)>> = vec![Vec::new(); self.nodes.len()];
         for (number, Link { from, to, .. }) in self.links.iter().enumerate() {
@@ -164,7 +134,7 @@ impl Network {
             }
             let next = |node: &usize| below[*node][turn].1 as usize;
             let links: Vec<usize> = open.iter().map(next).collect();
-            self.weigh(problem, &links);
+            self.weigh(&links);
             open.retain(|node| {
                 let leads_down =
                     self.nodes[*node].is_some_and(|known| self.peak(next(node)) <= known.1);

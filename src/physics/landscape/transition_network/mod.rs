@@ -22,27 +22,16 @@ use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
 use petgraph::graph::{NodeIndex, UnGraph};
 
+pub use ahead::Cost;
 pub use forest::Merge;
-pub use routes::{Cost, Route};
+pub use routes::Route;
 
-use super::constrained::Point;
-use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::configuration::Configuration;
 use crate::contact::Known;
 use crate::parallel;
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
-use crate::roadmap::{Edge, EdgeSettings, Milestone, Roadmap};
-
-/// A way between two nodes.
-#[derive(Clone, Debug)]
-pub enum Way {
-    /// The straight motion.
-    Straight,
-    /// A sequence of points, from the link's first node to its second.
-    Points(Vec<Point>),
-    /// No motion: the two nodes are taken as one (a far configuration and `free`).
-    Same,
-}
+use crate::roadmap::{Edge, EdgeSettings, Point, Roadmap};
 
 /// What joins two nodes.
 #[derive(Clone, Debug)]
@@ -69,8 +58,10 @@ impl Link {
 
 /// Nodes and links. A link takes 88 bytes, its part in the graph included; few have a way that is
 /// not straight.
-#[derive(Clone, Debug)]
-pub struct Network {
+#[derive(Clone)]
+pub struct Network<'a> {
+    /// Of which the nodes are configurations.
+    pub problem: &'a Problem,
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
     /// Of the first ones, the roadmap's milestones, the energy's gradient and what contact knows.
@@ -82,11 +73,10 @@ pub struct Network {
     settled: FixedBitSet,
     /// How links are weighed.
     settings: EdgeSettings,
-    space: ConfigurationSpace,
     /// How many links are motions of the roadmap; they come first.
     of_roadmap: usize,
-    /// The ways of those links that are no straight motions.
-    ways: HashMap<usize, Way>,
+    /// The points of those links, from the first node to the second, that are no straight motions.
+    ways: HashMap<usize, Vec<Point>>,
     /// Its edges have the numbers of the links.
     graph: UnGraph<(), (), u32>,
     /// Of each node the motions that minimax paths use, the links without motion, and all links that
@@ -94,26 +84,26 @@ pub struct Network {
     around: Vec<Vec<u32>>,
 }
 
-impl Network {
+impl<'a> Network<'a> {
     /// The milestones become nodes and the motions between them links, first those that are weighed.
-    pub fn new(problem: &Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
+    pub fn new(problem: &'a Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
         let nodes = roadmap.milestones.len();
         let links = roadmap.edges.len() + roadmap.untried.len();
-        let of_milestone = |m: &Milestone| (m.gradient, problem.known(&m.configuration));
+        let of_milestone = |m: &Point| (m.gradient, problem.known(&m.q));
         let mut network = Self {
+            problem,
             nodes: Vec::with_capacity(nodes),
             of_milestones: parallel::map(&roadmap.milestones, of_milestone),
             links: Vec::with_capacity(links),
             settled: FixedBitSet::new(),
             settings: *settings,
-            space: problem.space.clone(),
             of_roadmap: links,
             ways: HashMap::new(),
             graph: UnGraph::with_capacity(nodes, links),
             around: Vec::with_capacity(nodes),
         };
         for milestone in &roadmap.milestones {
-            network.add_node(Some((milestone.configuration, milestone.energy)));
+            network.add_node(Some((milestone.q, milestone.energy)));
         }
         for Edge { from, to, costs } in roadmap.edges {
             network.push(from, to, OnceLock::from(costs));
@@ -121,7 +111,7 @@ impl Network {
         for (from, to) in roadmap.untried {
             network.push(from, to, OnceLock::new());
         }
-        network.span_first(problem);
+        network.span_first();
         network
     }
 
@@ -157,7 +147,7 @@ impl Network {
     }
 
     /// Whether a link is none of a motion: one of its nodes stands for `free`.
-    fn is_same(&self, link: usize) -> bool {
+    pub fn is_same(&self, link: usize) -> bool {
         let Link { from, to, .. } = &self.links[link];
         [from, to]
             .iter()
@@ -177,14 +167,10 @@ impl Network {
     pub fn add_image(&mut self, link: usize, [from, to]: [usize; 2], symmetry: &Symmetry) {
         let costs = self.links[link].costs.clone();
         let number = self.add_link(from as u32, to as u32, costs);
-        let image = match self.way(link) {
-            Way::Straight => return,
-            Way::Same => Way::Same,
-            Way::Points(points) => {
-                Way::Points(points.iter().map(|point| point.image(symmetry)).collect())
-            }
-        };
-        self.ways.insert(number, image);
+        if let Some(points) = self.ways.get(&link) {
+            let image = points.iter().map(|point| point.image(symmetry)).collect();
+            self.ways.insert(number, image);
+        }
     }
 
     /// What a link costs, or what it costs at least as long as it is not weighed.
@@ -202,7 +188,7 @@ impl Network {
         };
         EdgeCosts {
             peak: from.max(to),
-            length: self.space.distance(&a, &b),
+            length: self.problem.space.distance(&a, &b),
             work: [(to - from).max(0.0), (from - to).max(0.0)],
             ..EdgeCosts::default()
         }
@@ -229,14 +215,12 @@ impl Network {
             peak: energy,
             ..EdgeCosts::default()
         };
-        let number = self.add_motion(node, free, costs);
-        self.ways.insert(number, Way::Same);
-        number
+        self.add_motion(node, free, costs)
     }
 
-    /// How a link goes from its first node to its second.
-    pub fn way(&self, link: usize) -> &Way {
-        self.ways.get(&link).unwrap_or(&Way::Straight)
+    /// The points of a link, where it is no straight motion between its nodes, nor none.
+    pub fn way(&self, link: usize) -> Option<&[Point]> {
+        self.ways.get(&link).map(Vec::as_slice)
     }
 
     /// Whether no link leads to a node.
@@ -245,21 +229,15 @@ impl Network {
     }
 
     /// Adds a link along a sequence of points.
-    pub fn add_way(
-        &mut self,
-        problem: &Problem,
-        from: usize,
-        to: usize,
-        points: Vec<Point>,
-    ) -> usize {
+    pub fn add_way(&mut self, from: usize, to: usize, points: Vec<Point>) -> usize {
         let energies: Vec<f64> = points.iter().map(|p| p.energy).collect();
         let lengths: Vec<f64> = points
             .windows(2)
-            .map(|pair| problem.space.distance(&pair[0].q, &pair[1].q))
+            .map(|pair| self.problem.space.distance(&pair[0].q, &pair[1].q))
             .collect();
         let costs = costs_of_energies(&energies, &lengths, &self.settings);
         let number = self.add_motion(from, to, costs);
-        self.ways.insert(number, Way::Points(points));
+        self.ways.insert(number, points);
         number
     }
 
@@ -290,15 +268,15 @@ impl Network {
 
     /// Where the highest energy of a link is reached; `None` for a link without motion.
     pub fn peak_configuration(&self, link: usize) -> Option<Configuration> {
+        if let Some(points) = self.way(link) {
+            let highest = points.iter().max_by_key(|p| OrderedFloat(p.energy));
+            return highest.map(|p| p.q);
+        }
         let Link { from, to, .. } = &self.links[link];
         let [from, to] = [*from, *to].map(|node| self.nodes[node as usize].map(|n| n.0));
-        match self.way(link) {
-            Way::Same => from.or(to),
-            Way::Straight => Some(from?.interpolate(&to?, self.costs(link).peak_at)),
-            Way::Points(points) => points
-                .iter()
-                .max_by_key(|p| OrderedFloat(p.energy))
-                .map(|p| p.q),
+        match (from, to) {
+            (Some(from), Some(to)) => Some(from.interpolate(&to, self.costs(link).peak_at)),
+            _ => from.or(to),
         }
     }
 }

@@ -9,56 +9,30 @@ use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
 use super::Network;
-use super::ahead::Ahead;
-use crate::problem::Problem;
+use super::ahead::{Ahead, Cost, Ends, Gone};
 use crate::roadmap::edge::EdgeCosts;
 
 /// A path through the network: links with the direction in which each is gone.
 pub type Route = Vec<(usize, bool)>;
 
-/// By which cost paths are compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cost {
-    /// Mechanical work against the energy (J).
-    Work,
-    /// -ln of the transition probabilities.
-    Probability,
-    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
-    /// exceed `highest` (J).
-    Below {
-        /// No link's peak on the path may exceed this (J).
-        highest: f64,
-        /// Energy (J) for each metre of the way.
-        per_metre: f64,
-    },
-}
-
-impl Network {
+impl Network<'_> {
     /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
     /// equally cheap ones always the same.
     pub fn cheapest(
         &self,
-        problem: &Problem,
         from: usize,
         goals: &HashSet<usize>,
         cost: Cost,
     ) -> Option<(usize, f64, Route)> {
         let ends = Ends { from, goals };
-        self.search(problem, ends, cost, Gone::Forwards)
+        self.search(ends, cost, Gone::Forwards)
     }
 
     /// The cheapest route from a node to another, looked for from its end: the sooner found where
     /// less is around that, as around a state beside `free`.
-    pub fn cheapest_into(
-        &self,
-        problem: &Problem,
-        from: usize,
-        to: usize,
-        cost: Cost,
-    ) -> Option<(f64, Route)> {
+    pub fn cheapest_into(&self, from: usize, to: usize, cost: Cost) -> Option<(f64, Route)> {
         let goals = &HashSet::from([from]);
-        let (_, total, mut route) =
-            self.search(problem, Ends { from: to, goals }, cost, Gone::Backwards)?;
+        let (_, total, mut route) = self.search(Ends { from: to, goals }, cost, Gone::Backwards)?;
         route.reverse();
         for (_, forwards) in &mut route {
             *forwards = !*forwards;
@@ -69,13 +43,7 @@ impl Network {
     /// A* ([`Ahead`]). A link that is not weighed waits by what it costs at least and is weighed when
     /// its turn comes; where it costs more, it waits again. So only links that might be the best way to
     /// some node are weighed, the same ones whatever other searches weigh meanwhile.
-    fn search(
-        &self,
-        problem: &Problem,
-        ends: Ends,
-        cost: Cost,
-        gone: Gone,
-    ) -> Option<(usize, f64, Route)> {
+    fn search(&self, ends: Ends, cost: Cost, gone: Gone) -> Option<(usize, f64, Route)> {
         if ends.goals.is_empty() {
             return None;
         }
@@ -105,7 +73,7 @@ impl Network {
                 waiting.push(Reverse((key, number as u32, here as u32)));
             }
             let known = (&mut weighed, &mut reached[..]);
-            here = self.best_of(problem, &mut waiting, known, (ends, &mut ahead))?;
+            here = self.best_of(&mut waiting, known, (ends, &mut ahead))?;
         }
         let route = self.route(here, |node| reached[node]?.1);
         Some((here, reached[here]?.0, route))
@@ -126,7 +94,6 @@ impl Network {
     /// Reaches the node that is reached best by a link that waits.
     fn best_of(
         &self,
-        problem: &Problem,
         waiting: &mut BinaryHeap<Waiting>,
         (weighed, reached): (&mut FixedBitSet, &mut [Reached]),
         (ends, ahead): (Ends, &mut Ahead),
@@ -139,7 +106,7 @@ impl Network {
             if reached[target].is_some() {
                 continue;
             }
-            self.weighed(problem, number as usize);
+            self.weighed(number as usize);
             weighed.insert(number as usize);
             if !self.is_allowed(weighed, number as usize, ends, cost) {
                 continue;
@@ -218,17 +185,3 @@ type Waiting = Reverse<([OrderedFloat<f64>; 2], u32, u32)>;
 
 /// What it costs to reach a node, and the link that was gone last, once it is reached.
 type Reached = Option<(f64, Option<u32>)>;
-
-/// Between which nodes a search goes.
-#[derive(Clone, Copy)]
-pub(super) struct Ends<'a> {
-    pub from: usize,
-    pub goals: &'a HashSet<usize>,
-}
-
-/// In which direction links are gone that a search finds one after the other.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Gone {
-    Forwards,
-    Backwards,
-}

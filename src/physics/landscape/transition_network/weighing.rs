@@ -5,15 +5,14 @@ use std::sync::OnceLock;
 use super::{Link, Network};
 use crate::contact::Halves;
 use crate::parallel;
-use crate::problem::Problem;
-use crate::roadmap::Milestone;
+use crate::roadmap::Point;
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
 
 /// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
 const PARTS: usize = 2;
 const FEW: usize = 16;
 
-impl Network {
+impl Network<'_> {
     pub(super) fn is_weighed(&self, link: usize) -> bool {
         self.links[link].costs.get().is_some()
     }
@@ -23,14 +22,16 @@ impl Network {
     }
 
     /// How many motions of the roadmap are free, those among them that nobody asked for.
-    pub fn motions(&self, problem: &Problem) -> usize {
+    pub fn motions(&self) -> usize {
         let (weighed, open): (Vec<usize>, Vec<usize>) =
             (0..self.of_roadmap).partition(|link| self.is_weighed(*link));
         let ends = |link: &usize| {
             let Link { from, to, .. } = self.links[*link];
             [from, to].map(|node| &self.of_milestones[node as usize].1)
         };
-        let free = problem.free_among(open.len(), |number| ends(&open[number]));
+        let free = self
+            .problem
+            .free_among(open.len(), |number| ends(&open[number]));
         free.into_iter().filter(|is_free| *is_free).count()
             + weighed
                 .iter()
@@ -39,13 +40,12 @@ impl Network {
     }
 
     /// Weighs those of some links that are not, side by side.
-    pub(super) fn weigh(&mut self, problem: &Problem, links: &[usize]) {
+    pub(super) fn weigh(&mut self, links: &[usize]) {
         let open = links.iter().copied();
         let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
         let together = open.len().div_ceil(PARTS).clamp(FEW, SIDE_BY_SIDE);
         let parts: Vec<&[usize]> = open.chunks(together).collect();
-        let costs: Vec<EdgeCosts> =
-            parallel::flat_map(&parts, |some| self.costs_of_straight(problem, some));
+        let costs: Vec<EdgeCosts> = parallel::flat_map(&parts, |some| self.costs_of_straight(some));
         for (number, costs) in open.into_iter().zip(costs) {
             self.links[number].costs = OnceLock::from(costs);
             self.settled.insert(number);
@@ -53,23 +53,20 @@ impl Network {
     }
 
     /// Weighs a link for a search, unless any has.
-    pub(super) fn weighed(&self, problem: &Problem, number: usize) {
-        let weigh = || self.costs_of_straight(problem, &[number])[0];
+    pub(super) fn weighed(&self, number: usize) {
+        let weigh = || self.costs_of_straight(&[number])[0];
         self.links[number].costs.get_or_init(weigh);
     }
 
     /// What straight motions cost, all at once.
-    fn costs_of_straight(&self, problem: &Problem, links: &[usize]) -> Vec<EdgeCosts> {
+    fn costs_of_straight(&self, links: &[usize]) -> Vec<EdgeCosts> {
         let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
         let mut left = Halves::default();
-        let is_free = |of: &usize| self.is_free(problem, links[*of], &mut left);
+        let is_free = |of: &usize| self.is_free(links[*of], &mut left);
         let free: Vec<usize> = (0..links.len()).filter(is_free).collect();
-        let ends: Vec<[Milestone; 2]> = free
-            .iter()
-            .filter_map(|of| self.ends(problem, links[*of]))
-            .collect();
-        let ends: Vec<[&Milestone; 2]> = ends.iter().map(|ends| ends.each_ref()).collect();
-        let weighed = costs_side_by_side(problem, &ends, &self.settings);
+        let ends: Vec<[Point; 2]> = free.iter().filter_map(|of| self.ends(links[*of])).collect();
+        let ends: Vec<[&Point; 2]> = ends.iter().map(|ends| ends.each_ref()).collect();
+        let weighed = costs_side_by_side(self.problem, &ends, &self.settings);
         for (of, weighed) in free.into_iter().zip(weighed) {
             costs[of] = weighed;
         }
@@ -77,7 +74,8 @@ impl Network {
     }
 
     /// Whether the straight motion between a link's nodes is free.
-    fn is_free(&self, problem: &Problem, link: usize, left: &mut Halves) -> bool {
+    fn is_free(&self, link: usize, left: &mut Halves) -> bool {
+        let problem = self.problem;
         let Link { from, to, .. } = self.links[link];
         let known = |node: u32| match self.of_milestones.get(node as usize) {
             Some((_, known)) => *known,
@@ -87,19 +85,19 @@ impl Network {
     }
 
     /// The milestones that a straight motion joins.
-    fn ends(&self, problem: &Problem, number: usize) -> Option<[Milestone; 2]> {
+    fn ends(&self, number: usize) -> Option<[Point; 2]> {
         let Link { from, to, .. } = &self.links[number];
-        let [from, to] = [*from, *to].map(|node| self.milestone(problem, node as usize));
+        let [from, to] = [*from, *to].map(|node| self.milestone(node as usize));
         Some([from?, to?])
     }
 
-    fn milestone(&self, problem: &Problem, node: usize) -> Option<Milestone> {
+    fn milestone(&self, node: usize) -> Option<Point> {
         let (configuration, energy) = self.nodes[node]?;
         let Some(&(gradient, _)) = self.of_milestones.get(node) else {
-            return Some(Milestone::new(problem, configuration));
+            return Some(Point::new(self.problem, configuration));
         };
-        Some(Milestone {
-            configuration,
+        Some(Point {
+            q: configuration,
             energy,
             gradient,
         })

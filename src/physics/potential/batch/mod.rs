@@ -14,14 +14,11 @@
 
 mod bundle;
 mod derivative;
-mod elementary;
 mod field;
 pub mod lanes;
 mod level;
 mod patched;
-pub(super) use patched::Sampled;
 mod portable;
-mod sin_cos;
 mod tasks;
 #[cfg(target_arch = "x86_64")]
 mod x86;

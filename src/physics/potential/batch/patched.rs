@@ -11,7 +11,6 @@ use super::lanes::{Lanes, Task, WIDTH};
 use super::tasks::{frame_of_one, summed};
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
-use crate::potential::dipole::Dipole;
 use crate::potential::patches::polynomial::{ORDER, Polynomial};
 use crate::potential::patches::square::{NEAR, Near, Patch};
 
@@ -180,34 +179,4 @@ fn along<L: Lanes, const TIMES: usize>(
         sum = l.mul_add(*column, power, sum);
     }
     sum
-}
-
-/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, as exact as f64 is.
-pub struct Sampled<'a> {
-    pub far: &'a [Dipole],
-    /// The places' x, and the y of all (m).
-    pub xs: &'a [f64; ORDER],
-    pub y: f64,
-    pub out: &'a mut [f64; ORDER],
-}
-
-impl Task for Sampled<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, l: L) {
-        for first in (0..ORDER).step_by(WIDTH) {
-            let x = l.load(&self.xs[first..]);
-            let mut sum = l.splat(0.0);
-            for source in self.far {
-                let dx = l.sub(x, l.splat(source.position.x));
-                let dy = l.splat(self.y - source.position.y);
-                let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
-                let along = l.mul(l.splat(source.moment.y), dy);
-                let along = l.mul_add(l.splat(source.moment.x), dx, along);
-                sum = l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))));
-            }
-            l.store(sum, &mut self.out[first..]);
-        }
-    }
 }

@@ -1,8 +1,8 @@
 //! Plain Rust, for every machine.
 
-use super::elementary::{angle, ln_ratio};
-use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH, reciprocal_sqrt};
-use super::sin_cos::sin_cos;
+use super::lanes::{
+    Arithmetic, GUESS, Lanes, Task, WIDTH, angle, ln_ratio, reciprocal_sqrt, sin_cos,
+};
 
 /// Eight lanes in plain Rust.
 ///

@@ -4,11 +4,12 @@
 mod cuboid;
 pub(super) mod dipole;
 mod near;
+mod shielded;
 
-pub use super::shielding::ShieldedBounds;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
-pub(super) use near::{Interval, NearPair, depths};
+use near::{Interval, NearPair, depths};
+pub use shielded::ShieldedBounds;
 
 use nalgebra::Vector3;
 

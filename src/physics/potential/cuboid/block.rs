@@ -2,9 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::panel::Near;
 use super::quadrature::{Corner, NO_CORNER};
-use crate::potential::batch::Level;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 
@@ -75,19 +73,6 @@ pub struct PairEnergy {
     pub gradient: Vector2<f64>,
     /// By the second block's angle about its own centre (J/rad).
     pub slope: f64,
-}
-
-impl PairEnergy {
-    /// [`exact`] for the given instruction set; the derivatives are zero where not asked for.
-    pub(super) fn near<const SLOPE: bool>(level: Level, first: &Block, second: &Block) -> Self {
-        let pair = BlockPair::new(first, second, second.position);
-        let (energy, gradient) = level.run(Near::<SLOPE>::of(&[pair]));
-        Self {
-            energy,
-            gradient: gradient.xy(),
-            slope: gradient.z,
-        }
-    }
 }
 
 /// Two blocks as four pairs of pole faces, all at the same angle. Coordinates are those of the
@@ -224,115 +209,6 @@ impl BlockPair {
             -self.cos * self.inverse_sin
         } else {
             0.0
-        }
-    }
-}
-
-/// Two blocks' energy and its derivatives by their pole faces, however far apart they are: exact
-/// near by, while far away (from some thirty times their size on) digits are lost to cancellation.
-pub fn exact(first: &Block, second: &Block) -> PairEnergy {
-    PairEnergy::near::<true>(Level::best(), first, second)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::potential::cuboid::cloud;
-    use crate::units::MU0;
-
-    fn block(x: f64, y: f64, angle: f64, size: [f64; 3], remanence: f64) -> Block {
-        Block {
-            position: Vector2::new(x, y),
-            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
-            moment: remanence * size.iter().product::<f64>() / MU0,
-            size,
-        }
-    }
-
-    const SIZE: [f64; 3] = [0.010, 0.012, 0.003];
-    const OTHER: [f64; 3] = [0.006, 0.008, 0.005];
-
-    /// The derivatives by x, y and the angle, from central differences of the given steps.
-    fn differences(at: impl Fn(f64, f64, f64) -> f64, h: f64, a: f64) -> [f64; 3] {
-        [
-            (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
-            (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
-            (at(0.0, 0.0, a) - at(0.0, 0.0, -a)) / (2.0 * a),
-        ]
-    }
-
-    #[test]
-    fn the_gradient_is_the_derivative_of_the_energy() {
-        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
-        for (x, y, angle) in [
-            (0.02, 0.004, 0.4),
-            (0.013, 0.001, 0.35),
-            (0.0, 0.015, 1.8),
-            (-0.016, 0.003, -2.7),
-            (0.04, 0.03, 2.0),
-        ] {
-            for size in [SIZE, OTHER] {
-                let at = |dx: f64, dy: f64, da: f64| {
-                    exact(&first, &block(x + dx, y + dy, angle + da, size, 0.9)).energy
-                };
-                let pair = exact(&first, &block(x, y, angle, size, 0.9));
-                let fd = differences(at, 1e-6, 1e-4);
-                let scale = pair.gradient.norm();
-                assert!((pair.gradient.x - fd[0]).abs() < 1e-6 * scale);
-                assert!((pair.gradient.y - fd[1]).abs() < 1e-6 * scale);
-                assert!((pair.slope - fd[2]).abs() < 1e-6 * scale * 0.01);
-                assert!((at(0.0, 0.0, 0.0) - pair.energy).abs() < 1e-13 * pair.energy.abs());
-            }
-        }
-    }
-
-    #[test]
-    fn the_gradient_is_the_derivative_where_faces_pass_through_each_others_lines() {
-        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
-        // Overlapping to both sides, and beside each other.
-        for (x, y, angle) in [
-            (0.009, 0.002, 0.4),
-            (0.008, -0.003, 0.1),
-            (-0.007, 0.004, 0.7),
-            (-0.009, -0.001, 0.3 + 2.9),
-            (-0.004, 0.013, 0.5),
-            (0.004, -0.014, 0.9),
-            (0.003, -0.013, -0.2),
-        ] {
-            let at = |dx: f64, dy: f64, da: f64| {
-                exact(&first, &block(x + dx, y + dy, angle + da, OTHER, 0.9)).energy
-            };
-            let pair = exact(&first, &block(x, y, angle, OTHER, 0.9));
-            let fd = differences(at, 2e-5, 2e-3);
-            let scale = pair.gradient.norm();
-            assert!((pair.gradient.x - fd[0]).abs() < 3e-4 * scale, "{x} {y}");
-            assert!((pair.gradient.y - fd[1]).abs() < 3e-4 * scale, "{x} {y}");
-            assert!((pair.slope - fd[2]).abs() < 3e-4 * scale * 0.01, "{x} {y}");
-        }
-    }
-
-    #[test]
-    fn the_pole_faces_agree_with_a_cloud_of_charges() {
-        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
-        for i in 0..60 {
-            let (direction, distance) = (0.37 * i as f64, 0.022 + 0.0004 * i as f64);
-            let (x, y) = (
-                distance * libm::cos(direction),
-                distance * libm::sin(direction),
-            );
-            let second = block(
-                x,
-                y,
-                1.7 * i as f64,
-                if i % 2 == 0 { SIZE } else { OTHER },
-                0.9,
-            );
-            let got = exact(&first, &second);
-            let cloud = cloud::energy_and_gradient::<16>(&first, &second);
-            let scale = MU0_OVER_4PI * first.moment * second.moment / distance.powi(3);
-            assert!((got.energy - cloud.energy).abs() < 1e-8 * scale);
-            assert!((got.gradient - cloud.gradient).norm() < 1e-7 * scale / distance);
-            assert!((got.slope - cloud.slope).abs() < 1e-7 * scale);
         }
     }
 }

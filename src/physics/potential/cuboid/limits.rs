@@ -35,7 +35,8 @@
 
 use nalgebra::Vector2;
 
-use super::block::{Block, BlockPair, exact};
+use super::block::{Block, BlockPair};
+use super::panel::exact;
 use crate::potential::motion;
 use crate::units::MU0_OVER_4PI;
 

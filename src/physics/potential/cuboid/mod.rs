@@ -50,6 +50,7 @@ pub use block::{Block, PairEnergy};
 use far::{Group, STEPS};
 use limits::Limits;
 use multipole::{Multipole, TERMS};
+pub use panel::exact;
 use sum::{Each, Sum};
 
 /// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form takes

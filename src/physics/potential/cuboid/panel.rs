@@ -2,9 +2,10 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::block::{BlockPair, Faces};
-use super::quadrature::{Fineness, MOST, Panel, Rules, panels};
+use super::block::{Block, BlockPair, Faces, PairEnergy};
+use super::quadrature::{Fineness, MOST, Panel, RULES, Rule, panels};
 use super::sheet::{potential, subtended};
+use crate::potential::batch::Level;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// The energy (J) of pairs of blocks that have the same sizes and stand at the same angle to each
@@ -38,6 +39,24 @@ impl<const SLOPE: bool> Task for Near<'_, SLOPE> {
     }
 }
 
+/// The energy of two blocks and its derivatives by their pole faces, however far apart they are:
+/// exact near by, while far away (from some thirty times their size on) digits are lost to
+/// cancellation.
+pub fn exact(first: &Block, second: &Block) -> PairEnergy {
+    near::<true>(Level::best(), first, second)
+}
+
+/// [`exact`] for the given instruction set; the derivatives are zero where not asked for.
+pub fn near<const SLOPE: bool>(level: Level, first: &Block, second: &Block) -> PairEnergy {
+    let pair = BlockPair::new(first, second, second.position);
+    let (energy, gradient) = level.run(Near::<SLOPE>::of(&[pair]));
+    PairEnergy {
+        energy,
+        gradient: gradient.xy(),
+        slope: gradient.z,
+    }
+}
+
 /// Nodes that are waited for before they are evaluated.
 const BATCH: usize = 64;
 
@@ -51,7 +70,7 @@ const ROOM: usize = BATCH + MOST + WIDTH;
 /// rules' lengths.
 struct Quadrature<F> {
     fineness: Fineness,
-    rules: &'static Rules,
+    rules: &'static [Rule],
     panels: Vec<Panel>,
     /// Half the width of the first blocks' pole faces (m), and half the sum and half the
     /// difference of the thicknesses.
@@ -80,7 +99,7 @@ impl<F: Copy> Quadrature<F> {
     fn new<L: Lanes<F = F>>(l: L, pair: &BlockPair, fineness: Fineness) -> Self {
         Self {
             fineness,
-            rules: Rules::get(),
+            rules: &RULES[..],
             panels: Vec::with_capacity(8),
             half_width: pair.widths[0] / 2.0,
             heights: pair.heights,
@@ -165,7 +184,7 @@ impl<F: Copy> Quadrature<F> {
         let weight = l.splat(2.0 * face.sign * pair.strength * half);
         let lever = (pair.arm + face.offset).perp(&self.normal);
         let turn = pair.direction.perp(&self.normal);
-        let rule = &self.rules.numbered[panel.rule];
+        let rule = &self.rules[panel.rule];
         for from in (0..rule.count).step_by(WIDTH) {
             let at = self.count + from;
             let t = l.mul_add(l.load(&rule.nodes[from..]), l.splat(half), l.splat(middle));
@@ -259,9 +278,9 @@ impl<F: Copy> Quadrature<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::block::Block;
     use super::*;
-    use crate::potential::batch::Level;
+    use crate::potential::cuboid::cloud;
+    use crate::units::{MU0, MU0_OVER_4PI};
     use rand::{RngExt, SeedableRng};
     use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -325,6 +344,102 @@ mod tests {
                     assert!(off.z.abs() < tolerance * 0.01 * force, "{at}");
                 }
             }
+        }
+    }
+
+    fn block(x: f64, y: f64, angle: f64, size: [f64; 3], remanence: f64) -> Block {
+        Block {
+            position: Vector2::new(x, y),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
+            moment: remanence * size.iter().product::<f64>() / MU0,
+            size,
+        }
+    }
+
+    const SIZE: [f64; 3] = [0.010, 0.012, 0.003];
+    const OTHER: [f64; 3] = [0.006, 0.008, 0.005];
+
+    /// The derivatives by x, y and the angle, from central differences of the given steps.
+    fn differences(at: impl Fn(f64, f64, f64) -> f64, h: f64, a: f64) -> [f64; 3] {
+        [
+            (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
+            (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
+            (at(0.0, 0.0, a) - at(0.0, 0.0, -a)) / (2.0 * a),
+        ]
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_of_the_energy() {
+        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
+        for (x, y, angle) in [
+            (0.02, 0.004, 0.4),
+            (0.013, 0.001, 0.35),
+            (0.0, 0.015, 1.8),
+            (-0.016, 0.003, -2.7),
+            (0.04, 0.03, 2.0),
+        ] {
+            for size in [SIZE, OTHER] {
+                let at = |dx: f64, dy: f64, da: f64| {
+                    exact(&first, &block(x + dx, y + dy, angle + da, size, 0.9)).energy
+                };
+                let pair = exact(&first, &block(x, y, angle, size, 0.9));
+                let fd = differences(at, 1e-6, 1e-4);
+                let scale = pair.gradient.norm();
+                assert!((pair.gradient.x - fd[0]).abs() < 1e-6 * scale);
+                assert!((pair.gradient.y - fd[1]).abs() < 1e-6 * scale);
+                assert!((pair.slope - fd[2]).abs() < 1e-6 * scale * 0.01);
+                assert!((at(0.0, 0.0, 0.0) - pair.energy).abs() < 1e-13 * pair.energy.abs());
+            }
+        }
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_where_faces_pass_through_each_others_lines() {
+        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
+        // Overlapping to both sides, and beside each other.
+        for (x, y, angle) in [
+            (0.009, 0.002, 0.4),
+            (0.008, -0.003, 0.1),
+            (-0.007, 0.004, 0.7),
+            (-0.009, -0.001, 0.3 + 2.9),
+            (-0.004, 0.013, 0.5),
+            (0.004, -0.014, 0.9),
+            (0.003, -0.013, -0.2),
+        ] {
+            let at = |dx: f64, dy: f64, da: f64| {
+                exact(&first, &block(x + dx, y + dy, angle + da, OTHER, 0.9)).energy
+            };
+            let pair = exact(&first, &block(x, y, angle, OTHER, 0.9));
+            let fd = differences(at, 2e-5, 2e-3);
+            let scale = pair.gradient.norm();
+            assert!((pair.gradient.x - fd[0]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.gradient.y - fd[1]).abs() < 3e-4 * scale, "{x} {y}");
+            assert!((pair.slope - fd[2]).abs() < 3e-4 * scale * 0.01, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn the_pole_faces_agree_with_a_cloud_of_charges() {
+        let first = block(0.0, 0.0, 0.3, SIZE, 1.2);
+        for i in 0..60 {
+            let (direction, distance) = (0.37 * i as f64, 0.022 + 0.0004 * i as f64);
+            let (x, y) = (
+                distance * libm::cos(direction),
+                distance * libm::sin(direction),
+            );
+            let second = block(
+                x,
+                y,
+                1.7 * i as f64,
+                if i % 2 == 0 { SIZE } else { OTHER },
+                0.9,
+            );
+            let got = exact(&first, &second);
+            let cloud = cloud::energy_and_gradient::<16>(&first, &second);
+            let scale = MU0_OVER_4PI * first.moment * second.moment / distance.powi(3);
+            assert!((got.energy - cloud.energy).abs() < 1e-8 * scale);
+            assert!((got.gradient - cloud.gradient).norm() < 1e-7 * scale / distance);
+            assert!((got.slope - cloud.slope).abs() < 1e-7 * scale);
         }
     }
 }

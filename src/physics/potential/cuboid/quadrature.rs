@@ -46,40 +46,25 @@ const ANALYTIC: usize = 9;
 const CROWDED_EIGHT: usize = ANALYTIC;
 const CROWDED_SIXTEEN: usize = ANALYTIC + 1;
 
-/// Nodes in [-1, 1] and weights of the rules in use.
-#[derive(Debug)]
-pub struct Rules {
-    pub four: [[f64; 4]; 2],
-    pub eight: [[f64; 8]; 2],
-    pub sixteen: [[f64; 16]; 2],
-    /// By the numbers that [`panels`] gives.
-    pub numbered: [Rule; ANALYTIC + 2],
-}
+/// The rules in use, by the numbers that [`panels`] gives.
+pub static RULES: LazyLock<[Rule; ANALYTIC + 2]> = LazyLock::new(|| {
+    [
+        Rule::gauss::<4>(),
+        Rule::gauss::<5>(),
+        Rule::gauss::<6>(),
+        Rule::gauss::<7>(),
+        Rule::gauss::<8>(),
+        Rule::gauss::<10>(),
+        Rule::gauss::<12>(),
+        Rule::gauss::<14>(),
+        Rule::gauss::<16>(),
+        Rule::crowded::<8>(),
+        Rule::crowded::<16>(),
+    ]
+});
 
-impl Rules {
-    /// The only instance.
-    pub fn get() -> &'static Self {
-        static RULES: LazyLock<Rules> = LazyLock::new(|| Rules {
-            four: gauss_legendre(),
-            eight: gauss_legendre(),
-            sixteen: gauss_legendre(),
-            numbered: [
-                Rule::gauss::<4>(),
-                Rule::gauss::<5>(),
-                Rule::gauss::<6>(),
-                Rule::gauss::<7>(),
-                Rule::gauss::<8>(),
-                Rule::gauss::<10>(),
-                Rule::gauss::<12>(),
-                Rule::gauss::<14>(),
-                Rule::gauss::<16>(),
-                Rule::crowded::<8>(),
-                Rule::crowded::<16>(),
-            ],
-        });
-        &RULES
-    }
-}
+/// The numbers of the rules of 4, 8 and 16 evenly weighed nodes.
+pub const FOUR_EIGHT_SIXTEEN: [usize; 3] = [0, 4, 8];
 
 /// The Gauss-Legendre rule with `N` nodes over [-1, 1], exact for polynomials of degree `2 N - 1`.
 ///

@@ -67,7 +67,7 @@ pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L
 /// line, where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`).
 #[inline(always)]
 pub fn subtended<L: Lanes>(l: L, s: [L::F; 2], h: L::F) -> L::F {
-    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let above = l.abs(h);
     let along = l.mul_add(h, h, l.mul(s[0], s[1]));
     l.angle(along, l.mul(above, l.sub(s[1], s[0])))
 }
@@ -124,7 +124,7 @@ struct AtHeight<F> {
 /// At the greater and at the smaller height.
 #[inline(always)]
 fn both_heights<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> [AtHeight<L::F>; 2] {
-    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let above = l.abs(h);
     let hh = l.mul_add(h, h, l.splat(TINY));
     let upper = at_height(l, s, above, hh, heights[0]);
     let lower = if heights[1] > 0.0 {
@@ -215,13 +215,8 @@ fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> AtHeight<L::F> {
 /// Square root of a positive number.
 #[inline(always)]
 fn sqrt<L: Lanes>(l: L, a: L::F) -> L::F {
-    if FAST_SQRT {
-        l.mul(a, l.reciprocal_sqrt(a))
-    } else {
-        l.sqrt(a)
-    }
+    l.mul(a, l.reciprocal_sqrt(a))
 }
-const FAST_SQRT: bool = true;
 
 /// Half the first moment of g, `N(p)` between the two heights (m^3), at the squared distance `pp`.
 #[inline(always)]
@@ -267,7 +262,7 @@ pub fn angle_moments<L: Lanes>(
     [s, h]: [L::F; 2],
     sign: L::F,
 ) -> [L::F; 2] {
-    let above = l.select(h, h, l.sub(l.splat(0.0), h));
+    let above = l.abs(h);
     let theta = l.mul(sign, l.angle(s, above));
     let pp = l.mul_add(u, u, l.mul_add(d, d, l.splat(TINY)));
     let half = l.splat(0.5);

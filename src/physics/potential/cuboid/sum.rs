@@ -6,7 +6,7 @@ use super::CuboidPotential;
 use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
-use super::panel::Near;
+use super::panel::{self, Near};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -160,7 +160,7 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
                                 let moving = &self.potential.moving[second].block;
                                 let moved = moving.moved(cos, sin, self.q.position());
                                 let fixed = &self.potential.fixed[first].block;
-                                PairEnergy::near::<SLOPE>(self.potential.level, fixed, &moved)
+                                panel::near::<SLOPE>(self.potential.level, fixed, &moved)
                             } else {
                                 lane.pair
                             };

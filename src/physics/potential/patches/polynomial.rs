@@ -29,7 +29,7 @@ use nalgebra::{SMatrix, Vector2};
 
 use crate::matrix::product;
 use crate::potential::batch::Level;
-use crate::potential::batch::Sampled;
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::interpolation::nodes;
 
@@ -106,6 +106,36 @@ static TO_POWERS: LazyLock<Table> = LazyLock::new(|| {
     }
     table
 });
+
+/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, as exact as f64 is.
+struct Sampled<'a> {
+    far: &'a [Dipole],
+    /// The places' x, and the y of all (m).
+    xs: &'a [f64; ORDER],
+    y: f64,
+    out: &'a mut [f64; ORDER],
+}
+
+impl Task for Sampled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        for first in (0..ORDER).step_by(WIDTH) {
+            let x = l.load(&self.xs[first..]);
+            let mut sum = l.splat(0.0);
+            for source in self.far {
+                let dx = l.sub(x, l.splat(source.position.x));
+                let dy = l.splat(self.y - source.position.y);
+                let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
+                let along = l.mul(l.splat(source.moment.y), dy);
+                let along = l.mul_add(l.splat(source.moment.x), dx, along);
+                sum = l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))));
+            }
+            l.store(sum, &mut self.out[first..]);
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

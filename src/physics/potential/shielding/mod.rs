@@ -28,13 +28,9 @@
 //! barriers across such places depend on the jump, and energy is not conserved. The rule is there
 //! for comparison with published results.
 
-mod bounds;
-mod kernel;
+pub(super) mod kernel;
 mod potential;
 
-use nalgebra::Vector2;
-
-pub use bounds::ShieldedBounds;
 pub use potential::ShieldedPotential;
 
 /// The constants of a face's shield.
@@ -95,40 +91,13 @@ impl Shields {
     }
 }
 
-/// A factor g and its derivatives by the distance (1/m) and by cos(alpha).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Factor {
-    /// g.
-    pub value: f64,
-    /// dg/dr (1/m).
-    pub by_distance: f64,
-    /// dg/dcos(alpha).
-    pub by_cosine: f64,
-}
-
-impl Factor {
-    /// Of a magnet without a shield.
-    pub const NONE: Self = Self {
-        value: 1.0,
-        by_distance: 0.0,
-        by_cosine: 0.0,
-    };
-}
-
 impl Shield {
-    /// The factor at the distance `r` (m) and the cosine of the angle between the face's normal
+    /// The factor g at the distance `r` (m) and the cosine of the angle between the face's normal
     /// and the line to the other magnet.
-    pub fn factor(&self, r: f64, cosine: f64) -> Factor {
+    pub fn factor(&self, r: f64, cosine: f64) -> f64 {
         let ratio = r / self.length;
-        let share = 1.0 / (1.0 + ratio * ratio);
-        let eta = 1.0 - self.attenuation * share;
-        let eta_slope = self.attenuation * 2.0 * ratio / self.length * share * share;
-        let front = logistic(cosine / self.width);
-        Factor {
-            value: eta + (self.front_gain - eta) * front,
-            by_distance: eta_slope * (1.0 - front),
-            by_cosine: (self.front_gain - eta) * front * (1.0 - front) / self.width,
-        }
+        let eta = 1.0 - self.attenuation * (1.0 / (1.0 + ratio * ratio));
+        eta + (self.front_gain - eta) * logistic(cosine / self.width)
     }
 }
 
@@ -139,46 +108,5 @@ fn logistic(t: f64) -> f64 {
     } else {
         let e = libm::exp(t);
         e / (1.0 + e)
-    }
-}
-
-/// The factor of a pair, the product of its two magnets' factors, with its gradient by the second
-/// magnet's place (1/m) and its derivative by that magnet's angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairFactor {
-    /// The product of the two factors.
-    pub value: f64,
-    /// By the second magnet's place (1/m).
-    pub gradient: Vector2<f64>,
-    /// By the second magnet's angle (1/rad).
-    pub slope: f64,
-}
-
-/// A magnet's shield and the normal of its face.
-pub type Front = (Option<Shield>, Vector2<f64>);
-
-/// The factor of two magnets with the way `r` (m) from the first to the second. Coinciding
-/// magnets count as seen sideways.
-pub fn pair_factor(first: Front, second: Front, r: Vector2<f64>) -> PairFactor {
-    let distance = r.norm();
-    let d = if distance > 0.0 {
-        r / distance
-    } else {
-        Vector2::zeros()
-    };
-    let cosines = [first.1.dot(&d), -second.1.dot(&d)];
-    let [a, b] = [(first.0, cosines[0]), (second.0, cosines[1])].map(|(shield, cosine)| {
-        shield.map_or(Factor::NONE, |shield| shield.factor(distance, cosine))
-    });
-    let inverse = if distance > 0.0 { 1.0 / distance } else { 0.0 };
-    let across = |normal: Vector2<f64>, cosine: f64| (normal - d * cosine) * inverse;
-    let first_gradient = d * a.by_distance + across(first.1, cosines[0]) * a.by_cosine;
-    let second_gradient = d * b.by_distance + across(-second.1, cosines[1]) * b.by_cosine;
-    // Turning the second magnet turns its normal.
-    let turned = Vector2::new(-second.1.y, second.1.x);
-    PairFactor {
-        value: a.value * b.value,
-        gradient: first_gradient * b.value + second_gradient * a.value,
-        slope: -a.value * b.by_cosine * turned.dot(&d),
     }
 }

@@ -10,7 +10,7 @@ use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::{Limits, face_distances};
 use crate::potential::lever::Lever;
 use crate::potential::{CuboidPotential, MagnetModel, Potential, finite};
-use crate::tile::{Magnet, Tile};
+use crate::tile::Tile;
 
 /// The interaction energy of two tiles with shields: each pair's energy times its factor.
 #[derive(Clone, Debug)]
@@ -79,19 +79,6 @@ impl Blocks {
     }
 }
 
-pub(super) fn shielded(tile: &Tile, shields: &[Option<super::Shield>]) -> Vec<kernel::Magnet> {
-    let shielded = |magnet: &Magnet| kernel::Magnet {
-        position: magnet.position,
-        moment: magnet.moment_vector(),
-        face: magnet.face,
-        front: (
-            shields.get(magnet.face).copied().flatten(),
-            tile.faces[magnet.face].normal(),
-        ),
-    };
-    tile.magnets.iter().map(shielded).collect()
-}
-
 impl ShieldedPotential {
     /// Of two tiles with shields, for the fastest instruction set of this machine. Faces beyond the
     /// ends of the lists of shields have none.
@@ -113,14 +100,14 @@ impl ShieldedPotential {
             MagnetModel::Dipole => None,
             MagnetModel::Cuboid => Some(Blocks::new(fixed, moving, level)),
         };
-        let first = shielded(fixed, &[]);
+        let first = kernel::magnets(fixed, &[]);
         Self {
             level,
             blocks,
             rule: ShieldRule::Smooth,
             columns: Columns::new(&first),
             fixed: first,
-            moving: shielded(moving, &[]),
+            moving: kernel::magnets(moving, &[]),
             fixed_middles: middles(fixed),
             moving_middles: middles(moving),
             lever: Lever::of(corners),

@@ -10,8 +10,8 @@ use parry2d_f64::transformation::convex_hull;
 
 pub use convex_part::{Bounds, ConvexPart};
 use plane::outward_normal;
-pub use plane::{centroid, contains, cross, distance_to_segment};
-pub(super) use plane::{segments_meet, signed_area};
+pub(super) use plane::segments_meet;
+pub use plane::{centroid, contains, cross, distance_to_segment, signed_area};
 pub use validity::OutlineError;
 
 use super::edge_grid::EdgeGrid;

@@ -35,7 +35,7 @@ pub(super) fn outward_normal(a: Vector2<f64>, b: Vector2<f64>) -> Vector2<f64> {
 }
 
 /// Area of a closed polygon, negative where it runs clockwise (m^2).
-pub(in crate::tile) fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
+pub fn signed_area(vertices: &[Vector2<f64>]) -> f64 {
     let n = vertices.len();
     (0..n)
         .map(|i| cross(vertices[i], vertices[(i + 1) % n]))

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::pose::Meetings;
 use super::{SpacedWord, Wanted};
-use crate::words::search::Effort;
+use crate::words::Effort;
 
 /// Walks of their own.
 const WALKS: u64 = 4;

@@ -8,7 +8,7 @@ use crate::budget::Budget;
 use crate::contact::Contact;
 use crate::potential::dipole::pair;
 use crate::tile::Outline;
-use crate::words::search::Effort;
+use crate::words::Effort;
 
 fn wanted(magnets: usize) -> Wanted {
     Wanted {

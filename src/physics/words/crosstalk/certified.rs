@@ -6,18 +6,15 @@
 //! with there, or the cell is halved. What is to be proved of a couple is its sampled minimum less
 //! the tolerance.
 
-use std::collections::BinaryHeap;
-
 use ordered_float::OrderedFloat;
 
 use super::{Couple, Stage};
-use crate::cell::{Cell, Quadratic};
+use crate::cell::Cell;
 use crate::configuration::Configuration;
-use crate::contact::cells::{CellContact, ContactCells};
-use crate::interruption;
-use crate::landscape::minimax::lower::{Assessment, assess_open};
-use crate::parallel;
+use crate::contact::cells::ContactCells;
+use crate::landscape::minimax::lower::{Assessment, assess};
 use crate::potential::bounds::Enclosure;
+use crate::subdivision::Waiting;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 
@@ -31,7 +28,7 @@ pub(super) struct Bounds {
     pub cells: usize,
 }
 
-/// Cells looked at at the same time; not by how many threads, so that these decide nothing.
+/// Cells looked at at the same time.
 const BATCH: usize = 64;
 
 /// Cells are at most so many times as long as wide.
@@ -44,26 +41,6 @@ struct Open {
     couples: Vec<(usize, f64)>,
     /// The lowest of these bounds less what is to be proved (J): what lacks most goes first.
     lack: OrderedFloat<f64>,
-    /// In the order of their making, so that ties are broken.
-    number: usize,
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-impl Eq for Open {}
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        // The heap gives the greatest first.
-        (other.lack, other.number).cmp(&(self.lack, self.number))
-    }
 }
 
 impl Stage {
@@ -81,37 +58,29 @@ impl Stage {
             .map(|(energy, _)| energy.min(0.0) - tolerance)
             .collect();
         let contact = ContactCells::new(&self.contact);
-        let mut heap = BinaryHeap::new();
-        let mut made = 0;
-        let all: Vec<(usize, f64)> = (0..couples.len())
-            .map(|number| (number, f64::NEG_INFINITY))
-            .collect();
+        let mut waiting = Waiting::none();
         for cell in self.first_cells(tolerance) {
-            heap.push(Open {
+            let open = Open {
                 cell,
-                couples: all.clone(),
+                couples: (0..couples.len())
+                    .map(|number| (number, f64::NEG_INFINITY))
+                    .collect(),
                 lack: OrderedFloat(f64::NEG_INFINITY),
-                number: made,
-            });
-            made += 1;
+            };
+            waiting.push(open.lack, open);
         }
         let mut cells = 0;
-        while cells < most_cells && !heap.is_empty() {
-            let batch: Vec<Open> = (0..BATCH).map_while(|_| heap.pop()).collect();
-            cells += batch.len();
-            let halves: Vec<Vec<Open>> = parallel::map(&batch, |open| {
-                interruption::check();
-                self.look_at(open, couples, &wanted, &contact)
-            });
-            for mut open in halves.into_iter().flatten() {
-                open.number = made;
-                made += 1;
-                heap.push(open);
+        while cells < most_cells && !waiting.is_empty() {
+            let look = |open: &Open| self.look_at(open, couples, &wanted, &contact);
+            let found = waiting.look(BATCH, look);
+            cells += found.len();
+            for half in found.into_iter().flat_map(|(_, halves)| halves) {
+                waiting.push(half.lack, half);
             }
         }
-        let settled = heap.is_empty();
+        let settled = waiting.is_empty();
         let mut lower = wanted;
-        for open in heap {
+        for open in waiting.into_cells() {
             for (couple, bound) in open.couples {
                 lower[couple] = lower[couple].min(bound);
             }
@@ -176,10 +145,9 @@ impl Stage {
     ) -> Vec<Open> {
         let cell = &open.cell;
         let lever = self.pair.moving.radius_of_gyration();
-        let verdict = contact.classify(cell);
-        if verdict == CellContact::Blocked {
+        let Some(cuts) = contact.classify(cell) else {
             return Vec::new();
-        }
+        };
         let by_magnets: Vec<Enclosure> = self
             .magnets
             .iter()
@@ -197,9 +165,7 @@ impl Stage {
             if box_bound >= wanted[*number] {
                 continue;
             }
-            let Some(found) = assess_open(&known, &verdict, lever, cell) else {
-                return Vec::new();
-            };
+            let found = assess(&known, &cuts, lever, cell);
             let bound = found.lower.max(*before);
             if bound >= wanted[*number] {
                 continue;
@@ -218,26 +184,13 @@ impl Stage {
         let longest = (0..3).max_by_key(|i| OrderedFloat(sizes[*i])).unwrap_or(0);
         let thin = SLENDER * sizes[found.axis] < sizes[longest];
         let axis = if thin { longest } else { found.axis };
-        let mut half = cell.half;
-        half[axis] /= 2.0;
-        let shift = half[axis];
-        [-shift, shift]
-            .map(|shift| {
-                let mut centre = cell.centre.to_array();
-                centre[axis] += shift;
-                let mut half = half;
-                half[axis] *= 1.0 + 1e-12;
-                Open {
-                    cell: Cell {
-                        centre: centre.into(),
-                        half,
-                    },
-                    couples: left.clone(),
-                    lack: OrderedFloat(lack),
-                    number: 0,
-                }
-            })
-            .into()
+        let half = cell.half[axis] / 2.0 * (1.0 + 1e-12);
+        let parts = cell.parts(axis, half).map(|cell| Open {
+            cell,
+            couples: left.clone(),
+            lack: OrderedFloat(lack),
+        });
+        parts.into()
     }
 
     /// The enclosure of a couple.
@@ -260,10 +213,7 @@ impl Stage {
             out.jump += one.jump;
         }
         // What the sums lose to rounding, generously.
-        let size = by_magnets
-            .iter()
-            .map(|one| magnitude(&one.form))
-            .sum::<f64>();
+        let size: f64 = by_magnets.iter().map(|one| one.form.value.abs()).sum();
         out.low -= SUMMED * size;
         out.high += SUMMED * size;
         out
@@ -272,7 +222,3 @@ impl Stage {
 
 /// Relative rounding of a sum of up to a few thousand terms.
 const SUMMED: f64 = 1e-12;
-
-fn magnitude(form: &Quadratic) -> f64 {
-    form.value.abs()
-}

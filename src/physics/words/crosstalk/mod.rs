@@ -16,12 +16,9 @@ mod certified;
 mod sampled;
 mod traps;
 
-use nalgebra::Vector2;
-
 use super::Word;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::Contact;
-use crate::parallel;
 use crate::potential::{Energy, Interaction};
 use crate::problem::Problem;
 use crate::tile::{Magnet, Pair, Tile};
@@ -142,11 +139,6 @@ impl Stage {
         energies(&self.magnets, &self.pair.bound)
     }
 
-    /// The problem of two tiles with these words.
-    pub fn problem_of(&self, first: Word, second: Word) -> Problem {
-        self.problem(&Couple { first, second })
-    }
-
     /// The crosstalk of words; bounds closer than `tolerance` (J) where it is given, from at most
     /// so many `cells`.
     pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {
@@ -190,13 +182,10 @@ impl Stage {
         crosstalk
     }
 
-    /// The problem of two words.
-    fn problem(&self, couple: &Couple) -> Problem {
+    /// The problem of two tiles with these words.
+    pub fn problem_of(&self, first: Word, second: Word) -> Problem {
         let mut pair = self.pair.clone();
-        for (tile, word) in [
-            (&mut pair.fixed, couple.first),
-            (&mut pair.moving, couple.second),
-        ] {
+        for (tile, word) in [(&mut pair.fixed, first), (&mut pair.moving, second)] {
             let magnets = tile.magnets.iter().enumerate();
             tile.magnets = magnets
                 .filter(|(k, _)| word.at(*k) != 0)
@@ -237,22 +226,10 @@ impl Crosstalk {
         let (m, n) = (self.words.len(), self.strongest.len());
         let pairs = (0..n).flat_map(move |i| (i..n).map(move |j| [i, j]));
         let pairs = pairs.map(move |[i, j]| Meeting {
-            faces: [i, j],
             kind: if j - i == m { Kind::Bond } else { Kind::Wrong },
-            energy: self.strongest[i][j],
-            lower: self.lower.as_ref().map(|lower| lower[i][j]),
-            pose: self.poses[i][j],
+            ..self.wrong_of([i, j])
         });
-        let traps = self.traps.iter().enumerate().filter_map(move |(i, trap)| {
-            trap.map(|(energy, pose)| Meeting {
-                faces: [i, m + i],
-                kind: Kind::Trap,
-                energy,
-                lower: None,
-                pose,
-            })
-        });
-        pairs.chain(traps)
+        pairs.chain((0..m).filter_map(move |i| self.worst(i, m + i)))
     }
 
     /// Meetings that are no bonds: of two faces that are no word and its own mate, and traps.
@@ -269,25 +246,30 @@ impl Crosstalk {
     /// a trap, if one was found.
     pub fn worst(&self, row: usize, column: usize) -> Option<Meeting> {
         let m = self.words.len();
-        let (kind, energy, pose) = match row.abs_diff(column) == m {
-            true => {
-                let (energy, pose) = self.traps[row.min(column)]?;
-                let pose = if row < m { pose } else { exchanged(&pose) };
-                (Kind::Trap, energy, pose)
-            }
-            false => {
-                let (energy, pose) = (self.strongest[row][column], self.poses[row][column]);
-                (Kind::Wrong, energy, pose)
-            }
-        };
-        let lower = self.lower.as_ref().filter(|_| kind == Kind::Wrong);
-        Some(Meeting {
-            faces: [row, column],
-            kind,
-            energy,
-            lower: lower.map(|lower| lower[row][column]),
-            pose,
-        })
+        let faces = [row, column];
+        if row.abs_diff(column) == m {
+            let (energy, pose) = self.traps[row.min(column)]?;
+            return Some(Meeting {
+                faces,
+                kind: Kind::Trap,
+                energy,
+                lower: None,
+                pose: if row < m { pose } else { exchanged(&pose) },
+            });
+        }
+        Some(self.wrong_of(faces))
+    }
+
+    /// The strongest meeting of two faces that are no word and its own mate.
+    fn wrong_of(&self, faces: [usize; 2]) -> Meeting {
+        let [i, j] = faces;
+        Meeting {
+            faces,
+            kind: Kind::Wrong,
+            energy: self.strongest[i][j],
+            lower: self.lower.as_ref().map(|lower| lower[i][j]),
+            pose: self.poses[i][j],
+        }
     }
 
     /// 1 less the strongest wrong attraction found over the weakest bond.
@@ -335,18 +317,4 @@ fn energies(magnets: &[Energy], q: &Configuration) -> Vec<f64> {
         .iter()
         .map(|energy| energy.potential.energy(q))
         .collect()
-}
-
-/// Work in order on all threads.
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    let heeded = |item| {
-        crate::interruption::check();
-        work(item)
-    };
-    parallel::map(items, heeded)
-}
-
-/// The outward normal of the fixed tile's target face.
-fn normal(pair: &Pair) -> Vector2<f64> {
-    pair.target_face().normal()
 }

@@ -7,8 +7,9 @@
 
 use ordered_float::OrderedFloat;
 
-use super::{Couple, Stage, energies, in_parallel, normal};
+use super::{Couple, Stage, energies};
 use crate::configuration::Configuration;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
 use crate::words::Word;
@@ -38,9 +39,8 @@ impl Stage {
     /// The lowest energy (J) found of each couple, and its pose.
     pub(super) fn sampled(&self, couples: &[Couple]) -> Vec<(f64, Configuration)> {
         let tilts = tilts();
-        let best_by_tilt = in_parallel(&tilts, |tilt| self.best_at(*tilt, couples));
-        let numbers: Vec<usize> = (0..couples.len()).collect();
-        in_parallel(&numbers, |&number| {
+        let best_by_tilt = parallel::map(&tilts, |tilt| self.best_at(*tilt, couples));
+        parallel::map(0..couples.len(), |number| {
             let couple = &couples[number];
             let mut starts: Vec<(f64, Setting)> =
                 best_by_tilt.iter().map(|best| best[number]).collect();
@@ -53,7 +53,7 @@ impl Stage {
                 let tilt = starts[at].1[0];
                 starts.retain(|(_, setting)| (setting[0] - tilt).abs() > 2.5 * FINE.0);
             }
-            let problem = self.problem(couple);
+            let problem = self.problem_of(couple.first, couple.second);
             chosen
                 .into_iter()
                 .filter_map(|(_, setting)| self.polished(&problem, setting))
@@ -72,13 +72,9 @@ impl Stage {
         let place = |couple: &Couple| seconds.binary_search(&couple.second).unwrap_or(0);
         let places: Vec<usize> = couples.iter().map(place).collect();
         let n = self.places;
-        let signs = |word: Word| (0..n).map(move |k| f64::from(word.at(k)));
-        let first_signs: Vec<Vec<f64>> = couples
-            .iter()
-            .map(|couple| signs(couple.first).collect())
-            .collect();
-        let second_signs: Vec<Vec<f64>> =
-            seconds.iter().map(|word| signs(*word).collect()).collect();
+        let signs = |word: Word| (0..n).map(|k| f64::from(word.at(k))).collect();
+        let first_signs: Vec<Vec<f64>> = couples.iter().map(|it| signs(it.first)).collect();
+        let second_signs: Vec<Vec<f64>> = seconds.iter().map(|word| signs(*word)).collect();
         for slide in self.slides() {
             let setting = [tilt, slide, 0.0];
             let Some(q) = self.placed(setting) else {
@@ -115,7 +111,7 @@ impl Stage {
         let pair = &self.pair;
         let moving = &pair.moving.faces[pair.target.1];
         let flush = face_to_face(pair.target_face(), moving, slide, tilt);
-        let normal = normal(pair);
+        let normal = pair.target_face().normal();
         let out = self.contact.landing(&flush, normal)? + back;
         let at = flush.position() + normal * out;
         Some(Configuration::new(at.x, at.y, flush.theta))

@@ -6,9 +6,10 @@
 use ordered_float::OrderedFloat;
 
 use super::sampled::{Setting, tilts};
-use super::{Couple, Stage, energies, in_parallel};
+use super::{Couple, Stage, energies};
 use crate::configuration::Configuration;
 use crate::order::Order;
+use crate::parallel;
 use crate::words::Word;
 
 /// Minima of the grid that are polished, of a word.
@@ -19,39 +20,33 @@ const SAME: f64 = 2e-3;
 impl Stage {
     /// Of each word and its mate the deepest trap found: energy (J) and pose.
     pub(super) fn traps(&self, words: &[Word]) -> Vec<Option<(f64, Configuration)>> {
-        let couples: Vec<Couple> = words
-            .iter()
-            .map(|word| Couple {
-                first: *word,
-                second: word.mate(),
-            })
-            .collect();
+        let own = |word: &Word| Couple {
+            first: *word,
+            second: word.mate(),
+        };
+        let couples: Vec<Couple> = words.iter().map(own).collect();
         let mut tilts = tilts();
         tilts.order_by(f64::total_cmp);
         let slides = self.slides();
-        let rows = in_parallel(&tilts, |tilt| -> Vec<Vec<f64>> {
+        let rows = parallel::map(&tilts, |tilt| -> Vec<Vec<f64>> {
             let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
             slides.iter().map(at).collect()
         });
-        let numbers: Vec<usize> = (0..words.len()).collect();
-        in_parallel(&numbers, |&number| {
+        parallel::map(0..words.len(), |number| {
             let level = |i: usize, j: usize| rows[i][j][number];
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..tilts.len() {
                 for j in 0..slides.len() {
-                    let beside =
-                        (i.saturating_sub(1)..=(i + 1).min(tilts.len() - 1)).flat_map(|i| {
-                            let last = (j + 1).min(slides.len() - 1);
-                            (j.saturating_sub(1)..=last).map(move |j| (i, j))
-                        });
+                    let about = |k: usize, count: usize| k.saturating_sub(1)..(k + 2).min(count);
                     let here = level(i, j);
-                    if here < 0.0 && beside.into_iter().all(|(i, j)| level(i, j) >= here) {
+                    let lies_low = |i: usize| about(j, slides.len()).all(|j| level(i, j) >= here);
+                    if here < 0.0 && about(i, tilts.len()).all(lies_low) {
                         minima.push((here, [tilts[i], slides[j], 0.0]));
                     }
                 }
             }
             minima.order_by_key(|(energy, _)| OrderedFloat(*energy));
-            let problem = self.problem(&couples[number]);
+            let problem = self.problem_of(words[number], words[number].mate());
             let bond = self.pair.bound;
             let polished = minima
                 .into_iter()
@@ -69,12 +64,9 @@ impl Stage {
         };
         let by_magnets = energies(&self.magnets, &q);
         let energy = |couple: &Couple| {
+            let sign = |number: usize| couple.sign(number / self.places, number % self.places);
             let pairs = by_magnets.iter().enumerate();
-            pairs
-                .map(|(number, energy)| {
-                    energy * couple.sign(number / self.places, number % self.places)
-                })
-                .sum()
+            pairs.map(|(number, energy)| energy * sign(number)).sum()
         };
         couples.iter().map(energy).collect()
     }

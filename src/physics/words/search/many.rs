@@ -10,6 +10,7 @@ use rand::seq::SliceRandom;
 use rand::seq::index::sample;
 use rand_chacha::ChaCha8Rng;
 
+use super::super::effort::Effort;
 use super::super::graph::Graph;
 use super::super::local;
 use super::Search;
@@ -89,9 +90,10 @@ impl Search<'_> {
     fn improved(&mut self, at: usize, mut members: Vec<usize>, rng: &mut ChaCha8Rng) {
         let graph = self.graph(at..=at, false);
         for round in 0..ROUNDS {
-            let mut work = self.effort.budget.share(1.0 / (ROUNDS - round) as f64);
-            self.improve(&graph, &mut members, rng, &mut work);
-            self.effort.budget.give_back(&work);
+            let (enough, share) = (self.enough, 1.0 / (ROUNDS - round) as f64);
+            self.effort.share(share, |part| {
+                improve(&graph, &mut members, enough, rng, part)
+            });
         }
         self.accept(&graph, &members);
     }
@@ -116,36 +118,34 @@ impl Search<'_> {
         }
         members
     }
+}
 
-    /// Exchanges words of a set for others of a sample, if it grows by that.
-    fn improve(
-        &self,
-        graph: &Graph,
-        members: &mut Vec<usize>,
-        rng: &mut ChaCha8Rng,
-        budget: &mut Budget,
-    ) {
-        // Half of the work may go into what is joined.
-        let affordable = (budget.left() / graph.judgement()).isqrt() as usize;
-        let most = graph.len().min(MOST).min(affordable);
-        if most < 2 * members.len() || members.len() >= self.enough {
-            return;
-        }
-        let mut chosen = sample(rng, graph.len(), most).into_vec();
-        chosen.extend_from_slice(members);
-        chosen.sort_unstable();
-        chosen.dedup();
-        let some = graph.among(
-            chosen.iter().map(|v| graph.words[*v]).collect(),
-            budget.left(),
-        );
-        budget.spend(some.work());
-        let place = |v: &usize| chosen.binary_search(v).ok();
-        let known: Vec<usize> = members.iter().filter_map(place).collect();
-        let found = local::search(&some, known, self.enough, self.effort.seed, budget);
-        if found.len() > members.len() {
-            *members = found.iter().map(|k| chosen[*k]).collect();
-        }
+/// Exchanges words of a set for others of a sample, if it grows by that.
+fn improve(
+    graph: &Graph,
+    members: &mut Vec<usize>,
+    enough: usize,
+    rng: &mut ChaCha8Rng,
+    effort: &mut Effort,
+) {
+    // Half of the work may go into what is joined.
+    let affordable = (effort.budget.left() / graph.judgement()).isqrt() as usize;
+    let most = graph.len().min(MOST).min(affordable);
+    if most < 2 * members.len() || members.len() >= enough {
+        return;
+    }
+    let mut chosen = sample(rng, graph.len(), most).into_vec();
+    chosen.extend_from_slice(members);
+    chosen.sort_unstable();
+    chosen.dedup();
+    let words = chosen.iter().map(|v| graph.words[*v]).collect();
+    let some = graph.among(words, effort.budget.left());
+    effort.budget.spend(some.work());
+    let place = |v: &usize| chosen.binary_search(v).ok();
+    let known: Vec<usize> = members.iter().filter_map(place).collect();
+    let found = local::search(&some, known, enough, effort);
+    if found.len() > members.len() {
+        *members = found.iter().map(|k| chosen[*k]).collect();
     }
 }
 

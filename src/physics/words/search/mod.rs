@@ -7,31 +7,19 @@
 //! clique has the gap asked for the range is settled, and else it is halved.
 
 mod many;
-mod symmetric;
 
 use std::ops::RangeInclusive;
 
-use symmetric::symmetric;
-
-use crate::budget::Budget;
 use crate::order::Order;
 use crate::parallel;
 
-use super::candidates::Candidates;
+use super::candidates::{Candidates, number};
 use super::clique::{self, Clique};
+use super::effort::Effort;
 use super::graph::Graph;
 use super::set::Weighed;
 use super::word::Word;
 use super::{Task, local};
-
-/// How hard to search.
-#[derive(Clone, Debug)]
-pub struct Effort {
-    /// Of all random numbers.
-    pub seed: u64,
-    /// Work to do at most.
-    pub budget: Budget,
-}
 
 /// A set of words, and what is known of larger ones.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +63,7 @@ const LADDER: usize = 8;
 
 /// The largest set of words with at least this gap; one of `enough` words will do.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
-    let limit = |bond: f64| (1.0 - gap) * bond * (1.0 + SAME);
+    let limit = |bond: f64| limit(gap, bond);
     let first = Candidates::new(
         task,
         limit(task.deepest_bond()),
@@ -139,9 +127,43 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     }
 }
 
+/// The strongest wrong attraction (J) that a gap allows beside a bond.
+fn limit(gap: f64, bond: f64) -> f64 {
+    (1.0 - gap) * bond * (1.0 + SAME)
+}
+
+/// A large clique of those that keep a symmetry of the graph, from a known one on: half as many words
+/// to choose.
+fn symmetric(
+    graph: &Graph,
+    mut best: Vec<usize>,
+    enough: usize,
+    effort: &mut Effort,
+) -> Vec<usize> {
+    let pairs = (graph.len() * graph.len()) as u64;
+    effort.budget.spend(pairs / 2);
+    let symmetries = graph.symmetries();
+    for (number, image) in symmetries.iter().enumerate() {
+        let share = 1.0 / (symmetries.len() - number) as f64;
+        let mut members = effort.share(share, |part| {
+            part.budget.spend(pairs / 4);
+            let (folded, both) = graph.folded(image);
+            let found = local::search(&folded, Vec::new(), enough.div_ceil(2), part);
+            let members = found.iter().flat_map(|k| both[*k]);
+            members.collect::<Vec<usize>>()
+        });
+        members.sort_unstable();
+        members.dedup();
+        if members.len() > best.len() {
+            best = members;
+        }
+    }
+    best
+}
+
 /// How many words there are, of a word and its mate one where they are interchangeable.
 fn all_classes(task: &Task) -> usize {
-    let all = super::candidates::number(task.places, task.magnets);
+    let all = number(task.places, task.magnets);
     // At most all words are their own mates' mates; half of them, those that are their own mates
     // and cannot be in a set left out.
     (if task.exchangeable() { all / 2.0 } else { all }) as usize
@@ -160,10 +182,6 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn limit(&self, bond: f64) -> f64 {
-        (1.0 - self.gap) * bond * (1.0 + SAME)
-    }
-
     /// Whether a set has the gap.
     fn has_gap(&self, set: &Weighed) -> bool {
         set.gap().unwrap_or(1.0) >= self.gap - 2.0 * SAME
@@ -191,9 +209,8 @@ impl<'a> Search<'a> {
         let settled = found.members.len() == found.upper || found.members.len() >= self.enough;
         if self.accept(&graph, &found.members) {
             if !settled {
-                let (enough, seed) = (self.enough.min(found.upper), self.effort.seed);
-                let budget = &mut self.effort.budget;
-                found.members = local::search(&graph, found.members, enough, seed, budget);
+                let enough = self.enough.min(found.upper);
+                found.members = local::search(&graph, found.members, enough, self.effort);
                 self.accept(&graph, &found.members);
             }
             return found.upper;
@@ -215,7 +232,7 @@ impl<'a> Search<'a> {
     fn graph(&mut self, range: RangeInclusive<usize>, is_held: bool) -> Graph<'a> {
         let task = self.task;
         let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
-        let limit = self.limit(deepest);
+        let limit = limit(self.gap, deepest);
         let sound = |word| task.rules.within(&task.lags, word, word, limit);
         let words = parallel::flat_map(&self.words, |(bond, word)| {
             (*bond >= weakest * (1.0 - SAME) && sound(*word)).then_some(*word)
@@ -230,12 +247,11 @@ impl<'a> Search<'a> {
     /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the
     /// proof, then half the rest of the work on larger ones.
     fn clique(&mut self, graph: &Graph) -> Clique {
-        let (enough, seed) = (self.enough, self.effort.seed);
-        let budget = &mut self.effort.budget;
+        let (enough, effort) = (self.enough, &mut *self.effort);
         let look = LOOK_A_PAIR * (graph.len() * graph.len()) as f64;
-        let mut part = budget.part(look.min(LOOK));
-        let known = local::search(graph, Vec::new(), enough, seed, &mut part);
-        budget.give_back(&part);
+        let known = effort.part(look.min(LOOK), |part| {
+            local::search(graph, Vec::new(), enough, part)
+        });
         let mut found = Clique {
             upper: graph.len(),
             members: known,
@@ -244,28 +260,26 @@ impl<'a> Search<'a> {
             return found;
         }
         if graph.len() >= LARGE {
-            let mut part = budget.share(FOR_SYMMETRIC);
-            found.members = symmetric(graph, found.members, enough, seed, &mut part);
-            budget.give_back(&part);
+            found.members = effort.share(FOR_SYMMETRIC, |part| {
+                symmetric(graph, found.members, enough, part)
+            });
         }
         for share in FOR_PROOF {
             let best = found.members.len().max(self.best.len());
             let hopeless =
                 found.upper < graph.len() && found.upper as f64 > WITHIN_REACH * best as f64;
             if found.upper > best && !hopeless && best < enough {
-                let mut part = budget.share(share);
-                found = clique::largest(graph, found.members, &mut part);
-                budget.give_back(&part);
+                found = effort.share(share, |part| {
+                    clique::largest(graph, found.members, &mut part.budget)
+                });
             }
         }
-        if found.members.len() >= enough {
-            return found;
-        }
-        if found.upper > found.members.len().max(self.best.len()) {
-            let mut part = budget.share(0.5);
+        let best = found.members.len().max(self.best.len());
+        if found.members.len() < enough && found.upper > best {
             let enough = enough.min(found.upper);
-            found.members = local::search(graph, found.members, enough, seed, &mut part);
-            budget.give_back(&part);
+            found.members = effort.share(0.5, |part| {
+                local::search(graph, found.members, enough, part)
+            });
         }
         found
     }
@@ -275,7 +289,7 @@ impl<'a> Search<'a> {
     fn accept(&mut self, graph: &Graph, members: &[usize]) -> bool {
         let words: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
         self.effort.budget.spend(self.task.weighing(words.len()));
-        let mut set = Weighed::new(self.task, words);
+        let mut set = Weighed::new(&self.task.lags, &self.task.rules, words);
         let accepted = self.has_gap(&set);
         while set.words().len() > self.best.len() && !self.has_gap(&set) {
             set.drop_worst();
@@ -291,9 +305,10 @@ impl<'a> Search<'a> {
         for step in 1..=LADDER {
             let at = first + (last - first) * step / LADDER;
             let graph = self.graph(at..=at, true);
-            let mut part = self.effort.budget.share(1.0 / (LADDER + 1 - step) as f64);
-            let (enough, seed) = (self.enough, self.effort.seed);
-            let members = local::search(&graph, Vec::new(), enough, seed, &mut part);
+            let share = 1.0 / (LADDER + 1 - step) as f64;
+            // What is left of a share is not given back.
+            let mut part = Effort::new(self.effort.seed, self.effort.budget.share(share));
+            let members = local::search(&graph, Vec::new(), self.enough, &mut part);
             self.accept(&graph, &members);
         }
     }

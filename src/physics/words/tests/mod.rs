@@ -5,7 +5,8 @@ mod definitions;
 
 use nalgebra::Vector2;
 
-use super::search::{Effort, largest};
+use super::effort::Effort;
+use super::search::largest;
 use super::*;
 use crate::budget::Budget;
 use crate::potential::dipole::pair;

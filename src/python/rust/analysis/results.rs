@@ -150,7 +150,7 @@ impl Analysis {
         })?;
         let grid = map.lowest;
         let shape = vec![grid.y.len(), grid.x.len()];
-        let of = |of: fn(&tilebind::landscape::map::Sample) -> f64| {
+        let of = |of: fn(&tilebind::landscape::grid::Sample) -> f64| {
             let values = grid
                 .values
                 .iter()

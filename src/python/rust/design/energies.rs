@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 use pyo3::prelude::*;
-use tilebind::contact::matching::matches;
 use tilebind::query::poses::clearance;
 use tilebind::report::{json, matching};
 
 use super::Design;
 use crate::poses::{self, Poses};
+use crate::request::request_with;
 use crate::{job, table};
 
 #[pymethods]
@@ -127,9 +127,9 @@ impl Design {
     ///     Structured, longest contact first: `x_m`, `y_m`, `theta_rad`, `contact_m`, `gap_m2`.
     #[pyo3(signature = (most = 100))]
     fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
-        let contact = self.content.problem(None).contact.as_ref();
-        let find = || contact.map(|contact| matches(contact, most));
-        let found = job::quietly(py, find)?.unwrap_or_default();
+        let asked: tilebind::matching::Request = request_with(py, None, "most", most)?;
+        let design = &self.content.design;
+        let found = job::quietly(py, || asked.matches(design))?;
         table::array(py, &matching::table(&found))
     }
 

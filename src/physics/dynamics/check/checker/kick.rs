@@ -2,9 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Checker, Fate, Fated, moving};
+use super::{Checker, Fate, Fated};
 use crate::configuration::Configuration;
-use crate::dynamics::Simulation;
 use crate::dynamics::docking::stream;
 use crate::landscape::Pathway;
 use crate::parallel;
@@ -23,11 +22,11 @@ const AHEAD: f64 = 0.05;
 
 impl Checker<'_> {
     /// The least kick along the pathway's beginning that leads to its end.
-    pub(super) fn kick(&self, lossless: &Simulation, steps: &mut usize) -> Option<f64> {
-        let (first, direction) = self.way_out(lossless, &self.barrier.pathway)?;
+    pub(super) fn kick(&self, steps: &mut usize) -> Option<f64> {
+        let (first, direction) = self.way_out(&self.barrier.pathway)?;
         for share in KICKS {
             let energy = share * self.climb;
-            let one = |aim| self.kicked(lossless, first, direction, aim, energy);
+            let one = |aim| self.kicked(first, direction, aim, energy);
             let kicked: Vec<Fated> = parallel::map(0..AIMS, one);
             *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
             // The least is asked for.
@@ -41,18 +40,17 @@ impl Checker<'_> {
     /// What a kick with an energy (J) comes to; the first aim is the pathway's own direction.
     fn kicked(
         &self,
-        lossless: &Simulation,
         first: Configuration,
         direction: Vector3<f64>,
         aim: usize,
         energy: f64,
     ) -> Fated {
         let mut rng = stream(self.settings.seed, aim);
-        let aside = self.direction(lossless, &first, &mut rng);
-        let kinetic = |v| lossless.body().kinetic_energy(v);
+        let aside = self.direction(&first, &mut rng);
+        let kinetic = |v| self.lossless.body.kinetic_energy(v);
         let aside = aside * (kinetic(&direction) / kinetic(&aside)).sqrt();
         let aimed = direction + aside * (ASIDE * aim as f64);
-        let start = moving(lossless, first, aimed, energy);
+        let start = self.moving(first, aimed, energy);
         // As below the barrier: lifted by the integration's error, it proves nothing.
         let ceiling = if energy < self.climb {
             self.ceiling
@@ -60,21 +58,17 @@ impl Checker<'_> {
             f64::INFINITY
         };
         let duration = PATIENCE * self.duration;
-        self.fate(lossless, &start, duration, ceiling, &mut rng)
+        self.fate(&start, duration, ceiling, &mut rng)
     }
 
     /// Where the pathway begins, and the direction of the body's motion along it.
-    fn way_out(
-        &self,
-        simulation: &Simulation,
-        path: &Pathway,
-    ) -> Option<(Configuration, Vector3<f64>)> {
+    fn way_out(&self, path: &Pathway) -> Option<(Configuration, Vector3<f64>)> {
         let first = path.first()?;
         let enough = first.energy + AHEAD * self.barrier.forward();
         let ahead = path.iter().find(|p| p.energy > enough)?;
         let step = first.configuration.step_to(&ahead.configuration);
         // The centre of mass moves along with the turn.
-        let lever = simulation.body().lever(first.configuration.theta);
+        let lever = self.lossless.body.lever(first.configuration.theta);
         let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
         Some((first.configuration, direction))
     }

@@ -42,7 +42,6 @@ const TRIES: usize = 10;
 
 pub(super) struct Checker<'a> {
     problem: &'a Problem,
-    body: Body,
     states: &'a [State],
     known: &'a Known,
     barrier: &'a Barrier,
@@ -53,8 +52,9 @@ pub(super) struct Checker<'a> {
     climb: f64,
     /// How long (s) a trajectory lasts.
     duration: f64,
-    lossless: MotionSettings,
-    settling: MotionSettings,
+    /// Tiles that keep their energy, and tiles that come to rest.
+    lossless: Simulation<'a>,
+    settling: Simulation<'a>,
 }
 
 /// What became of a trajectory.
@@ -106,7 +106,6 @@ impl<'a> Checker<'a> {
         };
         Self {
             problem,
-            body,
             states,
             known,
             barrier,
@@ -114,14 +113,12 @@ impl<'a> Checker<'a> {
             ceiling,
             climb,
             duration,
-            lossless,
-            settling,
+            lossless: Simulation::of_sound_settings(problem, body, lossless),
+            settling: Simulation::of_sound_settings(problem, body, settling),
         }
     }
 
     pub fn check(&self, seed: u64) -> BarrierCheck {
-        let lossless = Simulation::of_sound_settings(self.problem, self.body, &self.lossless);
-        let settling = Simulation::of_sound_settings(self.problem, self.body, &self.settling);
         let mut result = BarrierCheck {
             from: self.barrier.from,
             to: self.barrier.to,
@@ -138,25 +135,24 @@ impl<'a> Checker<'a> {
         if self.climb <= 0.0 {
             return result;
         }
-        self.run_below(&lossless, seed, &mut result);
+        self.run_below(seed, &mut result);
         if !self.barrier.bounds.caged {
-            self.run_above(&lossless, seed, &mut result);
-            result.sides = self.sides(&settling, &mut result.steps);
-            result.kick = self.kick(&lossless, &mut result.steps);
+            self.run_above(seed, &mut result);
+            result.sides = self.sides(&mut result.steps);
+            result.kick = self.kick(&mut result.steps);
         }
         result
     }
 
-    fn run_below(&self, lossless: &Simulation, seed: u64, result: &mut BarrierCheck) {
+    fn run_below(&self, seed: u64, result: &mut BarrierCheck) {
         let one = |index| {
             let mut rng = stream(seed, index);
             let mut steps = 0;
             for spoilt in 0..TRIES {
                 let share = between(BELOW, &mut rng);
                 let top = self.ceiling.min(self.barrier.from_energy + self.climb);
-                let start = self.start(lossless, top - share * self.climb, &mut rng);
-                let (fate, more) =
-                    self.fate(lossless, &start, self.duration, self.ceiling, &mut rng);
+                let start = self.start(top - share * self.climb, &mut rng);
+                let (fate, more) = self.fate(&start, self.duration, self.ceiling, &mut rng);
                 steps += more;
                 if fate != Fate::Spoilt {
                     return (Some((fate, start)), spoilt, steps);
@@ -179,12 +175,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn run_above(&self, lossless: &Simulation, seed: u64, result: &mut BarrierCheck) {
+    fn run_above(&self, seed: u64, result: &mut BarrierCheck) {
         let one = |index| {
             let mut rng = stream(seed, self.settings.runs + index);
             let more = between(ABOVE, &mut rng) * self.barrier.forward();
-            let start = self.start(lossless, self.barrier.saddle_energy + more, &mut rng);
-            self.fate(lossless, &start, self.duration, f64::INFINITY, &mut rng)
+            let start = self.start(self.barrier.saddle_energy + more, &mut rng);
+            self.fate(&start, self.duration, f64::INFINITY, &mut rng)
         };
         let runs: Vec<Fated> = parallel::map(0..self.settings.controls, one);
         let crossed = runs.iter().filter(|run| run.0 == Fate::Crossed).count();
@@ -194,7 +190,7 @@ impl<'a> Checker<'a> {
 
     /// A start with a total energy, before the pathway first reaches it, with a velocity in a
     /// random direction.
-    fn start(&self, simulation: &Simulation, total: f64, rng: &mut ChaCha8Rng) -> Motion {
+    fn start(&self, total: f64, rng: &mut ChaCha8Rng) -> Motion {
         let path = &self.barrier.pathway;
         let reach = path.iter().take_while(|p| p.energy < total).count();
         let before_the_end = reach.min(path.len() / 2).max(1);
@@ -202,8 +198,8 @@ impl<'a> Checker<'a> {
             Some(point) => (point.configuration, point.energy),
             None => (self.first(), self.barrier.from_energy),
         };
-        let direction = self.direction(simulation, &q, rng);
-        moving(simulation, q, direction, total - energy)
+        let direction = self.direction(&q, rng);
+        self.moving(q, direction, total - energy)
     }
 
     /// Where the barrier's first state is.
@@ -221,13 +217,8 @@ impl<'a> Checker<'a> {
 
     /// A direction that is uniform over kinetic energies and, if one is found, leads into no
     /// contact.
-    fn direction(
-        &self,
-        simulation: &Simulation,
-        q: &Configuration,
-        rng: &mut ChaCha8Rng,
-    ) -> Vector3<f64> {
-        let masses = simulation.body().masses();
+    fn direction(&self, q: &Configuration, rng: &mut ChaCha8Rng) -> Vector3<f64> {
+        let masses = self.lossless.body.masses();
         let mut direction = Vector3::zeros();
         for _ in 0..20 {
             direction = Vector3::from_fn(|i, _| normal(rng) / masses[i].sqrt());
@@ -239,44 +230,52 @@ impl<'a> Checker<'a> {
         direction
     }
 
-    fn fate(
-        &self,
-        simulation: &Simulation,
-        start: &Motion,
-        duration: f64,
-        ceiling: f64,
-        rng: &mut ChaCha8Rng,
-    ) -> Fated {
+    fn fate(&self, start: &Motion, duration: f64, ceiling: f64, rng: &mut ChaCha8Rng) -> Fated {
         let target = match self.barrier.to {
             Place::State(id) => self.configuration(id),
             Place::Free => None,
         };
         let space = &self.problem.space;
         let mut spoilt = false;
-        let run = simulation.run(start, duration, rng, &mut |snapshot| {
+        let run = self.lossless.run(start, duration, rng, &mut |snapshot| {
             let q = &snapshot.motion.configuration;
             spoilt |= snapshot.total() >= ceiling;
             spoilt
-                || match &target {
-                    Some(target) => space.distance(target, q) < ARRIVED,
-                    None => space.is_far(q),
-                }
+                || target.map_or_else(
+                    || space.is_far(q),
+                    |target| space.distance(&target, q) < ARRIVED,
+                )
         });
+        let last = &run.last;
         let has_crossed = || match self.barrier.to {
-            Place::Free => space.is_far(&run.last.motion.configuration),
-            Place::State(_) => {
-                let last = &run.last;
-                self.seems_to_enter(last) && self.place_below(last) == Some(self.barrier.to)
-            }
+            Place::Free => space.is_far(&last.motion.configuration),
+            to => self.seems_to_enter(last) && self.place_below(last) == Some(to),
         };
-        let fate = if spoilt {
-            Fate::Spoilt
-        } else if has_crossed() {
-            Fate::Crossed
-        } else {
-            Fate::Stayed
+        let fate = match () {
+            () if spoilt => Fate::Spoilt,
+            () if has_crossed() => Fate::Crossed,
+            () => Fate::Stayed,
         };
         (fate, run.free_steps + run.contact_steps)
+    }
+
+    /// A motion with a kinetic energy (J) in a direction.
+    fn moving(
+        &self,
+        configuration: Configuration,
+        direction: Vector3<f64>,
+        kinetic: f64,
+    ) -> Motion {
+        let unit = self.lossless.body.kinetic_energy(&direction);
+        let factor = if unit > 0.0 {
+            (kinetic.max(0.0) / unit).sqrt()
+        } else {
+            0.0
+        };
+        Motion {
+            configuration,
+            velocity: direction * factor,
+        }
     }
 
     /// Whether a rough descent leads where the barrier does. Most tiles stay where they were, and of
@@ -304,25 +303,6 @@ impl<'a> Checker<'a> {
         let nearest = self.states.iter().min_by_key(|s| OrderedFloat(distance(s)));
         let nearest = nearest.filter(|state| distance(state) < SAME)?;
         Some(Place::State(nearest.id))
-    }
-}
-
-/// A motion with a kinetic energy (J) in a direction.
-fn moving(
-    simulation: &Simulation,
-    configuration: Configuration,
-    direction: Vector3<f64>,
-    kinetic: f64,
-) -> Motion {
-    let unit = simulation.body().kinetic_energy(&direction);
-    let factor = if unit > 0.0 {
-        (kinetic.max(0.0) / unit).sqrt()
-    } else {
-        0.0
-    };
-    Motion {
-        configuration,
-        velocity: direction * factor,
     }
 }
 

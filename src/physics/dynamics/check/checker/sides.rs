@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 
 use super::super::{Side, SideVerdict};
-use super::{ARRIVED, Checker, moving};
+use super::{ARRIVED, Checker};
 use crate::configuration::Configuration;
+use crate::dynamics::Motion;
 use crate::dynamics::docking::stream;
-use crate::dynamics::{Motion, Simulation};
 use crate::landscape::{Barrier, PathwayPoint, Place, State, highest_point};
 
 /// How far below the saddle the tile is released on either side, in barriers.
@@ -17,7 +17,7 @@ const SETTLING: f64 = 60.0;
 impl Checker<'_> {
     /// Released at rest a little before the saddle and a little behind it, where the pathway from
     /// either end first rises that high.
-    pub(super) fn sides(&self, settling: &Simulation, steps: &mut usize) -> [Option<Side>; 2] {
+    pub(super) fn sides(&self, steps: &mut usize) -> [Option<Side>; 2] {
         let path = &self.barrier.pathway;
         let Some(highest) = highest_point(path) else {
             return [None; 2];
@@ -45,8 +45,11 @@ impl Checker<'_> {
                 0 => before.iter().take_while(is_low).last(),
                 _ => behind.iter().rev().take_while(is_low).last(),
             };
-            let start = moving(settling, released?.configuration, Vector3::zeros(), 0.0);
-            let ended = self.settled_place(settling, &start, steps);
+            let start = Motion {
+                configuration: released?.configuration,
+                velocity: Vector3::zeros(),
+            };
+            let ended = self.settled_place(&start, steps);
             let other = [*to, *from][side];
             let verdict = match ended {
                 Some(place) if on[side].contains(&place) => SideVerdict::OnThePathway,
@@ -71,24 +74,21 @@ impl Checker<'_> {
 
     /// Where a trajectory with light drag comes to rest; `None` also where the integration's error
     /// lifted it over the ceiling.
-    fn settled_place(
-        &self,
-        settling: &Simulation,
-        start: &Motion,
-        steps: &mut usize,
-    ) -> Option<Place> {
+    fn settled_place(&self, start: &Motion, steps: &mut usize) -> Option<Place> {
         let space = &self.problem.space;
         let slow = 1e-3 * self.barrier.forward();
         let mut rng = stream(self.settings.seed, 0);
         let mut spoilt = false;
-        let run = settling.run(start, SETTLING, &mut rng, &mut |snapshot| {
-            let q = &snapshot.motion.configuration;
-            spoilt |= snapshot.total() >= self.ceiling;
-            let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
-            spoilt
-                || space.is_far(q)
-                || (snapshot.kinetic < slow && self.states.iter().any(is_here))
-        });
+        let run = self
+            .settling
+            .run(start, SETTLING, &mut rng, &mut |snapshot| {
+                let q = &snapshot.motion.configuration;
+                spoilt |= snapshot.total() >= self.ceiling;
+                let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
+                spoilt
+                    || space.is_far(q)
+                    || (snapshot.kinetic < slow && self.states.iter().any(is_here))
+            });
         *steps += run.free_steps + run.contact_steps;
         (!spoilt).then(|| self.place_below(&run.last)).flatten()
     }

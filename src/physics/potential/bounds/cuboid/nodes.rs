@@ -177,7 +177,7 @@ impl Sum<'_> {
         let steep = l.mul_add(weight, phi.h, l.mul(l.splat(0.5), arched));
         let shifted = l.mul(steep, shift);
         let value = l.mul_add(l.load(&value[from..]), phi.value, shifted);
-        let steepness = l.add(magnitude(l, phi.x), magnitude(l, phi.h));
+        let steepness = l.add(l.abs(phi.x), l.abs(phi.h));
         let turned = l.mul(l.load(&turn[from..]), steepness);
         let uncertain = l.mul(l.load(&spread[from..]), phi.value);
         let shares = [
@@ -198,9 +198,4 @@ impl Sum<'_> {
             *sum = l.add(*sum, share);
         }
     }
-}
-
-#[inline(always)]
-fn magnitude<L: Lanes>(l: L, a: L::F) -> L::F {
-    l.select(a, a, l.sub(l.splat(0.0), a))
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::configuration::Configuration;
-use crate::potential::cuboid::block;
+use crate::potential::cuboid::exact;
 use crate::sample;
 
 /// The fixed tile of the paper.
@@ -11,7 +11,7 @@ fn paper_tile() -> Tile {
 #[test]
 fn a_block_on_its_own_copy_bounds_every_pair() {
     for enclosed in enclosed(&paper_tile(), Level::best()) {
-        let exact = block::exact(&enclosed.block, &enclosed.block).energy;
+        let exact = exact(&enclosed.block, &enclosed.block).energy;
         let bound = enclosed.own * enclosed.own;
         assert!(exact <= bound && bound < 1.03 * exact, "{exact} {bound}");
         assert!(enclosed.inside);

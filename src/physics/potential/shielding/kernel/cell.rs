@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::curvature::{Around, dipole_limits, factor_limits, product, size};
+use super::curvature::{Around, dipole_limits, factor_limits, product};
 use super::jet::{Place, dipoles, factors};
 use super::{Columns, Magnet, Vectors, Way};
 use crate::cell::{Cell, Quadratic};
@@ -47,7 +47,7 @@ impl Magnet {
 ///
 /// Pairs for which this is more than the energy itself can be, `2 |w| |u|`, get no form: their
 /// numbers (fixed, moving) are appended to `rest`.
-pub(in crate::potential::shielding) struct Forms<'a> {
+pub(in crate::potential) struct Forms<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub cell: &'a Cell,
@@ -58,7 +58,7 @@ pub(in crate::potential::shielding) struct Forms<'a> {
 }
 
 /// The form, and the bound of what it leaves out (J).
-pub(in crate::potential::shielding) type Form = (Quadratic, f64);
+pub(in crate::potential) type Form = (Quadratic, f64);
 
 impl Task for Forms<'_> {
     type Output = Form;
@@ -93,12 +93,12 @@ impl Task for Forms<'_> {
                     inverse: l.reciprocal(r),
                 };
                 let ([a, b], [steep_a, steep_b]) = factors(l, &first, &second, &way);
-                let (here_a, here_b) = (size(l, a.0[0]), size(l, b.0[0]));
+                let (here_a, here_b) = (l.abs(a.0[0]), l.abs(b.0[0]));
                 let of_a = factor_limits(l, first.shield, &around, steep_a, here_a);
                 let of_b = factor_limits(l, second.shield, &around, steep_b, here_b);
                 let u = dipoles(l, &first, &second, &way);
                 let mut of_u = dipole_limits(l, &first, &second, turn, around.inverse);
-                of_u[0] = l.min(of_u[0], l.mul_add(of_u[1], v, size(l, u.0[0])));
+                of_u[0] = l.min(of_u[0], l.mul_add(of_u[1], v, l.abs(u.0[0])));
                 let [whole, slope, bend, twist] = product(l, product(l, of_a, of_b), of_u);
                 let left_out = l.mul(l.splat(speed * speed * speed / 6.0), twist);
                 // Negative where there is no form.

@@ -10,7 +10,7 @@ use crate::units::MU0_OVER_4PI;
 /// third derivative (J/m^3; of point dipoles) along motions in which no magnet is faster than 1 and
 /// none turns at more than the rate `turn` (1/m), with bounds of the derivatives of energies u and
 /// factors w within `reach` (m). Infinite where magnets may meet.
-pub(in crate::potential::shielding) struct Curvature<'a> {
+pub(in crate::potential) struct Curvature<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub q: &'a Configuration,
@@ -76,16 +76,10 @@ fn pair_limits<L: Lanes>(
     around: &Around<L::F>,
 ) -> Limits<L::F> {
     let ([a, b], [steep_a, steep_b]) = factors(l, first, second, way);
-    let (here_a, here_b) = (size(l, a.0[0]), size(l, b.0[0]));
+    let (here_a, here_b) = (l.abs(a.0[0]), l.abs(b.0[0]));
     let a = factor_limits(l, first.shield, around, steep_a, here_a);
     let b = factor_limits(l, second.shield, around, steep_b, here_b);
     product(l, a, b)
-}
-
-/// The magnitude.
-#[inline(always)]
-pub(super) fn size<L: Lanes>(l: L, a: L::F) -> L::F {
-    l.select(a, a, l.sub(l.splat(0.0), a))
 }
 
 /// Bounds of the magnitudes of a quantity and of its first three derivatives along a motion.
@@ -190,8 +184,7 @@ pub(super) fn factor_limits<L: Lanes>(
     let (zero, one, three) = (l.splat(0.0), l.splat(1.0), l.splat(3.0));
     let eta = eta_limits(l, attenuation, length, around);
     // |G - eta|.
-    let excess = l.sub(gain, one);
-    let excess = l.select(excess, excess, l.sub(zero, excess));
+    let excess = l.abs(l.sub(gain, one));
     let gap = l.add(eta[0], excess);
 
     let inverse2 = l.mul(inverse, inverse);

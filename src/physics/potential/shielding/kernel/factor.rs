@@ -87,9 +87,8 @@ const LARGEST: f64 = 60.0;
 /// to 1e-14 and better where the power is not as good as 0.
 #[inline(always)]
 pub(super) fn logistic<L: Lanes>(l: L, t: L::F) -> [L::F; 2] {
-    let (zero, one) = (l.splat(0.0), l.splat(1.0));
-    let size = l.select(t, t, l.sub(zero, t));
-    let size = l.min(size, l.splat(LARGEST));
+    let one = l.splat(1.0);
+    let size = l.min(l.abs(t), l.splat(LARGEST));
     let x = l.mul(size, l.splat(-1.0 / (1 << HALVINGS) as f64));
     let mut e = one;
     for k in (1..=12).rev() {

@@ -9,21 +9,25 @@ mod tests;
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use super::Front;
+use super::Shield;
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::block::PairEnergy;
+use crate::tile::{self, Tile};
 use crate::units::MU0_OVER_4PI;
-pub(super) use cell::Forms;
-pub(super) use curvature::Curvature;
+pub(in crate::potential) use cell::Forms;
+pub(in crate::potential) use curvature::Curvature;
 use factor::pair_factor;
 
 /// Magnets closer than this (m) count as coinciding.
 const COINCIDING: f64 = 1e-12;
 
+/// A magnet's shield and the normal of its face.
+pub(in crate::potential) type Front = (Option<Shield>, Vector2<f64>);
+
 /// A magnet with its shield.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Magnet {
+pub(in crate::potential) struct Magnet {
     pub position: Vector2<f64>,
     pub moment: Vector2<f64>,
     pub front: Front,
@@ -53,11 +57,25 @@ impl Magnet {
     }
 }
 
+/// The magnets of a tile. Faces beyond the end of the list of shields have none.
+pub(in crate::potential) fn magnets(tile: &Tile, shields: &[Option<Shield>]) -> Vec<Magnet> {
+    let shielded = |magnet: &tile::Magnet| Magnet {
+        position: magnet.position,
+        moment: magnet.moment_vector(),
+        face: magnet.face,
+        front: (
+            shields.get(magnet.face).copied().flatten(),
+            tile.faces[magnet.face].normal(),
+        ),
+    };
+    tile.magnets.iter().map(shielded).collect()
+}
+
 const COLUMNS: usize = 10;
 
 /// Magnets as a structure of arrays, filled up to whole vectors with magnets of no moment far away.
 #[derive(Clone, Debug)]
-pub(super) struct Columns {
+pub(in crate::potential) struct Columns {
     entries: [Vec<f64>; COLUMNS],
     faces: Vec<usize>,
 }
@@ -123,7 +141,7 @@ impl<F: Copy> Vectors<F> {
 /// Energies of pairs: that of the fixed magnet i and the moving magnet j is number
 /// `j * stride + i`, with the stride of the fixed magnets' columns.
 #[derive(Clone, Debug)]
-pub(super) struct PairColumns {
+pub(in crate::potential) struct PairColumns {
     /// Energy (J), its gradient by the second magnet's place (J/m), its derivative by that
     /// magnet's angle (J/rad).
     entries: [Vec<f64>; 4],
@@ -147,7 +165,7 @@ impl PairColumns {
 
 /// The energy (J) of all pairs, each times its factor, and its gradient where asked for (else it
 /// is zero). Not finite where dipoles coincide.
-pub(super) struct Sum<'a, const SLOPE: bool> {
+pub(in crate::potential) struct Sum<'a, const SLOPE: bool> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub q: &'a Configuration,

@@ -1,14 +1,12 @@
 //! The vectors against the plain formulas.
 
-use super::super::{Shield, logistic as scalar_logistic, pair_factor as scalar_factor};
+use super::super::{Shield, logistic as scalar_logistic};
 use super::curvature::{Around, factor_limits};
 use super::factor::logistic;
 use super::jet::factors;
 use super::*;
-use crate::cell::Cell;
 use crate::potential::batch::Level;
 use crate::potential::batch::lanes::WIDTH;
-use crate::potential::dipole;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -32,54 +30,6 @@ fn random_magnets(rng: &mut ChaCha8Rng, count: usize) -> Vec<Magnet> {
         face: k,
     };
     (0..count).map(&mut magnet).collect()
-}
-
-#[test]
-fn the_sum_is_that_of_the_plain_formulas() {
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    for level in Level::available() {
-        for _ in 0..50 {
-            let (fixed, moving) = (random_magnets(&mut rng, 5), random_magnets(&mut rng, 3));
-            let place = turned(rng.random_range(-3.1..3.1)) * rng.random_range(0.15..0.3);
-            let q = Configuration::new(place.x, place.y, rng.random_range(-3.1..3.1));
-            let (mut energy, mut gradient) = (0.0, Vector3::zeros());
-            let mut size = 0.0;
-            for second in moving.iter().map(|magnet| magnet.moved(&q, &q.rotation())) {
-                for first in &fixed {
-                    let r = second.position - first.position;
-                    let (u, force, slope) = dipole::pair(first.moment, second.moment, r);
-                    let w = scalar_factor(first.front, second.front, r);
-                    let place = w.gradient * u - force * w.value;
-                    let arm = second.position - q.position();
-                    let turn = w.slope * u + slope * w.value + arm.perp(&place);
-                    energy += w.value * u;
-                    gradient += Vector3::new(place.x, place.y, turn);
-                    size += u.abs() + place.norm() + turn.abs();
-                }
-            }
-            let columns = Columns::new(&fixed);
-            let (got, slope) = level.run(Sum::<true> {
-                fixed: &columns,
-                moving: &moving,
-                q: &q,
-                pairs: None,
-                faces: None,
-            });
-            assert!(
-                (got - energy).abs() < 1e-12 * size,
-                "{level}: {got} {energy}"
-            );
-            assert!((slope - gradient).norm() < 1e-11 * size, "{level}");
-            let only = level.run(Sum::<false> {
-                fixed: &columns,
-                moving: &moving,
-                q: &q,
-                pairs: None,
-                faces: None,
-            });
-            assert!((only.0 - got).abs() < 1e-13 * size, "{level}");
-        }
-    }
 }
 
 /// S and its derivative at several arguments.
@@ -176,9 +126,7 @@ fn factors_stay_within_their_bounds() {
                 normal.x * cos - normal.y * sin,
                 normal.x * sin + normal.y * cos,
             );
-            shield
-                .factor(place.norm(), turned.dot(&place) / place.norm())
-                .value
+            shield.factor(place.norm(), turned.dot(&place) / place.norm())
         };
         let bounds = Level::best().run(Bounds {
             magnet,
@@ -213,75 +161,4 @@ fn factors_stay_within_their_bounds() {
         count > 4000 && tightest.iter().all(|ratio| *ratio < 3.0),
         "{count} {tightest:?}"
     );
-}
-
-/// Derivatives of products of factors and energies, as the cells' forms have them, against
-/// differences of the plain formulas.
-#[test]
-fn forms_have_the_energy_s_derivatives() {
-    let mut rng = ChaCha8Rng::seed_from_u64(4);
-    for level in Level::available() {
-        for _ in 0..50 {
-            let (mut fixed, mut moving) =
-                (random_magnets(&mut rng, 5), random_magnets(&mut rng, 3));
-            for magnet in fixed.iter_mut().chain(&mut moving) {
-                if let Some(shield) = &mut magnet.front.0 {
-                    shield.width = shield.width.max(0.2);
-                }
-            }
-            let place = turned(rng.random_range(-3.1..3.1)) * rng.random_range(0.15..0.3);
-            let q = Configuration::new(place.x, place.y, rng.random_range(-3.1..3.1));
-            let columns = Columns::new(&fixed);
-            let mut rest = Vec::new();
-            let (form, left_out) = level.run(Forms {
-                fixed: &columns,
-                moving: &moving,
-                cell: &Cell {
-                    centre: q,
-                    half: [0.0; 3],
-                },
-                count: fixed.len(),
-                extent: 0.1,
-                rest: &mut rest,
-            });
-            assert!(rest.is_empty() && left_out < 1e-8);
-            let at = |q: &Configuration| {
-                level.run(Sum::<true> {
-                    fixed: &columns,
-                    moving: &moving,
-                    q,
-                    pairs: None,
-                    faces: None,
-                })
-            };
-            let (energy, gradient) = at(&q);
-            let close = |a: f64, b: f64, of: f64| (a - b).abs() < 1e-6 * (of + b.abs());
-            assert!(close(form.value, energy, 0.0), "{level}");
-            let [xx, yy, tt, xy, xt, yt] = form.hessian;
-            let rows = [[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]];
-            let size = rows
-                .as_flattened()
-                .iter()
-                .fold(0.0, |a: f64, b| a.max(b.abs()));
-            for i in 0..3 {
-                assert!(
-                    close(form.gradient[i], gradient[i], gradient.norm()),
-                    "{level}"
-                );
-                let step = [1e-5, 1e-5, 1e-4][i];
-                let moved = |by: f64| {
-                    let mut d = Vector3::zeros();
-                    d[i] = by;
-                    at(&q.moved(d)).1
-                };
-                let slope = (moved(step) - moved(-step)) / (2.0 * step);
-                for k in 0..3 {
-                    assert!(
-                        close(rows[i][k], slope[k], size),
-                        "{level} {i} {k} {rows:?} {slope}"
-                    );
-                }
-            }
-        }
-    }
 }

@@ -209,8 +209,7 @@ impl Pair {
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
     fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> Left {
-        let (places, weights) = rule.nodes();
-        for (place, share) in places.iter().zip(weights) {
+        for (place, share) in rule.nodes() {
             let weight = share * panel.weight();
             nodes.push(&Node {
                 value: weight,

@@ -43,8 +43,7 @@ impl Pair {
         let mut arch = Arch::of(floor, up, h + reach_up, |h| [gap(h); 2]);
         let off = arch.off + 0.5 * edges * up;
         arch.bend += 0.5 * edges;
-        let (places, weights) = rule.nodes();
-        for (place, share) in places.iter().zip(weights) {
+        for (place, share) in rule.nodes() {
             let part = panel.part(place * panel.half, panel.half);
             let node = self.first_order(&part, share * panel.weight());
             nodes.push(&Node {

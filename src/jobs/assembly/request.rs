@@ -1,0 +1,97 @@
+//! What an assembly is asked for.
+
+use clap::Args;
+
+use super::lattice;
+use crate::design::MagnetModel;
+use crate::request;
+use crate::word_sets;
+use physics::words::{Rules, Shape};
+
+/// The least gap where none is asked for.
+const GAP: f64 = 0.5;
+
+/// How a tile set is built of magnets, and of which words.
+#[derive(Clone, Debug, Args)]
+pub struct Request {
+    /// Effective energy kT of the shaking (J)
+    #[arg(long, value_name = "E", value_parser = request::shaking)]
+    pub kt: f64,
+
+    /// Share of the table that loose tiles cover, all kinds together
+    #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
+    pub coverage: f64,
+
+    /// Rows and columns of a lattice
+    #[arg(long, value_name = "MxN", value_parser = rows_and_columns)]
+    pub lattice: Option<[usize; 2]>,
+
+    /// Side of a counted square (tiles)
+    #[arg(long, value_name = "N", value_parser = request::count)]
+    pub side: Option<usize>,
+
+    /// Blocks of K x K tiles in place of tiles, against errors
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = request::whole(1, 6))]
+    pub proofread: u16,
+
+    /// Places of a face [default: the fewest that carry the words]
+    #[arg(long, value_name = "L", value_parser = request::count)]
+    pub length: Option<usize>,
+
+    /// Magnets of the strongest bonds' words, where spacing is code too [default: one a place]
+    #[arg(long, value_name = "K", value_parser = request::count)]
+    pub magnets: Option<usize>,
+
+    /// Least gap of the words, from 0 to 1 [default: 0.5; with --length the widest there is]
+    #[arg(long, value_name = "G", value_parser = word_sets::gap)]
+    pub gap: Option<f64>,
+
+    /// Complementary shapes of the faces: none; shared, one that any two have and that forbids
+    /// slides; polar, knobs on words and slots on mates. Designs are written flat all the same
+    #[arg(long, value_name = "KIND", default_value = "none", value_parser = word_sets::shape(),
+          hide_possible_values = true)]
+    pub shape: Shape,
+
+    /// From place to place (m) [default: the design's, or 0.04]
+    #[arg(long, value_name = "M", value_parser = request::length)]
+    pub pitch: Option<f64>,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = request::model(), hide_possible_values = true)]
+    pub model: Option<MagnetModel>,
+
+    /// Work to spend on words, as what takes about so many seconds of a core; it is counted, so
+    /// that the same work gives the same words everywhere
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
+    pub seconds: f64,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
+    pub seed: u64,
+}
+
+fn rows_and_columns(text: &str) -> Result<[usize; 2], String> {
+    let most = lattice::MOST_TILES;
+    let read = || {
+        let (rows, columns) = text.split_once(['x', 'X', ','])?;
+        let size: [usize; 2] = [rows.trim().parse().ok()?, columns.trim().parse().ok()?];
+        let tiles = size[0].checked_mul(size[1])?;
+        (2..=most).contains(&tiles).then_some(size)
+    };
+    read().ok_or_else(|| format!("a lattice is ROWSxCOLUMNS, such as 3x3, of 2 to {most} tiles"))
+}
+
+impl Request {
+    /// Which meetings are wrong.
+    pub fn rules(&self) -> Rules {
+        Rules {
+            shape: self.shape,
+            ..Rules::default()
+        }
+    }
+
+    /// The least gap of words; where `None` the widest there is.
+    pub(super) fn least_gap(&self) -> Option<f64> {
+        self.gap.or(self.length.is_none().then_some(GAP))
+    }
+}

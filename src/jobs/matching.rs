@@ -1,0 +1,24 @@
+//! How the two outlines of a design fit together.
+
+use clap::Args;
+
+use crate::design::Design;
+use crate::request;
+use physics::contact::Contact;
+use physics::contact::matching::{Match, matches};
+
+/// What is asked of the ways in which the outlines fit.
+#[derive(Clone, Debug, Args)]
+pub struct Request {
+    /// Most motions listed
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = request::count)]
+    pub most: usize,
+}
+
+impl Request {
+    /// They, longest contact first.
+    pub fn matches(&self, design: &Design) -> Vec<Match> {
+        let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
+        matches(&Contact::new(&fixed.outline, &moving.outline), self.most)
+    }
+}

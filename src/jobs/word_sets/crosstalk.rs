@@ -1,0 +1,37 @@
+//! What is asked of the crosstalk of a set of words.
+
+use clap::Args;
+
+use crate::design::{MagnetModel, WordSet};
+use crate::request;
+use physics::words::crosstalk::{Crosstalk, TOLERANCE};
+
+/// The attraction of every two words over all poses, and how closely it is bounded.
+#[derive(Clone, Debug, Args)]
+pub struct CrosstalkRequest {
+    /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
+    #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
+          value_parser = request::positive)]
+    pub certify: Option<Option<f64>>,
+
+    /// Cells spent on the proof at most
+    #[arg(long, alias = "cells", value_name = "N", default_value_t = 8_000_000, value_parser = request::count)]
+    pub certify_cells: usize,
+
+    /// Model of the magnets, dipole or cuboid [default: the set's]
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
+          hide_possible_values = true)]
+    pub model: Option<MagnetModel>,
+}
+
+impl CrosstalkRequest {
+    /// The crosstalk of a set that was read with the model asked for.
+    pub fn crosstalk(&self, set: &WordSet) -> Crosstalk {
+        let stage = set.carriers();
+        let certify = self.certify.map(|tolerance| {
+            let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * stage.contact_energy());
+            (tolerance, self.certify_cells)
+        });
+        stage.crosstalk(&set.words, certify)
+    }
+}

@@ -1,0 +1,74 @@
+//! The search for words that are asked for.
+
+use super::spaced::Spaced;
+use super::{Request, Sought, bar};
+use crate::Refused;
+use crate::design::Design;
+use physics::budget::Budget;
+use physics::words::continuous::Wanted;
+use physics::words::{Effort, Faces, Lags, PAPER_FACE, Question, Rules, Task, answer};
+
+/// Words that were found, or not.
+pub enum Found {
+    /// With places a pitch apart.
+    Even(Box<Sought>),
+    /// With magnets anywhere along the face.
+    Anywhere(Box<Spaced>),
+}
+
+impl Request {
+    /// Searches the words, of the magnets of a design's target face or of the paper's.
+    ///
+    /// # Errors
+    /// Where such words cannot be.
+    pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
+        let (places, magnets) = self.places()?;
+        let (bar, face) = bar(design, self.pitch, self.model)?;
+        let effort = Effort::new(self.seed, Budget::seconds(self.seconds));
+        if self.continuous {
+            let wanted = Wanted {
+                magnets,
+                bar,
+                face: self.face.or(face).unwrap_or(PAPER_FACE),
+                words_meet: self.faces == Faces::All,
+                flip: self.flip,
+                balanced: self.balanced,
+                longest_run: self.max_run,
+            };
+            let spaced = Spaced::search(&wanted, self, effort)?;
+            return Ok(Found::Anywhere(Box::new(spaced)));
+        }
+        let constraints = self.constraints(&bar, places, magnets)?;
+        let energies = Lags::new(&bar, places);
+        let (question, lags) = match (self.contacts, self.gap, self.count) {
+            (Some(most), _, _) => {
+                let gap = 1.0 - (most as f64 + 0.5) / magnets as f64;
+                (Question::Gap(gap.max(0.0)), Lags::contacts(places))
+            }
+            (_, Some(gap), _) => (Question::Gap(gap), energies.clone()),
+            (_, _, Some(count)) => (Question::Count(count), energies.clone()),
+            _ => (Question::Frontier, energies.clone()),
+        };
+        let task = Task {
+            places,
+            magnets,
+            lags,
+            rules: Rules {
+                faces: self.faces,
+                shape: self.shape,
+                flip: self.flip,
+                fault: self.tolerate,
+            },
+            constraints,
+        };
+        Ok(Found::Even(Box::new(Sought {
+            answer: answer(&task, question, &energies, &mut effort.clone()),
+            request: self.clone(),
+            design: design.map(|design| design.name.clone()),
+            bar,
+            task,
+            question,
+            energies,
+        })))
+    }
+}

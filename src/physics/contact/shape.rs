@@ -1,0 +1,86 @@
+//! One of two tiles, as the other meets it.
+
+use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
+
+use super::tree::{Circle, CircleTree};
+use crate::tile::Outline;
+use crate::tile::outline::{Bounds, ConvexPart};
+
+/// One tile's outline with what is asked of it.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    pub outline: Outline,
+    pub edges: CircleTree,
+    pub corners: CircleTree,
+    /// The vertex of each piece of `corners`.
+    pub numbers: Vec<usize>,
+    /// Over the convex parts.
+    pub parts: CircleTree,
+    /// Around each of them.
+    pub bounds: Vec<Bounds>,
+    pub hull: ConvexPart,
+    /// The largest convex part, most likely to be in the way.
+    pub core: ConvexPart,
+}
+
+impl Shape {
+    pub fn new(outline: &Outline) -> Self {
+        let n = outline.vertices().len();
+        let circle = |i: usize| {
+            let (a, b) = outline.edge(i);
+            ((a + b) / 2.0, (b - a).norm() / 2.0)
+        };
+        let edges: Vec<_> = (0..n).map(circle).collect();
+        let numbers: Vec<_> = (0..n).filter(|&i| outline.convex_vertices()[i]).collect();
+        let corners: Vec<_> = numbers
+            .iter()
+            .map(|&i| (outline.vertices()[i], 0.0))
+            .collect();
+        let parts = outline.parts();
+        let hull = outline.hull();
+        let largest = parts.iter().max_by_key(|part| OrderedFloat(part.area()));
+        Self {
+            edges: CircleTree::new(&edges),
+            corners: CircleTree::new(&corners),
+            numbers,
+            parts: CircleTree::new(&parts.iter().map(around).collect::<Vec<_>>()),
+            bounds: parts.iter().map(ConvexPart::bounds).collect(),
+            core: largest.unwrap_or(&hull).clone(),
+            hull,
+            outline: outline.clone(),
+        }
+    }
+
+    pub fn next(&self, i: usize) -> usize {
+        (i + 1) % self.outline.vertices().len()
+    }
+
+    pub fn before(&self, i: usize) -> usize {
+        let n = self.outline.vertices().len();
+        (i + n - 1) % n
+    }
+
+    pub fn length(&self, edge: usize) -> f64 {
+        let (a, b) = self.outline.edge(edge);
+        (b - a).norm()
+    }
+
+    /// A corner as a triangle: itself and the ends of its two edges, cut off at `reach` (m).
+    pub fn corner(&self, i: usize, reach: f64) -> [Vector2<f64>; 3] {
+        let p = self.outline.vertices()[i];
+        let toward = |k: usize| {
+            let along = self.outline.vertices()[k] - p;
+            p + along * (reach / along.norm()).min(1.0)
+        };
+        [p, toward(self.next(i)), toward(self.before(i))]
+    }
+}
+
+/// A circle around a convex part.
+fn around(part: &ConvexPart) -> Circle {
+    let bounds = part.bounds();
+    let middle = (bounds.low + bounds.high) / 2.0;
+    let distances = part.points.iter().map(|p| (p - middle).norm());
+    (middle, distances.fold(0.0, f64::max))
+}

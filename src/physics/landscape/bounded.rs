@@ -1,0 +1,78 @@
+//! An energy over the free configurations of a space, bounded over cells, and the work that takes.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::budget::Budget;
+use crate::cell::Cell;
+use crate::configuration::ConfigurationSpace;
+use crate::contact::Contact;
+use crate::contact::cells::{ContactCells, Cuts};
+use crate::potential::CellBounds;
+use crate::potential::bounds::Enclosure;
+
+/// Units of work that a cell takes, each edge that it may touch, and each cut in a bound.
+const A_CELL: u64 = 100;
+const AN_EDGE: u64 = 15;
+const A_CUT: u64 = 10;
+
+pub(super) struct Bounded<'a> {
+    bounds: &'a dyn CellBounds,
+    pub contact: Option<&'a Contact>,
+    /// The same over cells.
+    pub cells: Option<ContactCells>,
+    pub space: &'a ConfigurationSpace,
+    /// How far (m) a turn by one radian moves the tile's farthest point.
+    pub lever: f64,
+    /// Units of work that were done and not yet paid for.
+    unpaid: AtomicU64,
+}
+
+impl<'a> Bounded<'a> {
+    pub fn new(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+    ) -> Self {
+        Self {
+            bounds,
+            contact,
+            cells: contact.map(ContactCells::new),
+            space,
+            lever: contact.map_or(space.rho, |contact| contact.moving().circumradius()),
+            unpaid: AtomicU64::new(0),
+        }
+    }
+
+    /// Encloses the energy over the free configurations of a cell.
+    pub fn enclose(&self, cell: &Cell) -> Enclosure {
+        self.count(self.bounds.work());
+        self.bounds.enclose(cell)
+    }
+
+    /// What contact says about a cell, `None` where it is blocked. With that the work is counted for
+    /// bounds over what it leaves.
+    pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
+        let found = match &self.cells {
+            Some(cells) => cells.classify(cell),
+            None => Some(Cuts::default()),
+        };
+        let bounds = found.as_ref().map_or(0, |cuts| {
+            let all = cuts.all.len() as u64;
+            all + cuts.corners.len() as u64 * (2 * all + 2)
+        });
+        let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
+        self.count(A_CELL + AN_EDGE * edges + A_CUT * bounds);
+        found
+    }
+
+    /// Counts work.
+    pub fn count(&self, units: u64) {
+        self.unpaid.fetch_add(units, Ordering::Relaxed);
+    }
+
+    /// Has a budget pay for what was done since this was last asked for: where no thread is at work on
+    /// it, so that it is the same on any number of them.
+    pub fn pay(&self, budget: &mut Budget) {
+        budget.spend(self.unpaid.swap(0, Ordering::Relaxed));
+    }
+}
