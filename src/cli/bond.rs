@@ -6,7 +6,7 @@ use tilebind::report::bond::document;
 use tilebind::report::files::BOND;
 use tilebind::{Settings, pipeline};
 
-use super::options::{DesignOptions, WorkOptions};
+use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 use super::{Failure, interrupt};
 
@@ -30,7 +30,7 @@ pub struct BondCommand {
     request: Request,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -41,9 +41,9 @@ impl BondCommand {
         interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&BOND, self.design.inputs(&design))?;
-        self.work.use_threads()?;
+        self.threads.use_threads()?;
         let progress = self.results.progress();
-        let settings = Settings::without_proofs(self.work.seed);
+        let settings = Settings::without_proofs(self.request.seed);
         let analysis = pipeline::analyse(&design, &settings, &progress);
         let found = (&*analysis.problem, &analysis.catalogue);
         let shaking = self.request.shaking();

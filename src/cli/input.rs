@@ -13,9 +13,7 @@ use tilebind::request::Unanswered;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
-    let design = Design::load(path)?;
-    tell_doubts(&design);
-    Ok(design)
+    load_as(path, None)
 }
 
 /// Tells the warnings of a design on standard error.
@@ -27,7 +25,14 @@ pub fn tell_doubts(design: &Design) {
 
 /// A design with its magnets modelled as `model` says, if it says so.
 pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
-    let mut design = load(path)?;
+    let design = load_silently_as(path, model)?;
+    tell_doubts(&design);
+    Ok(design)
+}
+
+/// The same, whose warnings the caller tells.
+pub fn load_silently_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
+    let mut design = Design::load(path)?;
     design.interaction.model = model.unwrap_or(design.interaction.model);
     Ok(design)
 }

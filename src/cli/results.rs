@@ -47,16 +47,24 @@ impl FolderOptions {
 
     /// What people read on a terminal.
     fn told(&self, document: &Document) -> String {
-        let told = document.text(style::columns());
         match &self.out {
-            Some(folder) => format!(
-                "{told}results in {}: report.html to look at; {}report.json, tables, pictures\n",
-                folder.display(),
-                beside(document)
+            Some(folder) => told_of(document, folder),
+            None => format!(
+                "{}nothing was written: --out DIR keeps page and tables\n",
+                document.text(style::columns())
             ),
-            None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
         }
     }
+}
+
+/// What people read on a terminal of results in a folder.
+pub fn told_of(document: &Document, folder: &Path) -> String {
+    format!(
+        "{}results in {}: report.html to look at; {}report.json, tables, pictures\n",
+        document.text(style::columns()),
+        folder.display(),
+        beside(document)
+    )
 }
 
 /// What is kept and what is printed.

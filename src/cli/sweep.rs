@@ -13,8 +13,9 @@ use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shar
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{ForceOption, PrintOptions, ThreadOption};
+use super::results::told_of;
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, style, tell};
+use super::{Failure, input, interrupt, memory, print, tell};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -268,13 +269,8 @@ impl Sweep {
             files.insert(PLAN.to_owned(), plan.to_text().into_bytes());
         }
         interrupt::without(|| output.write(&files))?;
-        self.print.results(&document.report(), || {
-            format!(
-                "{}results in {}: report.html to look at; report.json, tables, pictures\n",
-                document.text(style::columns()),
-                folder.display()
-            )
-        })?;
+        self.print
+            .results(&document.report(), || told_of(&document, folder))?;
         match report.progress().failed {
             0 => {
                 let point = |index| Some((format!("point {index}"), report.assessment(index)?));

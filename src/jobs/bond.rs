@@ -3,6 +3,7 @@
 use clap::Args;
 
 use crate::design::Design;
+use crate::pipeline::Settings;
 use crate::request;
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
@@ -25,12 +26,17 @@ pub struct Request {
     /// Share of the table that tiles cover
     #[arg(long, value_name = "F", value_parser = request::fraction)]
     pub coverage: f64,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+          value_parser = request::seed)]
+    pub seed: u64,
 }
 
 impl Request {
     /// The shaking.
     pub fn shaking(&self) -> Shaking {
-        let Self { kt, coverage } = *self;
+        let Self { kt, coverage, .. } = *self;
         Shaking { kt, coverage }
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use crate::query::QueryError;
+use crate::sweep::PlanError;
 use crate::workshop::PartError;
 use physics::dynamics::SettingsError;
 use physics::dynamics::docking::DockingError;
@@ -13,15 +14,13 @@ use physics::kinetics::rates::RatesError;
 /// Why there is no answer.
 pub trait Unanswered: Display {
     /// Whether it is what was asked for that has none; else the work failed.
-    fn is_of_the_question(&self) -> bool;
-}
-
-/// Of what was typed.
-impl Unanswered for String {
     fn is_of_the_question(&self) -> bool {
         true
     }
 }
+
+/// Of what was typed.
+impl Unanswered for String {}
 
 impl Unanswered for BondError {
     fn is_of_the_question(&self) -> bool {
@@ -47,20 +46,10 @@ impl Unanswered for ExitError {
     }
 }
 
-impl Unanswered for DockingError {
-    fn is_of_the_question(&self) -> bool {
-        true
-    }
-}
+impl Unanswered for DockingError {}
 
-impl Unanswered for PartError {
-    fn is_of_the_question(&self) -> bool {
-        true
-    }
-}
+impl Unanswered for PartError {}
 
-impl Unanswered for SettingsError {
-    fn is_of_the_question(&self) -> bool {
-        true
-    }
-}
+impl Unanswered for PlanError {}
+
+impl Unanswered for SettingsError {}

@@ -151,6 +151,5 @@ fn broken(payload: &(dyn Any + Send)) -> PyErr {
 /// Refuses a roadmap for which the machine has not the memory.
 pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()> {
     let told = memory::check(milestones, neighbours, 1);
-    told.map(drop)
-        .map_err(|why| fault::value(why.replace("--", "")))
+    told.map(drop).map_err(fault::of)
 }

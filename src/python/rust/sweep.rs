@@ -69,8 +69,7 @@ pub fn sweep(
     let axes = axes.collect::<PyResult<Vec<_>>>()?;
     let asked = request::<Request>(settings)?;
     let designs = vec![(content.source.clone(), content.design.clone())];
-    let plan = asked.plan(designs, axes);
-    let plan = plan.map_err(|error| fault::value(error.to_string().replace("--", "")))?;
+    let plan = asked.plan(designs, axes).map_err(fault::of)?;
     let survey = &plan.settings.survey;
     job::check_memory(survey.milestones.unwrap_or(0), survey.neighbours)?;
     let (plan, outcomes) = job::run(py, progress, |told| {
