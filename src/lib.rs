@@ -119,8 +119,8 @@
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, matching, output, pipeline, query, rates, request, sweep, word_sets, workshop,
-    yields,
+    inspection, matching, memory, output, pipeline, query, rates, request, start, sweep, word_sets,
+    workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,
