@@ -7,6 +7,7 @@
 use super::Request;
 use crate::word_sets::least_spacing;
 use physics::budget::Budget;
+use physics::observer::Observer;
 use physics::order::Order;
 use physics::words::candidates::{Candidates, number};
 use physics::words::graph::Graph;
@@ -60,6 +61,10 @@ const FOR_BOUNDS: f64 = 0.3;
 /// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
 const MOST_JUDGED: usize = 1 << 16;
 const LEAST_BESIDE: usize = 256;
+/// Strengths are met by numbers of magnets to within this share where the length is to be found.
+const NEAR: f64 = 0.1;
+/// What is told while longer and longer faces are tried.
+const PLACES: &str = "words";
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 
@@ -78,6 +83,38 @@ impl Asked<'_> {
         let most = self.request.magnets.unwrap_or(self.places).min(self.places);
         let strongest = self.demand.first().map_or(1.0, |first| first.0);
         ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
+
+    /// Whether any two strengths that differ by more than [`NEAR`] have numbers of magnets that
+    /// differ, and none is off by more than that.
+    fn tells_apart(&self) -> bool {
+        let strongest = self.demand.first().map_or(1.0, |first| first.0);
+        let all = self.demand.iter().map(|it| it.0);
+        let most = self.magnets(strongest) as f64;
+        let off = |strength: f64| {
+            let got = self.magnets(strength) as f64 / most * strongest;
+            (got / strength - 1.0).abs()
+        };
+        all.map(off).all(|off| off <= NEAR)
+    }
+
+    /// The numbers of magnets that are needed, with how many words of each, most magnets first:
+    /// strengths so near each other that they have as many share their words.
+    fn classes(&self) -> Vec<Class> {
+        let mut classes: Vec<Class> = Vec::new();
+        for (strength, needed) in self.demand {
+            let magnets = self.magnets(*strength);
+            match classes.last_mut().filter(|last| last.magnets == magnets) {
+                Some(last) => last.needed += needed,
+                None => classes.push(Class {
+                    magnets,
+                    needed: *needed,
+                    found: 0,
+                    upper: usize::MAX,
+                }),
+            }
+        }
+        classes
     }
 
     fn task(&self, magnets: usize) -> Task {
@@ -137,9 +174,26 @@ pub fn choose(demand: &[(f64, usize)], places: usize, bar: &Bar, request: &Reque
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
-pub fn shortest(demand: &[(f64, usize)], most: usize, bar: &Bar, request: &Request) -> Vec<Choice> {
+pub fn shortest(
+    demand: &[(f64, usize)],
+    most: usize,
+    bar: &Bar,
+    request: &Request,
+    observer: &dyn Observer,
+) -> Vec<Choice> {
     let mut tried: Vec<Choice> = Vec::new();
-    for places in request.magnets.unwrap_or(1)..=most {
+    let asked = |places: usize| Asked {
+        demand,
+        places,
+        bar,
+        request,
+    };
+    // Strengths that differ take magnets enough to differ.
+    let tells_apart = |places: &usize| asked(*places).tells_apart();
+    let first = request.magnets.unwrap_or(1);
+    let first = (first..=most).find(tells_apart).unwrap_or(first);
+    for places in first..=most {
+        observer.part(PLACES, places, most);
         tried.extend(choose(demand, places, bar, request));
         if tried.last().is_some_and(|it| it.verdict == Verdict::Found) {
             break;
@@ -149,26 +203,20 @@ pub fn shortest(demand: &[(f64, usize)], most: usize, bar: &Bar, request: &Reque
 }
 
 fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
-    let demand = asked.demand;
-    let class = |(strength, needed): &(f64, usize)| Class {
-        magnets: asked.magnets(*strength),
-        needed: *needed,
-        found: 0,
-        upper: usize::MAX,
-    };
     let mut choice = Choice {
         places: asked.places,
         gap,
         verdict: Verdict::Found,
         words: Vec::new(),
-        classes: demand.iter().map(class).collect(),
+        classes: asked.classes(),
     };
+    let count = choice.classes.len();
     let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
     // Of several strengths bounds are searched apart.
-    let several = demand.len() > 1;
+    let several = count > 1;
     let for_bounds = effort.budget.share(if several { FOR_BOUNDS } else { 0.0 });
     let mut proof = Effort::new(effort.seed, for_bounds);
-    for part in 0..demand.len() {
+    for part in 0..count {
         let Class {
             magnets, needed, ..
         } = choice.classes[part];
@@ -176,7 +224,7 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
         let words = if part == 0 {
             // The gap is of the weakest bond.
             let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
-            let found = effort.share(1.0 / demand.len() as f64, |part| {
+            let found = effort.share(1.0 / count as f64, |part| {
                 search::largest(&task, own_gap, needed, part)
             });
             if !several {
