@@ -135,8 +135,8 @@ impl<'a> Kinetics<'a> {
         let (row, column) = ((cell / self.columns) as i32, (cell % self.columns) as i32);
         STEPS.map(|(dx, dy)| {
             let (row, column) = (row - dy, column + dx);
-            let inside = (0..self.rows as i32).contains(&row)
-                && (0..self.columns as i32).contains(&column);
+            let inside =
+                (0..self.rows as i32).contains(&row) && (0..self.columns as i32).contains(&column);
             inside.then(|| row as usize * self.columns + column as usize)
         })
     }
@@ -168,7 +168,14 @@ impl<'a> Kinetics<'a> {
                 let stay = self.held(tiles, cell, tile) - self.gmc;
                 libm::exp(-stay.clamp(-FOR_GOOD, FOR_GOOD))
             }
-            None if self.near(cell).iter().flatten().all(|it| tiles[*it].is_none()) => 0.0,
+            None if self
+                .near(cell)
+                .iter()
+                .flatten()
+                .all(|it| tiles[*it].is_none()) =>
+            {
+                0.0
+            }
             None => self.docking(tiles, cell).map(|it| it.1).sum(),
         }
     }
@@ -216,12 +223,16 @@ impl<'a> Kinetics<'a> {
             // Of what grows on nothing is known out there.
             return self.wanted[cell] == Some(tile) || (!self.ends && self.wanted[cell].is_none());
         }
-        let strengths = self.near(cell).into_iter().enumerate().filter_map(|(side, near)| {
-            let other = tiles[near?]?;
-            let faces = [(tile, side), (other, (side + 2) % 4)];
-            let [one, other] = faces.map(|(tile, side)| self.set.tiles[tile].glues[side]);
-            Some((one, other))
-        });
+        let strengths = self
+            .near(cell)
+            .into_iter()
+            .enumerate()
+            .filter_map(|(side, near)| {
+                let other = tiles[near?]?;
+                let faces = [(tile, side), (other, (side + 2) % 4)];
+                let [one, other] = faces.map(|(tile, side)| self.set.tiles[tile].glues[side]);
+                Some((one, other))
+            });
         // A word meets its mate, n places on, or an empty face another one.
         let n = self.set.glues.len() / 2;
         let mut pairs = strengths.map(|pair| match pair {
@@ -372,7 +383,10 @@ mod tests {
                 glues: vec![glue("a", 1.0), glue("b", 0.0)],
                 links: vec![(0, 1, weak)],
                 tiles: vec![
-                    TileType { stoic: 0.0, ..TileType::new("seed", [None, Some(0), None, None]) },
+                    TileType {
+                        stoic: 0.0,
+                        ..TileType::new("seed", [None, Some(0), None, None])
+                    },
                     TileType::new("right", [None, None, None, Some(0)]),
                     TileType::new("wrong", [None, None, None, Some(1)]),
                 ],
@@ -405,7 +419,10 @@ mod tests {
             size: Some([3, 3]),
             ..lattice::unique([1, 2])
         };
-        let set = TileSet { seed: vec![(1, 0, 0)], ..set };
+        let set = TileSet {
+            seed: vec![(1, 0, 0)],
+            ..set
+        };
         let grown = grow(&set, 10);
         let kinetics = Kinetics::new(&set, &grown).at(9.0, 9.5);
         let mut state = State {
@@ -449,13 +466,22 @@ mod tests {
             .collect();
         set.seed = vec![(5, 5, 4)];
         set.size = Some([11, 11]);
-        let plain = TileSet { links: Vec::new(), ..set.clone() };
+        let plain = TileSet {
+            links: Vec::new(),
+            ..set.clone()
+        };
         let grown = grow(&plain, 100);
         assert_eq!(grown.tiles.len(), 9);
         let at = |gse: f64| kinetics(&set, &grown, gse, 12.0);
         let [hot, cool, cold] = [13.5, 22.0, 60.0].map(at);
         let [one, two, three] = [hot, cool, cold].map(|it| it.errors_a_tile);
-        assert!(one <= two && two < three && three > 0.1, "{hot:?} {cool:?} {cold:?}");
-        assert!(hot.right > 390 && cold.right < 40, "{hot:?} {cool:?} {cold:?}");
+        assert!(
+            one <= two && two < three && three > 0.1,
+            "{hot:?} {cool:?} {cold:?}"
+        );
+        assert!(
+            hot.right > 390 && cold.right < 40,
+            "{hot:?} {cool:?} {cold:?}"
+        );
     }
 }

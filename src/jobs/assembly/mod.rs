@@ -223,13 +223,23 @@ impl TileSet {
             return wrong("", message, "write it as 1 or 0.5");
         }
         if self.tiles.iter().all(|tile| tile.stoic == 0.0) {
-            let message = "all of its tiles have a share of 0: there are none on the table".to_owned();
-            return wrong("stoic", message, "give one at least a share (stoic) above 0");
+            let message =
+                "all of its tiles have a share of 0: there are none on the table".to_owned();
+            return wrong(
+                "stoic",
+                message,
+                "give one at least a share (stoic) above 0",
+            );
         }
         for (row, column, tile) in &self.seed {
             if (*row).max(*column) >= MOST_CANVAS {
-                let message = format!("the seed at {row}, {column} is farther out than {MOST_CANVAS}");
-                return wrong("seed", message, "write seed: [row, column, tile] with smaller numbers");
+                let message =
+                    format!("the seed at {row}, {column} is farther out than {MOST_CANVAS}");
+                return wrong(
+                    "seed",
+                    message,
+                    "write seed: [row, column, tile] with smaller numbers",
+                );
             }
             let [rows, columns] = self.size.unwrap_or([MOST_CANVAS; 2]);
             if *tile >= self.tiles.len() || *row >= rows || *column >= columns {

@@ -112,9 +112,8 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
         entries.vdoubletiles = more.vdoubletiles.or(entries.vdoubletiles);
     }
     let some = |tiles: &Option<Value>| {
-        let none = |tiles: &Value| {
-            tiles.is_null() || tiles.as_sequence().is_some_and(Vec::is_empty)
-        };
+        let none =
+            |tiles: &Value| tiles.is_null() || tiles.as_sequence().is_some_and(Vec::is_empty);
         tiles.as_ref().is_some_and(|tiles| !none(tiles))
     };
     if some(&entries.hdoubletiles) || some(&entries.vdoubletiles) {
@@ -128,18 +127,59 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
 
 /// Keys that are read; those of tiles and of bonds.
 const READ: [&str; 15] = [
-    "tiles", "bonds", "glues", "seed", "size", "tau", "threshold", "gse", "Gse", "gmc", "Gmc",
-    "hdoubletiles", "doubletiles", "vdoubletiles", "canvas_type",
+    "tiles",
+    "bonds",
+    "glues",
+    "seed",
+    "size",
+    "tau",
+    "threshold",
+    "gse",
+    "Gse",
+    "gmc",
+    "Gmc",
+    "hdoubletiles",
+    "doubletiles",
+    "vdoubletiles",
+    "canvas_type",
 ];
 const MORE: [&str; 3] = ["options", "xgrowargs", "params"];
 const OF_TILE: [&str; 5] = ["name", "edges", "stoic", "color", "shape"];
 const OF_BOND: [&str; 2] = ["name", "strength"];
 /// Keys of either engine that only steer it.
 const STEERING: [&str; 32] = [
-    "alpha", "smax", "smin", "fsmax", "tmax", "emax", "update_rate", "kf", "k_f", "k", "fission",
-    "block", "chunk_handling", "chunk_size", "chunk_fission", "model", "start_paused", "tracking",
-    "rand", "window", "pause", "wander", "datafile", "arrayfile", "tracefile", "exportfile", "font",
-    "movie", "min_strength", "error_radius", "zero_bonds", "info",
+    "alpha",
+    "smax",
+    "smin",
+    "fsmax",
+    "tmax",
+    "emax",
+    "update_rate",
+    "kf",
+    "k_f",
+    "k",
+    "fission",
+    "block",
+    "chunk_handling",
+    "chunk_size",
+    "chunk_fission",
+    "model",
+    "start_paused",
+    "tracking",
+    "rand",
+    "window",
+    "pause",
+    "wander",
+    "datafile",
+    "arrayfile",
+    "tracefile",
+    "exportfile",
+    "font",
+    "movie",
+    "min_strength",
+    "error_radius",
+    "zero_bonds",
+    "info",
 ];
 
 /// What steers the engine only.
@@ -162,7 +202,10 @@ fn check(value: &Value, text: &str, file: &str) -> Result<Vec<String>, DesignErr
         return Ok(steering);
     };
     let parts = MORE.iter().filter_map(|key| whole.get(*key)?.as_mapping());
-    for (map, more) in [(whole, &MORE[..])].into_iter().chain(parts.map(|map| (map, &[][..]))) {
+    for (map, more) in [(whole, &MORE[..])]
+        .into_iter()
+        .chain(parts.map(|map| (map, &[][..])))
+    {
         known(map, &[&READ[..], more, &STEERING].concat())?;
         for (entries, keys) in [("tiles", &OF_TILE[..]), ("bonds", &OF_BOND)] {
             let entries = map.get(entries).and_then(Value::as_sequence);

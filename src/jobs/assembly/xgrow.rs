@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::{Glue, TileSet, TileType};
-use crate::design::{DesignError, Place};
+use crate::design::{DesignError, Place, nearest_help};
 
 struct Scanner<'a> {
     text: &'a str,
@@ -196,14 +196,70 @@ const HALVES: &str = "write the two halves as tiles that share a strong glue";
 
 /// Lines that only steer the engine.
 const STEERING: [&str; 64] = [
-    "block", "update_rate", "rand", "k", "tmax", "emax", "smax", "smin", "fsmax", "mmax", "fission",
-    "no_fission", "chunk_fission", "wander", "pause", "window", "font", "tracefile", "datafile",
-    "arrayfile", "exportfile", "largeflakedatafile", "movie", "movieformat", "import_offset",
-    "importoffset", "addflakes", "tinybox", "untiltiles", "untiltilescount", "min_strength",
-    "error_radius", "repair_unique", "repair_unique_T", "clean_X", "clean_cycles", "fill_X",
-    "fill_cycles", "blast_rate", "blast_rate_alpha", "blast_rate_beta", "blast_rate_gamma",
-    "zero_bonds", "no_zero_bonds", "Gfc", "Gas", "Gam", "Gae", "Gah", "Gao", "Gseh", "Gmch", "Ghyd",
-    "anneal", "linan", "testing", "pulse", "present", "tmp", "fluxes", "-nw", "-rv", "nw", "rv",
+    "block",
+    "update_rate",
+    "rand",
+    "k",
+    "tmax",
+    "emax",
+    "smax",
+    "smin",
+    "fsmax",
+    "mmax",
+    "fission",
+    "no_fission",
+    "chunk_fission",
+    "wander",
+    "pause",
+    "window",
+    "font",
+    "tracefile",
+    "datafile",
+    "arrayfile",
+    "exportfile",
+    "largeflakedatafile",
+    "movie",
+    "movieformat",
+    "import_offset",
+    "importoffset",
+    "addflakes",
+    "tinybox",
+    "untiltiles",
+    "untiltilescount",
+    "min_strength",
+    "error_radius",
+    "repair_unique",
+    "repair_unique_T",
+    "clean_X",
+    "clean_cycles",
+    "fill_X",
+    "fill_cycles",
+    "blast_rate",
+    "blast_rate_alpha",
+    "blast_rate_beta",
+    "blast_rate_gamma",
+    "zero_bonds",
+    "no_zero_bonds",
+    "Gfc",
+    "Gas",
+    "Gam",
+    "Gae",
+    "Gah",
+    "Gao",
+    "Gseh",
+    "Gmch",
+    "Ghyd",
+    "anneal",
+    "linan",
+    "testing",
+    "pulse",
+    "present",
+    "tmp",
+    "fluxes",
+    "-nw",
+    "-rv",
+    "nw",
+    "rv",
 ];
 /// Those that this writes itself.
 const OWN: [&str; 1] = ["fission"];
@@ -252,7 +308,10 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     } else {
         let start = scan.at;
         let line = scan.until(&['\n']).trim();
-        let key = line.split(['=', ' ', '\t', '%', '(']).next().unwrap_or_default();
+        let key = line
+            .split(['=', ' ', '\t', '%', '('])
+            .next()
+            .unwrap_or_default();
         if !STEERING.contains(&key) {
             scan.at = start;
             let message = format!("`{key}` is nothing that xgrow knows after the strengths");

@@ -136,7 +136,9 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
 
 /// What came of growths at a kT (J).
 fn grown_at(kt: f64, growth: &Kinetic, in_full: bool) -> String {
-    let Kinetic { runs, right, wrong, .. } = growth;
+    let Kinetic {
+        runs, right, wrong, ..
+    } = growth;
     let at = si(kt, "J", 3);
     let rest = runs - right - wrong;
     let rest = match rest {
@@ -173,7 +175,9 @@ fn proposal(assembly: &Assembly) -> String {
 /// That strengths are not quite those asked for.
 fn strengths(assembly: &Assembly) -> Option<String> {
     let built = &assembly.built;
-    let (bond, asked, has) = built.unlike().filter(|it| (it.2 / it.1 - 1.0).abs() > 0.01)?;
+    let (bond, asked, has) = built
+        .unlike()
+        .filter(|it| (it.2 / it.1 - 1.0).abs() > 0.01)?;
     let glue = built.wiring.bonds[bond].glues[0][0];
     Some(format!(
         "strengths are not quite those of the file, in units of its weakest bond: `{}` (word {}) is \
@@ -187,7 +191,8 @@ fn strengths(assembly: &Assembly) -> Option<String> {
 fn passed_over(assembly: &Assembly) -> Option<String> {
     let keys = &assembly.built.set.passed_over;
     let list = keys.join(", ");
-    (!keys.is_empty()).then(|| format!("of the file passed over, as it only steers an engine: {list}"))
+    (!keys.is_empty())
+        .then(|| format!("of the file passed over, as it only steers an engine: {list}"))
 }
 
 /// That a canvas is another one than the file's.
