@@ -27,7 +27,10 @@ const CYCLIC: [(usize, u64, usize); 5] = [
     // Of the classes of 1, 3, 5 and 7.
     (
         31,
-        multiply(multiply(multiply(0b100_101, 0b111_101), 0b110_111), 0b101_111),
+        multiply(
+            multiply(multiply(0b100_101, 0b111_101), 0b110_111),
+            0b101_111,
+        ),
         11,
     ),
 ];
@@ -55,7 +58,8 @@ pub fn of(places: usize, distance: usize) -> Vec<Vec<u64>> {
         codes.push(lexicode(places, distance));
     }
     for more in 0..3 {
-        codes.extend(hadamard(places + more).and_then(|rows| fitted(&rows, more, places, distance)));
+        codes
+            .extend(hadamard(places + more).and_then(|rows| fitted(&rows, more, places, distance)));
     }
     for (length, generator, least) in CYCLIC {
         for parity in [false, true] {
@@ -136,7 +140,9 @@ fn hadamard(n: usize) -> Option<Vec<u64>> {
 fn fitted(rows: &[u64], less: usize, places: usize, distance: usize) -> Option<Vec<u64>> {
     let n = places + less;
     let mask = (1u64 << places) - 1;
-    let all = rows.iter().flat_map(|row| [*row, !row & (u64::MAX >> (64 - n))]);
+    let all = rows
+        .iter()
+        .flat_map(|row| [*row, !row & (u64::MAX >> (64 - n))]);
     let all: Vec<u64> = all.collect();
     if n / 2 >= distance + less {
         return Some(all.iter().map(|row| row & mask).collect());
@@ -183,7 +189,10 @@ mod tests {
             for distance in 2..=places / 2 + 1 {
                 for code in of(places, distance) {
                     let some = &code[..code.len().min(300)];
-                    assert!(least_distance(some) as usize >= distance, "{places} {distance}");
+                    assert!(
+                        least_distance(some) as usize >= distance,
+                        "{places} {distance}"
+                    );
                     assert!(code.iter().all(|word| word >> places == 0));
                 }
             }

@@ -152,7 +152,9 @@ impl Task {
                 false => word,
             }
         };
-        codes.map(|code| code.into_iter().map(word).collect()).collect()
+        codes
+            .map(|code| code.into_iter().map(word).collect())
+            .collect()
     }
 
     /// An upper bound of the number of words with wrong attractions up to `limit` (J), from codes;

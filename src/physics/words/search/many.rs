@@ -60,7 +60,11 @@ impl Search<'_> {
             let graph = self.graph(at..=at, false);
             let seed = seeded(&self.seeds, &graph, self.enough, &mut part);
             let members = self.taken(&graph, &mut rng, &mut part);
-            let members = if seed.len() > members.len() { seed } else { members };
+            let members = if seed.len() > members.len() {
+                seed
+            } else {
+                members
+            };
             work.give_back(&part);
             if members.len() > self.best.len() {
                 self.accept(&graph, &members);

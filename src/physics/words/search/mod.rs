@@ -199,7 +199,9 @@ fn seeded(seeds: &[Vec<Word>], graph: &Graph, enough: usize, budget: &mut Budget
             let Ok(vertex) = graph.words.binary_search(word) else {
                 continue;
             };
-            let against = members.iter().position(|other| !graph.joined(vertex, *other));
+            let against = members
+                .iter()
+                .position(|other| !graph.joined(vertex, *other));
             budget.spend(8 + against.map_or(members.len(), |k| k + 1) as u64 * graph.judgement());
             if against.is_none() {
                 members.push(vertex);
