@@ -134,41 +134,35 @@ impl Request {
 fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refused> {
     let mut table: toml::Table = text.parse().map_err(|error| format!("{error}"))?;
     let matrix = &built.matrix;
-    let faces = 0..matrix.energies.len();
     let face = |face: usize| {
-        let code = matrix.code(face);
+        let code = matrix.code(face).to_string();
         let entry = match &words.places {
-            None => ("code", toml::Value::from(code.to_string())),
+            None => format!("code = \"{code}\""),
             Some(places) => {
-                let letters = code.to_string();
-                let letters = places.iter().zip(letters.chars());
-                let there = letters.filter(|(_, pole)| *pole != '.');
-                let one = |(at, pole): (&f64, char)| {
-                    let keys = [
-                        ("at".to_owned(), toml::Value::from(at + 0.0)),
-                        ("pole".to_owned(), toml::Value::from(pole.to_string())),
-                    ];
-                    toml::Value::Table(keys.into_iter().collect())
-                };
-                ("magnets", there.map(one).collect::<Vec<_>>().into())
+                let there = places.iter().zip(code.chars()).filter(|it| it.1 != '.');
+                let one = |(at, pole)| format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0);
+                format!("magnets = [{}]", there.map(one).collect::<Vec<_>>().join(", "))
             }
         };
-        let entry = toml::Table::from_iter([(entry.0.to_owned(), entry.1)]);
-        (matrix.name(face), toml::Value::Table(entry))
+        let name = matrix.name(face);
+        match name.ends_with('*') {
+            true => format!("\"{name}\" = {{ {entry} }}\n"),
+            false => format!("{name} = {{ {entry} }}\n"),
+        }
     };
     if words.places.is_none() {
         let codes = matrix.words.iter().map(ToString::to_string);
         table.insert("words".to_owned(), codes.collect::<Vec<_>>().into());
     }
-    let faces: toml::Table = faces.map(face).collect();
-    table.insert("faces".to_owned(), toml::Value::Table(faces));
+    table.remove("faces");
+    let faces: String = (0..matrix.energies.len()).map(face).collect();
     let unused = words.words.len() - matrix.words.len();
     let rest = match unused {
         0 => String::new(),
         unused => format!("; {unused} of its words are not needed"),
     };
     Ok(format!(
-        "# The words of {}, by the letters of sheet.md and matrix.csv{rest}\n\n{table}",
+        "# The words of {}, by the letters of sheet.md and matrix.csv{rest}\n\n{table}\n[faces]\n{faces}",
         built.set.name
     ))
 }

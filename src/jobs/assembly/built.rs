@@ -95,7 +95,7 @@ impl Built {
         let rests = Rests::new(words);
         let all = Matrix::new(words, &words.words);
         let depths = Depths::new(&all, &rests, (set, &wiring), &grown);
-        let chosen = assign(&all, bonds, depths.as_ref());
+        let chosen = assign(&all, &wiring, depths.as_ref())?;
         let matrix = Matrix::new(words, &chosen);
         let loose = |bond: usize| {
             let word = chosen[bond];
@@ -150,6 +150,16 @@ impl Built {
         self.unit / self.shaking.kt
     }
 
+    /// The strongest wrong attraction of aligned faces (J, below zero), and whose.
+    pub fn strongest_wrong(&self) -> Option<(usize, usize, f64)> {
+        let n = self.matrix.words.len();
+        let wanted = |i: usize, j: usize| {
+            i < n && j >= n && (j - i == n || self.wiring.are_linked(i, j - n))
+        };
+        let wrong = |i: usize, j: usize| !wanted(i, j);
+        self.matrix.strongest(&wrong)
+    }
+
     /// The word (place in the matrix; mates lie behind the words) that a face carries.
     pub fn face(&self, tile: usize, side: usize) -> Option<usize> {
         let bond = self.wiring.of(&self.set, tile, side)?;
@@ -170,7 +180,7 @@ impl Built {
     pub fn verdict(&self) -> Verdict {
         let (gse, tau) = (self.gse(), self.set.tau());
         let less = self.wiring.least_strength();
-        let wrong = self.matrix.strongest_wrong();
+        let wrong = self.strongest_wrong();
         let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / self.shaking.kt);
         match () {
             () if self.gmc > tau * gse => Verdict::TooHard,

@@ -43,10 +43,11 @@ impl Request {
     ) -> Result<Sought, String> {
         let (bar, face) = word_sets::bar(design, self.pitch, self.model)?;
         let most = self.most_places(&bar, face)?;
-        let demand = wiring.demand();
+        let (demand, groups) = (wiring.demand(), wiring.groups());
+        let demand = (&demand[..], &groups[..]);
         let tried = match self.length {
-            Some(places) => choice::choose(&demand, places, &bar, self),
-            None => choice::shortest(&demand, most, &bar, self, observer),
+            Some(places) => choice::choose(demand, places, &bar, self),
+            None => choice::shortest(demand, most, &bar, self, observer),
         };
         match tried.last() {
             Some(last) if last.verdict == Verdict::Found => {

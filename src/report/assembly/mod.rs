@@ -51,7 +51,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         faces.map(|face| matrix.code(face).to_string()).collect()
     };
     let n = matrix.words.len();
-    let wrong = matrix.strongest_wrong();
+    let wrong = built.strongest_wrong();
     let mismatch = wrong.map(|(i, j, energy)| {
         json!({"first": assembly.face(i), "second": assembly.face(j), "energy_J": energy})
     });

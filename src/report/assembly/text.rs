@@ -85,7 +85,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
             "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
         )
     });
-    let mismatch = match built.matrix.strongest_wrong() {
+    let mismatch = match built.strongest_wrong() {
         Some((i, j, energy)) => format!(
             "strongest aligned mismatch: {} on {}, {} ({:.0} % of a bond)",
             assembly.face(i),
