@@ -141,7 +141,10 @@ fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refuse
             Some(places) => {
                 let there = places.iter().zip(code.chars()).filter(|it| it.1 != '.');
                 let one = |(at, pole)| format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0);
-                format!("magnets = [{}]", there.map(one).collect::<Vec<_>>().join(", "))
+                format!(
+                    "magnets = [{}]",
+                    there.map(one).collect::<Vec<_>>().join(", ")
+                )
             }
         };
         let name = matrix.name(face);

@@ -316,8 +316,8 @@ fn linked(
             };
             let words = all.words.into_iter().filter(goes);
             // Either of a word and its mate may lie on the east or north faces.
-            let both = words.flat_map(|word| [word, word.mate()]);
-            (task, both.collect())
+            let both: Vec<Word> = words.flat_map(|word| [word, word.mate()]).collect();
+            (task, both)
         })
         .collect();
     // Net contacts that a strength asks for; none where no number of them comes near.
@@ -335,12 +335,18 @@ fn linked(
     loop {
         let k = chosen.len();
         if k == lists.len() {
-            return chosen.iter().zip(&lists).map(|(at, list)| list.1[*at]).collect();
+            return chosen
+                .iter()
+                .zip(&lists)
+                .map(|(at, list)| list.1[*at])
+                .collect();
         }
         let mut rest = next..lists[k].1.len();
         let fits = rest.find(|at| {
             let word = lists[k].1[*at];
-            effort.budget.spend(lists[k].0.judgement().min(effort.budget.left()));
+            effort
+                .budget
+                .spend(lists[k].0.judgement().min(effort.budget.left()));
             let mut before = chosen.iter().enumerate();
             !effort.budget.is_spent() && before.all(|(j, it)| goes(j, lists[j].1[*it], k, word))
         });

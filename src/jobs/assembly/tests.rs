@@ -134,7 +134,10 @@ fn faults_are_told_with_their_place() {
 fn what_only_steers_an_engine_is_noted() {
     let yaml = "tiles:\n- {name: t, edges: [a, a, a, a]}\nblock: 4\nfission: keep-seeded\noptions: \
                 {update_rate: 100, canvas_type: square}\n";
-    assert_eq!(TileSet::parse(yaml, "a").unwrap().passed_over, ["block", "update_rate"]);
+    assert_eq!(
+        TileSet::parse(yaml, "a").unwrap().passed_over,
+        ["block", "update_rate"]
+    );
     let xgrow = "num tile types=1\nnum binding types=1\ntile edges={\n{00 1 0 1}\n}\nbinding \
                  strengths={1}\nblock=2 % large\nfission\nperiodic=False\nupdate_rate=10\n";
     let set = TileSet::parse(xgrow, "a").unwrap();
@@ -156,7 +159,8 @@ fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
         assert_eq!((wiring.bonds.len(), wiring.links.len()), (2, 1));
         let asked_for = [("kt", "1e-3"), ("seconds", "4")];
         let request: Request =
-            of_keywords(asked_for.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]))).unwrap();
+            of_keywords(asked_for.map(|(key, value)| (key.to_owned(), vec![value.to_owned()])))
+                .unwrap();
         let assembly = request.build(&set, None, None, &Silent).unwrap();
         let matrix = &assembly.built.matrix;
         let held = -matrix.energies[0][matrix.mate(1)] / matrix.bond(0);
@@ -164,7 +168,10 @@ fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
         let again = -matrix.energies[1][matrix.mate(0)] / matrix.bond(1);
         assert!((held - again).abs() < 0.02, "{held} {again}");
         // Nothing else holds by more than the gap leaves.
-        let wrong = assembly.built.strongest_wrong().map_or(0.0, |it| -it.2 / matrix.bond(0));
+        let wrong = assembly
+            .built
+            .strongest_wrong()
+            .map_or(0.0, |it| -it.2 / matrix.bond(0));
         assert!(wrong <= 0.55, "{wrong}");
     }
 }
@@ -180,7 +187,10 @@ fn strengths_near_each_other_share_words() {
         let request: Request = of_keywords([("kt".to_owned(), vec!["1e-3".to_owned()])]).unwrap();
         let built = request.build(&set, None, None, &Silent).unwrap().built;
         let (_, asked, has) = built.unlike().unwrap();
-        assert!((has / asked - 1.0).abs() < 0.13, "{strengths}: {asked} {has}");
+        assert!(
+            (has / asked - 1.0).abs() < 0.13,
+            "{strengths}: {asked} {has}"
+        );
         assert_ne!(built.matrix.words[0], built.matrix.words[1]);
     }
 }

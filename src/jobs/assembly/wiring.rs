@@ -139,7 +139,9 @@ impl Wiring {
         for (j, second) in self.bonds.iter().enumerate() {
             for (i, first) in self.bonds[..j].iter().enumerate() {
                 let meet = |a: &Bond, b: &Bond| {
-                    let pairs = a.glues[0].iter().flat_map(|g| b.glues[1].iter().map(move |h| (*g, *h)));
+                    let pairs = a.glues[0]
+                        .iter()
+                        .flat_map(|g| b.glues[1].iter().map(move |h| (*g, *h)));
                     pairs.map(|(g, h)| strengths[g][h]).fold(0.0, f64::max)
                 };
                 let strength = f64::max(meet(first, second), meet(second, first));
@@ -221,7 +223,11 @@ impl Wiring {
 
 /// Of glues that do not all bind alike a bond each, where each binds itself and no other one more
 /// strongly; else `None`.
-fn each(axis: Axis, [firsts, seconds]: &[Vec<usize>; 2], strengths: &[Vec<f64>]) -> Option<Vec<Bond>> {
+fn each(
+    axis: Axis,
+    [firsts, seconds]: &[Vec<usize>; 2],
+    strengths: &[Vec<f64>],
+) -> Option<Vec<Bond>> {
     let pairs = || firsts.iter().flat_map(|a| seconds.iter().map(|b| (*a, *b)));
     let mut all = pairs().map(|(a, b)| strengths[a][b]);
     let first = all.next()?;

@@ -129,11 +129,22 @@ fn lettering(out: &Path) -> Vec<(String, String, String)> {
     let (head, faces) = words.split_once("[faces]\n").unwrap();
     for line in faces.lines().filter(|line| !line.is_empty()) {
         let (name, entry) = line.split_once(" = ").unwrap();
-        add("words.toml", name.trim_matches('"'), entry.split('"').nth(1).unwrap());
+        add(
+            "words.toml",
+            name.trim_matches('"'),
+            entry.split('"').nth(1).unwrap(),
+        );
     }
-    let list = head.lines().find(|line| line.starts_with("words = [")).unwrap();
+    let list = head
+        .lines()
+        .find(|line| line.starts_with("words = ["))
+        .unwrap();
     for (k, code) in list.split('"').skip(1).step_by(2).enumerate() {
-        add("words.toml, words", &((b'A' + k as u8) as char).to_string(), code);
+        add(
+            "words.toml, words",
+            &((b'A' + k as u8) as char).to_string(),
+            code,
+        );
     }
     let sheet = text(out, "sheet.md");
     for line in sheet.lines().filter(|line| line.starts_with("| ")) {
@@ -162,16 +173,30 @@ fn lettering(out: &Path) -> Vec<(String, String, String)> {
     assert!(!tiles.is_empty());
     for (name, design) in contents(&out.join("designs")) {
         let design = String::from_utf8(design).unwrap();
-        let described = design.lines().find(|line| line.starts_with("description")).unwrap();
+        let described = design
+            .lines()
+            .find(|line| line.starts_with("description"))
+            .unwrap();
         let of = |k: usize| described.split(" face of ").nth(k).unwrap();
         let first = of(1).split(" meets ").next().unwrap();
         let second = of(2).trim_end_matches('"');
         for (role, tile) in [("[fixed.faces]", first), ("[moving.faces]", second)] {
-            let tile = tiles.iter().find(|it| it.0 == tile).unwrap_or_else(|| panic!("{tile}"));
-            let faces = design.split(role).nth(1).unwrap().split("\n\n").next().unwrap();
+            let tile = tiles
+                .iter()
+                .find(|it| it.0 == tile)
+                .unwrap_or_else(|| panic!("{tile}"));
+            let faces = design
+                .split(role)
+                .nth(1)
+                .unwrap()
+                .split("\n\n")
+                .next()
+                .unwrap();
             for line in faces.lines().filter(|line| line.contains(" = {")) {
                 let (side, entry) = line.split_once(" = ").unwrap();
-                let side = ["north", "east", "south", "west"].iter().position(|it| *it == side);
+                let side = ["north", "east", "south", "west"]
+                    .iter()
+                    .position(|it| *it == side);
                 let code = entry.split('"').nth(1).unwrap();
                 add(&name, tile.1[side.unwrap()], code);
             }
@@ -184,11 +209,22 @@ fn lettering(out: &Path) -> Vec<(String, String, String)> {
 fn a_letter_is_the_same_word_in_every_file() {
     let folder = tempfile::tempdir().unwrap();
     let [searched, given] = ["searched", "given"].map(|name| folder.path().join(name));
-    built(&["--lattice", "3x3", "--length", "8", "--gap", "0.25"], &searched);
+    built(
+        &["--lattice", "3x3", "--length", "8", "--gap", "0.25"],
+        &searched,
+    );
     // The same words and two more, in another order, some as their mates.
     let found = text(&searched, "words.toml");
-    let codes = found.lines().find(|line| line.starts_with("words = [")).unwrap();
-    let mut codes: Vec<String> = codes.split('"').skip(1).step_by(2).map(str::to_owned).collect();
+    let codes = found
+        .lines()
+        .find(|line| line.starts_with("words = ["))
+        .unwrap();
+    let mut codes: Vec<String> = codes
+        .split('"')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect();
     codes.reverse();
     let mate = |code: &str| -> String {
         let other = |c: char| if c == 'N' { 'S' } else { 'N' };
@@ -198,8 +234,15 @@ fn a_letter_is_the_same_word_in_every_file() {
     codes.insert(5, "NNNNNNNN".to_owned());
     let set = folder.path().join("set.toml");
     let list = codes.join("\", \"");
-    std::fs::write(&set, format!("words = [\"{list}\"]\n[magnet]\npitch = 0.04\n")).unwrap();
-    built(&["--lattice", "3x3", "--words", set.to_str().unwrap()], &given);
+    std::fs::write(
+        &set,
+        format!("words = [\"{list}\"]\n[magnet]\npitch = 0.04\n"),
+    )
+    .unwrap();
+    built(
+        &["--lattice", "3x3", "--words", set.to_str().unwrap()],
+        &given,
+    );
     for out in [&searched, &given] {
         let all = lettering(out);
         let files: std::collections::BTreeSet<&str> = all.iter().map(|it| &it.0[..]).collect();
