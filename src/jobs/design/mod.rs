@@ -65,6 +65,7 @@ pub use drawings::Drawing;
 pub use error::{DesignError, Place};
 pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
+pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
 pub use starting::{Shape, Start, StartError};
 pub use units::{angle, length};
