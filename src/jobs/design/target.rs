@@ -8,7 +8,7 @@ use super::quantity::four_digits;
 use super::reader::{Entry, Section};
 use super::tile::{TILES, TileEntry, same_length};
 use physics::configuration::Configuration;
-use physics::contact::{Contact, TOUCH};
+use physics::contact::Contact;
 use physics::tile::outline::cross;
 use physics::tile::{Face, Tile};
 
@@ -54,8 +54,9 @@ impl Target<'_> {
     /// The configuration in which the two base lines coincide, face to face.
     pub fn configuration(&self, fixed: &Tile, moving: &Tile) -> Result<Configuration> {
         let bound = face_to_face(&fixed.faces[self.faces.0], &moving.faces[self.faces.1]);
-        let depth = -Contact::new(&fixed.outline, &moving.outline).clearance(&bound);
-        if depth > TOUCH {
+        let contact = Contact::new(&fixed.outline, &moving.outline);
+        let depth = -contact.clearance(&bound);
+        if depth > contact.touch() {
             return Err(self.moving.error(
                 format!(
                     "the target faces cannot coincide: there the tiles overlap by {} mm",
