@@ -217,5 +217,5 @@ fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Op
         }
     }
     let rounded = rounded_down(right);
-    (right > SHALLOWEST && possible(rounded)).then_some(rounded)
+    (right > SHALLOWEST * depth.abs() && possible(rounded)).then_some(rounded)
 }

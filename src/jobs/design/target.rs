@@ -9,7 +9,7 @@ use super::reader::{Entry, Section};
 use super::tile::{TILES, TileEntry};
 use super::tolerance::{Lengths, allowance, micrometres, nearly_equal, told_apart};
 use physics::configuration::Configuration;
-use physics::contact::{Contact, TOUCH};
+use physics::contact::Contact;
 use physics::tile::outline::cross;
 use physics::tile::{Face, Tile};
 
@@ -83,7 +83,7 @@ impl Target<'_> {
         let contact = Contact::new(&fixed.outline, &moving.outline);
         let depth = |q: &Configuration| -contact.clearance(q);
         let overlap = depth(&flush);
-        if overlap <= TOUCH {
+        if overlap <= contact.touch() {
             return Ok(Bound::At(flush, None));
         }
         if overlap > self.allowance {
@@ -94,13 +94,13 @@ impl Target<'_> {
             let place = flush.position() + out * by;
             Configuration::new(clean(place.x), clean(place.y), flush.theta)
         };
-        if depth(&drawn(self.allowance)) > TOUCH {
+        if depth(&drawn(self.allowance)) > contact.touch() {
             return Ok(Bound::Overlap(overlap));
         }
         let (mut inside, mut outside) = (0.0, self.allowance);
         for _ in 0..HALVINGS {
             let middle = (inside + outside) / 2.0;
-            match depth(&drawn(middle)) > TOUCH {
+            match depth(&drawn(middle)) > contact.touch() {
                 true => inside = middle,
                 false => outside = middle,
             }
