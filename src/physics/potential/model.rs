@@ -8,9 +8,9 @@ use crate::tile::magnet::Form;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MagnetModel {
     /// Point dipoles at the blocks' centres.
-    #[default]
     Dipole,
-    /// Uniformly magnetised blocks and discs.
+    /// Uniformly magnetised blocks and discs: what magnets are, and what is taken where nothing is said.
+    #[default]
     Cuboid,
 }
 
@@ -18,6 +18,14 @@ impl MagnetModel {
     /// What design files call each model.
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+
+    /// What a reader calls magnets of this model: `dipoles`, `blocks`.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Dipole => "dipoles",
+            Self::Cuboid => "blocks",
+        }
+    }
 
     /// Whether magnets have to be taken for [`BodyPotential`]'s bodies: blocks that lie have formulas of
     /// their own, and so have dipoles that do.
