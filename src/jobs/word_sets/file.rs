@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::design::written;
 use physics::units::MU0;
 use physics::words::continuous::SpacedWord;
 use physics::words::set::name;
@@ -41,13 +42,13 @@ fn text(
     side: f64,
     faces: impl Iterator<Item = [String; 2]>,
 ) -> String {
-    let [length, width, thickness] = bar.size;
     // A rounding error would make figures that nobody typed.
     let rounded = |x: f64| (x * 1e9).round() / 1e9;
-    let remanence = rounded(MU0 * bar.moment / (length * width * thickness));
+    let remanence = rounded(MU0 * bar.moment / bar.form.shape.volume(bar.size));
     let mut text = format!(
-        "# {headline}\n\n{list}[magnet]\nsize = [{length}, {width}, {thickness}]\n\
+        "# {headline}\n\n{list}[magnet]\n{}\
          remanence = {remanence:?}\npitch = {:?}\n",
+        written::magnet(bar.form, bar.size),
         bar.pitch
     );
     if bar.inset > 0.0 {

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::barcode::Pole;
 use crate::configuration::wrap_angle;
 use crate::units::MU0;
 
@@ -62,6 +63,9 @@ impl Standing {
     }
 }
 
+/// Chords that a round outline has: they leave the circle by 1/200 of its radius.
+const CHORDS: usize = 32;
+
 /// A magnet fixed in a tile, in the tile's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Magnet {
@@ -90,6 +94,45 @@ impl Magnet {
             self.moment
         };
         Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * lying
+    }
+
+    /// Which pole is turned outwards, or up, given the outward normal of the magnet's face.
+    pub fn pole(&self, outwards: Vector2<f64>) -> Pole {
+        match self.form.stands {
+            Some(Standing::Up) => Pole::Up,
+            Some(Standing::Down) => Pole::Down,
+            None if self.moment_vector().dot(&outwards) >= 0.0 => Pole::North,
+            None => Pole::South,
+        }
+    }
+
+    /// Its sizes as it is sold (m), the one along its axis first.
+    pub fn axis_first(&self) -> [f64; 3] {
+        let [a, b, c] = self.size;
+        match self.form.stands {
+            Some(_) => [c, b, a],
+            None => self.size,
+        }
+    }
+
+    /// Whether both are the same to a shop, whatever they are for.
+    pub fn is_sold_as(&self, other: &Self) -> bool {
+        self.form.shape == other.form.shape
+            && self.axis_first() == other.axis_first()
+            && (self.moment - other.moment).abs() <= 1e-12 * self.moment
+    }
+
+    /// What it covers of the tiles' plane (m), counter-clockwise; of a disc that stands a polygon whose
+    /// corners lie on its rim.
+    pub fn outline(&self) -> Vec<Vector2<f64>> {
+        if self.form.shape == Shape::Block || self.form.stands.is_none() {
+            return self.corners().to_vec();
+        }
+        let turn = |k: usize| self.angle + std::f64::consts::TAU * k as f64 / CHORDS as f64;
+        let corner =
+            |turn: f64| Vector2::new(libm::cos(turn), libm::sin(turn)) * self.size[0] / 2.0;
+        let corners = (0..CHORDS).map(|k| self.position + corner(turn(k)));
+        corners.collect()
     }
 
     /// The same magnet with its poles exchanged.

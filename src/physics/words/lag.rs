@@ -19,7 +19,7 @@ use super::word::MOST_PLACES;
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::potential::{Interaction, MagnetModel};
-use crate::tile::magnet::{Form, Standing};
+use crate::tile::magnet::{Form, Shape, Standing};
 use crate::tile::strength::Strength;
 use crate::tile::{Magnet, Tile};
 
@@ -49,7 +49,7 @@ impl Bar {
         let size = [0.010, 0.010, 0.003];
         Self {
             size,
-            moment: Strength::Remanence(1.2).moment(size),
+            moment: Strength::Remanence(1.2).moment(Shape::Block, size),
             form: Form::default(),
             inset: 0.0,
             pitch: 0.040,

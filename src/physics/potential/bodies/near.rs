@@ -97,3 +97,12 @@ fn add(sum: &mut PairEnergy, integral: &Integral, strength: f64, offset: Vector2
     sum.gradient += integral.gradient * strength;
     sum.slope += strength * (integral.slope + offset.perp(&integral.gradient));
 }
+
+/// The integral of d / r^3 over both of two discs of a radius (m) on one axis, d (m) apart (m^2).
+pub fn coaxial(radius: f64, d: f64) -> f64 {
+    let face = |x: f64| {
+        let shape = Charged::Disc(radius);
+        Face::upright(Vector2::new(x, 0.0), Vector2::x(), shape)
+    };
+    -Integral::new(&face(0.0), &face(d)).gradient.x
+}
