@@ -52,12 +52,12 @@ fn text(
         bar.pitch
     );
     if bar.inset > 0.0 {
-        let _ = writeln!(text, "inset = {:?}", bar.inset);
+        let _ = writeln!(text, "inset = {:?}", rounded(bar.inset));
     }
     let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
     let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
     text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
-             face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
+             face\n# (east = { ... }); X* is the mate of X. Of magnets that stand N is north up (U).\n[faces]\n";
     for (k, [word, mate]) in faces.enumerate() {
         let name = name(k);
         let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");
