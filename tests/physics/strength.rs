@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 use tilebind::Configuration;
+use tilebind::potential::interaction::bare;
 use tilebind::potential::{CuboidPotential, MagnetModel, Potential};
 use tilebind::tile::Magnet;
 use tilebind::tile::grade::{Grade, NEODYMIUM};
@@ -110,8 +111,11 @@ fn a_pull_of_a_disc_is_the_force_of_a_disc_on_its_image() {
             size,
             face: 0,
         };
-        let discs =
-            MagnetModel::Cuboid.potential(std::slice::from_ref(&disc), std::slice::from_ref(&disc));
+        let discs = bare(
+            MagnetModel::Cuboid,
+            std::slice::from_ref(&disc),
+            std::slice::from_ref(&disc),
+        );
         let touching = Configuration::new(height * (1.0 + 1e-9), 0.0, 0.0);
         let expected = discs.energy_and_gradient(&touching).1.x;
         let found = pull(Shape::Disc, size, 1.3);

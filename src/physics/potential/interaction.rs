@@ -25,8 +25,10 @@ use std::sync::LazyLock;
 
 use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
-use super::{MagnetModel, Potential, ShieldedPotential};
-use crate::tile::Tile;
+use super::{
+    BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
+};
+use crate::tile::{Magnet, Tile};
 
 /// What acts between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -95,9 +97,20 @@ impl Interaction {
             LazyBounds::new(make)
         });
         let potential: Box<dyn Potential + Send> = match shields.is_none() {
-            true => model.potential(first, second),
+            true => bare(*model, first, second),
             false => Box::new(ShieldedPotential::new(*model, fixed, moving, shields)),
         };
         Energy { potential, bounds }
+    }
+}
+
+/// The energy of two tiles' magnets, without shields.
+pub fn bare(model: MagnetModel, first: &[Magnet], second: &[Magnet]) -> Box<dyn Potential + Send> {
+    match model {
+        _ if model.is_of_bodies(first) || model.is_of_bodies(second) => {
+            Box::new(BodyPotential::new(model, first, second))
+        }
+        MagnetModel::Dipole => Box::new(DipolePotential::new(first, second)),
+        MagnetModel::Cuboid => Box::new(CuboidPotential::new(first, second)),
     }
 }

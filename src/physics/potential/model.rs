@@ -1,6 +1,5 @@
 //! How magnets are modelled.
 
-use super::{BodyPotential, CuboidPotential, DipolePotential, Potential};
 use crate::tile::Magnet;
 use crate::tile::magnet::Form;
 
@@ -27,24 +26,13 @@ impl MagnetModel {
         }
     }
 
-    /// Whether magnets have to be taken for [`BodyPotential`]'s bodies: blocks that lie have formulas of
+    /// Whether magnets have to be taken for [`super::BodyPotential`]'s bodies: blocks that lie have formulas of
     /// their own, and so have dipoles that do.
     pub fn is_of_bodies(self, magnets: &[Magnet]) -> bool {
         magnets.iter().any(|magnet| match self {
             Self::Dipole => magnet.form.stands.is_some(),
             Self::Cuboid => magnet.form != Form::default(),
         })
-    }
-
-    /// The energy of two tiles' magnets, without shields.
-    pub fn potential(self, first: &[Magnet], second: &[Magnet]) -> Box<dyn Potential + Send> {
-        match self {
-            _ if self.is_of_bodies(first) || self.is_of_bodies(second) => {
-                Box::new(BodyPotential::new(self, first, second))
-            }
-            Self::Dipole => Box::new(DipolePotential::new(first, second)),
-            Self::Cuboid => Box::new(CuboidPotential::new(first, second)),
-        }
     }
 
     /// What design files call this model.

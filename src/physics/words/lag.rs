@@ -18,7 +18,7 @@ use nalgebra::Vector2;
 use super::word::MOST_PLACES;
 use crate::configuration::Configuration;
 use crate::order::Order;
-use crate::potential::{Interaction, MagnetModel};
+use crate::potential::{Interaction, MagnetModel, interaction};
 use crate::tile::magnet::{Form, Shape, Standing};
 use crate::tile::strength::Strength;
 use crate::tile::{Magnet, Tile};
@@ -83,7 +83,7 @@ impl Lags {
     /// Of real magnets, for words of so many places.
     pub fn new(bar: &Bar, places: usize) -> Self {
         let (first, second) = ([bar.magnet(0.0)], [bar.magnet(std::f64::consts::PI)]);
-        let potential = bar.model.potential(&first, &second);
+        let potential = interaction::bare(bar.model, &first, &second);
         let apart = bar.size[0] + 2.0 * bar.inset;
         let energy = |d| potential.energy(&Configuration::new(apart, d as f64 * bar.pitch, 0.0));
         Self::of((0..2 * places - 1).map(energy).collect())

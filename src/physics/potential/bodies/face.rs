@@ -118,16 +118,3 @@ impl Face {
         }
     }
 }
-
-impl Integral {
-    /// Of two faces that do not meet: both upright or both flat, not both upright rectangles.
-    pub fn new(first: &Face, second: &Face) -> Self {
-        match [first.shape, second.shape] {
-            [Shape::Disc(radius), _] => super::line::integral(first, radius, second, false),
-            [_, Shape::Disc(radius)] => super::line::integral(second, radius, first, true),
-            [Shape::Rectangle(a), Shape::Rectangle(b)] => {
-                super::edges::integral([first, second], [a, b])
-            }
-        }
-    }
-}

@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::Body;
 use super::face::{Face, Integral, Shape as Charged};
+use super::{edges, line};
 use crate::potential::cuboid::block::{Block, PairEnergy};
 use crate::potential::cuboid::exact as blocks;
 use crate::tile::magnet::Shape;
@@ -51,7 +52,7 @@ fn standing(first: &Body, second: &Body) -> PairEnergy {
     let strength = 2.0 * strength(first, second);
     let mut sum = PairEnergy::default();
     for side in [1.0, -1.0] {
-        let integral = Integral::new(&face(first, 1.0), &face(second, side));
+        let integral = integral(&face(first, 1.0), &face(second, side));
         add(&mut sum, &integral, strength * side, Vector2::zeros());
     }
     sum
@@ -83,7 +84,7 @@ fn lying(first: &Body, second: &Body) -> PairEnergy {
                 let shift = outwards * (apart - height);
                 to.centre += nalgebra::Vector3::new(shift.x, shift.y, 0.0);
             }
-            let integral = Integral::new(&from, &to);
+            let integral = integral(&from, &to);
             add(&mut sum, &integral, strength * own * side, offset);
         }
     }
@@ -98,11 +99,20 @@ fn add(sum: &mut PairEnergy, integral: &Integral, strength: f64, offset: Vector2
     sum.slope += strength * (integral.slope + offset.perp(&integral.gradient));
 }
 
+/// The integral over two faces that do not meet: both upright or both flat, not both upright rectangles.
+pub fn integral(first: &Face, second: &Face) -> Integral {
+    match [first.shape, second.shape] {
+        [Charged::Disc(radius), _] => line::integral(first, radius, second, false),
+        [_, Charged::Disc(radius)] => line::integral(second, radius, first, true),
+        [Charged::Rectangle(a), Charged::Rectangle(b)] => edges::integral([first, second], [a, b]),
+    }
+}
+
 /// The integral of d / r^3 over both of two discs of a radius (m) on one axis, d (m) apart (m^2).
 pub fn coaxial(radius: f64, d: f64) -> f64 {
     let face = |x: f64| {
         let shape = Charged::Disc(radius);
         Face::upright(Vector2::new(x, 0.0), Vector2::x(), shape)
     };
-    -Integral::new(&face(0.0), &face(d)).gradient.x
+    -integral(&face(0.0), &face(d)).gradient.x
 }

@@ -1,6 +1,7 @@
 use nalgebra::{Vector2, Vector3};
 
-use super::face::{Face, Integral, Shape};
+use super::face::{Face, Shape};
+use super::near::integral;
 use crate::potential::cuboid::quadrature::gauss_legendre;
 
 const DISC: Shape = Shape::Disc(0.8);
@@ -96,9 +97,9 @@ fn agrees_with_sums() {
                 continue;
             }
             let first = other(upright, a, [0.0; 3], 0.0);
-            let of = |pose| Integral::new(&first, &other(upright, b, pose, height));
+            let of = |pose| integral(&first, &other(upright, b, pose, height));
             let i = of(pose);
-            let back = Integral::new(&other(upright, b, pose, height), &first).value;
+            let back = integral(&other(upright, b, pose, height), &first).value;
             let brute = summed(&first, &other(upright, b, pose, height));
             let e = 1e-5;
             let mut d = [0.0; 3];
