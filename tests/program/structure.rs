@@ -138,7 +138,8 @@ fn read(module: Name, file: &Path, folder: &Path, modules: &mut BTreeMap<Name, M
         imports: Vec::new(),
         paths: Vec::new(),
     };
-    reader.visit_file(&syn::parse_file(&text).unwrap());
+    let parsed = syn::parse_file(&text);
+    reader.visit_file(&parsed.unwrap_or_else(|why| panic!("{}: {why}", file.display())));
     for child in reader.children.clone() {
         let [alone, front] =
             [format!("{child}.rs"), format!("{child}/mod.rs")].map(|f| folder.join(f));
@@ -197,11 +198,6 @@ fn circles(first: &str) -> Vec<Vec<String>> {
             let from = defined_in(named, &modules);
             if !name.starts_with(from) {
                 imports.add_edge(place(name), place(from), ());
-                // Where the two part, one module beside another uses it.
-                let same = name.iter().zip(from).take_while(|(a, b)| a == b).count();
-                if name.len() > same && from.len() > same {
-                    imports.add_edge(place(&name[..=same]), place(&from[..=same]), ());
-                }
             }
         }
     }

@@ -48,7 +48,7 @@ impl Request {
         let numbers = plan.axes.iter().filter_map(Axis::numbers);
         let varied: Vec<usize> = numbers.map(|n| n.len()).filter(|&n| n > 1).collect();
         match (self.refine, &varied[..]) {
-            (Some(_), [..=2] | [] | [_, _, ..]) => Err(PlanError::NoCurve),
+            (Some(_), [(..=2)] | [] | [_, _, ..]) => Err(PlanError::NoCurve),
             _ => Ok(plan),
         }
     }

@@ -48,7 +48,7 @@ use crate::units::MU0_OVER_4PI;
 use limits::Limits;
 use series::{Coefficients, Series};
 
-pub use near::{coaxial, exact};
+pub use near::exact;
 
 /// The share of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series takes over from the faces, and
 /// at which it drops its terms one after the other.

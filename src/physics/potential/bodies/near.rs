@@ -107,12 +107,3 @@ pub fn integral(first: &Face, second: &Face) -> Integral {
         [Charged::Rectangle(a), Charged::Rectangle(b)] => edges::integral([first, second], [a, b]),
     }
 }
-
-/// The integral of d / r^3 over both of two discs of a radius (m) on one axis, d (m) apart (m^2).
-pub fn coaxial(radius: f64, d: f64) -> f64 {
-    let face = |x: f64| {
-        let shape = Charged::Disc(radius);
-        Face::upright(Vector2::new(x, 0.0), Vector2::x(), shape)
-    };
-    -integral(&face(0.0), &face(d)).gradient.x
-}
