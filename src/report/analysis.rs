@@ -11,7 +11,7 @@ use super::figures::percent;
 use super::files::{Files, PAGE, PICTURES};
 use super::names::{self, alternative_file, pathway_file, place};
 use super::page::{Landscape, pathways};
-use super::plots::scale::minus;
+use super::plots::style::minus;
 use super::plots::{self, PictureError, Scene, Sheet};
 use super::summary::{self, ended_by, left_out};
 use super::values::{pose, positive_zero, proportion};

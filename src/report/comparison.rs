@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::assessments::{capture_settings, checked, merge, numbers, quantities, tables, views};
 use crate::document::{Document, Drawing, Entries, Table, rows};
 use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
-use crate::plots::ranking as picture;
+use crate::plots::{Figure, PictureError, Sheet, ranking as picture};
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
 use physics::landscape::minimax::Ordering;
@@ -47,7 +47,7 @@ impl Comparison {
             entries: self.entries(),
             pictures: vec![Drawing::new(
                 format!("Ranked by {}", self.by.label),
-                |sheet| picture::draw(self, sheet),
+                |sheet| self.picture(sheet),
             )],
             notes: self.notes(),
             origin: format!("seed {seed}"),
@@ -58,6 +58,14 @@ impl Comparison {
             .beside
             .insert("compare.md".to_owned(), markdown.into_bytes());
         document
+    }
+
+    /// Its picture.
+    ///
+    /// # Errors
+    /// See [`PictureError`].
+    pub fn picture(&self, sheet: &Sheet) -> Result<Figure, PictureError> {
+        picture::draw(&self.designs, self.by, self.table().csv(), sheet)
     }
 
     fn entries(&self) -> Entries {

@@ -42,7 +42,6 @@ pub mod release;
 pub mod states;
 pub mod summary;
 pub mod sweep;
-mod sweep_answer;
 mod terminal;
 pub mod topsearch;
 mod values;

@@ -6,7 +6,7 @@ use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity, Request};
 use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison as Compared;
-use tilebind::report::plots::{Sheet, ranking};
+use tilebind::report::plots::Sheet;
 
 use crate::design::Design;
 use crate::job::Told;
@@ -138,7 +138,7 @@ impl Comparison {
     /// -------
     /// str
     fn svg(&self) -> PyResult<String> {
-        let drawn = ranking::draw(&self.0, &Sheet::SCREEN).map_err(fault::run)?;
+        let drawn = self.0.picture(&Sheet::SCREEN).map_err(fault::run)?;
         Ok(drawn.svg().to_owned())
     }
 

@@ -12,7 +12,7 @@ use tilebind::dynamics::docking::{
 use tilebind::landscape::Proportion;
 use tilebind::report::docking as report;
 use tilebind::report::document::Document;
-use tilebind::report::plots::{Sheet, dock as picture};
+use tilebind::report::plots::Sheet;
 use tilebind::report::release;
 
 use crate::design::{Content, Design};
@@ -263,8 +263,7 @@ impl Docking {
     /// str
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         let drawn = job::quietly(py, || {
-            let map = DockingMap::new(&self.found, picture::cells(self.found.runs.len()));
-            picture::chances(&self.content.design, &map, &Sheet::SCREEN)
+            report::picture(&self.content.design, &self.found, &Sheet::SCREEN)
         })?;
         Ok(drawn.map_err(fault::run)?.svg().to_owned())
     }

@@ -10,6 +10,7 @@ mod page;
 mod table;
 mod text;
 
+pub use crate::plots::Drawing;
 pub use cell::{Cell, Unit, told};
 pub use table::{Head, Link, Rows, Table, rows};
 
@@ -19,7 +20,6 @@ use serde_json::{Value, json};
 
 use crate::files::Files;
 use crate::page::{Charts, Landscape, Meetings};
-use crate::plots::{Figure, PictureError, Sheet};
 use jobs::design::Design;
 
 /// What there is to know of a result.
@@ -82,19 +82,6 @@ pub enum Part {
     Meetings(Meetings),
 }
 
-/// What draws pictures.
-type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a;
-
-/// A picture yet to be drawn.
-pub struct Drawing<'a> {
-    /// What it shows.
-    pub title: String,
-    /// Whether the page has it; where a part of the page shows the same, it does not.
-    pub is_shown: bool,
-    /// Draws it.
-    pub draw: Box<Draw<'a>>,
-}
-
 /// Entries one after another.
 #[derive(Default)]
 pub struct Entries(Vec<Entry>);
@@ -106,37 +93,6 @@ pub fn entries(design: &Design) -> Entries {
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity)
         .data("model", design.interaction.model.name())
-}
-
-impl<'a> Drawing<'a> {
-    /// A picture of what its title says.
-    pub fn new(
-        title: impl Into<String>,
-        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
-    ) -> Self {
-        Self::several(title, move |sheet| Ok(vec![draw(sheet)?]))
-    }
-
-    /// Pictures that are drawn together.
-    pub fn several(
-        title: impl Into<String>,
-        draw: impl Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a,
-    ) -> Self {
-        Self {
-            title: title.into(),
-            is_shown: true,
-            draw: Box::new(draw),
-        }
-    }
-
-    /// In a file only: a part of the page shows the same.
-    #[must_use]
-    pub fn off_page(self) -> Self {
-        Self {
-            is_shown: false,
-            ..self
-        }
-    }
 }
 
 impl Entries {

@@ -1,14 +1,13 @@
 //! A design at a glance: both tiles where they bind, and the figures beside them.
 
 use nalgebra::Vector2;
-use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{View, tile};
-use super::picture::{Area, Picture, PictureError};
-use super::scale::minus;
+use super::canvas::Canvas;
+use super::marks::{ORIGIN, View, extent};
+use super::picture::{Picture, PictureError};
 use super::sheet::Sheet;
 use super::style::{
-    BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION,
+    Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
 };
 use crate::inspection::{force, pole, wrong};
 use jobs::design::Design;
@@ -20,7 +19,7 @@ use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Tile};
 use physics::units::si;
 
-const SIZE: (u32, u32) = (1000, 640);
+const SIZE: [f64; 2] = [1000.0, 640.0];
 /// Space for the title above and the figures below the tiles (pixels).
 const HEAD: f64 = 50.0;
 const FOOT: f64 = 190.0;
@@ -41,60 +40,47 @@ pub fn draw(
     inspection: &Inspection,
     sheet: &Sheet,
 ) -> Result<Picture, PictureError> {
-    Picture::draw(sheet, &design.name, SIZE, |root, _| {
-        let middle = (HPos::Center, VPos::Center);
-        let place = (f64::from(SIZE.0) / 2.0, HEAD / 2.0);
-        Text::new(TITLE)
-            .bold()
-            .write(root, &design.name, place, middle)?;
-        let place = (place.0, HEAD + 4.0);
-        Text::new(SMALL)
-            .colour(SOFT)
-            .write(root, KEY, place, middle)?;
-        let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
-        let tiles = [&design.pair.fixed, &design.pair.moving];
-        let view = view(tiles, poses);
-        for ((one, q), fill) in tiles.into_iter().zip(poses).zip([FIXED_FILL, MOVING_FILL]) {
-            tile(root, &view, one, &q, fill)?;
-        }
-        for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
-            let centre = view.pixel(q.transform(one.outline.centroid()));
-            let middle = (HPos::Center, VPos::Center);
-            Text::new(LABEL)
-                .bold()
-                .colour(SOFT)
-                .write(root, name, centre, middle)?;
-            faces(root, &view, one, &q)?;
-        }
-        figures(root, inspection)?;
-        faults(root, design, inspection)
-    })
-}
-
-/// How the two tiles fill the space between title and figures.
-fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
-    let corners = tiles
-        .into_iter()
-        .zip(poses)
-        .flat_map(|(tile, q)| tile.outline.vertices().iter().map(move |v| q.transform(*v)));
-    let infinity = Vector2::repeat(f64::INFINITY);
-    let (low, high) = corners.fold((infinity, -infinity), |(low, high), p| {
-        (low.inf(&p), high.sup(&p))
-    });
-    let size = high - low;
-    let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
-    let room = [width - 2.0 * MARGIN, height - HEAD - FOOT - 2.0 * MARGIN];
-    View {
-        centre: (low + high) / 2.0,
-        origin: (width / 2.0, (HEAD + height - FOOT) / 2.0),
-        turn: 0.0,
-        scale: (room[0] / size.x).min(room[1] / size.y),
+    let (mut canvas, middle) = (Canvas::new(SIZE), SIZE[0] / 2.0);
+    let canvas = &mut canvas;
+    canvas.write(
+        TITLE.bold(),
+        &design.name,
+        (middle, HEAD / 2.0),
+        Anchor::Middle,
+    );
+    canvas.write(
+        SMALL.colour(SOFT),
+        KEY,
+        (middle, HEAD + 4.0),
+        Anchor::Middle,
+    );
+    let pair = &*design.pair;
+    let place = [
+        MARGIN,
+        HEAD + MARGIN,
+        SIZE[0] - MARGIN,
+        SIZE[1] - FOOT - MARGIN,
+    ];
+    let view = View::filling(place, extent(pair, [&pair.bound]));
+    let tiles = [
+        (&pair.fixed, ORIGIN, FIXED_FILL, "fixed"),
+        (&pair.moving, pair.bound, MOVING_FILL, "moving"),
+    ];
+    for (tile, q, fill, _) in tiles {
+        view.tile(canvas, tile, &q, fill);
     }
+    for (tile, q, _, name) in tiles {
+        let centre = view.pixel(q.transform(tile.outline.centroid()));
+        canvas.write(LABEL.bold().colour(SOFT), name, centre, Anchor::Middle);
+        faces(canvas, &view, tile, &q);
+    }
+    figures(canvas, inspection);
+    faults(canvas, design, inspection);
+    Picture::new(sheet, &design.name, canvas)
 }
 
 /// Names of the faces, inside of their magnets with the letters of their codes.
-fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(), PictureError> {
-    let middle = (HPos::Center, VPos::Center);
+fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
     for (number, face) in tile.faces.iter().enumerate() {
         let magnets: Vec<&Magnet> = tile.magnets.iter().filter(|m| m.face == number).collect();
         let letters: Vec<(f64, &Magnet, &str)> = sorted(face, &magnets)
@@ -110,7 +96,7 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
         let apart = letters
             .windows(2)
             .map(|two| (two[1].0 - two[0].0) * view.scale);
-        let has_room = apart.fold(f64::INFINITY, f64::min) >= SMALL;
+        let has_room = apart.fold(f64::INFINITY, f64::min) >= SMALL.size;
         let (name, depth) = match letters.is_empty() {
             true => (face.name.clone(), depth + 16.0),
             false if has_room => (face.name.clone(), depth + 30.0),
@@ -125,15 +111,10 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
         for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
             let colour = if *letter == "N" { VERMILLION } else { BLUE };
             let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
-            Text::new(SMALL)
-                .bold()
-                .colour(colour)
-                .write(root, letter, at, middle)?;
+            canvas.write(SMALL.bold().colour(colour), letter, at, Anchor::Middle);
         }
-        let text = Text::new(SMALL).colour(INK);
-        text.write(root, &name, inwards(face.middle(), depth), middle)?;
+        canvas.note(&name, inwards(face.middle(), depth), Anchor::Middle);
     }
-    Ok(())
 }
 
 /// Magnets of a face with their places along it (m), counter-clockwise.
@@ -145,8 +126,8 @@ fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64,
 }
 
 /// What holds the tiles, a line for each model.
-fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
-    let top = f64::from(SIZE.1) - FOOT + 10.0;
+fn figures(canvas: &mut Canvas, inspection: &Inspection) {
+    let top = SIZE[1] - FOOT + 10.0;
     let columns = [MARGIN, 200.0, 380.0, 640.0];
     let head = [
         "magnets as",
@@ -154,7 +135,7 @@ fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
         "pull at contact",
         "pull-off, straight",
     ];
-    let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
+    let mut rows = vec![(head.map(str::to_owned), SMALL.colour(SOFT))];
     for hold in &inspection.models {
         let name = match hold.model {
             MagnetModel::Dipole => "dipoles",
@@ -166,54 +147,33 @@ fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),
         ];
-        rows.push((row, Text::new(LABEL)));
+        rows.push((row, LABEL));
     }
     for (k, (row, text)) in rows.iter().enumerate() {
         for (cell, x) in row.iter().zip(columns) {
             let at = (x, top + LINE * k as f64);
-            text.write(root, cell, at, (HPos::Left, VPos::Top))?;
+            canvas.write(*text, cell, at, Anchor::TopLeft);
         }
     }
-    Ok(())
 }
 
 /// What is wrong, below the figures, in the order of importance.
-fn faults(root: &Area, design: &Design, inspection: &Inspection) -> Result<(), PictureError> {
-    let top = f64::from(SIZE.1) - FOOT + 10.0 + 4.0 * LINE;
+fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
+    const STEP: f64 = 19.0;
+    let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;
     let faults = wrong(design, inspection);
     if faults.is_empty() {
-        let text = Text::new(SMALL).colour(SOFT);
         let sound = "nothing wrong at a glance; whether the tiles find each other, analyse tells";
-        return text.write(root, sound, (MARGIN, top), (HPos::Left, VPos::Top));
+        return canvas.write(SMALL.colour(SOFT), sound, (MARGIN, top), Anchor::TopLeft);
     }
-    let text = Text::new(SMALL).colour(VERMILLION);
-    let room = f64::from(SIZE.0) - 2.0 * MARGIN;
+    let room = SIZE[0] - 2.0 * MARGIN;
     let lines = faults
         .iter()
         .take(TOLD)
-        .flat_map(|fault| wrapped(&text, fault, room));
-    let most = ((f64::from(SIZE.1) - top) / (TITLE - 1.0)) as usize;
+        .flat_map(|fault| SMALL.lines(fault, room));
+    let most = ((SIZE[1] - top) / STEP) as usize;
     for (k, line) in lines.take(most).enumerate() {
-        let at = (MARGIN, top + (TITLE - 1.0) * k as f64);
-        text.write(root, &line, at, (HPos::Left, VPos::Top))?;
+        let at = (MARGIN, top + STEP * k as f64);
+        canvas.write(SMALL.colour(VERMILLION), &line, at, Anchor::TopLeft);
     }
-    Ok(())
-}
-
-/// A sentence in lines that fit into so many pixels.
-fn wrapped(text: &Text, sentence: &str, room: f64) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in sentence.split_whitespace() {
-        let longer = match lines.last().map_or("", String::as_str) {
-            "" => word.to_owned(),
-            line => format!("{line} {word}"),
-        };
-        if text.width(&longer) <= room || lines.last().is_some_and(String::is_empty) {
-            lines.pop();
-            lines.push(longer);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
 }
