@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
-use crate::request;
+use crate::request::{self, Unanswered};
 use attachment::Effort;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
@@ -113,16 +113,17 @@ pub enum YieldError {
     Lost,
 }
 
-impl YieldError {
-    /// Whether it is what was asked for that has no answer.
-    pub fn is_of_the_question(&self) -> bool {
+impl Unanswered for YieldError {
+    fn is_of_the_question(&self) -> bool {
         match self {
             Self::Many(_) | Self::Docking(_) | Self::Hot(..) | Self::Cold(_) | Self::Lost => true,
-            Self::Rates(error) => !matches!(error, RatesError::Unsolved(_)),
+            Self::Rates(error) => error.is_of_the_question(),
             Self::Bond(_) | Self::NoPlay => false,
         }
     }
+}
 
+impl YieldError {
     /// Whether another kT may have an answer.
     fn is_of_one_kt(&self) -> bool {
         match self {

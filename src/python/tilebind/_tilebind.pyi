@@ -28,6 +28,15 @@ class Design:
     def loads(text: str, *, file: str = "design.toml") -> Design: ...
     @staticmethod
     def from_dict(tables: Mapping[str, Any]) -> Design: ...
+    @staticmethod
+    def start(
+        name: str = "starter",
+        *,
+        sides: int | None = None,
+        side: float | str | None = None,
+        magnets: int | None = None,
+        shape: Literal["flat", "tab", "arc", "sine", "triangle"] | None = None,
+    ) -> Design: ...
     def replace(self, key: str, value: _Value) -> Design: ...
     def to_dict(self) -> dict[str, Any]: ...
     @property
@@ -120,6 +129,9 @@ class Design:
         free_at: float | None = None,
         certify: float | None = None,
         prove: bool = False,
+        check: int | None = None,
+        restitution: float = 1.0,
+        seed: int = 1,
     ) -> dict[str, Any]: ...
     def yields(
         self,
@@ -143,6 +155,14 @@ class Design:
     ) -> dict[str, Any]: ...
     def calibrate_bonds(
         self, table: Any, *, area: float | None = None, within: float | None = None
+    ) -> dict[str, Any]: ...
+    def releases(
+        self,
+        *,
+        shaking: float,
+        overdamped: bool = False,
+        progress: bool | None = None,
+        **settings: Any,
     ) -> dict[str, Any]: ...
     def summary(self) -> str: ...
     def show(self) -> dict[str, Any]: ...
@@ -264,6 +284,8 @@ def sweep(
     design: Design,
     vary: Mapping[str, Iterable[float | str | bool]],
     *,
+    baseline: str | None = None,
+    refine: int | None = None,
     milestones: int = 8000,
     neighbours: int | None = None,
     settled: float = 0.005,

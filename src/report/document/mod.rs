@@ -4,20 +4,23 @@
 //! pictures ([`super::plots`]) are made from it. A new figure or column is one entry of the document
 //! and appears in all of them; `.in_data()` and `.in_view()` keep one to programs or to people.
 
-mod cell;
 mod data;
 mod page;
+mod rows;
 mod table;
 mod text;
+mod unit;
 
 pub use crate::plots::Drawing;
-pub use cell::{Cell, Unit, told};
-pub use table::{Head, Link, Rows, Table, rows};
+pub use rows::{Rows, rows};
+pub use table::{Cell, Head, Link, Table};
+pub use unit::{Unit, told};
 
 use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
+use crate::braille::Braille;
 use crate::files::Files;
 use crate::page::{Charts, Landscape, Meetings};
 use jobs::design::Design;
@@ -31,6 +34,8 @@ pub struct Document<'a> {
     pub answer: String,
     /// What to know before reading on.
     pub remarks: Vec<String>,
+    /// Drawn with characters, for a terminal.
+    pub sketch: Option<Braille>,
     /// All that was found, in the order of the report.
     pub entries: Entries,
     /// The table that is printed alone where JSON is asked for; the whole report otherwise.
@@ -163,6 +168,20 @@ impl Entries {
     pub fn table(mut self, table: Table) -> Self {
         self.0.push(Entry::Table(table));
         self
+    }
+
+    /// The figures of a table's first row.
+    #[must_use]
+    pub fn row(self, mut table: Table) -> Self {
+        let row = table.rows.drain(..).next().unwrap_or_default();
+        let fact = |(head, (cell, view))| Fact {
+            head,
+            cell,
+            view,
+            note: String::new(),
+        };
+        let facts = table.heads.into_iter().zip(row).map(fact);
+        self.more(facts.map(Entry::Fact))
     }
 
     /// Entries that there may be.

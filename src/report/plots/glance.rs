@@ -2,21 +2,18 @@
 
 use nalgebra::Vector2;
 
-use super::canvas::Canvas;
+use super::canvas::{Box4, Canvas};
 use super::marks::{ORIGIN, View, extent};
 use super::picture::{Picture, PictureError};
-use super::sheet::Sheet;
 use super::style::{
     Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
 };
-use crate::inspection::{force, pole, wrong};
+use super::{Figure, Sheet};
+use crate::tiles::{force, letter, magnets, models, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
-use physics::order::Order;
-use physics::potential::MagnetModel;
-use physics::tile::barcode::Pole;
-use physics::tile::{Face, Magnet, Tile};
+use physics::tile::{Magnet, Tile};
 use physics::units::si;
 
 const SIZE: [f64; 2] = [1000.0, 640.0];
@@ -31,7 +28,7 @@ const KEY: &str = "letters: the pole that each magnet turns outwards";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
-/// Draws a design.
+/// Draws a design; for print the tiles alone.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -39,29 +36,45 @@ pub fn draw(
     design: &Design,
     inspection: &Inspection,
     sheet: &Sheet,
-) -> Result<Picture, PictureError> {
+) -> Result<Figure, PictureError> {
+    let canvas = match sheet.is_titled() {
+        true => whole(design, inspection),
+        false => {
+            let width = sheet.width(SIZE[0]);
+            let size = [width, (SIZE[1] - HEAD - FOOT) * width / SIZE[0]].map(f64::ceil);
+            let mut canvas = Canvas::new(size);
+            tiles(&mut canvas, design, [0.0, 0.0, size[0], size[1]]);
+            canvas
+        }
+    };
+    let picture = Picture::new(sheet, &design.name, &canvas)?;
+    Ok(Figure {
+        name: "tiles".to_owned(),
+        pictures: vec![("tiles".to_owned(), picture)],
+        data: models(&inspection.models).csv(),
+    })
+}
+
+/// The tiles with the figures below them.
+fn whole(design: &Design, inspection: &Inspection) -> Canvas {
     let (mut canvas, middle) = (Canvas::new(SIZE), SIZE[0] / 2.0);
-    let canvas = &mut canvas;
-    canvas.write(
-        TITLE.bold(),
-        &design.name,
-        (middle, HEAD / 2.0),
-        Anchor::Middle,
-    );
-    canvas.write(
-        SMALL.colour(SOFT),
-        KEY,
-        (middle, HEAD + 4.0),
-        Anchor::Middle,
-    );
+    for (text, line, height) in [
+        (TITLE.bold(), &*design.name, HEAD / 2.0),
+        (SMALL.colour(SOFT), KEY, HEAD + 4.0),
+    ] {
+        canvas.write(text, line, (middle, height), Anchor::Middle);
+    }
+    tiles(&mut canvas, design, [0.0, HEAD, SIZE[0], SIZE[1] - FOOT]);
+    figures(&mut canvas, inspection);
+    faults(&mut canvas, design, inspection);
+    canvas
+}
+
+/// Both tiles where they bind, in a rectangle.
+fn tiles(canvas: &mut Canvas, design: &Design, [left, top, right, bottom]: Box4) {
     let pair = &*design.pair;
-    let place = [
-        MARGIN,
-        HEAD + MARGIN,
-        SIZE[0] - MARGIN,
-        SIZE[1] - FOOT - MARGIN,
-    ];
-    let view = View::filling(place, extent(pair, [&pair.bound]));
+    let room = [left + MARGIN, top + MARGIN, right - MARGIN, bottom - MARGIN];
+    let view = View::filling(room, extent(pair, [&pair.bound]));
     let tiles = [
         (&pair.fixed, ORIGIN, FIXED_FILL, "fixed"),
         (&pair.moving, pair.bound, MOVING_FILL, "moving"),
@@ -74,24 +87,18 @@ pub fn draw(
         canvas.write(LABEL.bold().colour(SOFT), name, centre, Anchor::Middle);
         faces(canvas, &view, tile, &q);
     }
-    figures(canvas, inspection);
-    faults(canvas, design, inspection);
-    Picture::new(sheet, &design.name, canvas)
 }
 
 /// Names of the faces, inside of their magnets with the letters of their codes.
 fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
     for (number, face) in tile.faces.iter().enumerate() {
-        let magnets: Vec<&Magnet> = tile.magnets.iter().filter(|m| m.face == number).collect();
-        let letters: Vec<(f64, &Magnet, &str)> = sorted(face, &magnets)
-            .map(|(s, magnet)| match pole(tile, magnet) {
-                Pole::North => (s, magnet, "N"),
-                Pole::South => (s, magnet, "S"),
-            })
+        let letters: Vec<(f64, &Magnet, char)> = magnets(tile, number)
+            .into_iter()
+            .map(|(s, magnet)| (s, magnet, letter(tile, magnet)))
             .collect();
-        let depths = magnets
+        let depths = letters
             .iter()
-            .map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
+            .map(|(_, m, _)| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
         let depth = depths.fold(0.0, f64::max) * view.scale;
         let apart = letters
             .windows(2)
@@ -109,20 +116,13 @@ fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
             view.pixel(q.transform(p - face.normal() * (pixels / view.scale)))
         };
         for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
-            let colour = if *letter == "N" { VERMILLION } else { BLUE };
+            let colour = if *letter == 'N' { VERMILLION } else { BLUE };
             let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
-            canvas.write(SMALL.bold().colour(colour), letter, at, Anchor::Middle);
+            let text = SMALL.bold().colour(colour);
+            canvas.write(text, &letter.to_string(), at, Anchor::Middle);
         }
         canvas.note(&name, inwards(face.middle(), depth), Anchor::Middle);
     }
-}
-
-/// Magnets of a face with their places along it (m), counter-clockwise.
-fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64, &'a Magnet)> {
-    let place = |m: &&'a Magnet| ((m.position - face.middle()).dot(&face.tangent()), *m);
-    let mut placed: Vec<_> = magnets.iter().map(place).collect();
-    placed.order_by(|a, b| a.0.total_cmp(&b.0));
-    placed.into_iter()
 }
 
 /// What holds the tiles, a line for each model.
@@ -137,12 +137,8 @@ fn figures(canvas: &mut Canvas, inspection: &Inspection) {
     ];
     let mut rows = vec![(head.map(str::to_owned), SMALL.colour(SOFT))];
     for hold in &inspection.models {
-        let name = match hold.model {
-            MagnetModel::Dipole => "dipoles",
-            MagnetModel::Cuboid => "blocks",
-        };
         let row = [
-            name.to_owned(),
+            hold.model.plural().to_owned(),
             minus(&si(hold.energy, "J", 4)),
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),
