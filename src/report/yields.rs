@@ -40,7 +40,10 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         notes: without
             .chain(means)
             .chain(schedule)
-            .chain([format!("on: {told}; off: {}", detachment(question)), lifetimes(question)])
+            .chain([
+                format!("on: {told}; off: {}", detachment(question)),
+                lifetimes(question),
+            ])
             .collect(),
         origin: format!(
             "{} magnets; {told}, detachment {}; a tile binds one partner at most",

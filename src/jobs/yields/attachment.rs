@@ -229,8 +229,13 @@ pub fn solve(
     };
     let solved = Solved {
         on: places.iter().map(on).collect(),
-        off: places.iter().map(|place| rate(*place, Some(free))).collect(),
-        turns: DMatrix::from_fn(places.len(), places.len(), |i, j| rate(places[i], places[j])),
+        off: places
+            .iter()
+            .map(|place| rate(*place, Some(free)))
+            .collect(),
+        turns: DMatrix::from_fn(places.len(), places.len(), |i, j| {
+            rate(places[i], places[j])
+        }),
     };
     Ok(Attachments {
         counts: vec![0; basins.len()],

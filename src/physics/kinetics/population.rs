@@ -163,14 +163,16 @@ impl PairRates {
             let held: f64 = numbers.iter().sum();
             let [a, b] = crowd.tiles.map(|tiles| tiles as f64 - held);
             let (meeting, less) = (a * b / crowd.area, (a + b) / crowd.area);
-            let turned = |i: usize| -> f64 {
-                (0..kinds).map(|j| self.turns[(j, i)] * numbers[j]).sum()
-            };
-            let change = |i: usize, _| {
-                h * (self.on[i] * meeting + turned(i) - leaving[i] * numbers[i])
-            };
+            let turned =
+                |i: usize| -> f64 { (0..kinds).map(|j| self.turns[(j, i)] * numbers[j]).sum() };
+            let change =
+                |i: usize, _| h * (self.on[i] * meeting + turned(i) - leaving[i] * numbers[i]);
             let matrix = DMatrix::from_fn(kinds, kinds, |i, j| {
-                let own = if i == j { 1.0 + h * leaving[i] } else { -h * self.turns[(j, i)] };
+                let own = if i == j {
+                    1.0 + h * leaving[i]
+                } else {
+                    -h * self.turns[(j, i)]
+                };
                 own + h * self.on[i] * less
             });
             let step = matrix.lu().solve(&DMatrix::from_fn(kinds, 1, change))?;

@@ -136,7 +136,9 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
 
 /// The result of growth runs at a kT (J).
 fn grown_at(kt: f64, growth: &Kinetic) -> String {
-    let Kinetic { runs, right, wrong, .. } = growth;
+    let Kinetic {
+        runs, right, wrong, ..
+    } = growth;
     format!(
         "kinetic growth (kTAM) at kT = {}: {right} of {runs} runs correct, {wrong} with errors that \
          stay, {} unfinished; errors per tile {:.2e}",
