@@ -61,7 +61,7 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
         "wrong meetings have their own energies, below 0 where they repel (for xgrow 0)".to_owned(),
         "letters as in words.toml, matrix.csv and sheet.md".to_owned(),
         "rgrow: import rgrow; system, state = \
-         rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
+         rgrow.rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
             .to_owned(),
         "       system.evolve(state, for_events=100000); print(state.canvas_view)".to_owned(),
         "xgrow: xgrow assembly.tiles (with -nw: without a window)".to_owned(),
