@@ -389,10 +389,7 @@ mod tests {
         let rates = PairRates::through_free(vec![0.008, 0.03, 0.02], vec![2e-6, 20.0, 1e-5]);
         let held: f64 = (1..3).map(|i| rates.on[i] / rates.off[i]).sum();
         let on = rates.on[1] + rates.on[2];
-        let as_one = PairRates {
-            on: vec![rates.on[0], on],
-            off: vec![rates.off[0], on / held],
-        };
+        let as_one = PairRates::through_free(vec![rates.on[0], on], vec![rates.off[0], on / held]);
         let share = |rates: &PairRates| {
             let found = rates.forward_equation(&crowd(3), &[3000.0], MOST_STATES);
             found.unwrap().bound[0]
