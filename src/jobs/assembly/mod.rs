@@ -218,7 +218,7 @@ impl TileSet {
         let mut numbers = strengths
             .chain(self.links.iter().map(|link| link.2))
             .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
-        if let Some(x) = numbers.find(|x| !(x.abs() <= MOST_STRENGTH)) {
+        if let Some(x) = numbers.find(|x| x.is_nan() || x.abs() > MOST_STRENGTH) {
             let message = format!("{x:?} is no strength, nor an energy: at most {MOST_STRENGTH}");
             return wrong("", message, "write it as 1 or 0.5");
         }
