@@ -57,7 +57,7 @@ impl Inspection {
         };
         let pulled = |gap: f64| pulled(design, gap);
         let reach = largest_magnet(design) * FARTHEST;
-        let motion = |k: usize| pulled(reach.max(1e-3) * k as f64 / 8.0);
+        let motion = |k: usize| pulled(reach.max(problem.scaled(1e-3)) * k as f64 / 8.0);
         Self {
             bound: design.pair.bound,
             models: [own, other].map(|model| hold(design, model)),

@@ -37,8 +37,9 @@ pub fn tile(sides: usize, side: f64, code: &str, coded: &[usize]) -> Tile {
             Magnet {
                 position: at.point((k as f64 - middle) * PITCH, -BAR[0] / 2.0),
                 angle: libm::atan2(out.y, out.x),
-                moment: Strength::Remanence(1.2).moment(BAR),
+                moment: Strength::Remanence(1.2).moment(crate::tile::magnet::Shape::Block, BAR),
                 size: BAR,
+                form: Default::default(),
                 face,
             }
         })

@@ -13,7 +13,7 @@ const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
 const SAME_MOTION: [f64; 2] = [1e-8, 1e-4];
 /// The same for pictures.
 pub(super) const SEEN: [f64; 2] = [1e-5, 1e-3];
-/// How far the clearance may be off there.
+/// How far the clearance may be off there, as a share of how far the pathway leads.
 const CLEARANCE_TOLERANCE: f64 = 1e-5;
 /// How far it may be off beyond that, as a fraction of itself.
 const RELATIVE_CLEARANCE: f64 = 1e-3;
@@ -62,7 +62,8 @@ fn added(writer: &mut ::csv::Writer<Vec<u8>>, cell: Option<&[u8]>) {
 }
 
 /// The points of a pathway that are not on the straight line between their neighbours, to within
-/// tolerances of the pose (m, and rad) and of the energy (a fraction of its range).
+/// tolerances of the pose (rad, and as a share of how far the pathway leads from the fixed tile's centre)
+/// and of the energy (a fraction of its range).
 pub(super) fn thinned(pathway: &Pathway, [pose, energy]: [f64; 2]) -> Vec<PathwayPoint> {
     let Some(highest) = (0..pathway.len()).max_by_key(|&k| OrderedFloat(pathway[k].energy)) else {
         return Vec::new();
@@ -71,7 +72,9 @@ pub(super) fn thinned(pathway: &Pathway, [pose, energy]: [f64; 2]) -> Vec<Pathwa
         .iter()
         .map(|p| p.energy)
         .fold(f64::INFINITY, f64::min);
-    let allowed = [pose, energy * (pathway[highest].energy - lowest)];
+    let distances = pathway.iter().map(|p| p.configuration.position().norm());
+    let size = distances.fold(0.0, f64::max);
+    let allowed = [pose, energy * (pathway[highest].energy - lowest), size];
     let mut kept = vec![pathway[0]];
     let mut here = 0;
     while here + 1 < pathway.len() {
@@ -95,15 +98,18 @@ fn is_between(
     start: usize,
     between: usize,
     end: usize,
-    [pose, energy]: [f64; 2],
+    [pose, energy, size]: [f64; 3],
 ) -> bool {
     let (a, p, b) = (&pathway[start], &pathway[between], &pathway[end]);
     let t = (p.s - a.s) / (b.s - a.s);
     let linear = |of: fn(&PathwayPoint) -> f64| of(p) - (of(a) + t * (of(b) - of(a)));
     let straight = a.configuration.interpolate(&b.configuration, t);
+    let off = straight.step_to(&p.configuration);
     t.is_finite()
-        && straight.step_to(&p.configuration).amax() <= pose
-        && linear(|p| p.clearance).abs() <= CLEARANCE_TOLERANCE + RELATIVE_CLEARANCE * p.clearance
+        && off.xy().amax() <= pose * size
+        && off.z.abs() <= pose
+        && linear(|p| p.clearance).abs()
+            <= CLEARANCE_TOLERANCE * size + RELATIVE_CLEARANCE * p.clearance
         && linear(|p| p.energy).abs() <= energy
 }
 

@@ -15,7 +15,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
     let longest = found.first().map(|longest| {
         let as_long = found
             .iter()
-            .filter(|it| it.contact > longest.contact - 1e-6);
+            .filter(|it| it.contact > longest.contact * (1.0 - 1e-5));
         format!(
             "Longest contact {}, in {} of {} ways listed",
             si(longest.contact, "m", 4),

@@ -2,16 +2,26 @@
 
 use serde_json::{Value, json};
 
+use physics::tile::Magnet;
+use physics::tile::magnet::Shape;
 use physics::tile::strength::{PULL_SPREAD, Strength};
-use physics::units::{MU0, to_digits};
+use physics::units::to_digits;
 
 /// What a shop's grade or pull says of magnets, and how sure that is.
-pub fn told((strength, size): &(Strength, [f64; 3])) -> String {
-    let millimetres = size.map(|x| four(x * 1e3)).join(" x ");
-    let block = format!(
-        "magnets {millimetres} mm, magnetised through {} mm",
-        four(size[0] * 1e3)
-    );
+pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
+    let size = magnet.axis_first();
+    let block = match magnet.form.shape {
+        Shape::Block => format!(
+            "magnets {} mm, magnetised through {} mm",
+            size.map(|x| four(x * 1e3)).join(" x "),
+            four(size[0] * 1e3)
+        ),
+        Shape::Disc => format!(
+            "disc magnets {} mm across and {} mm high, magnetised through their height",
+            four(size[1] * 1e3),
+            four(size[0] * 1e3)
+        ),
+    };
     match strength {
         Strength::Grade(grade) => {
             let [least, usual, most] = grade.remanence;
@@ -23,10 +33,10 @@ pub fn told((strength, size): &(Strength, [f64; 3])) -> String {
             )
         }
         Strength::Pull(force) => {
-            let found = remanence(strength, *size);
+            let found = magnet.remanence();
             let [low, high] = pulled_range(found);
             format!(
-                "{block}, that pull {} off thick steel: remanence {} T if block and plate are ideal; \
+                "{block}, that pull {} off thick steel: remanence {} T if magnet and plate are ideal; \
                  what sellers state is {} to {} of that, so it may be {} to {} T",
                 crate::tiles::force(*force),
                 three(found),
@@ -38,11 +48,6 @@ pub fn told((strength, size): &(Strength, [f64; 3])) -> String {
         }
         _ => String::new(),
     }
-}
-
-/// Of a block of this size (T).
-fn remanence(strength: &Strength, size: [f64; 3]) -> f64 {
-    MU0 * strength.moment(size) / size.iter().product::<f64>()
 }
 
 /// Where a remanence (T) that is taken from a pull may lie, as sellers state pulls: the pull goes with
@@ -62,9 +67,9 @@ fn three(value: f64) -> String {
 }
 
 /// Magnets that are given by a grade or a pull.
-pub fn entry((strength, size): &(Strength, [f64; 3])) -> Value {
-    let found = remanence(strength, *size);
-    let mut entry = json!({ "size_m": size, "remanence_T": found });
+pub fn entry((strength, magnet): &(Strength, Magnet)) -> Value {
+    let found = magnet.remanence();
+    let mut entry = json!({ "size_m": magnet.axis_first(), "remanence_T": found });
     match strength {
         Strength::Grade(grade) => {
             let [least, _, most] = grade.remanence;

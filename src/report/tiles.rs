@@ -54,13 +54,9 @@ pub fn pull_off(hold: &Hold) -> String {
     }
 }
 
-/// Which pole a magnet turns outwards.
+/// Which pole a magnet turns outwards, or up.
 pub fn letter(tile: &Tile, magnet: &Magnet) -> char {
-    let outwards = tile.faces[magnet.face].normal();
-    match magnet.moment_vector().dot(&outwards) >= 0.0 {
-        true => 'N',
-        false => 'S',
-    }
+    magnet.pole(tile.faces[magnet.face].normal()).letter()
 }
 
 /// The magnets of a face with their places along it (m), counter-clockwise.

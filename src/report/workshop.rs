@@ -15,7 +15,7 @@ use jobs::design::Design;
 use jobs::inspection::Inspection;
 use jobs::workshop::{Filled, Made, MadeTile, Part, Pocket, grade};
 use physics::tile::Magnet;
-use physics::tile::barcode::Pole;
+use physics::tile::magnet::Shape;
 
 /// White space around an SVG drawing (mm).
 const MARGIN: f64 = 5.0;
@@ -69,14 +69,15 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
 // One line a column.
 #[rustfmt::skip]
 fn magnets(magnets: &[(Magnet, usize)]) -> Table {
-    let size = |magnet: &Magnet| magnet.size.map(|x| format!("{}", (1e5 * x).round() / 100.0)).join(" x ");
+    let size = |magnet: &Magnet| magnet.axis_first().map(|x| format!("{}", (1e5 * x).round() / 100.0)).join(" x ");
+    let shape = |magnet: &Magnet| if magnet.form.shape == Shape::Disc { "discs " } else { "" };
     rows(magnets)
         .column("number", "number", "", |(_, count)| *count)
-        .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.size)).without_csv()
-            .viewed(move |(magnet, _)| format!("{}, magnetised along the first", size(magnet)))
-        .column("length_m", "", "", |(magnet, _)| magnet.size[0]).in_csv()
-        .column("width_m", "", "", |(magnet, _)| magnet.size[1]).in_csv()
-        .column("height_m", "", "", |(magnet, _)| magnet.size[2]).in_csv()
+        .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.axis_first())).without_csv()
+            .viewed(move |(magnet, _)| format!("{}{}, magnetised along the first", shape(magnet), size(magnet)))
+        .column("length_m", "", "", |(magnet, _)| magnet.axis_first()[0]).in_csv()
+        .column("width_m", "", "", |(magnet, _)| magnet.axis_first()[1]).in_csv()
+        .column("height_m", "", "", |(magnet, _)| magnet.axis_first()[2]).in_csv()
         .column("remanence_T", "remanence", "", |(magnet, _)| magnet.remanence())
         .column("nearest", "nearest in the catalogue", "", |(magnet, _)| nearest(magnet.remanence()))
         .table("magnets")
@@ -121,7 +122,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         .column("tile", "", "", move |_| name).in_csv()
         .column("step", "step", "", |(step, _)| *step)
         .column("pocket", "pocket", "its face, and which magnet of it, counter-clockwise", move |it| pocket(it).name).viewed(told)
-        .column("pole", "pole outwards", "", move |it| letter(pocket(it).pole))
+        .column("pole", "pole outwards, or up", "", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "on the way in", "the largest push out", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("wall_m", "", "", move |it| pocket(it).wall)
         .column("depth_m", "", "", move |it| pocket(it).depth)
@@ -145,13 +146,6 @@ fn advice(filled: &Filled) -> String {
             filled.push / GRAM
         ),
         false => "stays by itself".to_owned(),
-    }
-}
-
-fn letter(pole: Pole) -> &'static str {
-    match pole {
-        Pole::North => "N",
-        Pole::South => "S",
     }
 }
 
@@ -202,14 +196,13 @@ fn dxf(part: &Part) -> String {
         pair(8, layer);
     }
     for pocket in &part.pockets {
-        for (pole, side) in [("N", 0.5), ("S", -0.5)] {
-            let at = pocket.middle + pocket.north * side;
+        for (pole, at, height) in pocket.letters() {
             pair(0, "TEXT");
             pair(8, "POLES");
             pair(10, &mm(at.x));
             pair(20, &mm(at.y));
-            pair(40, &mm(pocket.north.norm() * 0.6));
-            pair(1, pole);
+            pair(40, &mm(height));
+            pair(1, &pole.to_string());
         }
     }
     pair(0, "ENDSEC");
@@ -250,9 +243,9 @@ fn svg(part: &Part) -> String {
             "<path stroke=\"#D55E00\" d=\"{}\"/>",
             path(&pocket.corners)
         );
-        for (pole, side) in [("N", 0.5), ("S", -0.5)] {
-            let [x, y] = place(&(pocket.middle + pocket.north * side));
-            let size = 600.0 * pocket.north.norm();
+        for (pole, at, height) in pocket.letters() {
+            let [x, y] = place(&at);
+            let size = 1e3 * height;
             let _ = writeln!(
                 text,
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{size:.2}\" fill=\"#0072B2\" \

@@ -74,6 +74,7 @@ fn magnets(code: &str) -> Vec<Magnet> {
             angle: outwards + if pole == 'S' { PI } else { 0.0 },
             moment: 1.2 * size.iter().product::<f64>() / MU0,
             size,
+            form: Default::default(),
             face,
         })
     };

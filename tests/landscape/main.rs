@@ -22,6 +22,7 @@ mod plain;
 mod queries;
 mod ranking;
 mod roadmap;
+mod scales;
 mod seam;
 mod surfaces;
 mod surveys;

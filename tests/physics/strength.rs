@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 use tilebind::Configuration;
-use tilebind::potential::{CuboidPotential, Potential};
+use tilebind::potential::interaction::bare;
+use tilebind::potential::{CuboidPotential, MagnetModel, Potential};
 use tilebind::tile::Magnet;
 use tilebind::tile::grade::{Grade, NEODYMIUM};
+use tilebind::tile::magnet::{Form, Shape};
 use tilebind::tile::strength::{PULL_SPREAD, Strength, pull, surface_field_share};
 use tilebind::units::MU0;
 
@@ -39,40 +41,41 @@ fn the_surface_field_is_the_limit_of_the_field_above_the_face() {
         let step = 2e-4;
         let (near, far) = (summed_field(size, step), summed_field(size, 2.0 * step));
         let surface = 2.0 * near - far;
-        let share = surface_field_share(size);
+        let share = surface_field_share(Shape::Block, size);
         assert!((surface / share - 1.0).abs() < 5e-3, "{surface} {share}");
     }
 }
 
 #[test]
 fn the_surface_field_has_its_limits() {
-    assert!((surface_field_share([1.0, 1e-4, 1e-4]) - 0.5).abs() < 1e-8);
+    assert!((surface_field_share(Shape::Block, [1.0, 1e-4, 1e-4]) - 0.5).abs() < 1e-8);
     let (l, a, b) = (1e-6, 0.02, 0.01);
     let thin = 2.0 / PI * l * f64::hypot(1.0 / a, 1.0 / b);
-    assert!((surface_field_share([l, a, b]) / thin - 1.0).abs() < 1e-6);
+    assert!((surface_field_share(Shape::Block, [l, a, b]) / thin - 1.0).abs() < 1e-6);
 }
 
 #[test]
 fn the_three_ways_to_say_a_strength_agree() {
     let size = [0.010, 0.010, 0.003];
-    let moment = Strength::Remanence(1.2).moment(size);
+    let moment = Strength::Remanence(1.2).moment(Shape::Block, size);
     assert!((moment - 0.28648).abs() < 1e-5);
-    assert_eq!(Strength::Moment(moment).moment(size), moment);
-    let field = 1.2 * surface_field_share(size);
-    let from_field = Strength::SurfaceField(field).moment(size);
+    assert_eq!(Strength::Moment(moment).moment(Shape::Block, size), moment);
+    let field = 1.2 * surface_field_share(Shape::Block, size);
+    let from_field = Strength::SurfaceField(field).moment(Shape::Block, size);
     assert!((from_field / moment - 1.0).abs() < 1e-14);
 }
 
 /// The force (N) of two equal blocks pole to pole: a block on its mirror image.
 fn between_twins(size: [f64; 3], remanence: f64) -> f64 {
     let block = Magnet {
+        form: Default::default(),
         position: Vector2::zeros(),
         angle: 0.0,
-        moment: Strength::Remanence(remanence).moment(size),
+        moment: Strength::Remanence(remanence).moment(Shape::Block, size),
         size,
         face: 0,
     };
-    let blocks = CuboidPotential::new(&[block.clone()], &[block]);
+    let blocks = CuboidPotential::new(std::slice::from_ref(&block), std::slice::from_ref(&block));
     let touching = Configuration::new(size[0] * (1.0 + 1e-9), 0.0, 0.0);
     blocks.energy_and_gradient(&touching).1.x
 }
@@ -86,9 +89,43 @@ fn a_pull_is_the_force_of_a_block_on_its_image() {
         [0.001, 0.02, 0.01],
     ] {
         let expected = between_twins(size, 1.3);
-        let found = pull(size, 1.3);
+        let found = pull(Shape::Block, size, 1.3);
         assert!((found / expected - 1.0).abs() < 2e-5, "{found} {expected}");
     }
+}
+
+/// A disc on its image: of a thin one nearly all of its own field is against it, of a long rod none; and the
+/// force is the slope of two discs' energy.
+#[test]
+fn a_pull_of_a_disc_is_the_force_of_a_disc_on_its_image() {
+    for [height, diameter] in [[0.003, 0.010], [0.010, 0.010], [0.0005, 0.02]] {
+        let size = [height, diameter, diameter];
+        let disc = Magnet {
+            form: Form {
+                shape: Shape::Disc,
+                stands: None,
+            },
+            position: Vector2::zeros(),
+            angle: 0.0,
+            moment: Strength::Remanence(1.3).moment(Shape::Disc, size),
+            size,
+            face: 0,
+        };
+        let discs = bare(
+            MagnetModel::Cuboid,
+            std::slice::from_ref(&disc),
+            std::slice::from_ref(&disc),
+        );
+        let touching = Configuration::new(height * (1.0 + 1e-9), 0.0, 0.0);
+        let expected = discs.energy_and_gradient(&touching).1.x;
+        let found = pull(Shape::Disc, size, 1.3);
+        assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+    }
+    let rod = pull(Shape::Disc, [10.0, 0.01, 0.01], 1.2);
+    let most = 1.2 * 1.2 * PI * 0.005 * 0.005 / (2.0 * MU0);
+    assert!((rod / most - 1.0).abs() < 1e-4, "{rod} {most}");
+    let share = surface_field_share(Shape::Disc, [1.0, 1e-4, 1e-4]);
+    assert!((share - 0.5).abs() < 1e-8);
 }
 
 #[test]
@@ -96,12 +133,12 @@ fn a_pull_has_its_limits_and_scales() {
     // A long bar is drawn by the pressure of its own field alone.
     let [a, b] = [0.01, 0.02];
     let most = 1.2 * 1.2 * a * b / (2.0 * MU0);
-    assert!((pull([10.0, a, b], 1.2) / most - 1.0).abs() < 1e-4);
+    assert!((pull(Shape::Block, [10.0, a, b], 1.2) / most - 1.0).abs() < 1e-4);
     // A thin plate's goes to nothing; sides are alike; areas count.
-    assert!(pull([1e-6, a, b], 1.2) < 1e-3 * most);
-    let [one, other] = [[0.003, a, b], [0.003, b, a]].map(|size| pull(size, 1.2));
+    assert!(pull(Shape::Block, [1e-6, a, b], 1.2) < 1e-3 * most);
+    let [one, other] = [[0.003, a, b], [0.003, b, a]].map(|size| pull(Shape::Block, size, 1.2));
     assert!((one / other - 1.0).abs() < 1e-12);
-    let doubled = pull([0.006, 2.0 * a, 2.0 * b], 2.4);
+    let doubled = pull(Shape::Block, [0.006, 2.0 * a, 2.0 * b], 2.4);
     assert!((doubled / one - 16.0).abs() < 1e-10);
 }
 
@@ -122,11 +159,12 @@ fn what_a_shop_states_lies_within_the_spread() {
     let n38 = Grade::named("N38").unwrap();
     for ([a, b, l], stated) in SOLD {
         let size = [l, a, b].map(|x| x * 1e-3);
-        let share = stated / pull(size, n38.remanence[1]);
+        let share = stated / pull(Shape::Block, size, n38.remanence[1]);
         let [least, most] = PULL_SPREAD;
         assert!((least - 0.01..most + 0.01).contains(&share), "{share}");
         // What the pull says, and how sure it is, holds the grade's own remanence.
-        let told = MU0 * Strength::Pull(stated).moment(size) / size.iter().product::<f64>();
+        let told =
+            MU0 * Strength::Pull(stated).moment(Shape::Block, size) / size.iter().product::<f64>();
         let known = n38.remanence[1];
         let range = [told / most.sqrt() - 0.01, told / least.sqrt() + 0.01];
         assert!(range[0] < known && known < range[1], "{range:?}");
@@ -137,9 +175,9 @@ fn what_a_shop_states_lies_within_the_spread() {
 fn a_pull_gives_the_remanence_that_it_was_made_of() {
     let size = [0.002, 0.010, 0.005];
     for grade in NEODYMIUM {
-        let force = pull(size, grade.remanence[1]);
-        let [by_pull, by_grade] =
-            [Strength::Pull(force), Strength::Grade(grade)].map(|strength| strength.moment(size));
+        let force = pull(Shape::Block, size, grade.remanence[1]);
+        let [by_pull, by_grade] = [Strength::Pull(force), Strength::Grade(grade)]
+            .map(|strength| strength.moment(Shape::Block, size));
         assert!((by_pull / by_grade - 1.0).abs() < 1e-12);
     }
 }

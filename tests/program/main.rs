@@ -17,4 +17,5 @@ mod pictures;
 mod program;
 mod readme;
 mod results;
+mod structure;
 mod sweep;

@@ -9,7 +9,7 @@ import pytest
 import tilebind
 
 # Where results go and how they look: Python returns them.
-SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "quiet", "threads",
+SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "text", "quiet", "threads",
          "help", "version", "compact", "pathway"}
 # The design is an object, its model a keyword of energies; tile sets, words and tables are read from
 # their places; a bar is Python's own.

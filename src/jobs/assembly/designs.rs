@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::Assembly;
 use super::axis::{Met, SIDES};
+use crate::design::written;
 
 /// Names and texts of the designs of every two tiles that meet in what grows.
 pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
@@ -49,7 +50,6 @@ fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
     let like = assembly.design.unwrap_or(stage);
     let magnet = assembly.magnet();
     let tile = &stage.pair.fixed;
-    let [length, width, thickness] = magnet.size;
     let tiles = &assembly.built.set.tiles;
     let [out, back] = axis.sides().map(|side| SIDES[side]);
     let described = format!(
@@ -59,13 +59,14 @@ fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let [wide, high] = like.table.map(|size| size.max(stage.table[0]));
     let mut text = format!(
-        "name = {}\ndescription = {}\n\n[table]\nsize = [{wide:?}, {high:?}]\n\n[magnet]\nsize = \
-         [{length:?}, {width:?}, {thickness:?}]\nmoment = {:?}\n",
+        "name = {}\ndescription = {}\n\n[table]\nsize = [{wide:?}, {high:?}]\n\n[magnet]\n{}\
+         moment = {:?}\n",
         quoted(name),
         quoted(&described),
+        written::magnet(magnet.form, magnet.size),
         magnet.moment
     );
-    let _ = writeln!(text, "pitch = {:?}", stage.pitch.unwrap_or(width));
+    let _ = writeln!(text, "pitch = {:?}", stage.pitch.unwrap_or(magnet.size[1]));
     let inset = assembly.inset();
     if inset > 0.0 {
         let _ = writeln!(text, "inset = {inset:?}");

@@ -56,7 +56,7 @@ pub struct Request {
 /// What measurements tell.
 pub enum Fitted {
     /// The constants of shields.
-    Shields(Calibration),
+    Shields(Box<Calibration>),
     /// kT of pairs' distances.
     Distances(DistanceFit),
     /// kT of intervals for which pairs were bound and apart.
@@ -95,7 +95,7 @@ impl Request {
         let rows = read_rows(table)?;
         let (specimen, settings) = Specimen::of(design, self.hold_out.into());
         let found = calibrate(&specimen, &rows, &settings)?;
-        Ok(Fitted::Shields(found))
+        Ok(Fitted::Shields(Box::new(found)))
     }
 
     /// kT, of a table of pairs: their distances, or how long they were bound and apart.

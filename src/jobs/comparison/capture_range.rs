@@ -31,8 +31,8 @@ use physics::problem::Problem;
 pub const STEPS: u32 = 48;
 /// Halvings of the step in which capture ends.
 pub const HALVINGS: u32 = 6;
-/// Distance (m, metric of the configuration space) from the bound state that still counts as the
-/// bond.
+/// Distance (m, metric of the configuration space, told for the paper's tile and in proportion for
+/// others) from the bound state that still counts as the bond.
 pub const SAME_BOND: f64 = 5e-3;
 /// Energy above that of the bound state that still counts as the bond, as a fraction of its depth.
 pub const ENERGY_SHARE: f64 = 1e-3;
@@ -111,7 +111,7 @@ fn is_captured(
     }
     match learn(problem, &[*start], known).pop() {
         Some(Outcome::Minimum(end)) => {
-            problem.space.distance(&end.point.q, bond) < SAME_BOND
+            problem.space.distance(&end.point.q, bond) < problem.scaled(SAME_BOND)
                 && end.point.energy <= energy + ENERGY_SHARE * energy.abs()
         }
         _ => false,

@@ -1,4 +1,4 @@
-//! The rectangles of magnets in their tile: where they overlap, stick out or break through.
+//! What magnets cover of their tile: where they overlap, stick out or break through.
 
 use nalgebra::Vector2;
 
@@ -11,9 +11,9 @@ use physics::tile::{Face, Magnet};
 /// Depth (m) up to which blocks may overlap or stick out: rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// A magnet's rectangle.
+/// What a magnet covers.
 pub(super) fn block(magnet: &Magnet) -> ConvexPart {
-    ConvexPart::new(magnet.corners().to_vec())
+    ConvexPart::new(magnet.outline())
 }
 
 /// Whether two rectangles of magnets overlap.
@@ -31,7 +31,7 @@ pub(super) fn sticks_out(built: &BuiltTile, magnet: &Magnet) -> bool {
     let in_the_inner_half =
         |p: &Vector2<f64>| (p - magnet.position).dot(&face.normal()) <= ROUNDING;
     magnet
-        .corners()
+        .outline()
         .into_iter()
         .filter(|p| beyond_its_face(p) || in_the_inner_half(p))
         .chain([magnet.position])
@@ -48,12 +48,16 @@ pub(super) fn breaks_through(built: &BuiltTile, magnet: &Magnet) -> bool {
 /// By how much (m, along the face's normal) the highest corner of a block overtops the lowest
 /// surface over the block's width.
 pub(super) fn excess(edges: &[[[f64; 2]; 2]], face: &Face, magnet: &Magnet) -> f64 {
-    let local = magnet.corners().map(|p| {
-        let d = p - face.middle();
-        [d.dot(&face.tangent()), d.dot(&face.normal())]
-    });
+    let local: Vec<_> = magnet
+        .outline()
+        .iter()
+        .map(|p| {
+            let d = p - face.middle();
+            [d.dot(&face.tangent()), d.dot(&face.normal())]
+        })
+        .collect();
     let fold =
-        |k: usize, f: fn(f64, f64) -> f64| local.map(|p| p[k]).into_iter().reduce(f).unwrap_or(0.0);
+        |k: usize, f: fn(f64, f64) -> f64| local.iter().map(|p| p[k]).reduce(f).unwrap_or(0.0);
     let (low, high) = (fold(0, f64::min), fold(0, f64::max));
     let corners_between = edges
         .iter()

@@ -80,7 +80,7 @@ fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
             "a magnet {} m thick sticks out of a tile {} m thick",
             magnet.size[2], entry.thickness
         ),
-        "the third number of a magnet's size runs through the tile's thickness",
+        "the third number of a magnet's size runs through the tile's thickness; of one that stands, the one along its axis",
     ))
 }
 

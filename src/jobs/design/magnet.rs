@@ -7,22 +7,53 @@ use super::reader::{Entry, Section};
 use physics::order::Order;
 use physics::tile::barcode::Pole;
 use physics::tile::grade::Grade;
+use physics::tile::magnet::Shape;
 use physics::tile::strength::{Strength, pull};
 
 /// The magnet keys of one place in the file; what is not given there is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct MagnetKeys {
-    pub size: Option<[f64; 3]>,
+    pub size: Option<Size>,
     pub strength: Option<Strength>,
     pub pitch: Option<f64>,
     pub inset: Option<f64>,
-    pub axis: Option<f64>,
+    pub axis: Option<Axis>,
+}
+
+/// How large a magnet is (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Size {
+    /// A block: along its axis, and the two others.
+    Block([f64; 3]),
+    /// A disc: its height, which is along its axis, and its diameter.
+    Disc(Option<f64>, Option<f64>),
+}
+
+/// Where a magnet's axis points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Axis {
+    /// At this angle (rad) from the face's normal.
+    Lying(f64),
+    /// Out of the tiles' plane.
+    Up,
+}
+
+/// A magnet by itself.
+pub(super) struct Body {
+    pub shape: Shape,
+    /// As it is sold, the one along its axis first (m).
+    pub size: [f64; 3],
+    /// A m^2.
+    pub moment: f64,
 }
 
 const STRENGTHS: [&str; 5] = ["remanence", "moment", "surface_field", "grade", "pull"];
 /// The keys of `[magnet]` and of a face's `magnet`.
-pub(super) const MAGNET_KEYS: [&str; 9] = [
+pub(super) const MAGNET_KEYS: [&str; 12] = [
+    "shape",
     "size",
+    "diameter",
+    "height",
     "remanence",
     "moment",
     "surface_field",
@@ -36,22 +67,16 @@ pub(super) const MAGNET_KEYS: [&str; 9] = [
 impl MagnetKeys {
     /// Reads what a table says of a magnet; which other keys it may hold is the caller's affair.
     pub fn read(section: &Section) -> Result<Self> {
-        let size = section
-            .get("size")
-            .map(|entry| {
-                let what = "along its magnetic axis, along the face, through the tile's thickness";
-                entry.numbers::<3>(quantity::MAGNET_SIZE, what)
-            })
-            .transpose();
         let strength = strength(section);
-        let [pitch, inset, axis] = [
-            ("pitch", quantity::PITCH),
-            ("inset", quantity::INSET),
-            ("axis", quantity::AXIS),
-        ]
-        .map(|(key, quantity)| section.number(key, quantity));
+        let [pitch, inset] = [("pitch", quantity::PITCH), ("inset", quantity::INSET)]
+            .map(|(key, quantity)| section.number(key, quantity));
+        let axis = section.get("axis").map(|entry| match entry.text() {
+            Some(text) if text.starts_with(char::is_alphabetic) => entry.word(&[("up", Axis::Up)]),
+            _ => entry.number(quantity::AXIS).map(Axis::Lying),
+        });
+        let axis = axis.transpose();
         Ok(Self {
-            size: size?,
+            size: size(section)?,
             strength: strength?,
             pitch: pitch?,
             inset: inset?,
@@ -62,7 +87,7 @@ impl MagnetKeys {
     /// These keys, and those of `lower` where these are silent.
     pub fn over(self, lower: Self) -> Self {
         Self {
-            size: self.size.or(lower.size),
+            size: Size::over(self.size, lower.size),
             strength: self.strength.or(lower.strength),
             pitch: self.pitch.or(lower.pitch),
             inset: self.inset.or(lower.inset),
@@ -73,17 +98,103 @@ impl MagnetKeys {
     /// The keys of the mating magnet.
     pub fn mate(self) -> Self {
         Self {
-            axis: self.axis.map(|axis| -axis),
+            axis: self.axis.map(|axis| match axis {
+                Axis::Lying(angle) => Axis::Lying(-angle),
+                Axis::Up => Axis::Up,
+            }),
             ..self
         }
     }
 
-    /// The size and the moment (A m^2), both of which a magnet must have.
-    pub fn block(&self) -> std::result::Result<([f64; 3], f64), &'static str> {
-        let size = self.size.ok_or("size")?;
+    /// The magnet, if all that it must have is given; or which key is not.
+    pub fn body(&self) -> std::result::Result<Body, &'static str> {
+        let (shape, size) = self.size.ok_or("size")?.told()?;
         let strength = self.strength.ok_or("remanence")?;
-        Ok((size, strength.moment(size)))
+        Ok(Body {
+            shape,
+            size,
+            moment: strength.moment(shape, size),
+        })
     }
+
+    /// How much room it takes along a face (m).
+    pub fn width(&self) -> Option<f64> {
+        let (_, size) = self.size?.told().ok()?;
+        Some(size[1])
+    }
+}
+
+impl Body {
+    /// Its size along the face's normal, along the face and through the tile's thickness (m).
+    pub fn in_plane(&self, stands: bool) -> [f64; 3] {
+        let [height, width, depth] = self.size;
+        match stands {
+            true => [depth, width, height],
+            false => self.size,
+        }
+    }
+}
+
+impl Size {
+    /// A size, and what it leaves open of another one of its kind.
+    fn over(upper: Option<Self>, lower: Option<Self>) -> Option<Self> {
+        Some(match (upper, lower) {
+            (Some(Self::Disc(height, diameter)), Some(Self::Disc(below, across))) => {
+                Self::Disc(height.or(below), diameter.or(across))
+            }
+            _ => upper.or(lower)?,
+        })
+    }
+
+    /// The shape and the size, the one along the axis first; or which key is not given.
+    fn told(self) -> std::result::Result<(Shape, [f64; 3]), &'static str> {
+        Ok(match self {
+            Self::Block(size) => (Shape::Block, size),
+            Self::Disc(height, diameter) => {
+                let diameter = diameter.ok_or("diameter")?;
+                (Shape::Disc, [height.ok_or("height")?, diameter, diameter])
+            }
+        })
+    }
+}
+
+/// How large a table says its magnets are: a block has a size, a disc a diameter and a height.
+fn size(section: &Section) -> Result<Option<Size>> {
+    let [shape, size, diameter, height] =
+        ["shape", "size", "diameter", "height"].map(|key| section.get(key));
+    let shape = shape
+        .map(|entry| entry.word(&[("block", Shape::Block), ("disc", Shape::Disc)]))
+        .transpose()?;
+    let of_disc = diameter.as_ref().or(height.as_ref());
+    match (shape, &size, of_disc) {
+        (Some(Shape::Disc), Some(size), _) => {
+            return Err(size.key_error(
+                "a disc has no `size`",
+                "write its `diameter` and its `height`, which is along its axis",
+            ));
+        }
+        (Some(Shape::Block), _, Some(entry)) | (None, Some(_), Some(entry)) => {
+            return Err(entry.key_error(
+                format!("a block has no `{}`", entry.key),
+                "write its `size`, or shape = \"disc\" with `diameter` and `height` alone",
+            ));
+        }
+        _ => {}
+    }
+    if let Some(entry) = size {
+        let what = "along its magnetic axis, along the face, through the tile's thickness";
+        return Ok(Some(Size::Block(
+            entry.numbers::<3>(quantity::MAGNET_SIZE, what)?,
+        )));
+    }
+    if shape != Some(Shape::Disc) && of_disc.is_none() {
+        return Ok(None);
+    }
+    let length = |entry: Option<Entry>| {
+        let entry = entry.map(|entry| entry.number(quantity::MAGNET_SIZE));
+        entry.transpose()
+    };
+    Ok(Some(Size::Disc(length(height)?, length(diameter)?)))
 }
 
 /// The one way in which a table says how strong its magnets are.
@@ -142,18 +253,19 @@ const IMPOSSIBLE_REMANENCE: f64 = 10.0;
 const STRONGEST: f64 = 1.7;
 
 /// What is wrong with the strength of a block, if anything.
-pub(super) fn impossible(
-    size: [f64; 3],
-    strength: Option<Strength>,
-    moment: f64,
-) -> Option<(String, String)> {
-    let remanence = physics::units::MU0 * moment / size.iter().product::<f64>();
+pub(super) fn impossible(body: &Body, strength: Option<Strength>) -> Option<(String, String)> {
+    let Body {
+        shape,
+        size,
+        moment,
+    } = *body;
+    let remanence = physics::units::MU0 * moment / shape.volume(size);
     if let Some(Strength::Pull(force)) = strength
         && remanence > STRONGEST
     {
         return Some((
             format!(
-                "a block of {} mm that pulls {} N ({} kg) would have a remanence of {} T",
+                "a magnet of {} mm that pulls {} N ({} kg) would have a remanence of {} T",
                 size.map(|x| four_digits(x * 1e3).to_string()).join(" x "),
                 four_digits(force),
                 four_digits(force / 9.806_65),
@@ -162,14 +274,14 @@ pub(super) fn impossible(
             format!(
                 "the strongest, N52, pulls {} kg; the first number of `size` is the one that it is \
                  magnetised through",
-                four_digits(pull(size, 1.46) / 9.806_65)
+                four_digits(pull(shape, size, 1.46) / 9.806_65)
             ),
         ));
     }
     (remanence > IMPOSSIBLE_REMANENCE).then(|| {
         (
             format!(
-                "a block of this size and strength would have a remanence of {} T",
+                "a magnet of this size and strength would have a remanence of {} T",
                 four_digits(remanence)
             ),
             format!(
@@ -204,7 +316,12 @@ impl ListedMagnet {
         let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
         let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
         let at = at.number(quantity::ALONG_FACE);
-        let pole = pole.word(&[("N", Pole::North), ("S", Pole::South)]);
+        let pole = pole.word(&[
+            ("N", Pole::North),
+            ("S", Pole::South),
+            ("U", Pole::Up),
+            ("D", Pole::Down),
+        ]);
         Ok(Self {
             at: at?,
             pole: pole?,
@@ -229,6 +346,8 @@ pub(super) fn missing_key(key: &str, error: impl Fn(String, String) -> DesignErr
     let (what, example) = match key {
         "pitch" => ("spacing", "pitch = 0.040"),
         "size" => ("size", "size = [0.010, 0.010, 0.003]"),
+        "diameter" => ("diameter", "diameter = 0.010"),
+        "height" => ("height", "height = 0.003"),
         _ => ("strength", "remanence = 1.2"),
     };
     error(

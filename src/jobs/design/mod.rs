@@ -63,6 +63,7 @@ mod units;
 mod word_places;
 mod word_set;
 mod word_stage;
+pub mod written;
 
 pub use drawings::Drawing;
 pub use error::{DesignError, Place};
@@ -91,8 +92,9 @@ use physics::configuration::{Configuration, ConfigurationSpace};
 use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
-use physics::tile::Pair;
+use physics::tile::magnet::Form;
 use physics::tile::strength::Strength;
+use physics::tile::{Magnet, Pair};
 use reader::Section;
 use source::Source;
 use target::Bound;
@@ -127,7 +129,7 @@ pub struct Design {
     pub pitch: Option<f64>,
     /// The kinds of magnets that are given by what shops say of them, a grade or a pull, each with
     /// its size (m).
-    pub sold: Vec<(Strength, [f64; 3])>,
+    pub sold: Vec<(Strength, Magnet)>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
@@ -236,6 +238,7 @@ impl Design {
         let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
+        check_shielded(&root, &shields, &built)?;
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
         let sold = sold(&built);
@@ -339,15 +342,17 @@ fn bound(
     }
 }
 
-/// The kinds of magnets whose strength is a grade or a pull.
-fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, [f64; 3])> {
+/// The kinds of magnets whose strength is a grade or a pull, and that strength.
+fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, Magnet)> {
     let mut sold = Vec::new();
     for tile in built {
         for (magnet, placing) in tile.tile.magnets.iter().zip(&tile.placings) {
             if let Some(strength @ (Strength::Grade(_) | Strength::Pull(_))) = placing.strength
-                && !sold.contains(&(strength, magnet.size))
+                && !sold.iter().any(|known: &(Strength, Magnet)| {
+                    known.0 == strength && known.1.is_sold_as(magnet)
+                })
             {
-                sold.push((strength, magnet.size));
+                sold.push((strength, magnet.clone()));
             }
         }
     }
@@ -392,6 +397,20 @@ fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<
     shields.fixed = entries[0].shields(keys)?;
     shields.moving = entries[1].shields(keys)?;
     Ok((shields, None))
+}
+
+/// Refuses shields behind magnets whose energy is not known with them.
+fn check_shielded(root: &Section, shields: &Shields, built: &[BuiltTile; 2]) -> Result<()> {
+    let is_known = |magnet: &Magnet| magnet.form == Form::default();
+    let mut magnets = built.iter().flat_map(|built| &built.tile.magnets);
+    if shields.is_none() || magnets.all(is_known) {
+        return Ok(());
+    }
+    let message = "shields are known behind blocks that lie, not behind discs or standing magnets";
+    Err(root.error(
+        message,
+        "take `shield` away, or describe the magnets as blocks",
+    ))
 }
 
 fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {

@@ -4,12 +4,13 @@ use nalgebra::Vector2;
 
 use super::error::Result;
 use super::face::{FaceContent, Pattern};
-use super::magnet::{ListedMagnet, impossible, missing_key};
+use super::magnet::{Axis, ListedMagnet, impossible, missing_key};
 use super::quantity::four_digits;
 use super::tile::TileEntry;
 use physics::configuration::wrap_angle;
 use physics::tile::assembly::surface_height;
 use physics::tile::barcode::Pole;
+use physics::tile::magnet::{Form, Standing};
 use physics::tile::{Face, Magnet};
 
 /// The magnets of a face with all that they take from the keys above them.
@@ -39,7 +40,7 @@ pub(super) fn placed(
                     }));
                 }
             };
-            let wide = content.keys.size.map_or(0.0, |size| size[1]);
+            let wide = content.keys.width().unwrap_or(0.0);
             let needed = code.len().saturating_sub(1) as f64 * pitch + wide;
             if needed > length * (1.0 + 1e-12) {
                 return Err(entry.section.source.error(
@@ -77,8 +78,8 @@ pub(super) fn magnet(
 ) -> Result<Magnet> {
     let error =
         |message: String, help: String| entry.section.source.error(listed.span, message, help);
-    let (size, moment) = listed.keys.block().map_err(|key| missing_key(key, error))?;
-    if let Some((message, help)) = impossible(size, listed.keys.strength, moment) {
+    let body = listed.keys.body().map_err(|key| missing_key(key, error))?;
+    if let Some((message, help)) = impossible(&body, listed.keys.strength) {
         return Err(error(message, help));
     }
     let Some(surface) = surface_height(edges, listed.at) else {
@@ -95,21 +96,46 @@ pub(super) fn magnet(
             ),
         ));
     };
-    let axis = listed.keys.axis.unwrap_or(0.0);
+    let stands = standing(listed).map_err(|(message, help)| error(message, help))?;
+    let axis = match listed.keys.axis {
+        Some(Axis::Lying(angle)) => angle,
+        _ => 0.0,
+    };
+    let size = body.in_plane(stands.is_some());
     // How far the block reaches from its centre towards the surface.
     let reach = (size[0] * libm::cos(axis).abs() + size[1] * libm::sin(axis).abs()) / 2.0;
     let height = surface - listed.keys.inset.unwrap_or(0.0) - reach;
     let outward = match listed.pole {
-        Pole::North => face.normal(),
-        Pole::South => -face.normal(),
+        Pole::South if stands.is_none() => -face.normal(),
+        _ => face.normal(),
     };
     Ok(Magnet {
         position: face.point(listed.at, height),
         angle: direction(outward, axis),
-        moment,
+        moment: body.moment,
         size,
+        form: Form {
+            shape: body.shape,
+            stands,
+        },
         face: number,
     })
+}
+
+/// Whether a magnet stands, or what is wrong with its pole. Words know N and S only: of magnets that stand they
+/// are U and D.
+fn standing(listed: &ListedMagnet) -> std::result::Result<Option<Standing>, (String, String)> {
+    let up = listed.keys.axis == Some(Axis::Up);
+    let letter = listed.pole.letter();
+    match (listed.pole, up) {
+        (Pole::Up | Pole::North, true) => Ok(Some(Standing::Up)),
+        (Pole::Down | Pole::South, true) => Ok(Some(Standing::Down)),
+        (Pole::North | Pole::South, false) => Ok(None),
+        (_, false) => Err((
+            format!("`{letter}` turns a pole up or down, and these magnets lie"),
+            "write axis = \"up\" for magnets that stand; lying ones have N and S".to_owned(),
+        )),
+    }
 }
 
 /// The angle (rad) of a vector turned by `turn`.

@@ -159,8 +159,13 @@ impl<'a> Entry<'a> {
 
     /// A text without control characters: a terminal would obey them, and no picture or page can
     /// hold them. Lines may end in it, and have tabs.
+    /// The value, if it is a string.
+    pub fn text(&self) -> Option<&'a str> {
+        self.value.get_ref().as_str()
+    }
+
     pub fn string(&self) -> Result<&'a str> {
-        let text = self.value.get_ref().as_str();
+        let text = self.text();
         let text = text.ok_or_else(|| self.wrong_type("a string"))?;
         self.without(text, |c| !matches!(c, '\n' | '\r' | '\t'))
     }

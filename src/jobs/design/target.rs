@@ -37,7 +37,7 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
         let face = find_face(&tiles[i].base.names, &entry, TILES[i])?;
         Ok::<_, DesignError>((entry, face))
     };
-    let [fixed, moving] = [0, 1].map(|i| face(i));
+    let [fixed, moving] = [0, 1].map(face);
     let ((_, fixed), (entry, moving)) = (fixed?, moving?);
     let lengths = [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].length());
     section.source.faults.check_guesses()?;

@@ -19,7 +19,7 @@ use toml::de::DeTable;
 use super::drawings::Drawings;
 use super::error::{DesignError, Result};
 use super::faults::Faults;
-use super::magnet::{MAGNET_KEYS, MagnetKeys};
+use super::magnet::{Axis, MAGNET_KEYS, MagnetKeys, missing_key};
 use super::reader::{Entry, Section};
 use super::source::Source;
 use super::{Design, MagnetModel, file, potential, quantity, syntax, word_places, word_stage};
@@ -96,12 +96,13 @@ impl WordSet {
         let root = Section::root(source, root, "the set of words");
         root.allow(&KEYS);
         let magnet = root.section("magnet", "[magnet]")?.map(|section| {
-            section.allow(
-                MAGNET_KEYS
-                    .split_last()
-                    .map_or(&[], |(_, but_axis)| but_axis),
-            );
-            MagnetKeys::read(&section)
+            section.allow(&MAGNET_KEYS);
+            let keys = MagnetKeys::read(&section)?;
+            if let (Some(Axis::Lying(_)), Some(entry)) = (keys.axis, section.get("axis")) {
+                let help = "words have magnets square to their face, or axis = \"up\"";
+                return Err(entry.key_error("the magnets of words are not turned", help));
+            }
+            Ok(keys)
         });
         let tile = root.section("tile", "[tile]")?;
         let side = tile.map(|section| {
@@ -113,7 +114,9 @@ impl WordSet {
         let words = root.get("words").map(|entry| entry.array());
         let (magnet, side, faces) = (magnet.transpose()?, side.transpose()?.flatten(), faces?);
         let bar = word_stage::bar(magnet.unwrap_or_default(), model.unwrap_or(told?));
+        let bar = bar.map_err(|key| missing_key(key, |message, help| root.error(message, help)));
         source.faults.check()?;
+        let bar = bar?;
         let own = |key: &str| {
             let own = faces.iter().filter(|(name, _)| !name.ends_with('*'));
             let own = own.filter_map(|(name, face)| Some((*name, face.get(key)?)));

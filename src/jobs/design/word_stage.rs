@@ -3,26 +3,34 @@
 use std::sync::Arc;
 
 use super::error::{DesignError, Result};
-use super::magnet::MagnetKeys;
-use super::{Design, MagnetModel};
+use super::magnet::{Axis, MagnetKeys, Size};
+use super::{Design, MagnetModel, written};
 use physics::tile::Tile;
+use physics::tile::magnet::{Form, Standing};
 use physics::tile::strength::Strength;
 use physics::words::Bar;
 
 /// The magnets of words: those of a file, or the paper's.
-pub(super) fn bar(keys: MagnetKeys, model: MagnetModel) -> Bar {
+pub(super) fn bar(keys: MagnetKeys, model: MagnetModel) -> std::result::Result<Bar, &'static str> {
     let paper = Bar::paper();
-    let size = keys.size.unwrap_or(paper.size);
-    Bar {
-        size,
-        moment: keys
-            .strength
-            .unwrap_or(Strength::Remanence(1.2))
-            .moment(size),
+    let keys = MagnetKeys {
+        size: keys.size.or(Some(Size::Block(paper.size))),
+        strength: keys.strength.or(Some(Strength::Remanence(1.2))),
+        ..keys
+    };
+    let body = keys.body()?;
+    let stands = (keys.axis == Some(Axis::Up)).then_some(Standing::Up);
+    Ok(Bar {
+        size: body.in_plane(stands.is_some()),
+        moment: body.moment,
+        form: Form {
+            shape: body.shape,
+            stands,
+        },
         inset: keys.inset.unwrap_or(0.0),
         pitch: keys.pitch.unwrap_or(paper.pitch),
         model,
-    }
+    })
 }
 
 /// Two tiles of a side (m) with a magnet at each place (m) of their target faces.
@@ -30,6 +38,7 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
     let Bar {
         size,
         moment,
+        form,
         inset,
         pitch,
         model,
@@ -42,9 +51,10 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
         )
     };
     let text = format!(
-        "name = \"words\"\n[table]\nsize = [{table:?}, {table:?}]\n[magnet]\nsize = {size:?}\n\
+        "name = \"words\"\n[table]\nsize = [{table:?}, {table:?}]\n[magnet]\n{}\
          moment = {moment:?}\npitch = {pitch:?}\ninset = {inset:?}\n{}{}[target]\nfixed = \"east\"\n\
          moving = \"west\"\n[potential]\nmodel = \"{model}\"\n",
+        written::magnet(*form, *size),
         tile("fixed", "east"),
         tile("moving", "west")
     );

@@ -194,7 +194,9 @@ fn peaks(problem: &Problem, points: &[Point]) -> Vec<(Configuration, Vector3<f64
     peaks.order_by_key(|&peak| Reverse(OrderedFloat(points[peak].energy)));
     peaks.truncate(PEAKS);
     let passed = |i: usize| {
-        let off = |point: &&Point| problem.space.distance(&point.q, &points[i].q) >= PASSING;
+        let off = |point: &&Point| {
+            problem.space.distance(&point.q, &points[i].q) >= problem.scaled(PASSING)
+        };
         let before = points[..i].iter().rev().find(off).unwrap_or(&points[0]);
         let after = points[i..].iter().find(off).or(points.last());
         after.map(|after| (points[i].q, before.q.step_to(&after.q)))

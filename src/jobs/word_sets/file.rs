@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::design::written;
 use physics::units::MU0;
 use physics::words::continuous::SpacedWord;
 use physics::words::set::name;
@@ -41,22 +42,22 @@ fn text(
     side: f64,
     faces: impl Iterator<Item = [String; 2]>,
 ) -> String {
-    let [length, width, thickness] = bar.size;
     // A rounding error would make figures that nobody typed.
     let rounded = |x: f64| (x * 1e9).round() / 1e9;
-    let remanence = rounded(MU0 * bar.moment / (length * width * thickness));
+    let remanence = rounded(MU0 * bar.moment / bar.form.shape.volume(bar.size));
     let mut text = format!(
-        "# {headline}\n\n{list}[magnet]\nsize = [{length}, {width}, {thickness}]\n\
+        "# {headline}\n\n{list}[magnet]\n{}\
          remanence = {remanence:?}\npitch = {:?}\n",
+        written::magnet(bar.form, bar.size),
         bar.pitch
     );
     if bar.inset > 0.0 {
-        let _ = writeln!(text, "inset = {:?}", bar.inset);
+        let _ = writeln!(text, "inset = {:?}", rounded(bar.inset));
     }
     let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
     let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
     text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
-             face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
+             face\n# (east = { ... }); X* is the mate of X. Of magnets that stand N is north up (U).\n[faces]\n";
     for (k, [word, mate]) in faces.enumerate() {
         let name = name(k);
         let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");

@@ -84,9 +84,7 @@ impl Made {
         let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
         let mut magnets: Vec<(Magnet, usize)> = Vec::new();
         for magnet in fixed.magnets.iter().chain(&moving.magnets) {
-            let same = |known: &&mut (Magnet, usize)| {
-                known.0.size == magnet.size && (known.0.moment - magnet.moment).abs() < 1e-12
-            };
+            let same = |known: &&mut (Magnet, usize)| known.0.is_sold_as(magnet);
             match magnets.iter_mut().find(same) {
                 Some(kind) => kind.1 += 1,
                 None => magnets.push((magnet.clone(), 1)),

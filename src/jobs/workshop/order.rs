@@ -2,8 +2,8 @@
 //!
 //! A magnet is put in from above. There, moved by z out of the plane of those that are in already,
 //! it feels their field: beside a magnet that points the same way it is pushed back out, beside one
-//! that points the other way it is drawn in. The order with the least worst push is taken. The
-//! magnets are point dipoles in the tile's plane; what is taken is the largest push on the way in.
+//! that points the other way it is drawn in. (Of magnets that stand it is so, too.) The order with the least worst push is taken. The
+//! magnets are point dipoles; what is taken is the largest push on the way in.
 
 use physics::tile::Magnet;
 use physics::units::MU0_OVER_4PI;
@@ -74,7 +74,8 @@ pub fn order(magnets: &[&Magnet]) -> Vec<Step> {
 
 /// The largest force (N) out of the plane on a magnet that comes down beside others.
 fn push(magnet: &Magnet, placed: &[&Magnet]) -> f64 {
-    let heights = (1..=HEIGHTS).map(|k| HIGHEST * magnet.size[0] * k as f64 / HEIGHTS as f64);
+    let heights =
+        (1..=HEIGHTS).map(|k| HIGHEST * magnet.axis_first()[0] * k as f64 / HEIGHTS as f64);
     let force = |z: f64| {
         placed
             .iter()
@@ -84,14 +85,19 @@ fn push(magnet: &Magnet, placed: &[&Magnet]) -> f64 {
     heights.map(force).fold(0.0, f64::max)
 }
 
-/// The force (N) along z on a dipole at height z above the plane of another one, both pointing along
-/// the plane: minus the derivative of mu0 / 4 pi (m1 m2 / R^3 - 3 (m1 R) (m2 R) / R^5).
+/// The force (N) along z on a dipole at height z above the plane of another one: minus the derivative of
+/// `mu0 / 4 pi (m1 m2 / R^3 - 3 (m1 R) (m2 R) / R^5)`.
 fn vertical_force(one: &Magnet, other: &Magnet, z: f64) -> f64 {
-    let (a, b) = (one.moment_vector(), other.moment_vector());
-    let d = one.position - other.position;
-    let square = d.norm_squared() + z * z;
-    let along = a.dot(&d) * b.dot(&d);
-    MU0_OVER_4PI * 3.0 * z * (a.dot(&b) - 5.0 * along / square) / libm::pow(square, 2.5)
+    let moment = |magnet: &Magnet| {
+        let up = magnet.form.stands.map_or(0.0, |up| up.sign()) * magnet.moment;
+        magnet.moment_vector().push(up)
+    };
+    let (a, b) = (moment(one), moment(other));
+    let d = (one.position - other.position).push(z);
+    let square = d.norm_squared();
+    let (along, beside) = (a.dot(&d), b.dot(&d));
+    let bracket = z * (a.dot(&b) - 5.0 * along * beside / square) + along * b.z + beside * a.z;
+    MU0_OVER_4PI * 3.0 * bracket / libm::pow(square, 2.5)
 }
 
 #[cfg(test)]
@@ -110,6 +116,7 @@ mod tests {
             },
             moment: 0.3,
             size: [0.01, 0.01, 0.003],
+            form: Default::default(),
             face: 0,
         });
         magnets.collect()

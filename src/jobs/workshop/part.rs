@@ -37,11 +37,11 @@ pub struct Part {
 pub struct Pocket {
     /// `east 2`: the face, and which magnet of it, counter-clockwise from 1.
     pub name: String,
-    /// Which pole points out of the face.
+    /// Which pole points out of the face, or up.
     pub pole: Pole,
     /// Where the cutter's middle runs, counter-clockwise.
-    pub corners: [Vector2<f64>; 4],
-    /// From the magnet's middle to its north pole (m).
+    pub corners: Vec<Vector2<f64>>,
+    /// From the magnet's middle to its north pole (m) in the tile's plane.
     pub north: Vector2<f64>,
     /// The magnet's middle.
     pub middle: Vector2<f64>,
@@ -52,6 +52,20 @@ pub struct Pocket {
 }
 
 impl Pocket {
+    /// What is written into it, where (m), and how high (m): both poles, or the one that is up.
+    pub fn letters(&self) -> Vec<(char, Vector2<f64>, f64)> {
+        let reach = (self.corners[0] - self.middle).norm();
+        match self.pole.stands() {
+            true => vec![(self.pole.letter(), self.middle, 0.6 * reach)],
+            false => [('N', 0.5), ('S', -0.5)]
+                .map(|(letter, side)| {
+                    let at = self.middle + self.north * side;
+                    (letter, at, 0.6 * self.north.norm())
+                })
+                .to_vec(),
+        }
+    }
+
     /// Whether the pocket opens through the tile's rim, or leaves a wall too thin to stand.
     pub fn is_open(&self) -> bool {
         self.wall < THINNEST
@@ -124,14 +138,12 @@ fn pocket(
     if cut.size[0] <= 0.0 || cut.size[1] <= 0.0 {
         return Err(PartError::Pocket(making.kerf));
     }
-    let hole = grown(making.clearance).corners();
-    let moment = magnet.moment_vector();
-    let outwards = moment.dot(&face.normal()) >= 0.0;
+    let hole = grown(making.clearance).outline();
     Ok(Pocket {
         name: format!("{} {number}", face.name),
-        pole: if outwards { Pole::North } else { Pole::South },
-        corners: cut.corners(),
-        north: moment.normalize() * (magnet.size[0] / 2.0),
+        pole: magnet.pole(face.normal()),
+        corners: cut.outline(),
+        north: magnet.moment_vector() / magnet.moment * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
         wall: -hole

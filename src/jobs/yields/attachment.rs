@@ -306,7 +306,7 @@ fn tally(problem: &Problem, catalogue: &Catalogue, docking: &Docking) -> Attachm
             let distances = states.map(|s| problem.space.distance(&s.configuration, &q));
             distances.fold(f64::INFINITY, f64::min)
         };
-        (0..order.len()).find(|&place| distance(order[place]) < SAME)
+        (0..order.len()).find(|&place| distance(order[place]) < problem.scaled(SAME))
     };
     let mut found = Attachments {
         counts: vec![0; kinds.len()],

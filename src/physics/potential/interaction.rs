@@ -25,8 +25,10 @@ use std::sync::LazyLock;
 
 use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
-use super::{CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential};
-use crate::tile::Tile;
+use super::{
+    BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
+};
+use crate::tile::{Magnet, Tile};
 
 /// What acts between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,6 +44,9 @@ pub struct Interaction {
     Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
 )]
 pub enum Unbounded {
+    /// Discs, and magnets that stand.
+    #[error("bounds over cells are not known for discs and standing magnets")]
+    Bodies,
     /// Blocks behind shields.
     #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]
     ShieldedBlocks,
@@ -75,6 +80,7 @@ impl Interaction {
         let (first, second) = (&fixed.magnets, &moving.magnets);
         let bounds: Result<fn(&Tile, &Tile, &Shields) -> BoxedBounds, _> = match model {
             _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
+            _ if model.is_of_bodies(first) || model.is_of_bodies(second) => Err(Unbounded::Bodies),
             MagnetModel::Dipole if shields.is_none() => {
                 Ok(|a, b, _| Box::new(DipoleBounds::new(a, b)))
             }
@@ -90,13 +96,21 @@ impl Interaction {
                 Box::new(move || make(&fixed, &moving, &shields));
             LazyBounds::new(make)
         });
-        let potential: Box<dyn Potential + Send> = match model {
-            _ if !shields.is_none() => {
-                Box::new(ShieldedPotential::new(*model, fixed, moving, shields))
-            }
-            MagnetModel::Dipole => Box::new(DipolePotential::new(first, second)),
-            MagnetModel::Cuboid => Box::new(CuboidPotential::new(first, second)),
+        let potential: Box<dyn Potential + Send> = match shields.is_none() {
+            true => bare(*model, first, second),
+            false => Box::new(ShieldedPotential::new(*model, fixed, moving, shields)),
         };
         Energy { potential, bounds }
+    }
+}
+
+/// The energy of two tiles' magnets, without shields.
+pub fn bare(model: MagnetModel, first: &[Magnet], second: &[Magnet]) -> Box<dyn Potential + Send> {
+    match model {
+        _ if model.is_of_bodies(first) || model.is_of_bodies(second) => {
+            Box::new(BodyPotential::new(model, first, second))
+        }
+        MagnetModel::Dipole => Box::new(DipolePotential::new(first, second)),
+        MagnetModel::Cuboid => Box::new(CuboidPotential::new(first, second)),
     }
 }

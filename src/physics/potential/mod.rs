@@ -5,6 +5,7 @@
 //! |---|---|---|---|
 //! | [`dipole`] ([`DipolePotential`]) | a point with a moment m (A m^2) | `mu0 / (4 pi r^3) [m1.m2 - 3 (m1.d)(m2.d)]` (J) | ranking codes and shapes, surveys; far apart |
 //! | [`cuboid`] ([`CuboidPotential`]) | a block of size a x b x c (m), uniformly magnetised along a | Coulomb energy of its pole faces, of charge density m / (a b c) (A/m) | real depths of bonds and forces near contact |
+//! | [`bodies`] ([`BodyPotential`]) | a block or a disc, lying or standing on a pole; uniformly magnetised | the same; of standing point dipoles, too | discs, and magnets across the table |
 //! | [`shielding`] ([`ShieldedPotential`]) | either, with soft iron behind it | the pair's energy times a factor of distance and direction | magnets with shields, after calibration |
 //!
 //! Moment, remanence Br (T) and volume V (m^3) belong together by `m = Br V / mu0`, with
@@ -35,6 +36,7 @@
 //! [`cuboid`] uses those that stay closed at an angle.
 
 pub mod batch;
+pub mod bodies;
 pub mod bounds;
 pub mod cuboid;
 pub mod dipole;
@@ -50,6 +52,7 @@ use crate::configuration::Configuration;
 use nalgebra::Vector3;
 
 pub use batch::DipolePotential;
+pub use bodies::BodyPotential;
 pub use bounds::CellBounds;
 pub use cuboid::CuboidPotential;
 pub use groups::MANY_PAIRS;

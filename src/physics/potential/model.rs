@@ -1,11 +1,14 @@
 //! How magnets are modelled.
 
+use crate::tile::Magnet;
+use crate::tile::magnet::Form;
+
 /// How magnets are modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MagnetModel {
     /// Point dipoles at the blocks' centres.
     Dipole,
-    /// Uniformly magnetised blocks: what magnets are, and what is taken where nothing is said.
+    /// Uniformly magnetised blocks and discs: what magnets are, and what is taken where nothing is said.
     #[default]
     Cuboid,
 }
@@ -21,6 +24,15 @@ impl MagnetModel {
             Self::Dipole => "dipoles",
             Self::Cuboid => "blocks",
         }
+    }
+
+    /// Whether magnets have to be taken for [`super::BodyPotential`]'s bodies: blocks that lie have formulas of
+    /// their own, and so have dipoles that do.
+    pub fn is_of_bodies(self, magnets: &[Magnet]) -> bool {
+        magnets.iter().any(|magnet| match self {
+            Self::Dipole => magnet.form.stands.is_some(),
+            Self::Cuboid => magnet.form != Form::default(),
+        })
     }
 
     /// What design files call this model.

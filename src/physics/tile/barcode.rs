@@ -1,25 +1,30 @@
 //! Barcodes: which pole of each magnet of a face points outwards.
 //!
 //! A code is read counter-clockwise along its face: `N` north pole out (the moment along the
-//! outward normal), `S` south pole out, `.` no magnet. Character k of n sits at
+//! outward normal), `S` south pole out, `U` and `D` north pole up and down of a magnet that stands,
+//! `.` no magnet. Character k of n sits at
 //! `s = (k - (n - 1) / 2) * pitch` from the middle of the face.
 //!
 //! Two faces that touch run against each other, so the mate of a code is its reverse with N and S
-//! exchanged: `NNNS` binds `NSSS`. The same rule holds for magnets in any place and at any angle:
+//! exchanged, and U and D: `NNNS` binds `NSSS`. The same rule holds for magnets in any place and at any angle:
 //! the mate of a magnet at s, turned by `axis` from the normal, sits at -s, has the other pole out
 //! and is turned by `-axis`. Head to tail across the gap, the two moments (along the normal and
 //! along the face) are those of a magnet and its image in a soft-iron wall, so that each pair
 //! attracts at every angle.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
-/// The pole of a magnet that points outwards.
+/// The pole of a magnet that points outwards, or of one that stands where its north pole is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pole {
     /// The moment along the outward normal.
     North,
     /// The moment against it.
     South,
+    /// The moment out of the tiles' plane.
+    Up,
+    /// The moment into it.
+    Down,
 }
 
 impl Pole {
@@ -28,16 +33,30 @@ impl Pole {
         match self {
             Self::North => Self::South,
             Self::South => Self::North,
+            Self::Up => Self::Down,
+            Self::Down => Self::Up,
         }
     }
 
-    /// The pole of a code's character, `N` or `S`.
-    pub fn from_char(c: char) -> Option<Self> {
-        match c {
-            'N' => Some(Self::North),
-            'S' => Some(Self::South),
-            _ => None,
+    /// Whether a magnet of this pole stands, and does not lie.
+    pub fn stands(self) -> bool {
+        matches!(self, Self::Up | Self::Down)
+    }
+
+    /// The character that stands for it in a code.
+    pub fn letter(self) -> char {
+        match self {
+            Self::North => 'N',
+            Self::South => 'S',
+            Self::Up => 'U',
+            Self::Down => 'D',
         }
+    }
+
+    /// The pole of a code's character.
+    pub fn from_char(c: char) -> Option<Self> {
+        let all = [Self::North, Self::South, Self::Up, Self::Down];
+        all.into_iter().find(|pole| pole.letter() == c)
     }
 }
 
@@ -47,7 +66,7 @@ pub struct Barcode(Vec<Option<Pole>>);
 
 /// A character that stands for no pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("'{character}' is no pole; a code is made of N, S and . (no magnet)")]
+#[error("'{character}' is no pole; a code is made of N and S, or of U and D, and . (no magnet)")]
 pub struct BarcodeError {
     /// Which character, counted from 0.
     pub index: usize,
@@ -59,7 +78,7 @@ impl Barcode {
     /// Reads a code such as `NN.S`.
     ///
     /// # Errors
-    /// At the first character that is none of `N`, `S` and `.`.
+    /// At the first character that is none of `N`, `S`, `U`, `D` and `.`.
     pub fn parse(code: &str) -> Result<Self, BarcodeError> {
         code.chars()
             .enumerate()
@@ -106,12 +125,8 @@ impl Barcode {
 
 impl fmt::Display for Barcode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|place| {
-            f.write_str(match place {
-                Some(Pole::North) => "N",
-                Some(Pole::South) => "S",
-                None => ".",
-            })
-        })
+        self.0
+            .iter()
+            .try_for_each(|place| f.write_char(place.map_or('.', Pole::letter)))
     }
 }

@@ -1,37 +1,156 @@
-//! A bar magnet of a tile.
+//! A magnet of a tile.
 
 use nalgebra::Vector2;
 
+use super::barcode::Pole;
+use crate::configuration::wrap_angle;
 use crate::units::MU0;
 
-/// A bar magnet fixed in a tile, in the tile's frame.
+/// What a magnet is, and how it is put into its tile.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Its shape.
+    pub shape: Shape,
+    /// Where its north pole is, if its axis stands on the tile's plane and does not lie in it.
+    pub stands: Option<Standing>,
+}
+
+/// The shape of a magnet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// A bar or a block.
+    #[default]
+    Block,
+    /// A disc or a rod, magnetised along its axis.
+    Disc,
+}
+
+impl Shape {
+    /// The volume (m^3) of a magnet of this shape, of sizes (m) as [`Magnet::size`] has them, in any order.
+    pub fn volume(self, size: [f64; 3]) -> f64 {
+        let of_box: f64 = size.iter().product();
+        match self {
+            Self::Block => of_box,
+            Self::Disc => of_box * std::f64::consts::FRAC_PI_4,
+        }
+    }
+}
+
+/// Which pole of a standing magnet is up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The north pole.
+    Up,
+    /// The south pole.
+    Down,
+}
+
+impl Standing {
+    /// 1 with the north pole up, -1 with it down.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Up => 1.0,
+            Self::Down => -1.0,
+        }
+    }
+
+    /// The other one.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Up => Self::Down,
+            Self::Down => Self::Up,
+        }
+    }
+}
+
+/// Chords that a round outline has: they leave the circle by 1/200 of its radius.
+const CHORDS: usize = 32;
+
+/// A magnet fixed in a tile, in the tile's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Magnet {
-    /// Centre of the block (m).
+    /// Its middle (m).
     pub position: Vector2<f64>,
-    /// Direction of the magnetic moment (rad, counter-clockwise from the tile's x axis).
+    /// Direction of the magnetic moment (rad, counter-clockwise from the tile's x axis); of one that
+    /// stands, the direction of the first of its sizes.
     pub angle: f64,
     /// Magnitude of the magnetic moment (A m^2), positive.
     pub moment: f64,
-    /// Size of the block (m): along its magnetic axis, across it in the tile's plane, and through
-    /// the tile's thickness.
+    /// Its size (m): along the angle, across it in the tile's plane, and through the tile's thickness. Of a
+    /// disc two are its diameter, and the one along its axis its height.
     pub size: [f64; 3],
+    /// What it is, and how it is put in.
+    pub form: Form,
     /// The face that carries it.
     pub face: usize,
 }
 
 impl Magnet {
-    /// The moment as a vector (A m^2).
+    /// The moment as a vector in the tiles' plane (A m^2), in which that of a standing magnet has none.
     pub fn moment_vector(&self) -> Vector2<f64> {
-        Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * self.moment
+        let lying = if self.form.stands.is_some() {
+            0.0
+        } else {
+            self.moment
+        };
+        Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * lying
     }
 
-    /// Remanence (T) of the uniformly magnetised block with this moment: `Br = mu0 m / V`.
+    /// Which pole is turned outwards, or up, given the outward normal of the magnet's face.
+    pub fn pole(&self, outwards: Vector2<f64>) -> Pole {
+        match self.form.stands {
+            Some(Standing::Up) => Pole::Up,
+            Some(Standing::Down) => Pole::Down,
+            None if self.moment_vector().dot(&outwards) >= 0.0 => Pole::North,
+            None => Pole::South,
+        }
+    }
+
+    /// Its sizes as it is sold (m), the one along its axis first.
+    pub fn axis_first(&self) -> [f64; 3] {
+        let [a, b, c] = self.size;
+        match self.form.stands {
+            Some(_) => [c, b, a],
+            None => self.size,
+        }
+    }
+
+    /// Whether both are the same to a shop, whatever they are for.
+    pub fn is_sold_as(&self, other: &Self) -> bool {
+        self.form.shape == other.form.shape
+            && self.axis_first() == other.axis_first()
+            && (self.moment - other.moment).abs() <= 1e-12 * self.moment
+    }
+
+    /// What it covers of the tiles' plane (m), counter-clockwise; of a disc that stands a polygon whose
+    /// corners lie on its rim.
+    pub fn outline(&self) -> Vec<Vector2<f64>> {
+        if self.form.shape == Shape::Block || self.form.stands.is_none() {
+            return self.corners().to_vec();
+        }
+        let turn = |k: usize| self.angle + std::f64::consts::TAU * k as f64 / CHORDS as f64;
+        let corner =
+            |turn: f64| Vector2::new(libm::cos(turn), libm::sin(turn)) * self.size[0] / 2.0;
+        let corners = (0..CHORDS).map(|k| self.position + corner(turn(k)));
+        corners.collect()
+    }
+
+    /// The same magnet with its poles exchanged.
+    pub fn reversed(&self) -> Self {
+        let mut other = self.clone();
+        match &mut other.form.stands {
+            Some(stands) => *stands = stands.opposite(),
+            None => other.angle = wrap_angle(self.angle + std::f64::consts::PI),
+        }
+        other
+    }
+
+    /// Remanence (T) of the uniformly magnetised magnet with this moment: `Br = mu0 m / V`.
     pub fn remanence(&self) -> f64 {
-        MU0 * self.moment / self.size.iter().product::<f64>()
+        MU0 * self.moment / self.form.shape.volume(self.size)
     }
 
-    /// The block's four corners in the tile's plane (m), counter-clockwise.
+    /// The four corners of the magnet, or of the square about a disc that stands, in the tile's plane (m), counter-clockwise.
     pub fn corners(&self) -> [Vector2<f64>; 4] {
         let axis =
             Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * (self.size[0] / 2.0);

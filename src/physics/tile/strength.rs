@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 use super::grade::Grade;
+use super::magnet::Shape;
+use crate::potential::bodies::coaxial;
 use crate::units::MU0;
 
 /// How strong a magnet is; one of the ways to say it.
@@ -27,16 +29,16 @@ pub enum Strength {
 pub const PULL_SPREAD: [f64; 2] = [0.74, 1.08];
 
 impl Strength {
-    /// The moment (A m^2) of a block of `size` (m; along its axis first): `m = Br V / mu0`, with
+    /// The moment (A m^2) of a magnet of `size` (m; along its axis first): `m = Br V / mu0`, with
     /// Br from [`surface_field_share`] where the field at the pole face is what is known.
-    pub fn moment(self, size: [f64; 3]) -> f64 {
-        let volume: f64 = size.iter().product();
+    pub fn moment(self, shape: Shape, size: [f64; 3]) -> f64 {
+        let volume = shape.volume(size);
         match self {
             Self::Moment(moment) => moment,
             Self::Remanence(remanence) => remanence * volume / MU0,
-            Self::SurfaceField(field) => field / surface_field_share(size) * volume / MU0,
+            Self::SurfaceField(field) => field / surface_field_share(shape, size) * volume / MU0,
             Self::Grade(grade) => grade.remanence[1] * volume / MU0,
-            Self::Pull(force) => (force / pull(size, 1.0)).sqrt() * volume / MU0,
+            Self::Pull(force) => (force / pull(shape, size, 1.0)).sqrt() * volume / MU0,
         }
     }
 }
@@ -53,10 +55,15 @@ impl Strength {
 /// B0 / Br = 1/2 - (1/pi) atan(a b / (2 l sqrt(4 l^2 + a^2 + b^2)))
 /// ```
 ///
+/// and a disc of radius R, whose far face fills `2 pi (1 - l / sqrt(l^2 + R^2))`, `l / (2 sqrt(l^2 + R^2))`.
+///
 /// Source: charge model, Furlani, *Permanent Magnet and Electromechanical Devices* (2001),
 /// section 4.2; solid angle of a rectangle, Khadjavi, J. Opt. Soc. Am. 58 (1968) 1417.
 /// Edges: a long bar has 1/2, a thin plate tends to 0 as `(2/pi) l sqrt(1/a^2 + 1/b^2)`.
-pub fn surface_field_share([l, a, b]: [f64; 3]) -> f64 {
+pub fn surface_field_share(shape: Shape, [l, a, b]: [f64; 3]) -> f64 {
+    if shape == Shape::Disc {
+        return l / (2.0 * libm::hypot(l, a / 2.0));
+    }
     // atan(1 / x) = pi/2 - atan(x): no difference of nearly equal numbers for a thin plate.
     libm::atan(2.0 * l * (4.0 * l * l + a * a + b * b).sqrt() / (a * b)) / PI
 }
@@ -74,14 +81,19 @@ pub fn surface_field_share([l, a, b]: [f64; 3]) -> f64 {
 ///           + d (q + p - r - d)],  p = sqrt(a^2 + d^2), q = sqrt(b^2 + d^2), r = sqrt(a^2 + b^2 + d^2)
 /// ```
 ///
-/// where `g(d)` is the integral of d / R^3 over both of two faces d apart, `g(0) = 2 pi a b`.
+/// where `g(d)` is the integral of d / R^3 over both of two faces d apart, `g(0) = 2 pi a b`. Discs have
+/// theirs, and `g(0) = 2 pi` times their area.
 ///
 /// Source: charge model and image, Furlani, *Permanent Magnet and Electromechanical Devices* (2001),
 /// sections 3.4 and 4.2. Edges: a long bar tends to `Br^2 a b / (2 mu0)`; a real plate that is not
 /// saturated draws a few per cent less, for the block's permeability is 1.05.
-pub fn pull(size: [f64; 3], remanence: f64) -> f64 {
+pub fn pull(shape: Shape, size: [f64; 3], remanence: f64) -> f64 {
     let [l, a, b] = size;
-    let faces = 2.0 * PI * a * b - 2.0 * facing(a, b, l) + facing(a, b, 2.0 * l);
+    let facing = |d: f64| match shape {
+        Shape::Block => facing(a, b, d),
+        Shape::Disc => coaxial(a / 2.0, d),
+    };
+    let faces = 2.0 * PI * shape.volume([1.0, a, b]) - 2.0 * facing(l) + facing(2.0 * l);
     remanence * remanence / (4.0 * PI * MU0) * faces
 }
 

@@ -77,6 +77,7 @@ pub fn turned_faces(tile: &Tile, angle: f64) -> Option<Vec<usize>> {
 
 fn same(a: &Magnet, b: &Magnet, scale: f64) -> bool {
     (a.position - b.position).norm() <= TOLERANCE * scale
+        && a.form == b.form
         && wrap_angle(a.angle - b.angle).abs() <= TOLERANCE * TAU
         && (a.moment - b.moment).abs() <= TOLERANCE * a.moment.max(b.moment)
         && (0..3).all(|k| (a.size[k] - b.size[k]).abs() <= TOLERANCE * a.size[k].max(b.size[k]))

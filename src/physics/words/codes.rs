@@ -96,8 +96,8 @@ fn lexicode(places: usize, distance: usize) -> Vec<u64> {
 
 /// The rows of a Hadamard matrix of Paley's kinds, bits for its minus signs; `None` where there is none.
 fn hadamard(n: usize) -> Option<Vec<u64>> {
-    let prime = |q: usize| q > 2 && (2..q).all(|k| q % k > 0);
-    if n < 4 || n > 64 {
+    let prime = |q: usize| q > 2 && (2..q).all(|k| !q.is_multiple_of(k));
+    if !(4..=64).contains(&n) {
         return None;
     }
     let character = |q: usize, k: usize| match k % q {
@@ -115,9 +115,9 @@ fn hadamard(n: usize) -> Option<Vec<u64>> {
         (_, 0) => 1,
         _ => character(q, q + i - j),
     };
-    let entry: Box<dyn Fn(usize, usize) -> i32> = if n % 4 == 0 && prime(n - 1) {
+    let entry: Box<dyn Fn(usize, usize) -> i32> = if n.is_multiple_of(4) && prime(n - 1) {
         Box::new(move |i, j| conference(n - 1, i, j) + i32::from(i == j))
-    } else if n % 4 == 0 && prime((n / 2).saturating_sub(1)) && (n / 2 - 1) % 4 == 1 {
+    } else if n.is_multiple_of(4) && prime((n / 2).saturating_sub(1)) && (n / 2 - 1) % 4 == 1 {
         let q = n / 2 - 1;
         Box::new(move |i, j| {
             let (block, a, b) = (conference(q, i / 2, j / 2), i % 2, j % 2);

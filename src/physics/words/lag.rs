@@ -8,6 +8,8 @@
 //! U(s) = sum_d J(d) c(s + d),    c(l) = sum_k u[k] v'[k + l],    v'[k] = v[places - 1 - k]   (J)
 //! ```
 //!
+//! Standing magnets face nothing; for them a north pole is one that is up.
+//!
 //! For dipoles `J(d) = K / r^3 (3 D^2 / r^2 - 1)` with `r^2 = D^2 + (d pitch)^2` and
 //! `K = mu0 m^2 / 4 pi`; for blocks it is the exact energy.
 
@@ -16,19 +18,21 @@ use nalgebra::Vector2;
 use super::word::MOST_PLACES;
 use crate::configuration::Configuration;
 use crate::order::Order;
-use crate::potential::{CuboidPotential, DipolePotential, Potential};
-use crate::potential::{Interaction, MagnetModel};
+use crate::potential::{Interaction, MagnetModel, interaction};
+use crate::tile::magnet::{Form, Shape, Standing};
 use crate::tile::strength::Strength;
 use crate::tile::{Magnet, Tile};
 
 /// The magnets of a face and how they are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
-    /// Along its axis (the face's normal), along the face, through the tile (m).
+    /// Along the face's normal, along the face, through the tile (m).
     pub size: [f64; 3],
     /// Magnetic moment (A m^2).
     pub moment: f64,
-    /// From the face to the outer pole face (m).
+    /// Its shape, and whether it stands.
+    pub form: Form,
+    /// From the face to the magnet (m).
     pub inset: f64,
     /// From place to place (m).
     pub pitch: f64,
@@ -45,20 +49,22 @@ impl Bar {
         let size = [0.010, 0.010, 0.003];
         Self {
             size,
-            moment: Strength::Remanence(1.2).moment(size),
+            moment: Strength::Remanence(1.2).moment(Shape::Block, size),
+            form: Form::default(),
             inset: 0.0,
             pitch: 0.040,
             model: MagnetModel::Dipole,
         }
     }
 
-    /// A magnet at the origin whose moment has the direction `angle` (rad).
+    /// A magnet at the origin with its north pole, or what is outwards, in the direction `angle` (rad).
     fn magnet(&self, angle: f64) -> Magnet {
         Magnet {
             position: Vector2::zeros(),
             angle,
             moment: self.moment,
             size: self.size,
+            form: self.form,
             face: 0,
         }
     }
@@ -77,10 +83,7 @@ impl Lags {
     /// Of real magnets, for words of so many places.
     pub fn new(bar: &Bar, places: usize) -> Self {
         let (first, second) = ([bar.magnet(0.0)], [bar.magnet(std::f64::consts::PI)]);
-        let potential: Box<dyn Potential> = match bar.model {
-            MagnetModel::Dipole => Box::new(DipolePotential::new(&first, &second)),
-            MagnetModel::Cuboid => Box::new(CuboidPotential::new(&first, &second)),
-        };
+        let potential = interaction::bare(bar.model, &first, &second);
         let apart = bar.size[0] + 2.0 * bar.inset;
         let energy = |d| potential.energy(&Configuration::new(apart, d as f64 * bar.pitch, 0.0));
         Self::of((0..2 * places - 1).map(energy).collect())
@@ -242,6 +245,7 @@ impl Bar {
             let depth = -(magnet.position - tile.faces[face].middle()).dot(&normal);
             Ok(Self {
                 size: magnet.size,
+                form: north(magnet.form),
                 moment: magnet.moment,
                 inset: depth - magnet.size[0] / 2.0,
                 pitch,
@@ -254,7 +258,8 @@ impl Bar {
         let first = bar(magnets.next().ok_or(BarError::None)?)?;
         for magnet in magnets {
             let other = bar(magnet)?;
-            let same = other.size == first.size
+            let same = (other.size, other.form.shape) == (first.size, first.form.shape)
+                && other.form.stands.is_some() == first.form.stands.is_some()
                 && other.moment == first.moment
                 && (other.inset - first.inset).abs() < 1e-9;
             if !same {
@@ -271,5 +276,13 @@ impl Bar {
             true => Ok(Self { inset, ..first }),
             false => Err(BarError::Differ),
         }
+    }
+}
+
+/// A form with the north pole up, if it stands.
+fn north(form: Form) -> Form {
+    Form {
+        stands: form.stands.map(|_| Standing::Up),
+        ..form
     }
 }

@@ -54,7 +54,9 @@ impl Word {
             let here = text.bytes().enumerate().filter(|(_, c)| *c == pole);
             here.fold(0, |set, (k, _)| set | 1 << k)
         };
-        Ok(Self::new(set(b'N'), set(b'S'), places))
+        let [north, south] =
+            [[b'N', b'U'], [b'S', b'D']].map(|poles| set(poles[0]) | set(poles[1]));
+        Ok(Self::new(north, south, places))
     }
 
     /// How many places it has, empty ones included.

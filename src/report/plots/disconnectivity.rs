@@ -121,7 +121,8 @@ fn panel<'a>(scene: &'a Scene, kinds: Vec<Kind<'a>>, scale: EnergyScale) -> Pane
 pub fn on_page(scene: &Scene, scale: EnergyScale) -> Option<String> {
     let mut kinds = scene.kinds();
     kinds.truncate(MOST_ON_PAGE);
-    let width = MARGIN[1] + MARGIN[3] + LEAF * (kinds.len() + 1) as f64;
+    // A browser's letters may be wider.
+    let width = MARGIN[1] + MARGIN[3] + 1.15 * LEAF * (kinds.len() + 1) as f64;
     let graph = Composition {
         width: width.max(560.0),
         panels: vec![panel(scene, kinds, scale)],

@@ -24,7 +24,7 @@ const MARGIN: f64 = 40.0;
 /// Height of a line of text (pixels).
 const LINE: f64 = 22.0;
 /// What the letters at the magnets are.
-const KEY: &str = "letters: the pole that each magnet turns outwards";
+const KEY: &str = "letters: the pole that each magnet turns outwards; U, D: north pole up, down";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
@@ -116,7 +116,11 @@ fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
             view.pixel(q.transform(p - face.normal() * (pixels / view.scale)))
         };
         for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
-            let colour = if *letter == 'N' { VERMILLION } else { BLUE };
+            let colour = if "NU".contains(*letter) {
+                VERMILLION
+            } else {
+                BLUE
+            };
             let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
             let text = SMALL.bold().colour(colour);
             canvas.write(text, &letter.to_string(), at, Anchor::Middle);

@@ -7,6 +7,7 @@ use super::canvas::{Box4, Canvas, Pixel, around, middle};
 use super::style::{Anchor, BLUE, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION, YELLOW};
 use physics::configuration::Configuration;
 use physics::landscape::StateKind;
+use physics::tile::magnet::Standing;
 use physics::tile::{Magnet, Pair, Tile};
 
 /// Where the fixed tile lies.
@@ -119,6 +120,28 @@ impl View {
             let local = magnet.position + axis * (a * half_length) + across * (b * half_width);
             self.pixel(q.transform(local))
         };
+        if let Some(stands) = magnet.form.stands {
+            let (colour, letter) = match stands {
+                Standing::Up => (VERMILLION, "U"),
+                Standing::Down => (BLUE, "D"),
+            };
+            let shown = Magnet {
+                size: magnet.size.map(|side| side.max(least)),
+                ..magnet.clone()
+            };
+            let rim: Vec<_> = shown
+                .outline()
+                .iter()
+                .map(|p| self.pixel(q.transform(*p)))
+                .collect();
+            canvas.area(&rim, colour);
+            let size = (half_width * self.scale * 1.2).min(14.0);
+            if size >= 9.0 {
+                let font = Text::of(size).bold().colour(WHITE);
+                canvas.write(font, letter, corner(0.0, 0.0), Anchor::Middle);
+            }
+            return;
+        }
         for (pole, colour, letter) in [(1.0, VERMILLION, "N"), (-1.0, BLUE, "S")] {
             let block = [(0.0, -1.0), (pole, -1.0), (pole, 1.0), (0.0, 1.0)];
             canvas.area(&block.map(|(a, b)| corner(a, b)), colour);

@@ -8,9 +8,10 @@
 //! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
 //!   linear scale.
 //!
-//! A picture is a composition of panels, laid out for a [`Sheet`]. Panels are drawn on a canvas, which
-//! is written as SVG, as pixels (by tiny-skia) and as PDF (by pdf-writer), with a font that is part of
-//! the program, so that no form depends on what is installed.
+//! A picture is a composition of panels, laid out for a [`Sheet`]. Panels are drawn by plotters: its
+//! elements, charts and series, on a backend that keeps the shapes. These are then written as SVG (by
+//! plotters), as pixels (by tiny-skia) and as PDF (by pdf-writer), with a font that is part of the
+//! program, so that no form depends on what is installed.
 
 mod approach;
 pub(crate) mod axes;

@@ -58,6 +58,7 @@ fn tile(numbers: &mut Numbers, side: f64) -> Tile {
             angle,
             moment: 0.1 + 0.3 * numbers.next().abs(),
             size,
+            form: Default::default(),
             face: 0,
         }
     });

@@ -24,6 +24,7 @@ fn tab_in_slot(undercut: f64, play: f64) -> Scene {
                 angle: 0.0,
                 moment: 0.28,
                 size: [0.01, 0.01, 0.003],
+                form: Default::default(),
                 face: 0,
             })
             .to_vec(),

@@ -150,6 +150,7 @@ fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
             angle: random() * 31.0,
             moment: 0.15 + random(),
             size: [0.004, 0.004, 0.004],
+            form: Default::default(),
             face: 0,
         });
     }

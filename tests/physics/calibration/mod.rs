@@ -41,6 +41,7 @@ fn tile(pole: f64) -> Tile {
             angle: face as f64 * FRAC_PI_2 + if pole > 0.0 { 0.0 } else { PI },
             moment: 0.3,
             size: [0.010, 0.010, 0.003],
+            form: Default::default(),
             face,
         })
         .collect();

@@ -1,6 +1,7 @@
 //! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
 
 mod cases;
+mod discs;
 mod drawing_faults;
 mod drawings;
 mod excess;
@@ -103,7 +104,7 @@ fn the_paper_s_tile_is_what_its_file_says() {
         (design.name.as_str(), design.sha256.as_str()),
         (
             "flat-nnns",
-            "b80ed904c0b0071175466d563911a5e45a26fd2839b260d3301619e08fe29354"
+            "5d8d9d7286d8f6babba4ed4fc3e3c3335169737d415281edf1f10a2df714d4fa"
         )
     );
     assert_eq!(design.pair.bound, Configuration::new(0.43, 0.0, 0.0));
@@ -175,7 +176,11 @@ fn magnets_are_read_as_shops_sell_them() {
         let found = of(tile, face).remanence();
         assert!((found - remanence).abs() < 1e-12, "{face}: {found}");
     }
-    let pulls = tilebind::tile::strength::pull(east.size, of(fixed, "north").remanence());
+    let pulls = tilebind::tile::strength::pull(
+        Default::default(),
+        east.size,
+        of(fixed, "north").remanence(),
+    );
     assert!((pulls / (5.0 * 9.806_65) - 1.0).abs() < 1e-12);
     assert!((design.pitch.unwrap() - 0.0381).abs() < 1e-15);
     assert!((fixed.mass - 0.113_398_092_5).abs() < 1e-12 && moving.mass == 0.11);

@@ -10,8 +10,10 @@ use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{
-    CellBounds, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential, dipole,
+    BodyPotential, CellBounds, CuboidPotential, DipolePotential, MagnetModel, Potential,
+    ShieldedPotential, dipole,
 };
+use tilebind::tile::magnet::{Form, Shape, Standing};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
 use tilebind::units::{MU0, MU0_OVER_4PI};
 
@@ -96,6 +98,7 @@ pub fn all() -> Vec<Kind> {
     ];
     all.extend(many.map(many_dipoles));
     all.push(odd_blocks());
+    all.extend([MagnetModel::Dipole, MagnetModel::Cuboid].map(bodies));
     for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
         all.push(shielded(model, ShieldRule::Smooth));
         all.push(shielded(model, ShieldRule::NearestFace));
@@ -162,6 +165,7 @@ fn few_dipoles((n, m): (usize, usize)) -> Kind {
             angle: rng.random_range(-PI..PI),
             moment: rng.random_range(0.1..1.0),
             size: [1e-3; 3],
+            form: Default::default(),
             face: k % 4,
         };
         square(0.31, (0..count).map(&mut magnet).collect())
@@ -220,6 +224,7 @@ fn many_dipoles((faces, each, wave, alike): (usize, usize, f64, bool)) -> Kind {
                 angle: if out { angle } else { angle + PI },
                 moment: 0.01,
                 size: [1e-3; 3],
+                form: Default::default(),
                 face: face % 4,
             }
         };
@@ -269,6 +274,7 @@ pub fn magnet(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Magnet {
         angle,
         moment: 1.2 * size.iter().product::<f64>() / MU0,
         size,
+        form: Default::default(),
         face: 0,
     }
 }
@@ -316,6 +322,71 @@ pub fn odd_blocks() -> Kind {
     }
 }
 
+/// Lying and standing discs and blocks in either tile, from touching to far away.
+fn bodies(model: MagnetModel) -> Kind {
+    let standing = |stands, shape| Form { shape, stands };
+    let [up, down] = [Some(Standing::Up), Some(Standing::Down)];
+    let forms = [
+        (standing(None, Shape::Disc), [0.006, 0.010, 0.010]),
+        (standing(up, Shape::Disc), [0.008, 0.008, 0.004]),
+        (standing(down, Shape::Block), [0.006, 0.009, 0.005]),
+        (standing(None, Shape::Block), [0.010, 0.012, 0.003]),
+    ];
+    let tile = |places: [[f64; 3]; 4], shift: usize| {
+        let magnets = places.iter().enumerate().map(|(k, [x, y, angle])| {
+            let (form, size) = forms[(k + shift) % 4];
+            Magnet {
+                form,
+                moment: 1.2 * form.shape.volume(size) / MU0,
+                ..magnet(*x, *y, *angle, size)
+            }
+        });
+        square(0.03, magnets.collect())
+    };
+    let fixed = [
+        [0.020, 0.010, 0.1],
+        [0.020, -0.010, 3.2],
+        [-0.015, 0.012, 1.7],
+        [-0.015, -0.012, 0.4],
+    ];
+    let moving = [
+        [-0.020, 0.011, 0.2],
+        [-0.019, -0.012, 2.9],
+        [0.014, 0.011, 0.0],
+        [0.012, -0.013, 1.0],
+    ];
+    let pose = |i: i32| {
+        let t = f64::from(i);
+        let distance = 0.0585 * 1.06f64.powi(i);
+        Configuration::new(distance, 0.01 * (1.3 * t).sin(), 0.3 * (0.7 * t).cos())
+    };
+    let energy: Make<dyn Potential> = match model {
+        MagnetModel::Dipole => |[a, b], _, _| {
+            Box::new(BodyPotential::new(
+                MagnetModel::Dipole,
+                &a.magnets,
+                &b.magnets,
+            ))
+        },
+        MagnetModel::Cuboid => |[a, b], _, _| {
+            Box::new(BodyPotential::new(
+                MagnetModel::Cuboid,
+                &a.magnets,
+                &b.magnets,
+            ))
+        },
+    };
+    Kind {
+        name: format!("lying and standing magnets as {}", model.name()),
+        tiles: [tile(fixed, 0), tile(moving, 1)],
+        energy,
+        bounds: None,
+        poses: (0..30).map(pose).collect(),
+        anywhere: Vec::new(),
+        ..odd_blocks()
+    }
+}
+
 /// A square of 0.2 m with two magnets on each face.
 pub fn shielded_tile(code: [f64; 2]) -> Tile {
     let mut tile = square(0.1, Vec::new());
@@ -330,6 +401,7 @@ pub fn shielded_tile(code: [f64; 2]) -> Tile {
             },
             moment: 0.3,
             size: [0.010, 0.010, 0.003],
+            form: Default::default(),
             face,
         }));
     }
@@ -396,6 +468,7 @@ fn odd_shields(seed: u64) -> Kind {
             angle: rng.random_range(-PI..PI),
             moment: 0.3,
             size: [1e-3; 3],
+            form: Default::default(),
             face: k % 4,
         };
         square(0.06, (0..count).map(&mut magnet).collect())

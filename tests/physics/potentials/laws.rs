@@ -21,7 +21,7 @@ struct Worst(f64, String);
 impl Worst {
     fn see(&mut self, off: f64, allowed: f64, at: &Configuration) {
         let share = off / allowed;
-        if off != 0.0 && !(share <= self.0) {
+        if off != 0.0 && (share > self.0 || share.is_nan()) {
             *self = Self(share, format!("{at:?}: {off:e} of {allowed:e}"));
         }
     }

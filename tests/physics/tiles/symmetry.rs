@@ -22,6 +22,7 @@ fn tile(magnets: &[(usize, f64)]) -> Tile {
                     angle: wrap_angle(normal + if moment < 0.0 { PI } else { 0.0 }),
                     moment: moment.abs(),
                     size: [0.1, 0.1, 0.1],
+                    form: Default::default(),
                     face,
                 }
             })

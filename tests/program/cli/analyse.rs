@@ -329,7 +329,7 @@ fn tables_pictures_and_the_summary() {
         "-65.47 mJ",
         "trap",
         "selectivity",
-        "dipoles are off by up to",
+        "dipoles are off by",
     ] {
         assert!(summary.contains(said), "{said:?} in\n{summary}");
     }

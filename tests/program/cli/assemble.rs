@@ -226,11 +226,8 @@ fn a_letter_is_the_same_word_in_every_file() {
         .map(str::to_owned)
         .collect();
     codes.reverse();
-    let mate = |code: &str| -> String {
-        let other = |c: char| if c == 'N' { 'S' } else { 'N' };
-        code.chars().rev().map(other).collect()
-    };
-    codes[3] = mate(&codes[3]);
+    let other = |c: char| if c == 'N' { 'S' } else { 'N' };
+    codes[3] = codes[3].chars().rev().map(other).collect();
     codes.insert(5, "NNNNNNNN".to_owned());
     let set = folder.path().join("set.toml");
     let list = codes.join("\", \"");

@@ -73,7 +73,7 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<
     let mut chain: Vec<Vector2<f64>> = Vec::new();
     for p in points {
         while let [.., a, b] = chain[..] {
-            if (b - a).perp(&(p - a)) > 1e-15 {
+            if (b - a).perp(&(p - a)) > 1e-12 * (b - a).norm() * (p - a).norm() {
                 break;
             }
             chain.pop();

@@ -18,6 +18,8 @@ use crate::roadmap::{Point, edge};
 /// Milestones are added within this much (m, metric of the space) of where ways meet, at least and at
 /// most.
 const RADII: [f64; 2] = [2e-3, 0.03];
+/// The same around states, each (m).
+const AROUND_STATES: [f64; 3] = [1e-3, 1e-2, 3e-2];
 
 impl Exploration<'_> {
     /// Joins a state's node to the network by milestones around it, where none of its copies is
@@ -34,7 +36,7 @@ impl Exploration<'_> {
         if self.problem.is_dear() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
             return;
         }
-        for radius in [1e-3, 1e-2, 3e-2] {
+        for radius in AROUND_STATES.map(|radius| self.problem.scaled(radius)) {
             let place = Place {
                 centre,
                 radius,

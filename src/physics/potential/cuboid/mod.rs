@@ -32,9 +32,9 @@ mod cloud;
 pub(in crate::potential) mod correction;
 mod far;
 pub mod limits;
-mod multipole;
+pub(in crate::potential) mod multipole;
 mod panel;
-pub(in crate::potential) mod quadrature;
+pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;
 
 mod sum;

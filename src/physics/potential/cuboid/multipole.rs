@@ -42,9 +42,9 @@ pub const TERMS: usize = 8;
 const BOUND_TERMS: usize = 16;
 
 /// A homogeneous real polynomial in P and Q; entry m is the coefficient of P^m Q^(degree-m).
-type Form = Vec<f64>;
+pub type Form = Vec<f64>;
 
-fn product(a: &[f64], b: &[f64]) -> Form {
+pub fn product(a: &[f64], b: &[f64]) -> Form {
     let mut out = vec![0.0; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
@@ -88,7 +88,7 @@ fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
 }
 
 /// The rising factorial (1/2)_n.
-fn rising_half(n: usize) -> f64 {
+pub fn rising_half(n: usize) -> f64 {
     (0..n).map(|i| i as f64 + 0.5).product()
 }
 

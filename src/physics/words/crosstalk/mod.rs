@@ -189,12 +189,9 @@ impl Stage {
             let magnets = tile.magnets.iter().enumerate();
             tile.magnets = magnets
                 .filter(|(k, _)| word.at(*k) != 0)
-                .map(|(k, magnet)| Magnet {
-                    angle: match word.at(k) {
-                        1 => magnet.angle,
-                        _ => wrap_angle(magnet.angle + std::f64::consts::PI),
-                    },
-                    ..magnet.clone()
+                .map(|(k, magnet)| match word.at(k) {
+                    1 => magnet.clone(),
+                    _ => magnet.reversed(),
                 })
                 .collect();
         }

@@ -42,6 +42,7 @@ fn one_block(size: [f64; 3]) -> Tile {
         angle: 0.0,
         moment: 0.3,
         size,
+        form: Default::default(),
         face: 0,
     };
     square(0.215, vec![magnet])

@@ -51,8 +51,10 @@ struct Enclosed {
     width: f64,
     /// Cells that shrink: the middle, the shape, two sizes, and the least and the greatest ratio of
     /// their widths.
-    shrinking: Vec<([f64; 3], [f64; 3], [f64; 2], [f64; 2])>,
+    shrinking: Vec<Shrinking>,
 }
+
+type Shrinking = ([f64; 3], [f64; 3], [f64; 2], [f64; 2]);
 
 fn all() -> Vec<Enclosed> {
     let paper = || ["NNNS", "NSSS"].map(paper_tile);

@@ -1,0 +1,21 @@
+//! Magnets as design files have them.
+
+use physics::tile::magnet::{Form, Shape};
+
+/// The lines of `[magnet]` that say what a magnet is: of a form, and of a size (m) as tiles have it.
+pub fn magnet(form: Form, [a, b, c]: [f64; 3]) -> String {
+    let [height, width, depth] = match form.stands {
+        Some(_) => [c, b, a],
+        None => [a, b, c],
+    };
+    let size = match form.shape {
+        Shape::Block => format!("size = [{height:?}, {width:?}, {depth:?}]\n"),
+        Shape::Disc => {
+            format!("shape = \"disc\"\ndiameter = {width:?}\nheight = {height:?}\n")
+        }
+    };
+    match form.stands {
+        Some(_) => size + "axis = \"up\"\n",
+        None => size,
+    }
+}

@@ -1,0 +1,120 @@
+//! Charged faces of magnets, and the integral of `1 / r` over two of them.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::complex::{C, sqrt};
+
+/// A uniformly charged face.
+#[derive(Clone, Copy, Debug)]
+pub struct Face {
+    /// Its middle (m).
+    pub centre: Vector3<f64>,
+    /// Unit vectors along its sides, and normal to it.
+    pub frame: [Vector3<f64>; 3],
+    /// Its shape.
+    pub shape: Shape,
+}
+
+/// The shape of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// With its radius (m).
+    Disc(f64),
+    /// With half its sides (m).
+    Rectangle([f64; 2]),
+}
+
+/// The integral of `1 / r` over two faces (m^3), its gradient by the second one's middle in the tiles' plane
+/// (m^2), and its derivative by the second one's angle about its own middle (m^3).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Integral {
+    pub value: f64,
+    pub gradient: Vector2<f64>,
+    pub slope: f64,
+}
+
+/// What is a quarter turn from a unit vector, and it.
+fn sides(along: Vector2<f64>) -> [Vector2<f64>; 2] {
+    [Vector2::new(-along.y, along.x), along]
+}
+
+impl Face {
+    /// An upright face with its normal along a unit vector in the tiles' plane.
+    pub fn upright(centre: Vector2<f64>, normal: Vector2<f64>, shape: Shape) -> Self {
+        let [across, normal] = sides(normal).map(|side| side.push(0.0));
+        Self {
+            centre: Vector3::new(centre.x, centre.y, 0.0),
+            frame: [across, Vector3::z(), normal],
+            shape,
+        }
+    }
+
+    /// A flat face at a height (m) over the tiles' middle plane, its first side along a unit vector.
+    pub fn flat(centre: Vector2<f64>, along: Vector2<f64>, height: f64, shape: Shape) -> Self {
+        let [across, along] = sides(along).map(|side| side.push(0.0));
+        Self {
+            centre: Vector3::new(centre.x, centre.y, height),
+            frame: [along, across, Vector3::z()],
+            shape,
+        }
+    }
+
+    /// The integral of `1 / r` over the face (m) at a place from its middle (m), and its gradient.
+    pub fn potential(&self, place: [C; 3]) -> (C, [C; 3]) {
+        let local = self
+            .frame
+            .map(|side| place[0] * side.x + place[1] * side.y + place[2] * side.z);
+        let (value, slopes) = match self.shape {
+            Shape::Rectangle(halves) => super::rectangle::potential(halves, local),
+            Shape::Disc(radius) => {
+                let [x, y, h] = local;
+                let s = sqrt(x * x + y * y);
+                let (value, [outwards, upwards]) = super::disc::potential(radius, s, h);
+                let share = if s == C::default() { s } else { outwards / s };
+                (value, [x * share, y * share, upwards])
+            }
+        };
+        let [a, b, c] = self.frame;
+        (
+            value,
+            [0, 1, 2].map(|k| slopes[0] * a[k] + slopes[1] * b[k] + slopes[2] * c[k]),
+        )
+    }
+
+    /// Where its potential along an upright or flat line through `from`, at imaginary heights, is
+    /// singular: points of its rim.
+    pub fn corners(&self, from: Vector3<f64>) -> Vec<Vector3<f64>> {
+        let [a, b, normal] = self.frame;
+        let way = from - self.centre;
+        match self.shape {
+            Shape::Disc(radius) => {
+                let aside = way - normal * way.dot(&normal);
+                let length = aside.norm();
+                // In the plane of its axis and the other one.
+                let along = if length > 1e-9 * radius {
+                    aside / length
+                } else {
+                    normal.cross(&Vector3::z())
+                };
+                let along = if along.norm_squared() < 0.5 { a } else { along };
+
+                [-1.0, 1.0]
+                    .map(|side| self.centre + along * (side * radius))
+                    .to_vec()
+            }
+            Shape::Rectangle([half, width]) => {
+                let mut points = Vec::new();
+                for (sides, halves) in [([a, b], [half, width]), ([b, a], [width, half])] {
+                    let foot = way.dot(&sides[0]).clamp(-halves[0], halves[0]);
+                    for side in [-1.0, 1.0] {
+                        let edge = self.centre + sides[1] * (side * halves[1]);
+                        points.extend(
+                            [-halves[0], foot, halves[0]].map(|place| edge + sides[0] * place),
+                        );
+                    }
+                }
+                points
+            }
+        }
+    }
+}

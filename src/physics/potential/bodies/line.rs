@@ -1,0 +1,104 @@
+//! A disc and any other face: the other one's potential along the disc's axis, at imaginary heights.
+//!
+//! Outside, a charged disc of radius R is a line of charge along its axis at imaginary heights: the
+//! integral of `1 / r` over it is, with c its centre and n its normal,
+//!
+//! ```text
+//! V(x) = 2 int_-R^R sqrt(R^2 - t^2) / |x - c - i t n| dt,      |z| = sqrt(z.z), its real part positive
+//! ```
+//!
+//! (on the axis both sides are `2 pi (sqrt(R^2 + h^2) - h)`, and a harmonic function that is symmetric
+//! about an axis is known from its values there). So the integral over the disc and a face with the
+//! potential V2 is `2 int sqrt(R^2 - t^2) V2(c + i t n) dt`.
+//!
+//! The square root has no branch point on the way: for two upright discs `d + i v`, `d = c2 - c1` and
+//! `v = t2 n2 - t1 n1`, has `z.z` real and not positive only if v is normal to d and no shorter; v
+//! turned by a right angle, `t2 tau2 - t1 tau1`, is then d or longer, and the discs, whose traces in the
+//! plane run along tau1 and tau2, meet. With other faces in place of the second, too, the complex distance
+//! of any of their points from the line vanishes only at the disc.
+//!
+//! V2 is singular where `c + i t n` meets a point of the other face's rim, at `t = l + i y`, `l - i y` and
+//! their negatives, l that point's distance from the axis and y its height. In `t = R cos phi` the
+//! integrand is smooth and periodic, and equal steps of phi find the integral with an error that
+//! falls like `rho^(-2 n)`, rho the sum of the half axes of the ellipse about [-1, 1] through the
+//! singular place. Where rho is near 1 phi is cut into panels that shrink towards that place.
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
+
+use super::complex::C;
+use super::face::{Face, Integral};
+use super::panels::panels;
+
+/// About what share of the integral is lost.
+const LOST: f64 = 1e-15;
+/// The fewest equal steps, and the most: with more of them panels take fewer nodes.
+const STEPS: [f64; 2] = [4.0, 36.0];
+/// The integral of a disc and another face, with the derivatives of the disc's motion or the other's.
+pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Integral {
+    let normal = disc.frame[2];
+    let from = disc.centre - other.centre;
+    let mut sum = Integral::default();
+    for (phi, weight) in angles(disc, radius, other) {
+        let (sin, cos) = libm::sincos(phi);
+        let (t, weight) = (radius * cos, 2.0 * weight * (radius * sin).powi(2));
+        let place = [0, 1, 2].map(|k| C::new(from[k], t * normal[k]));
+        let (value, gradient) = other.potential(place);
+        sum.value += weight * value.re;
+        let sign = if disc_moves { weight } else { -weight };
+        sum.gradient += Vector2::new(gradient[0].re, gradient[1].re) * sign;
+        // A turn of the other face is one of the place about it, back; one of the disc turns its axis.
+        let turned = if disc_moves {
+            C::i() * t * (gradient[1] * normal.x - gradient[0] * normal.y)
+        } else {
+            gradient[0] * place[1] - gradient[1] * place[0]
+        };
+        sum.slope += weight * turned.re;
+    }
+    sum
+}
+
+/// Angles phi (rad) in [0, pi / 2] and their weights: what is at `pi - phi` is the same, conjugate.
+fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
+    let normal = disc.frame[2];
+    let corners = other.corners(disc.centre);
+    let singular: Vec<C> = corners
+        .iter()
+        .map(|point| {
+            let way = point - disc.centre;
+            let height = way.dot(&normal);
+            let aside = (way - normal * height).norm();
+            arccosine(C::new(aside, height.abs()) / radius)
+        })
+        .collect();
+    // ln rho is the imaginary part of the angle of the singular place.
+    let ln_rho = singular
+        .iter()
+        .map(|place| place.im)
+        .fold(f64::INFINITY, f64::min);
+    let steps = (-libm::log(LOST) / (2.0 * ln_rho)).ceil().max(STEPS[0]);
+    let mut found = Vec::new();
+    if steps <= STEPS[1] {
+        // Equal steps from 0 to pi; the one in the middle is its own image.
+        let step = PI / steps;
+        for k in 1..=steps as usize / 2 {
+            let own = 2 * k == steps as usize;
+            found.push((k as f64 * step, if own { step } else { 2.0 * step }));
+        }
+    } else {
+        panels([0.0, PI / 2.0], &singular, 1e-5, &mut |phi, weight| {
+            found.push((phi, 2.0 * weight))
+        });
+    }
+    found
+}
+
+/// The angle whose cosine a place in the first quadrant is, with its imaginary part positive:
+/// `cos(a + i b) = cos a cosh b - i sin a sinh b`.
+fn arccosine(z: C) -> C {
+    let [near, far] = [z - 1.0, z + 1.0].map(|d| d.norm_sqr().sqrt());
+    let cosh = ((near + far) / 2.0).max(1.0);
+    let sinh = ((cosh - 1.0) * (cosh + 1.0)).sqrt();
+    C::new(libm::acos((z.re / cosh).min(1.0)), libm::log(cosh + sinh))
+}

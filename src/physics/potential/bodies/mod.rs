@@ -1,0 +1,361 @@
+//! Magnets of any form: discs, and what stands on its pole, beside lying blocks.
+//!
+//! Uniformly magnetised along its axis a magnet is two charged faces, of charge density m / V (A/m, the
+//! moment over the volume), and the energy of two magnets the Coulomb energy of the four pairs of
+//! faces:
+//!
+//! ```text
+//! U = mu0 / (4 pi)  (m1 / V1) (m2 / V2)  sum of +- int int 1 / r dA1 dA2         (J)
+//! ```
+//!
+//! Faces are discs or rectangles, upright (the axis lies in the tiles' plane) or flat (it stands on it):
+//!
+//! | faces | integral | by |
+//! |---|---|---|
+//! | a disc and any | the other's potential along the disc's axis, at imaginary heights | [`line`] |
+//! | two flat rectangles | over both boundaries | [`edges`] |
+//! | two upright rectangles | closed forms in lanes | [`super::cuboid`] |
+//! | an upright and a flat one | none: flat faces come in pairs, north and south, at the same distance over and under the tiles' middle plane, which an upright one sees alike | |
+//!
+//! From some three sizes of the magnets on the multipole series takes over ([`series`]), with a bound of
+//! 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the terms left out. Point dipoles of which any stands are
+//! the first term of it, at every distance.
+//!
+//! Bounds of derivatives are those of [`limits`]; over whole cells none are known.
+
+mod complex;
+mod disc;
+mod edges;
+mod elliptic;
+mod face;
+mod limits;
+mod line;
+mod near;
+mod panels;
+mod rectangle;
+mod series;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::{Complex, Vector2, Vector3};
+
+use super::lever::Lever;
+use super::{MagnetModel, Potential, finite, motion};
+use crate::configuration::Configuration;
+use crate::tile::Magnet;
+use crate::tile::magnet::{Form, Shape};
+use crate::units::MU0_OVER_4PI;
+use limits::Limits;
+use series::{Coefficients, Series};
+
+pub use near::{coaxial, exact};
+
+/// The share of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series takes over from the faces, and
+/// at which it drops its terms one after the other.
+const HAND_OVER: f64 = 1e-9;
+
+/// A magnet in whatever frame is in use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Its middle (m).
+    pub position: Vector2<f64>,
+    /// The direction of the first of its sizes: of its axis, if it lies.
+    pub direction: Vector2<f64>,
+    /// Its moment (A m^2); of one that stands, upwards.
+    pub moment: f64,
+    /// Its sizes (m), see [`Magnet::size`].
+    pub size: [f64; 3],
+    /// Its shape, and whether it stands.
+    pub shape: Shape,
+    /// Whether its axis is normal to the tiles' plane.
+    pub stands: bool,
+}
+
+impl From<&Magnet> for Body {
+    fn from(magnet: &Magnet) -> Self {
+        let (sin, cos) = libm::sincos(magnet.angle);
+        let Form { shape, stands } = magnet.form;
+        Self {
+            position: magnet.position,
+            direction: Vector2::new(cos, sin),
+            moment: magnet.moment * stands.map_or(1.0, |up| up.sign()),
+            size: magnet.size,
+            shape,
+            stands: stands.is_some(),
+        }
+    }
+}
+
+impl Body {
+    /// The body moved by a rotation (cos, sin) and a shift.
+    fn moved(&self, [cos, sin]: [f64; 2], shift: Vector2<f64>) -> Self {
+        let turn = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+        Self {
+            position: turn(self.position) + shift,
+            direction: turn(self.direction),
+            ..*self
+        }
+    }
+
+    /// The radius (m) of the circle about it in the tiles' plane.
+    fn radius(&self) -> f64 {
+        match (self.shape, self.stands) {
+            (Shape::Disc, true) => self.size[0] / 2.0,
+            _ => libm::hypot(self.size[0], self.size[1]) / 2.0,
+        }
+    }
+
+    /// Its volume (m^3).
+    fn volume(&self) -> f64 {
+        self.shape.volume(self.size)
+    }
+
+    /// Whether it differs from another one in nothing but place, direction and moment.
+    fn is_like(&self, other: &Self) -> bool {
+        (self.size, self.shape, self.stands) == (other.size, other.shape, other.stands)
+    }
+}
+
+/// The interaction energy of two sets of magnets of any form, one in each tile.
+#[derive(Clone, Debug)]
+pub struct BodyPotential {
+    fixed: Vec<Group>,
+    moving: Vec<Group>,
+    /// For each group of the fixed tile and each of the moving one; `None` where one lies and the other
+    /// stands.
+    pairs: Vec<Vec<Option<Pairs>>>,
+    lever: Lever,
+    feature: f64,
+}
+
+/// Magnets that differ in place and moment alone.
+#[derive(Clone, Debug)]
+struct Group {
+    /// With the moment 1 A m^2, at the origin.
+    like: Body,
+    /// Places (m) and moments (A m^2).
+    members: Vec<(Vector2<f64>, f64)>,
+}
+
+/// What the pairs of two groups have in common.
+#[derive(Clone, Debug)]
+struct Pairs {
+    series: Series,
+    /// The squared distances (m^2) from which on 1, 2 .. terms are enough.
+    squares: Vec<f64>,
+    /// For moments of 1 A m^2; `None` for point dipoles.
+    limits: Option<Limits>,
+}
+
+/// The sum over pairs (J), its gradient by the second tile's place (J/m) and turn (J/rad).
+type Sum = (f64, Vector3<f64>);
+
+fn groups(magnets: &[Magnet]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for body in magnets.iter().map(Body::from) {
+        let is_like = |group: &&mut Group| {
+            group.like.is_like(&body) && group.like.direction == body.direction
+        };
+        let member = (body.position, body.moment);
+        match groups.iter_mut().find(is_like) {
+            Some(group) => group.members.push(member),
+            None => groups.push(Group {
+                like: Body {
+                    position: Vector2::zeros(),
+                    moment: 1.0,
+                    ..body
+                },
+                members: vec![member],
+            }),
+        }
+    }
+    groups
+}
+
+impl Pairs {
+    fn new(model: MagnetModel, first: &Body, second: &Body) -> Option<Self> {
+        if first.stands != second.stands {
+            return None;
+        }
+        let series = Series::new(first, second);
+        let (squares, limits) = match model {
+            MagnetModel::Dipole => (vec![0.0], None),
+            MagnetModel::Cuboid => (
+                (1..=series::TERMS)
+                    .map(|terms| series.radius(terms, HAND_OVER).powi(2))
+                    .collect(),
+                Some(Limits::new(first, second)),
+            ),
+        };
+        Some(Self {
+            series,
+            squares,
+            limits,
+        })
+    }
+
+    /// How many terms are enough at a squared distance (m^2); `None` where the faces are summed.
+    fn terms(&self, square: f64) -> Option<usize> {
+        let enough = self.squares.iter().position(|from| square >= *from);
+        enough.map(|k| k + 1)
+    }
+}
+
+impl BodyPotential {
+    /// Of two tiles' magnets.
+    pub fn new(model: MagnetModel, fixed: &[Magnet], moving: &[Magnet]) -> Self {
+        let lever = Lever::of(moving.iter().flat_map(Magnet::corners));
+        let all = fixed.iter().chain(moving);
+        let sides = all.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
+        let feature = sides.fold(f64::INFINITY, f64::min) / 2.0;
+        let (fixed, moving) = (groups(fixed), groups(moving));
+        let of = |first: &Group| {
+            let pairs = |second: &Group| Pairs::new(model, &first.like, &second.like);
+            moving.iter().map(pairs).collect()
+        };
+        Self {
+            pairs: fixed.iter().map(of).collect(),
+            fixed,
+            moving,
+            lever,
+            feature,
+        }
+    }
+
+    /// Calls `each` with what all pairs of groups of which none lies while the other stands have in common.
+    fn for_each(&self, q: &Configuration, mut each: impl FnMut(&Group, &Group, &Body, &Pairs)) {
+        let (sin, cos) = libm::sincos(q.theta);
+        for (first, pairs) in self.fixed.iter().zip(&self.pairs) {
+            for (second, pairs) in self.moving.iter().zip(pairs) {
+                if let Some(pairs) = pairs {
+                    let turned = second.like.moved([cos, sin], Vector2::zeros());
+                    each(first, second, &turned, pairs);
+                }
+            }
+        }
+    }
+
+    fn sum<const SLOPE: bool>(&self, q: &Configuration) -> Sum {
+        let (sin, cos) = libm::sincos(q.theta);
+        let mut sum = Sum::default();
+        self.for_each(q, |first, second, turned, pairs| {
+            let axis = first.like.direction;
+            let (a, b) = (axis, turned.direction);
+            let beta = Complex::new(a.dot(&b), a.perp(&b));
+            let mut known = Coefficients::default();
+            for (place, m2) in &second.members {
+                let arm =
+                    Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
+                for (from, m1) in &first.members {
+                    let way = arm + q.position() - from;
+                    let found = match pairs.terms(way.norm_squared()) {
+                        Some(terms) => {
+                            pairs.series.complete::<SLOPE>(&mut known, beta, terms);
+                            known.sum::<SLOPE>(terms, way, axis)
+                        }
+                        None => exact(
+                            &first.like,
+                            &Body {
+                                position: way,
+                                ..*turned
+                            },
+                        ),
+                    };
+                    let moments = m1 * m2;
+                    let gradient = found.gradient * moments;
+                    sum.0 += moments * found.energy;
+                    sum.1 += Vector3::new(
+                        gradient.x,
+                        gradient.y,
+                        moments * found.slope + arm.perp(&gradient),
+                    );
+                }
+            }
+        });
+        finite(sum.0, sum.1)
+    }
+
+    /// The sum of a bound over all pairs: `bound` is given the greatest radius (m) about either of their
+    /// middles, their distance (m), the limits and `mu0 m1 m2 / (4 pi)` (J m^3).
+    fn bounded(
+        &self,
+        q: &Configuration,
+        bound: impl Fn(f64, f64, &Option<Limits>, f64) -> f64,
+    ) -> f64 {
+        let (sin, cos) = libm::sincos(q.theta);
+        let mut sum = 0.0;
+        self.for_each(q, |first, second, _, pairs| {
+            let radii = match pairs.limits {
+                Some(_) => first.like.radius() + second.like.radius(),
+                None => 0.0,
+            };
+            for (place, m2) in &second.members {
+                let arm =
+                    Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
+                for (from, m1) in &first.members {
+                    let distance = (arm + q.position() - from).norm();
+                    sum += bound(
+                        radii,
+                        distance,
+                        &pairs.limits,
+                        MU0_OVER_4PI * (m1 * m2).abs(),
+                    );
+                }
+            }
+        });
+        sum
+    }
+}
+
+impl Potential for BodyPotential {
+    fn energy(&self, q: &Configuration) -> f64 {
+        self.sum::<false>(q).0
+    }
+
+    fn energy_and_gradient(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        self.sum::<true>(q)
+    }
+
+    /// Where faces may come as close as a sixteenth of the reach the second derivative has no bound, for it
+    /// grows like the logarithm of their distance; the bound there is that at a sixteenth of the reach,
+    /// which holds for the average over a motion of that reach.
+    fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let turn = self.lever.turn();
+        self.bounded(q, |radii, distance, limits, strength| {
+            let apart = distance - radii - reach;
+            let far = motion::bound(&motion::second_derivative(turn), strength, apart);
+            match limits {
+                Some(limits) if apart <= 2.0 * radii => {
+                    far.min(strength * limits.curvature(turn, apart.max(reach / 16.0)))
+                }
+                _ => far,
+            }
+        })
+    }
+
+    /// Known only where all magnets are farther apart than their own size.
+    fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
+        let turn = self.lever.turn();
+        self.bounded(q, |radii, distance, _, strength| {
+            let apart = distance - radii - reach;
+            match apart > radii {
+                true => motion::bound(&motion::fourth_derivative(turn), strength, apart),
+                false => f64::INFINITY,
+            }
+        })
+    }
+
+    fn displacement(&self, step: Vector3<f64>) -> f64 {
+        self.lever.displacement(step)
+    }
+
+    /// Half the shortest side in the plane of any magnet.
+    fn feature_length(&self) -> f64 {
+        self.feature
+    }
+
+    /// That of [blocks](super::cuboid), which may be among them.
+    fn noise(&self) -> f64 {
+        1e-6
+    }
+}

@@ -1,0 +1,118 @@
+//! Two magnets close to each other, by their faces.
+
+use nalgebra::Vector2;
+
+use super::Body;
+use super::face::{Face, Integral, Shape as Charged};
+use super::{edges, line};
+use crate::potential::cuboid::block::{Block, PairEnergy};
+use crate::potential::cuboid::exact as blocks;
+use crate::tile::magnet::Shape;
+use crate::units::MU0_OVER_4PI;
+
+/// Faces in one plane are taken to be this share of their size apart, on the side of the free
+/// configurations: the force jumps there.
+const APART: f64 = 1e-9;
+
+/// The energy (J) of two magnets that both lie or both stand, and its derivatives.
+pub fn exact(first: &Body, second: &Body) -> PairEnergy {
+    if first.stands {
+        return standing(first, second);
+    }
+    match (first.shape, second.shape) {
+        (Shape::Block, Shape::Block) => blocks(&block(first), &block(second)),
+        _ => lying(first, second),
+    }
+}
+
+fn block(body: &Body) -> Block {
+    Block {
+        position: body.position,
+        axis: body.direction,
+        moment: body.moment,
+        size: body.size,
+    }
+}
+
+/// The charge densities' product, times `mu0 / (4 pi)` (J/m^3).
+fn strength(first: &Body, second: &Body) -> f64 {
+    MU0_OVER_4PI * first.moment / first.volume() * second.moment / second.volume()
+}
+
+fn standing(first: &Body, second: &Body) -> PairEnergy {
+    let face = |body: &Body, side: f64| {
+        let [a, b, height] = body.size;
+        let shape = match body.shape {
+            Shape::Disc => Charged::Disc(a / 2.0),
+            Shape::Block => Charged::Rectangle([a / 2.0, b / 2.0]),
+        };
+        Face::flat(body.position, body.direction, side * height / 2.0, shape)
+    };
+    // The two of like signs are each other's mirror images, and so are the others.
+    let strength = 2.0 * strength(first, second);
+    let mut sum = PairEnergy::default();
+    for side in [1.0, -1.0] {
+        let integral = integral(&face(first, 1.0), &face(second, side));
+        add(&mut sum, &integral, strength * side, Vector2::zeros());
+    }
+    sum
+}
+
+fn lying(first: &Body, second: &Body) -> PairEnergy {
+    let face = |body: &Body, side: f64| {
+        let [length, width, height] = body.size;
+        let shape = match body.shape {
+            Shape::Disc => Charged::Disc(width / 2.0),
+            Shape::Block => Charged::Rectangle([width / 2.0, height / 2.0]),
+        };
+        let offset = body.direction * (side * length / 2.0);
+        (
+            Face::upright(body.position + offset, body.direction, shape),
+            offset,
+        )
+    };
+    let strength = strength(first, second);
+    let mut sum = PairEnergy::default();
+    for own in [1.0, -1.0] {
+        let (from, _) = face(first, own);
+        for side in [1.0, -1.0] {
+            let (mut to, offset) = face(second, side);
+            let outwards = first.direction * own;
+            let height = (to.centre - from.centre).xy().dot(&outwards);
+            let apart = APART * first.size[1];
+            if height.abs() < apart && first.direction.perp(&second.direction).abs() < APART {
+                let shift = outwards * (apart - height);
+                to.centre += nalgebra::Vector3::new(shift.x, shift.y, 0.0);
+            }
+            let integral = integral(&from, &to);
+            add(&mut sum, &integral, strength * own * side, offset);
+        }
+    }
+    sum
+}
+
+/// Adds an integral times a strength (J/m^3) to a pair's energy; the second face's middle is `offset` (m) from
+/// its magnet's.
+fn add(sum: &mut PairEnergy, integral: &Integral, strength: f64, offset: Vector2<f64>) {
+    sum.energy += strength * integral.value;
+    sum.gradient += integral.gradient * strength;
+    sum.slope += strength * (integral.slope + offset.perp(&integral.gradient));
+}
+
+/// The integral over two faces that do not meet: both upright or both flat, not both upright rectangles.
+pub fn integral(first: &Face, second: &Face) -> Integral {
+    match [first.shape, second.shape] {
+        [Charged::Disc(radius), _] => line::integral(first, radius, second, false),
+        [_, Charged::Disc(radius)] => line::integral(second, radius, first, true),
+        [Charged::Rectangle(a), Charged::Rectangle(b)] => edges::integral([first, second], [a, b]),
+    }
+}
+
+/// The integral of d / r^3 over both of two discs of a radius (m) on one axis, d (m) apart (m^2).
+pub fn coaxial(radius: f64, d: f64) -> f64 {
+    let face = |x: f64| {
+        let shape = Charged::Disc(radius);
+        Face::upright(Vector2::new(x, 0.0), Vector2::x(), shape)
+    };
+    -integral(&face(0.0), &face(d)).gradient.x
+}

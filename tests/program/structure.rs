@@ -1,0 +1,221 @@
+//! The house as its front page tells it: within each crate files import one way, never in a circle.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use petgraph::algo::tarjan_scc;
+use petgraph::graphmap::DiGraphMap;
+use syn::visit::Visit;
+use syn::{Attribute, Item, UseTree};
+
+/// The crates' first files.
+const CRATES: [&str; 5] = [
+    "src/physics/lib.rs",
+    "src/jobs/lib.rs",
+    "src/report/lib.rs",
+    "src/main.rs",
+    "src/python/rust/lib.rs",
+];
+
+/// Names from the crate's top down: of a module, or of something in one.
+type Name = Vec<String>;
+
+/// A file of a crate: what it names of its own crate, and what it makes known under other names.
+struct Module {
+    file: PathBuf,
+    named: BTreeSet<Name>,
+    known_as: BTreeMap<String, Name>,
+}
+
+/// Everything that a file names, but for its tests.
+struct Reader {
+    module: Name,
+    children: BTreeSet<String>,
+    imports: Vec<(Name, String)>,
+    paths: Vec<Name>,
+}
+
+fn is_test(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        let list = attribute.meta.require_list();
+        attribute.path().is_ident("cfg") && list.is_ok_and(|l| l.tokens.to_string() == "test")
+    })
+}
+
+fn attributes(item: &Item) -> &[Attribute] {
+    match item {
+        Item::Mod(item) => &item.attrs,
+        Item::Use(item) => &item.attrs,
+        Item::Fn(item) => &item.attrs,
+        Item::Impl(item) => &item.attrs,
+        _ => &[],
+    }
+}
+
+impl Reader {
+    fn import(&mut self, prefix: &[String], tree: &UseTree) {
+        let with = |name: &syn::Ident| [prefix, &[name.to_string()]].concat();
+        match tree {
+            UseTree::Path(path) => self.import(&with(&path.ident), &path.tree),
+            UseTree::Name(name) if name.ident == "self" => {
+                let last = prefix.last().expect("of something").clone();
+                self.imports.push((prefix.to_vec(), last));
+            }
+            UseTree::Name(name) => self
+                .imports
+                .push((with(&name.ident), name.ident.to_string())),
+            UseTree::Rename(name) => {
+                self.imports
+                    .push((with(&name.ident), name.rename.to_string()));
+            }
+            UseTree::Glob(_) => self.paths.push(prefix.to_vec()),
+            UseTree::Group(group) => group
+                .items
+                .iter()
+                .for_each(|tree| self.import(prefix, tree)),
+        }
+    }
+
+    /// A path as names from the crate's top, if it leads into the crate.
+    fn from_top(&self, path: &[String]) -> Option<Name> {
+        let mut top = match path[0].as_str() {
+            "crate" => Vec::new(),
+            "self" | "super" => self.module.clone(),
+            name if self.children.contains(name) => {
+                return Some([&self.module, path].concat());
+            }
+            name => {
+                let mut imports = self.imports.iter();
+                let (import, _) = imports.find(|(import, known)| {
+                    known == name && ["crate", "self", "super"].contains(&import[0].as_str())
+                })?;
+                return self.from_top(&[import, &path[1..]].concat());
+            }
+        };
+        for name in path {
+            match name.as_str() {
+                "crate" | "self" => {}
+                "super" => drop(top.pop()),
+                _ => top.push(name.clone()),
+            }
+        }
+        Some(top)
+    }
+}
+
+impl<'a> Visit<'a> for Reader {
+    fn visit_item(&mut self, item: &'a Item) {
+        if !is_test(attributes(item)) {
+            syn::visit::visit_item(self, item);
+        }
+    }
+
+    fn visit_item_mod(&mut self, module: &'a syn::ItemMod) {
+        if module.content.is_none() {
+            self.children.insert(module.ident.to_string());
+        }
+        syn::visit::visit_item_mod(self, module);
+    }
+
+    fn visit_item_use(&mut self, item: &'a syn::ItemUse) {
+        self.import(&[], &item.tree);
+    }
+
+    fn visit_path(&mut self, path: &'a syn::Path) {
+        self.paths
+            .push(path.segments.iter().map(|s| s.ident.to_string()).collect());
+        syn::visit::visit_path(self, path);
+    }
+}
+
+/// Reads a module's file and those of its children; `folder` is where the children's files are.
+fn read(module: Name, file: &Path, folder: &Path, modules: &mut BTreeMap<Name, Module>) {
+    let text = fs::read_to_string(file).unwrap();
+    let mut reader = Reader {
+        module: module.clone(),
+        children: BTreeSet::new(),
+        imports: Vec::new(),
+        paths: Vec::new(),
+    };
+    reader.visit_file(&syn::parse_file(&text).unwrap());
+    for child in reader.children.clone() {
+        let [alone, front] =
+            [format!("{child}.rs"), format!("{child}/mod.rs")].map(|f| folder.join(f));
+        let file = if alone.exists() { alone } else { front };
+        let name = [module.clone(), vec![child.clone()]].concat();
+        read(name, &file, &folder.join(child), modules);
+    }
+    let paths = reader
+        .paths
+        .iter()
+        .chain(reader.imports.iter().map(|(import, _)| import));
+    let named = paths.filter_map(|path| reader.from_top(path)).collect();
+    let imports = reader.imports.iter();
+    let known_as = imports
+        .filter_map(|(import, known)| Some((known.clone(), reader.from_top(import)?)))
+        .collect();
+    let file = file.to_owned();
+    modules.insert(
+        module,
+        Module {
+            file,
+            named,
+            known_as,
+        },
+    );
+}
+
+/// The module in which something is defined: the one that its name leads to, or the one from which
+/// that has it.
+fn defined_in<'a>(name: &[String], modules: &'a BTreeMap<Name, Module>) -> &'a Name {
+    let lengths = (0..=name.len()).rev();
+    let mut found = lengths.filter_map(|n| modules.get_key_value(&name[..n]).map(|m| (n, m)));
+    let (n, (module, content)) = found.next().expect("the crate's top is a module");
+    let item = name.get(n).and_then(|item| content.known_as.get(item));
+    match item {
+        Some(origin) if origin[..] != name[..=n] => defined_in(origin, modules),
+        _ => module,
+    }
+}
+
+/// Circles of a crate's files, and of folders that stand side by side. What a folder's `mod.rs` defines
+/// its files may use.
+fn circles(first: &str) -> Vec<Vec<String>> {
+    let first = Path::new(env!("CARGO_MANIFEST_DIR")).join(first);
+    let mut modules = BTreeMap::new();
+    read(Vec::new(), &first, first.parent().unwrap(), &mut modules);
+    let places: Vec<&Name> = modules.keys().collect();
+    let place = |name: &[String]| places.binary_search_by(|p| p[..].cmp(name)).unwrap();
+    let mut imports = DiGraphMap::<usize, ()>::new();
+    for (name, module) in &modules {
+        for named in module
+            .named
+            .iter()
+            .filter(|named| !modules.contains_key(*named))
+        {
+            let from = defined_in(named, &modules);
+            if !name.starts_with(from) {
+                imports.add_edge(place(name), place(from), ());
+                // Where the two part, one module beside another uses it.
+                let same = name.iter().zip(from).take_while(|(a, b)| a == b).count();
+                if name.len() > same && from.len() > same {
+                    imports.add_edge(place(&name[..=same]), place(&from[..=same]), ());
+                }
+            }
+        }
+    }
+    let circles = tarjan_scc(&imports)
+        .into_iter()
+        .filter(|files| files.len() > 1);
+    let file = |place: usize| modules[places[place]].file.display().to_string();
+    circles
+        .map(|files| files.into_iter().map(file).collect())
+        .collect()
+}
+
+#[test]
+fn files_do_not_import_each_other_in_circles() {
+    let found: Vec<_> = CRATES.into_iter().flat_map(circles).collect();
+    assert!(found.is_empty(), "{found:#?}");
+}
