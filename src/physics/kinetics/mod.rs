@@ -76,6 +76,7 @@ mod certify;
 pub mod chain;
 pub mod corner;
 mod corridor;
+mod crowd;
 pub mod distance;
 mod errors;
 pub mod exit;

@@ -12,7 +12,7 @@
 use nalgebra::DMatrix;
 
 use super::chain::Chain;
-use super::population::{Crowd, PairRates};
+use super::crowd::{Crowd, PairRates};
 use super::stiff::{self, Course};
 
 /// Vectors of GMRES between restarts, and restarts.
