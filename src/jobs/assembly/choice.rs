@@ -407,9 +407,7 @@ fn thinned(words: Vec<Word>, most: usize) -> Vec<Word> {
 /// Whether a word is another one than those that are there, mates included, and goes with them all.
 fn goes_beside(task: &Task, word: Word, there: &[Word], limit: f64) -> bool {
     there.iter().all(|other| {
-        word != *other
-            && word != other.mate()
-            && task.rules.within(&task.lags, word, *other, limit)
+        word != *other && word != other.mate() && task.rules.within(&task.lags, word, *other, limit)
     })
 }
 
@@ -433,8 +431,7 @@ fn beside(
         .budget
         .spend((all.work + judged).min(effort.budget.left() / 2));
     words.retain(|word| {
-        task.rules.bond(&task.lags, *word) >= least
-            && goes_beside(task, *word, there, limit)
+        task.rules.bond(&task.lags, *word) >= least && goes_beside(task, *word, there, limit)
     });
     // No more than can be joined with half the work.
     let pairs = effort.budget.left() / task.judgement();
