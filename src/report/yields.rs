@@ -7,6 +7,8 @@ use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::design::Design;
 use jobs::yields::attachment::Source;
 use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
+use physics::dynamics::MotionSettings;
+use physics::kinetics::OVERDAMPED;
 use physics::kinetics::mixture::Mixture;
 use physics::kinetics::population::MOST_STATES;
 use physics::order::Order;
@@ -38,13 +40,15 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         notes: without
             .chain(means)
             .chain(schedule)
-            .chain([format!(
-                "on: {told}; off: by detailed balance, with kT as if the table had one"
-            )])
+            .chain([
+                format!("on: {told}; off: {}", detachment(question)),
+                lifetimes(question),
+            ])
             .collect(),
         origin: format!(
-            "{} magnets; {told}, detachment by detailed balance; a tile binds one partner at most",
+            "{} magnets; {told}, detachment {}; a tile binds one partner at most",
             design.interaction.model.name(),
+            detachment(question),
         ),
         ..Document::default()
     }
@@ -85,7 +89,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .fact("best_kT_J", "kT", best.kt).noted("best of those asked for")
         .table(by_kt(question, found))
         .data("mixture", mixture(found))
-        .data("rates", format!("{}; detachment by detailed balance", effort.told()))
+        .data("rates", format!("{}; detachment {}", effort.told(), detachment(question)))
         .data("docking", json!({
             "runs": effort.runs, "duration_s": effort.duration,
             "drag_per_s": motion.drag, "restitution": motion.restitution,
@@ -163,6 +167,32 @@ fn states(outcome: &Outcome) -> Table {
             .viewed(|it| format!("{:.1}", it.ln_k))
         .table("states")
         .in_file("rates")
+}
+
+/// Where rates of detachment come from.
+fn detachment(question: &Question) -> &'static str {
+    match question.effort.source {
+        Source::Docking => "by detailed balance, with kT as if the table had one",
+        Source::Overdamped => "as solved, and from state to state",
+    }
+}
+
+/// Of which drag lifetimes are.
+fn lifetimes(question: &Question) -> String {
+    let drag = question.effort.motion().drag;
+    match question.effort.source {
+        Source::Docking => format!(
+            "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind rates` \
+             assumes overdamped motion, by default at {OVERDAMPED} /s, where states live longer; \
+             --rates overdamped --drag {OVERDAMPED} gives its rates here"
+        ),
+        Source::Overdamped => format!(
+            "lifetimes depend on the drag: these are for {drag} /s, overdamped, as in `tilebind rates \
+             --drag {drag}`. Without --rates overdamped docking runs have inertia and a drag of {} /s, \
+             and states live shorter",
+            MotionSettings::default().drag
+        ),
+    }
 }
 
 /// How shares over time were found.

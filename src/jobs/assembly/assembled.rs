@@ -34,12 +34,15 @@ pub struct Assembly<'a> {
     pub others: Vec<(f64, Growth)>,
 }
 
-/// Growths at the shaking asked for, and at each other one.
-const RUNS: [usize; 2] = [40, 20];
+/// Growths at the shaking asked for, and at each other one; of large sets.
+const RUNS: [usize; 2] = [100, 40];
+const RUNS_OF_LARGE: [usize; 2] = [40, 20];
+/// Sets that grow into more tiles are large.
+const LARGE: usize = 100;
 /// Shakings that are tried, as shares of the hardest at which anything grows.
 const TRIED: [f64; 10] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.78, 0.84, 0.89, 0.93, 0.97];
 /// A shaking grows right where at least this share of growths does.
-const RIGHT: f64 = 0.9;
+const RIGHT: f64 = 0.95;
 
 impl Request {
     /// The tile set of a file, or one that is made to measure: `lattice`, `homogeneous`, `square`.
@@ -106,14 +109,18 @@ impl Request {
         observer.stage("growth", 0.6);
         let engine = built.engine();
         let kinetics = |[gse, gmc]: [f64; 2]| Kinetics::new(&engine, &built.grown).at(gse, gmc);
-        let growth = kinetics([built.gse(), built.gmc]).growths(RUNS[0], self.seed);
+        let runs = match built.grown.tiles.len() {
+            ..=LARGE => RUNS,
+            _ => RUNS_OF_LARGE,
+        };
+        let growth = kinetics([built.gse(), built.gmc]).growths(runs[0], self.seed);
         let hardest = built.window().map_or(0.0, |ends| ends[1]);
         let mut others = Vec::new();
         for (k, share) in TRIED.iter().enumerate() {
             observer.part("growth", k, TRIED.len());
             let kt = share * hardest;
             if let Some(costs) = built.at(&words, kt).filter(|_| kt > 0.0) {
-                others.push((kt, kinetics(costs).growths(RUNS[1], self.seed)));
+                others.push((kt, kinetics(costs).growths(runs[1], self.seed)));
             }
         }
         Ok(Assembly {

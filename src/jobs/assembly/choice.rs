@@ -310,10 +310,7 @@ fn linked(
                 false => Candidates::sampled(&task, limit(&task), effort.seed, 2 * MOST_JUDGED),
             };
             effort.budget.spend(all.work.min(effort.budget.left() / 2));
-            let goes = |word: &Word| {
-                let mut others = there.iter();
-                others.all(|it| task.rules.within(&task.lags, *word, *it, limit(&task)))
-            };
+            let goes = |word: &Word| goes_beside(&task, *word, there, limit(&task));
             let words = all.words.into_iter().filter(goes);
             // Either of a word and its mate may lie on the east or north faces.
             let both: Vec<Word> = words.flat_map(|word| [word, word.mate()]).collect();
@@ -407,6 +404,13 @@ fn thinned(words: Vec<Word>, most: usize) -> Vec<Word> {
     words.into_iter().step_by(step.max(1)).collect()
 }
 
+/// Whether a word is another one than those that are there, mates included, and goes with them all.
+fn goes_beside(task: &Task, word: Word, there: &[Word], limit: f64) -> bool {
+    there.iter().all(|other| {
+        word != *other && word != other.mate() && task.rules.within(&task.lags, word, *other, limit)
+    })
+}
+
 /// Words of a weaker class beside those that are there.
 fn beside(
     task: &Task,
@@ -427,10 +431,7 @@ fn beside(
         .budget
         .spend((all.work + judged).min(effort.budget.left() / 2));
     words.retain(|word| {
-        task.rules.bond(&task.lags, *word) >= least
-            && there
-                .iter()
-                .all(|other| task.rules.within(&task.lags, *word, *other, limit))
+        task.rules.bond(&task.lags, *word) >= least && goes_beside(task, *word, there, limit)
     });
     // No more than can be joined with half the work.
     let pairs = effort.budget.left() / task.judgement();

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use clap::{Args, ValueEnum};
+use nalgebra::DMatrix;
 
 use super::{Question, YieldError};
 use crate::pipeline::Analysis;
@@ -111,26 +112,49 @@ pub struct Attachments {
     pub area: f64,
     /// Runs.
     pub runs: usize,
-    /// Rates of overdamped motion (1/s) from free to each kind of state and how far the two finest
-    /// meshes differ, relative; `None` where attachments are counted.
-    pub solved: Option<Vec<[f64; 2]>>,
+    /// The rates of overdamped motion; `None` where attachments are counted.
+    pub solved: Option<Solved>,
+}
+
+/// Rates of overdamped motion among kinds of states and free tiles, as `tilebind rates` has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solved {
+    /// From free to each kind of state (1/s) and how far the two finest meshes differ, relative.
+    pub on: Vec<[f64; 2]>,
+    /// From each kind of state to free (1/s).
+    pub off: Vec<f64>,
+    /// From kind to kind (1/s), row: from.
+    pub turns: DMatrix<f64>,
 }
 
 impl Attachments {
     /// kappa (m^2/s) of a kind of state: the rate times the table's area.
     pub fn rate(&self, kind: usize) -> f64 {
         match &self.solved {
-            Some(solved) => solved[kind][0] * self.area,
+            Some(solved) => solved.on[kind][0] * self.area,
             None if self.time > 0.0 => self.counts[kind] as f64 * self.area / self.time,
             None => 0.0,
         }
+    }
+
+    /// The rate (1/s) at which a kind of state lets go; `None` where it was not solved.
+    pub fn off(&self, kind: usize) -> Option<f64> {
+        self.solved.as_ref().map(|solved| solved.off[kind])
+    }
+
+    /// The rates (1/s) among some kinds of states that do not lead through free tiles.
+    pub fn turns(&self, kinds: &[usize]) -> DMatrix<f64> {
+        DMatrix::from_fn(kinds.len(), kinds.len(), |i, j| match &self.solved {
+            Some(solved) => solved.turns[(kinds[i], kinds[j])],
+            None => 0.0,
+        })
     }
 
     /// Its 95 % interval, that of a Poisson count; of solved rates what meshes differ by.
     pub fn interval(&self, kind: usize) -> [f64; 2] {
         match &self.solved {
             Some(solved) => {
-                let [rate, spread] = solved[kind];
+                let [rate, spread] = solved.on[kind];
                 [1.0 - spread, 1.0 + spread].map(|part| part.max(0.0) * rate * self.area)
             }
             None => docking::poisson_interval(self.counts[kind])
@@ -185,21 +209,41 @@ pub fn solve(
     if !found.is_known(free, 0) {
         return Err(YieldError::Lost);
     }
+    // The places of the kinds that hold.
     let mut place = 0;
-    let solved = basins.iter().map(|basin| {
-        basin.map_or([0.0; 2], |_| {
+    let places = basins.iter().map(|basin| {
+        basin.map(|_| {
             place += 1;
-            let rate = found.finest().rates[free][place - 1] * kt / (drag * mass);
-            [rate, found.spread(free, place - 1)]
+            place - 1
         })
     });
+    let places: Vec<Option<usize>> = places.collect();
+    let diffusion = kt / (drag * mass);
+    let rate = |from: Option<usize>, to: Option<usize>| match (from, to) {
+        (Some(from), Some(to)) if from != to => found.finest().rates[from][to] * diffusion,
+        _ => 0.0,
+    };
+    let on = |place: &Option<usize>| {
+        let spread = place.map_or(0.0, |place| found.spread(free, place));
+        [rate(Some(free), *place), spread]
+    };
+    let solved = Solved {
+        on: places.iter().map(on).collect(),
+        off: places
+            .iter()
+            .map(|place| rate(*place, Some(free)))
+            .collect(),
+        turns: DMatrix::from_fn(places.len(), places.len(), |i, j| {
+            rate(places[i], places[j])
+        }),
+    };
     Ok(Attachments {
         counts: vec![0; basins.len()],
         elsewhere: 0,
         time: 0.0,
         area: table(problem),
         runs: 0,
-        solved: Some(solved.collect()),
+        solved: Some(solved),
     })
 }
 

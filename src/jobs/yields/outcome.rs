@@ -25,13 +25,15 @@ const MOST_IN_TABLE: usize = 600;
 pub struct StateRates {
     /// `A` for the bond, `B` for the deepest trap.
     pub name: String,
+    /// Its place among all kinds of states: 0 of the bond.
+    pub kind: usize,
     /// Attachments that were counted.
     pub attachments: usize,
     /// kappa (m^2/s): attachments a second for one partner a square metre.
     pub on: f64,
     /// Its 95 % interval.
     pub on_interval: [f64; 2],
-    /// Detachments a second, by detailed balance.
+    /// Detachments a second: by detailed balance, or as solved.
     pub off: f64,
     /// The constant of association (m^2).
     pub constant: f64,
@@ -100,10 +102,11 @@ pub(super) fn state(
     let constant = hold.association(&docking);
     Some(StateRates {
         name: hold.name.clone(),
+        kind,
         attachments: count,
         on,
         on_interval: attached.interval(kind),
-        off: on / constant,
+        off: attached.off(kind).unwrap_or(on / constant),
         constant,
         depth: docking.depth,
         ln_k: docking.ln_k(1.0),
@@ -122,6 +125,7 @@ pub(super) fn outcome(
     let rates = PairRates {
         on: states.iter().map(|state| state.on).collect(),
         off: states.iter().map(|state| state.off).collect(),
+        turns: attached.turns(&states.iter().map(|state| state.kind).collect::<Vec<_>>()),
     };
     let time = question.time;
     let pairs = crowd.pairs() as f64;
@@ -133,7 +137,17 @@ pub(super) fn outcome(
     // Where none attached, the rate may still be above 0.
     let with_bond = |on: f64| {
         let mut other = rates.clone();
-        (other.on[0], other.off[0]) = (on, on / bond.constant);
+        // Detailed balance holds: whatever comes oftener goes oftener.
+        let more = on / bond.on;
+        other.on[0] = on;
+        other.off[0] = match bond.on > 0.0 {
+            true => bond.off * more,
+            false => on / bond.constant,
+        };
+        for other_kind in (1..other.on.len()).filter(|_| bond.on > 0.0) {
+            other.turns[(0, other_kind)] *= more;
+            other.turns[(other_kind, 0)] *= more;
+        }
         other
     };
     let [low, high] = bond.on_interval.map(with_bond);

@@ -80,5 +80,15 @@ fn rates(outcomes: &[Outcome], outcome: &Outcome, kinds: &[&Hold], coverage: f64
     };
     let all = kinds.iter().map(of);
     let (on, off) = all.map(|[on, off]| (on, off)).unzip();
-    PairRates { on, off }
+    let mut rates = PairRates::through_free(on, off);
+    let place = |hold: &&Hold| outcome.states.iter().position(|it| it.name == hold.name);
+    let places: Vec<Option<usize>> = kinds.iter().map(place).collect();
+    for (i, from) in places.iter().enumerate() {
+        for (j, to) in places.iter().enumerate() {
+            if let (Some(from), Some(to)) = (from, to) {
+                rates.turns[(i, j)] = outcome.rates.turns[(*from, *to)];
+            }
+        }
+    }
+    rates
 }

@@ -22,6 +22,19 @@
 //! contact: through those that contact cuts no such flux would go. From both follow bounds of rates
 //! and of mean exit times.
 //!
+//! # Lifetimes and drag
+//! How often a state holds depends on kT alone, how long it holds depends on the drag as well. In
+//! overdamped motion (`tilebind rates`, and `tilebind yield --rates overdamped`) every time is
+//! proportional to the drag: 100 /s makes every lifetime twice that of 50 /s. With little drag tiles have
+//! inertia, cross barriers in flight and come back over them: `tilebind yield` counts attachments in docking
+//! runs at 0.005 /s unless told otherwise, and lifetimes of its states are shorter by orders of magnitude
+//! than those of overdamped motion at [`OVERDAMPED`]. Neither is wrong; a table has one drag, and both
+//! commands take it (`--drag`). Lifetimes are also those of a *set*: `rates` counts a pair as bound until it
+//! is free or in another state, wherever between them it is (committors share that out); docking runs have
+//! detachment by detailed balance from the bond's basin alone. At a depth of 15 kT or more the two sets
+//! hold the same; below 10 kT what is called bound decides. `yield --rates overdamped` takes all rates
+//! as `rates` solves them, those from state to state included, so that the same question has one answer.
+//!
 //! # What is proved
 //! Two kinds of bounds. Those of mean exit times and of rates between places hold *on the mesh*: that
 //! a trial function bounds a capacity from above and a flux from below is a theorem, and what the
@@ -63,6 +76,7 @@ mod certify;
 pub mod chain;
 pub mod corner;
 mod corridor;
+mod crowd;
 pub mod distance;
 mod errors;
 pub mod exit;

@@ -1,9 +1,8 @@
 //! The chain over the numbers of pairs in all kinds of states: sparse, for stiff rates.
 //!
 //! A state of a crowd is (n_0, n_1, ...): so many pairs in the bond and in each kind of trap, H of
-//! them in all. Attachment raises one number, detachment lowers one, so that states of the same H
-//! never turn into each other and a state has at most two neighbours for each kind. Probabilities p
-//! follow p' = Q^T p with the generator Q (1/s).
+//! them in all. Attachment raises one number, detachment lowers one, and a pair that turns from state
+//! to state does both, so that a state has few neighbours. Probabilities p follow p' = Q^T p with the generator Q (1/s).
 //!
 //! Implicit Euler steps solve `(1 - h Q^T) x = p` by restarted GMRES (Saad and Schultz 1986,
 //! doi:10.1137/0907058), preconditioned by a sweep of Gauss and Seidel from many pairs to few
@@ -13,7 +12,7 @@
 use nalgebra::DMatrix;
 
 use super::chain::Chain;
-use super::population::{Crowd, PairRates};
+use super::crowd::{Crowd, PairRates};
 use super::stiff::{self, Course};
 
 /// Vectors of GMRES between restarts, and restarts.
@@ -87,6 +86,14 @@ impl Numbers {
                 other[kind] = state[kind] + 1;
                 let rate = rates.off[kind] * f64::from(other[kind]);
                 here.extend(place(&other).map(|from| (from, rate)));
+                for to in (0..kinds).filter(|to| *to != kind && state[*to] > 0) {
+                    let rate = rates.turns[(kind, to)] * f64::from(other[kind]);
+                    if rate > 0.0 {
+                        other[to] -= 1;
+                        here.extend(place(&other).map(|from| (from, rate)));
+                        other[to] += 1;
+                    }
+                }
             }
             here.retain(|entry| entry.1 > 0.0 && entry.1.is_finite());
             here.sort_by_key(|entry| entry.0);
@@ -269,10 +276,9 @@ mod tests {
     /// The same as the dense chain, squared from short times: another method altogether.
     #[test]
     fn sparse_and_dense_chains_agree() {
-        let rates = PairRates {
-            on: vec![0.02, 0.03, 0.004],
-            off: vec![1e-7, 25.0, 3e-3],
-        };
+        let mut rates = PairRates::through_free(vec![0.02, 0.03, 0.004], vec![1e-7, 25.0, 3e-3]);
+        rates.turns[(1, 0)] = 0.4;
+        rates.turns[(0, 1)] = 1e-9;
         let crowd = Crowd {
             tiles: [4, 4],
             area: 3.0,

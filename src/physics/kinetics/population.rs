@@ -2,11 +2,11 @@
 //!
 //! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds one
 //! partner at most (pairs are the product; no larger assembly is looked at), every tile of the one
-//! kind meets every free one of the other equally often (a well stirred table), and pairs come and go
-//! by constant rates, from state to state through free tiles only. With a and b free tiles of the two
-//! kinds, n_i pairs in state i and a table of the area S,
+//! kind meets every free one of the other equally often (a well stirred table), and a pair goes from
+//! state to state by constant rates. With a and b free tiles of the two kinds, n_i pairs in state i
+//! and a table of the area S,
 //!
-//! `a + b -> i at kappa_i a b / S,   i -> a + b at k_i n_i.`
+//! `a + b -> i at kappa_i a b / S,   i -> a + b at k_i n_i,   i -> j at k_ij n_i.`
 //!
 //! Three views of the same:
 //!
@@ -16,7 +16,7 @@
 //!   trap with their mean rates, neither few pairs for long nor many for a moment;
 //! - beyond, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413, whose
 //!   difference equations these are in the limit of short steps): `dn_i/dt = kappa_i a b / S - k_i
-//!   n_i` with a and b their means. They take <ab> for `<a><b>`, which is off by the variance of the
+//!   n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their means. They take <ab> for `<a><b>`, which is off by the variance of the
 //!   number of free tiles: by parts of 1/N, and most where tiles are few;
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
@@ -24,10 +24,11 @@ use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::chain::Chain;
 use super::numbers::{self, Numbers};
 use super::stiff;
 use crate::interruption;
+
+pub use super::crowd::{Crowd, PairRates};
 
 /// Most states of a crowd for which all probabilities are computed: ten tiles with ten kinds of
 /// states, or six with twenty-six.
@@ -36,15 +37,6 @@ pub const MOST_STATES: usize = 4000;
 const TOLERANCE: f64 = 1e-8;
 /// Most events of a simulation.
 const MOST_EVENTS: usize = 20_000_000;
-
-/// The rates of a pair of tiles: state 0 is the bond, the others are traps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PairRates {
-    /// kappa: attachments a second for one tile a square metre (m^2/s).
-    pub on: Vec<f64>,
-    /// Detachments a second (1/s).
-    pub off: Vec<f64>,
-}
 
 /// Mean shares of all possible pairs over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,48 +52,14 @@ pub struct Shares {
     pub exact: bool,
 }
 
-/// A table and the tiles on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crowd {
-    /// How many tiles of the fixed and of the moving tile's kind.
-    pub tiles: [usize; 2],
-    /// The table's area (m^2).
-    pub area: f64,
-}
-
-impl Crowd {
-    /// So many tiles, half of either kind, of `tile_area` (m^2) that cover a share of a table.
-    pub fn new(tiles: usize, coverage: f64, tile_area: f64) -> Self {
-        Self {
-            tiles: [tiles.div_ceil(2), tiles / 2],
-            area: tiles as f64 * tile_area / coverage,
-        }
-    }
-
-    /// Most pairs that there can be.
-    pub fn pairs(&self) -> usize {
-        self.tiles[0].min(self.tiles[1])
-    }
-}
-
 impl PairRates {
-    /// The chain of a single pair on a table: state 0 is free, then come the bond and the traps.
-    pub fn pair_chain(&self, area: f64) -> Chain {
-        let n = self.on.len();
-        let mut rates = DMatrix::zeros(n + 1, n + 1);
-        for i in 0..n {
-            rates[(0, i + 1)] = self.on[i] / area;
-            rates[(i + 1, 0)] = self.off[i];
-        }
-        Chain::new(rates)
-    }
-
     /// The share of all possible pairs that are in the bond in equilibrium; `None` where the bond is
     /// never found or left.
     ///
     /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, numbers of pairs have the
     /// weights `A! B! / ((A - H)! (B - H)!) prod z_i^n_i / n_i!` (detailed balance); of T trapped pairs
-    /// the sum over kinds is that of one kind with the sum of their z.
+    /// the sum over kinds is that of one kind with the sum of their z. Rates from state to state keep
+    /// that balance and change nothing of it.
     pub fn equilibrium(&self, crowd: &Crowd) -> Option<f64> {
         let each = self.on.iter().zip(&self.off);
         let z: Vec<f64> = each.map(|(on, off)| on / off / crowd.area).collect();
@@ -135,26 +93,27 @@ impl PairRates {
     /// Mean numbers of pairs in the bond and in each kind of trap at ascending `times` (s), of the
     /// equations for mean numbers; `None` where they cannot be solved.
     pub fn mean_numbers(&self, crowd: &Crowd, times: &[f64]) -> Option<stiff::Course> {
-        // The linearly implicit step (1 - h J) dn = h f with J = -diag(k) - kappa s^T, where s is by
-        // how much a pair more lessens meetings: Sherman and Morrison's formula.
+        // The linearly implicit step (1 - h J) dn = h f.
+        let kinds = self.on.len();
+        let leaving: Vec<f64> = (0..kinds).map(|i| self.leaving(i)).collect();
         let euler = |numbers: &[f64], h: f64| {
             let held: f64 = numbers.iter().sum();
             let [a, b] = crowd.tiles.map(|tiles| tiles as f64 - held);
             let (meeting, less) = (a * b / crowd.area, (a + b) / crowd.area);
-            let kinds = 0..numbers.len();
-            let plain = |i: usize| {
-                let change = self.on[i] * meeting - self.off[i] * numbers[i];
-                h * change / (1.0 + h * self.off[i])
-            };
-            let plain: Vec<f64> = kinds.clone().map(plain).collect();
-            let along = |i: usize| h * self.on[i] * less / (1.0 + h * self.off[i]);
-            let along: Vec<f64> = kinds.clone().map(along).collect();
-            let share = plain.iter().sum::<f64>() / (1.0 + along.iter().sum::<f64>());
-            Some(
-                kinds
-                    .map(|i| numbers[i] + plain[i] - along[i] * share)
-                    .collect(),
-            )
+            let turned =
+                |i: usize| -> f64 { (0..kinds).map(|j| self.turns[(j, i)] * numbers[j]).sum() };
+            let change =
+                |i: usize, _| h * (self.on[i] * meeting + turned(i) - leaving[i] * numbers[i]);
+            let matrix = DMatrix::from_fn(kinds, kinds, |i, j| {
+                let own = if i == j {
+                    1.0 + h * leaving[i]
+                } else {
+                    -h * self.turns[(j, i)]
+                };
+                own + h * self.on[i] * less
+            });
+            let step = matrix.lu().solve(&DMatrix::from_fn(kinds, 1, change))?;
+            Some(numbers.iter().zip(&step).map(|(n, dn)| n + dn).collect())
         };
         let start = vec![0.0; self.on.len()];
         let meetings = (crowd.tiles[0] * crowd.tiles[1]) as f64 / crowd.area;
@@ -214,7 +173,7 @@ impl PairRates {
     pub fn simulate(&self, crowd: &Crowd, time: f64, rng: &mut ChaCha8Rng) -> Option<Vec<usize>> {
         let n = self.on.len();
         let mut numbers = vec![0usize; n];
-        let mut rates = vec![0.0; 2 * n];
+        let mut rates = vec![0.0; n * (n + 2)];
         let mut now = 0.0;
         for event in 0..MOST_EVENTS {
             if event % 1024 == 0 {
@@ -227,6 +186,9 @@ impl PairRates {
                 let here = numbers[i] as f64;
                 rates[i] = self.on[i] * meeting;
                 rates[n + i] = self.off[i] * here;
+                for j in 0..n {
+                    rates[(2 + i) * n + j] = self.turns[(i, j)] * here;
+                }
             }
             let all: f64 = rates.iter().sum();
             now += -libm::log(1.0 - rng.random::<f64>()) / all;
@@ -243,9 +205,13 @@ impl PairRates {
                 }
                 rest -= rate;
             }
-            match chosen.checked_sub(n) {
-                None => numbers[chosen] += 1,
-                Some(i) => numbers[i] = numbers[i].saturating_sub(1),
+            match (chosen / n, chosen % n) {
+                (0, i) => numbers[i] += 1,
+                (1, i) => numbers[i] = numbers[i].saturating_sub(1),
+                (row, j) => {
+                    numbers[row - 2] = numbers[row - 2].saturating_sub(1);
+                    numbers[j] += 1;
+                }
             }
         }
         None
@@ -267,10 +233,8 @@ mod tests {
 
     /// A bond and traps whose lifetimes differ by six powers of ten.
     fn rates() -> PairRates {
-        PairRates {
-            on: vec![0.008, 0.03, 0.01, 0.004],
-            off: vec![2e-4, 27.0, 0.02, 1e-5],
-        }
+        let on = vec![0.008, 0.03, 0.01, 0.004];
+        PairRates::through_free(on, vec![2e-4, 27.0, 0.02, 1e-5])
     }
 
     fn crowd(pairs: usize) -> Crowd {
@@ -301,7 +265,14 @@ mod tests {
             off: rates().off.iter().map(|off| off / 30.0).collect(),
             ..rates()
         };
-        for rates in [rates(), slower] {
+        // Some go from trap to trap and on to the bond, in detailed balance.
+        let mut turning = rates();
+        for (i, j, flow) in [(0, 2, 4e-6), (1, 2, 1e-3), (1, 3, 3e-5)] {
+            for (i, j) in [(i, j), (j, i)] {
+                turning.turns[(i, j)] = flow * turning.off[i] / turning.on[i];
+            }
+        }
+        for rates in [rates(), slower, turning] {
             for (pairs, time) in [(3, 3.0), (3, 600.0), (5, 60.0)] {
                 let crowd = crowd(pairs);
                 let exact = rates
@@ -352,16 +323,10 @@ mod tests {
     /// off by more than a third.
     #[test]
     fn unlike_traps_are_not_one() {
-        let rates = PairRates {
-            on: vec![0.008, 0.03, 0.02],
-            off: vec![2e-6, 20.0, 1e-5],
-        };
+        let rates = PairRates::through_free(vec![0.008, 0.03, 0.02], vec![2e-6, 20.0, 1e-5]);
         let held: f64 = (1..3).map(|i| rates.on[i] / rates.off[i]).sum();
         let on = rates.on[1] + rates.on[2];
-        let as_one = PairRates {
-            on: vec![rates.on[0], on],
-            off: vec![rates.off[0], on / held],
-        };
+        let as_one = PairRates::through_free(vec![rates.on[0], on], vec![rates.off[0], on / held]);
         let share = |rates: &PairRates| {
             let found = rates.forward_equation(&crowd(3), &[3000.0], MOST_STATES);
             found.unwrap().bound[0]
@@ -372,10 +337,7 @@ mod tests {
     /// Mean numbers are right for many tiles.
     #[test]
     fn mean_numbers_are_those_of_many_tiles() {
-        let rates = PairRates {
-            on: vec![0.02, 0.03],
-            off: vec![2e-3, 0.2],
-        };
+        let rates = PairRates::through_free(vec![0.02, 0.03], vec![2e-3, 0.2]);
         let far = |pairs: usize| {
             let crowd = Crowd {
                 tiles: [pairs; 2],
@@ -391,10 +353,7 @@ mod tests {
     /// In the long run numbers are those of the law of mass action, for one pair and for several.
     #[test]
     fn equilibrium_is_that_of_the_constants() {
-        let rates = PairRates {
-            on: vec![0.02, 0.03, 0.01],
-            off: vec![2e-3, 0.2, 0.01],
-        };
+        let rates = PairRates::through_free(vec![0.02, 0.03, 0.01], vec![2e-3, 0.2, 0.01]);
         let weights = [1.0, 0.02 / 2.0 / 2e-3, 0.03 / 2.0 / 0.2, 0.01 / 2.0 / 0.01];
         let one = Crowd {
             tiles: [1, 1],

@@ -22,12 +22,12 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         Growth::OneHolds => "right: one bond holds a tile",
         Growth::ErrorsStay => {
             told = format!(
-                "too softly: {} of {} growths end with wrong tiles that stay",
+                "too softly: {} of {} growth runs end with errors that stay",
                 assembly.growth.wrong, assembly.growth.runs
             );
             &told
         }
-        Growth::Slow => "too hard: growth comes to no end",
+        Growth::Slow => "too hard: growth does not finish",
     };
     format!(
         "{}: {} with {} words of {} places; shaken at {} with {:.1} % covered Gse (a bond) is {} \
@@ -61,7 +61,7 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
         "wrong meetings have their own energies, below 0 where they repel (for xgrow 0)".to_owned(),
         "letters as in words.toml, matrix.csv and sheet.md".to_owned(),
         "rgrow: import rgrow; system, state = \
-         rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
+         rgrow.rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
             .to_owned(),
         "       system.evolve(state, for_events=100000); print(state.canvas_view)".to_owned(),
         "xgrow: xgrow assembly.tiles (with -nw: without a window)".to_owned(),
@@ -122,7 +122,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     let before = [window, lattice, found(assembly), Some(mismatch)];
     let after = [
         built.deeper().map(whole),
-        Some(grown_at(built.shaking.kt, &assembly.growth, true)),
+        Some(grown_at(built.shaking.kt, &assembly.growth)),
         Some(proposal(assembly)),
         strengths(assembly),
         passed_over(assembly),
@@ -134,24 +134,16 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     before.into_iter().chain(after).flatten().collect()
 }
 
-/// What came of growths at a kT (J).
-fn grown_at(kt: f64, growth: &Kinetic, in_full: bool) -> String {
+/// The result of growth runs at a kT (J).
+fn grown_at(kt: f64, growth: &Kinetic) -> String {
     let Kinetic {
         runs, right, wrong, ..
     } = growth;
-    let at = si(kt, "J", 3);
-    let rest = runs - right - wrong;
-    let rest = match rest {
-        0 => String::new(),
-        rest => format!(", {rest} were not done"),
-    };
-    let what = match in_full {
-        true => "grown tile by tile (kTAM, wrong meetings with their energies)",
-        false => "grown",
-    };
     format!(
-        "{what} at kT = {at}: {right} of {runs} end right, {wrong} with wrong tiles that stay{rest}; \
-         errors a tile {:.2e}",
+        "kinetic growth (kTAM) at kT = {}: {right} of {runs} runs correct, {wrong} with errors that \
+         stay, {} unfinished; errors per tile {:.2e}",
+        si(kt, "J", 3),
+        runs - right - wrong,
         growth.errors_a_tile
     )
 }
@@ -159,13 +151,13 @@ fn grown_at(kt: f64, growth: &Kinetic, in_full: bool) -> String {
 /// Which shaking grows right.
 fn proposal(assembly: &Assembly) -> String {
     match assembly.proposal() {
-        Some((kt, growth)) => format!("to take: --kt {kt:.2e}; {}", grown_at(kt, &growth, false)),
+        Some((kt, growth)) => format!("suggested: --kt {kt:.2e}; {}", grown_at(kt, &growth)),
         None => {
             let others = assembly.others.iter();
             let kts: Vec<String> = others.map(|it| si(it.0, "J", 2)).collect();
             format!(
-                "no shaking that was tried grows right more often than not ({}): a wider gap (longer \
-                 words), a lower coverage or --proofread 2 makes fewer errors",
+                "no kT tried grows correctly in most runs ({}): a wider gap (--length) or a lower \
+                 coverage makes fewer errors",
                 kts.join(", ")
             )
         }
@@ -180,8 +172,8 @@ fn strengths(assembly: &Assembly) -> Option<String> {
         .filter(|it| (it.2 / it.1 - 1.0).abs() > 0.01)?;
     let glue = built.wiring.bonds[bond].glues[0][0];
     Some(format!(
-        "strengths are not quite those of the file, in units of its weakest bond: `{}` (word {}) is \
-         asked {asked} and has {has:.3}; more magnets (--length) come nearer",
+        "strengths differ slightly from the file's, in units of the weakest bond: `{}` (word {}) should \
+         have {asked} and has {has:.3}; more magnets (--length) come closer",
         built.set.glues[glue].name,
         assembly.face(bond),
     ))
@@ -192,7 +184,7 @@ fn passed_over(assembly: &Assembly) -> Option<String> {
     let keys = &assembly.built.set.passed_over;
     let list = keys.join(", ");
     (!keys.is_empty())
-        .then(|| format!("of the file passed over, as it only steers an engine: {list}"))
+        .then(|| format!("ignored in the file, because it only controls a simulator: {list}"))
 }
 
 /// That a canvas is another one than the file's.
@@ -202,8 +194,8 @@ fn canvas(assembly: &Assembly) -> Option<String> {
     let engine = built.engine().size?;
     (engine != [rows, columns]).then(|| {
         format!(
-            "a table has room: for the file's canvas of {rows} x {columns} the engines get one of {} x \
-             {}, into which what grows fits",
+            "the file's canvas of {rows} x {columns} does not bound a real table; the files for engines have \
+             one of {} x {}, large enough for what grows",
             engine[0], engine[1]
         )
     })

@@ -11,6 +11,7 @@ use crate::plots::chart::{Chart, Dimension, Look};
 use crate::plots::committor::committor;
 use jobs::design::Design;
 use jobs::rates::{AtKt, RatedState, StateRates};
+use physics::dynamics::MotionSettings;
 use physics::kinetics::Way;
 use physics::kinetics::bond::LEAST_DEPTH;
 use physics::kinetics::map::Map;
@@ -349,6 +350,14 @@ fn notes(found: &StateRates) -> Vec<String> {
         Some(_) if (0..found.states.len()).all(is_blocked) => {}
         Some(bounds) => notes.extend(of_bounds(found, bounds)),
     }
+    notes.push(format!(
+        "lifetimes depend on the drag: these are for {} /s, overdamped, and proportional to it. \
+         `tilebind yield` counts docking runs with inertia, by default at {} /s, where states live \
+         shorter; --rates overdamped --drag {} gives these there",
+        found.drag,
+        MotionSettings::default().drag,
+        found.drag
+    ));
     notes.push(SCOPE.to_owned());
     notes
 }

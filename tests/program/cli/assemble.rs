@@ -375,9 +375,27 @@ fn the_first_line_answers() {
     assert!(run("0.1").contains("nothing grows"));
     assert!(run("5e-3").contains("hold a tile and weaker ones do not"));
     assert!(run("1e-3").contains("anything grows"));
-    // Bonds of tau are single ones: wrong ones hold as well when tiles hardly move.
-    let lattice = |kt: &str| run_of(&["--lattice", "2x2", "--length", "8"], kt);
-    assert!(lattice("4e-3").contains("right: one bond holds a tile"));
+    // Bonds of tau are single ones: wrong ones hold as well when tiles hardly move, and long before
+    // that wrong tiles that hold by two mismatches are locked in while the lattice grows.
+    let set = ["--lattice", "3x3", "--length", "13", "--gap", "0.5"];
+    let lattice = |kt: &str| run_of(&set, kt);
+    let cold = lattice("3e-3");
+    assert!(
+        cold.contains("growth runs end with errors that stay"),
+        "{cold}"
+    );
+    let out_of = folder.path().join("proposed");
+    let report = built(&set, &out_of);
+    let proposed = number(&report["proposed_kt_J"]);
+    assert!(lattice(&proposed.to_string()).contains("right: one bond holds a tile"));
+    let growths = report["growths"].as_array().unwrap();
+    let errors: Vec<f64> = growths
+        .iter()
+        .map(|it| number(&it["errors_a_tile"]))
+        .collect();
+    // The colder, the more errors, but for what chance makes of few.
+    assert!(errors[0] > 0.3 && errors[0] > 2.0 * errors[3], "{errors:?}");
+    assert!(errors[growths.len() - 3] < 0.02, "{errors:?}");
     let frozen = lattice("1e-9");
     assert!(frozen.contains("so errors grow") && !frozen.contains("000.00"));
 }

@@ -1,9 +1,42 @@
 //! `tilebind bond` and `tilebind yield`.
 
+use serde_json::Value;
+
 use super::{json, numbers, tilebind};
 use crate::program::{stderr, stdout};
 
 const PAPER: &str = "shapes/paper-tile.toml";
+
+/// Triangles with a bond and traps of very unlike lifetimes.
+const TRIANGLES: &str = r#"
+name = "triangles"
+[table]
+size = [1, 1]
+[magnet]
+size = [0.010, 0.010, 0.003]
+remanence = 1.2
+pitch = 0.02
+[fixed]
+sides = 3
+side = 0.11
+thickness = 0.013
+mass = 0.05
+[fixed.faces]
+all = { code = "NNS" }
+1 = { code = "SN.N", magnet = { remanence = 0.9 } }
+[moving]
+side = 0.11
+thickness = 0.013
+mass = 0.05
+[moving.faces]
+all = { code = "NS" }
+west = { mates = "0" }
+[target]
+fixed = "0"
+moving = "west"
+[potential]
+model = "dipole"
+"#;
 
 fn design(file: &str) -> String {
     format!("{}/{file}", env!("CARGO_MANIFEST_DIR"))
@@ -127,6 +160,50 @@ fn shakings_without_an_answer_leave_the_others_theirs() {
     assert!(stdout(&output).contains("at kT = 1.000 J the bond"));
 }
 
+/// Traps of unlike lifetimes: the share of the answer is that of its own simulation.
+#[test]
+fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("triangles.toml");
+    std::fs::write(&file, TRIANGLES).unwrap();
+    let found = json(&[
+        "yield",
+        file.to_str().unwrap(),
+        "--tiles=6",
+        "--time=600",
+        "--kt=1.7e-3,2.1e-3",
+        "--runs=60",
+        "--duration=4",
+        "--simulations=2000",
+        "--json",
+    ]);
+    let mut best: f64 = 0.0;
+    for setting in found["settings"].as_array().unwrap() {
+        let share = |key: &str| setting[key].as_f64().unwrap();
+        let offs = setting["states"].as_array().unwrap().iter();
+        let offs: Vec<f64> = offs.map(|it| it["off_per_s"].as_f64().unwrap()).collect();
+        let [least, most] =
+            [f64::min, f64::max].map(|pick| offs.iter().copied().reduce(pick).unwrap());
+        assert!(offs.len() > 3 && most > 100.0 * least, "{offs:?}");
+        let simulated = &setting["yield_simulated"];
+        let [mean, error] = ["mean", "standard_error"].map(|key| simulated[key].as_f64().unwrap());
+        assert!((share("yield") - mean).abs() < 4.0 * error, "{setting}");
+        assert!(
+            setting["yield_method"]
+                .as_str()
+                .unwrap()
+                .contains("forward equation")
+        );
+        best = best.max(share("yield"));
+    }
+    // A schedule of as many tiles is no worse than its best setting.
+    assert_eq!(found["mixture"]["tiles"], 6);
+    assert!(
+        found["mixture"]["yield"].as_f64().unwrap() > best - 1e-6,
+        "{best}"
+    );
+}
+
 #[test]
 fn a_yield_with_its_three_views() {
     let file = design(PAPER);
@@ -171,6 +248,61 @@ fn a_yield_with_its_three_views() {
     let of = |key: &str| mixture[key].as_f64().unwrap();
     assert!(of("yield") <= of("upper_bound") + 1e-9 && of("upper_bound") <= 1.0 + 1e-9);
     assert!(of("yield") >= found["yield"].as_f64().unwrap() - 1e-9);
+}
+
+/// The same drag, the same kT, the same states: `yield` has the rates that `rates` solves, within its
+/// bounds, and either names the other's drag.
+#[test]
+fn yield_and_rates_have_one_answer_for_one_drag() {
+    let file = design(PAPER);
+    let kt = "6e-3";
+    let common = ["--kt", kt, "--drag", "20", "--json"];
+    let rates = json(&[&["rates", &file, "--certify", "0.9"][..], &common].concat());
+    let asked = "--rates overdamped --tiles 2 --time 60 --simulations 0";
+    let asked: Vec<&str> = asked.split(' ').collect();
+    let yields = json(&[&["yield", &file][..], &asked, &common].concat());
+    let area = 4.0;
+    let states = yields["settings"][0]["states"].as_array().unwrap();
+    assert!(states.len() > 1);
+    for state in states {
+        let name = state["state"].as_str().unwrap();
+        let is = |place: &Value| place.as_str().unwrap().split(' ').next_back() == Some(name);
+        let between = |from: &dyn Fn(&Value) -> bool, to: &dyn Fn(&Value) -> bool| {
+            let list = rates["rates"].as_array().unwrap();
+            let entry = list.iter().find(|it| from(&it["from"]) && to(&it["to"]));
+            let entry = entry.unwrap_or_else(|| panic!("{name}"));
+            ["lower_per_s", "upper_per_s"].map(|key| entry[key].as_f64().unwrap())
+        };
+        let is_free = |place: &Value| place == "free";
+        let own = |key: &str| state[key].as_f64().unwrap();
+        for ([lower, upper], rate) in [
+            (between(&is_free, &is), own("on_m2_per_s") / area),
+            (between(&is, &is_free), own("off_per_s")),
+        ] {
+            assert!(
+                lower < rate && rate < upper,
+                "{name}: {lower} {rate} {upper}"
+            );
+            assert!(upper < 3.0 * lower, "{name}: {lower} {upper}");
+        }
+    }
+    for (command, other) in [
+        (
+            &["rates", &file, "--certify", "0.9", "--kt", kt][..],
+            "tilebind yield",
+        ),
+        (
+            &[&["yield", &file, "--kt", kt][..], &asked].concat(),
+            "tilebind rates",
+        ),
+    ] {
+        let output = tilebind(command);
+        assert!(
+            stdout(&output).replace('\n', " ").contains(other),
+            "{}",
+            stdout(&output)
+        );
+    }
 }
 
 #[test]

@@ -174,6 +174,10 @@ fn sets_with_a_polar_shape_are_codes() {
         (12, 5, 32),
         (11, 6, 12),
         (12, 6, 24),
+        // From known codes: Hadamard's and Hamming's, which no exchange of words finds.
+        (16, 8, 32),
+        (15, 8, 16),
+        (12, 3, 256),
     ] {
         let gap = (2.0 * f64::from(d) - 1.0) / f64::from(n);
         let found = largest(&task(n as usize, rules), gap, usize::MAX, &mut effort(20.0));

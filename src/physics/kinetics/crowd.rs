@@ -1,0 +1,71 @@
+//! A crowd of tiles on a table, and the rates of a pair of them.
+
+use nalgebra::DMatrix;
+
+use super::chain::Chain;
+
+/// The rates of a pair of tiles: state 0 is the bond, the others are traps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairRates {
+    /// kappa: attachments a second for one tile a square metre (m^2/s).
+    pub on: Vec<f64>,
+    /// Detachments a second (1/s).
+    pub off: Vec<f64>,
+    /// From state to state without coming free (1/s), row: from; 0 on the diagonal.
+    pub turns: DMatrix<f64>,
+}
+
+/// A table and the tiles on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crowd {
+    /// How many tiles of the fixed and of the moving tile's kind.
+    pub tiles: [usize; 2],
+    /// The table's area (m^2).
+    pub area: f64,
+}
+
+impl Crowd {
+    /// So many tiles, half of either kind, of `tile_area` (m^2) that cover a share of a table.
+    pub fn new(tiles: usize, coverage: f64, tile_area: f64) -> Self {
+        Self {
+            tiles: [tiles.div_ceil(2), tiles / 2],
+            area: tiles as f64 * tile_area / coverage,
+        }
+    }
+
+    /// Most pairs that there can be.
+    pub fn pairs(&self) -> usize {
+        self.tiles[0].min(self.tiles[1])
+    }
+}
+
+impl PairRates {
+    /// Rates without ways from state to state but through free tiles.
+    pub fn through_free(on: Vec<f64>, off: Vec<f64>) -> Self {
+        let n = on.len();
+        Self {
+            on,
+            off,
+            turns: DMatrix::zeros(n, n),
+        }
+    }
+
+    /// The rate (1/s) at which a state is left.
+    pub fn leaving(&self, kind: usize) -> f64 {
+        self.off[kind] + self.turns.row(kind).sum()
+    }
+
+    /// The chain of a single pair on a table: state 0 is free, then come the bond and the traps.
+    pub fn pair_chain(&self, area: f64) -> Chain {
+        let n = self.on.len();
+        let mut rates = DMatrix::zeros(n + 1, n + 1);
+        for i in 0..n {
+            rates[(0, i + 1)] = self.on[i] / area;
+            rates[(i + 1, 0)] = self.off[i];
+            for j in (0..n).filter(|j| *j != i) {
+                rates[(i + 1, j + 1)] = self.turns[(i, j)];
+            }
+        }
+        Chain::new(rates)
+    }
+}
