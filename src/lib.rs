@@ -121,9 +121,9 @@
 //! dependencies state; a compiler that old has not been tried.
 
 pub use jobs::{
-    Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, matching, memory, output, pipeline, query, rates, request, start, sweep, word_sets,
-    workshop, yields,
+    Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
+    docking, inspection, matching, memory, output, pipeline, query, rates, request, start, sweep,
+    text, word_sets, workshop, yields,
 };
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,

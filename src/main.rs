@@ -65,7 +65,7 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = match cli::parse::<Arguments>() {
         Ok(arguments) => arguments,
-        Err(answer) => return cli::answer(&answer),
+        Err(answer) => return cli::answer(answer),
     };
     if let Err(message) = Level::chosen() {
         return cli::Failure::Usage(message).report();

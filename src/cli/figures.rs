@@ -1,5 +1,7 @@
 //! How pictures are to be drawn.
 
+use std::path::Path;
+
 use clap::Args;
 use tilebind::report::plots::Sheet;
 use tilebind::request;
@@ -56,9 +58,7 @@ fn millimetres(text: &str) -> Result<f64, String> {
 }
 
 /// Options that do not change the results, and how many words of their own follow.
-const ELSEWHERE: [(&str, usize); 7] = [
-    ("--out", 1),
-    ("-o", 1),
+const ELSEWHERE: [(&str, usize); 5] = [
     ("--threads", 1),
     ("--quiet", 0),
     ("--force", 0),
@@ -74,7 +74,8 @@ pub fn command_line() -> String {
 fn told(words: impl Iterator<Item = String>) -> String {
     let mut told = vec!["tilebind".to_owned()];
     let mut left_out = 0;
-    for word in words {
+    let mut words = words;
+    while let Some(word) = words.next() {
         if left_out > 0 {
             left_out -= 1;
             continue;
@@ -82,6 +83,12 @@ fn told(words: impl Iterator<Item = String>) -> String {
         let name = word.split('=').next().unwrap_or_default();
         if let Some((_, more)) = ELSEWHERE.iter().find(|(option, _)| *option == name) {
             left_out = if word.contains('=') { 0 } else { *more };
+            continue;
+        }
+        if ["--out", "-o"].contains(&name) {
+            let place = word.split_once('=').map(|(_, place)| place.to_owned());
+            let place = place.or_else(|| words.next()).unwrap_or_default();
+            told.extend(["--out".to_owned(), elsewhere(&place).to_owned()]);
             continue;
         }
         let file = word
@@ -95,6 +102,19 @@ fn told(words: impl Iterator<Item = String>) -> String {
         });
     }
     told.join(" ")
+}
+
+/// Where results go by the command that is told: a folder of no one's, or a picture by its kind.
+fn elsewhere(place: &str) -> &'static str {
+    match Path::new(place)
+        .extension()
+        .and_then(|ending| ending.to_str())
+    {
+        Some("svg") => "results.svg",
+        Some("png") => "results.png",
+        Some("pdf") => "results.pdf",
+        _ => "results",
+    }
 }
 
 #[cfg(test)]
@@ -116,7 +136,12 @@ mod tests {
         let words = "analyse a/b c.toml --out x --seed 3 --threads=2 --quiet --dynamics=100";
         let words = words.replace("b c", "b\u{a0}c");
         let words = words.split(' ').map(|word| word.replace('\u{a0}', " "));
-        let expected = "tilebind analyse 'b c.toml' --seed 3 --dynamics=100";
+        let expected = "tilebind analyse 'b c.toml' --out results --seed 3 --dynamics=100";
         assert_eq!(told(words), expected);
+        let words = ["show", "a.toml", "--out=b/c.png"].map(str::to_owned);
+        assert_eq!(
+            told(words.into_iter()),
+            "tilebind show a.toml --out results.png"
+        );
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
+use tilebind::text::{decode, with_commas};
 
 use super::{Failure, tell};
 use tilebind::request::Unanswered;
@@ -79,7 +80,7 @@ pub fn text(path: &Path) -> io::Result<String> {
         let message = format!("it is larger than {} MB", LARGEST >> 20);
         return Err(io::Error::other(message));
     }
-    String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
+    decode(bytes).map_err(io::Error::other)
 }
 
 /// What is read from a table named on the command line; what is wrong with it is told with its name.
@@ -89,7 +90,7 @@ pub fn table<T, E: Unanswered>(
 ) -> Result<T, Failure> {
     let wrong = |error: &dyn Display| Failure::usage(format!("{}: {error}", file.display()));
     let text = text(file).map_err(|error| wrong(&error))?;
-    read(&text).map_err(|error| match error.is_of_the_question() {
+    read(&with_commas(&text)).map_err(|error| match error.is_of_the_question() {
         true => wrong(&error),
         false => Failure::run(error),
     })

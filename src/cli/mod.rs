@@ -74,12 +74,37 @@ fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
 }
 
 /// Prints what clap answers in place of a command: help, the version, or what is wrong.
-pub fn answer(answer: &clap::Error) -> ExitCode {
+pub fn answer(mut answer: clap::Error) -> ExitCode {
+    correct(&mut answer);
     let printed = answer.print();
     match (answer.use_stderr(), printed) {
         (true, _) => ExitCode::from(WRONG),
         (false, Ok(())) => ExitCode::SUCCESS,
         (false, Err(error)) => Failure::from(error).report(),
+    }
+}
+
+/// Takes away the tip to pass an option that a command does not have as a value, which none wants, and
+/// says where the model of the magnets is said instead.
+fn correct(answer: &mut clap::Error) {
+    use clap::builder::StyledStr;
+    use clap::error::{ContextKind, ContextValue, ErrorKind};
+    if answer.kind() != ErrorKind::UnknownArgument {
+        return;
+    }
+    if let Some(ContextValue::StyledStrs(tips)) = answer.get(ContextKind::Suggested) {
+        let as_value = |tip: &StyledStr| tip.to_string().contains("as a value, use");
+        if tips.iter().all(as_value) {
+            answer.remove(ContextKind::Suggested);
+        }
+    }
+    let wrong = answer.get(ContextKind::InvalidArg);
+    let is_model = matches!(wrong, Some(ContextValue::String(name)) if name == "--model");
+    if is_model && answer.get(ContextKind::SuggestedArg).is_none() {
+        let tip = "the design says how magnets are modelled: [potential] model = \"cuboid\"; a \
+                   sweep varies it: --vary potential.model=dipole,cuboid";
+        let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+        answer.insert(ContextKind::Suggested, tips);
     }
 }
 

@@ -26,7 +26,7 @@ pub struct Request {
 
     /// How long each trajectory lasts (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
-          value_parser = request::positive)]
+          value_parser = request::time)]
     pub duration: f64,
 
     /// Drag rate (1/s)
@@ -46,7 +46,7 @@ pub struct Request {
 
     /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
     /// a magnet]
-    #[arg(long, value_name = "M", value_parser = request::positive)]
+    #[arg(long, value_name = "M", value_parser = request::length)]
     pub threshold: Option<f64>,
 
     /// Where runs start.
@@ -63,7 +63,7 @@ pub struct Request {
     pub fan: Vec<Fan>,
 
     /// Effective energy kT (J) of a random shaking force
-    #[arg(long, value_name = "E_J", value_parser = request::not_negative)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy_or_none)]
     pub shaking: Option<f64>,
 
     /// Seed of all random numbers; a trajectory depends on it and on its own number only
@@ -162,11 +162,11 @@ pub struct StartOptions {
     pub distance: Option<[f64; 2]>,
 
     /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
-    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub direction: Option<f64>,
 
     /// Orientation differs from the bound one by at most this (rad) [default: 1.5]
-    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub orientation: Option<f64>,
 
     /// Speed at the start, LOW,HIGH (m/s) [default: 0,1.3]
@@ -175,7 +175,7 @@ pub struct StartOptions {
 
     /// The velocity's direction differs from that to the fixed tile by at most this (rad)
     /// [default: 0.3]
-    #[arg(long, value_name = "RAD", value_parser = request::not_negative)]
+    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub aim: Option<f64>,
 
     /// Turning rate at the start, either way, at most this (rad/s) [default: 0]

@@ -32,6 +32,7 @@ mod refused;
 pub mod request;
 pub mod start;
 pub mod sweep;
+pub mod text;
 pub mod word_sets;
 pub mod workshop;
 pub mod yields;

@@ -25,7 +25,12 @@ def test_text_and_dictionaries_make_the_same_design(design, root):
     made = Design.from_dict(design.to_dict())
     poses = [[0.43, 0, 0], [0.5, 0.1, 0.3]]
     assert np.array_equal(made.energy(poses), design.energy(poses))
-    assert made != design and made != "a design"
+    assert made == design and hash(made) == hash(design) and made != "a design"
+    assert made != design.replace("magnet.pitch", 0.041)
+    bare = Design.from_dict({key: value for key, value in design.to_dict().items() if key != "name"})
+    assert Design.from_dict(bare.to_dict()) == bare != design
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        Design.load("nowhere.toml")
 
 
 def test_a_key_is_replaced_in_another_design(tab):

@@ -62,7 +62,7 @@ pub struct Request {
 
     /// Work to spend on words, as what takes about so many seconds of a core; it is counted, so
     /// that the same work gives the same words everywhere
-    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]
     pub seconds: f64,
 
     /// Seed of all random numbers: the same seed gives the same results

@@ -195,6 +195,11 @@ impl Observer for Part<'_> {
 }
 
 impl Assessment {
+    /// Whether there is a bond, and no trap that it has to be told from.
+    pub fn has_no_trap(&self) -> bool {
+        self.bond.is_some() && self.deepest_trap.is_none()
+    }
+
     /// How many barriers moving tiles checked, contradict, and show to be estimated too high; `None`
     /// where they were not asked.
     pub fn checks(&self) -> Option<[usize; 3]> {

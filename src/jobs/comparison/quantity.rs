@@ -228,9 +228,19 @@ pub static QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "unlisted_depth", label: "unlisted at most", measure: Energy,
         column: at(1, 4, "unlisted"),
-        read: |a| a.unlisted_above.map(|energy| Number(-energy)).ok_or("not proved"), ..PLAIN
+        read: unlisted, ..PLAIN
     },
 ];
+
+/// How deep at most what is not listed is; what may be deeper than the bond says nothing of the list.
+fn unlisted(assessment: &Assessment) -> Result<Reading, &'static str> {
+    let deepest = assessment
+        .bond
+        .as_ref()
+        .map_or(assessment.target_energy, |bond| bond.energy);
+    let known = assessment.unlisted_above.filter(|energy| *energy > deepest);
+    known.map(|energy| Number(-energy)).ok_or("not proved")
+}
 
 fn bond(assessment: &Assessment) -> Result<&Bond, &'static str> {
     assessment.bond.as_ref().ok_or("no bond")

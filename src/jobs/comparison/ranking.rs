@@ -7,15 +7,22 @@ use physics::order::Order;
 use std::cmp::Reverse;
 
 /// The designs' places in `assessments` from the best to the worst by a figure, larger being
-/// better; those without the figure come last, equal ones in their order.
+/// better; those without the figure come last (but see [`value`]), equal ones in their order.
 pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
-    let value = |index: usize| {
-        let estimate = by.of(&assessments[index]);
-        estimate.map_or(f64::NEG_INFINITY, |estimate| estimate.value)
-    };
+    let value = |index: usize| value(&assessments[index], by);
     let mut order: Vec<usize> = (0..assessments.len()).collect();
     order.order_by_key(|&k| (Reverse(OrderedFloat(value(k))), k));
     order
+}
+
+/// What a design is ranked by: the figure, without bound where a bond has no trap to be told from, and
+/// below all others where it is not known.
+pub fn value(assessment: &Assessment, by: &Quantity) -> f64 {
+    match by.of(assessment) {
+        Some(estimate) => estimate.value,
+        None if by.key == "selectivity" && assessment.has_no_trap() => f64::INFINITY,
+        None => f64::NEG_INFINITY,
+    }
 }
 
 /// The same, but designs that do not find into the bond stand behind all others, whatever the

@@ -27,7 +27,7 @@ pub struct Request {
 
     /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the
     /// bond or a twentieth of the barrier, whichever is less]
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     #[serde(rename = "tolerance_J")]
     pub tolerance: Option<f64>,
 

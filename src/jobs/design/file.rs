@@ -4,6 +4,8 @@ use std::fs::{File, metadata};
 use std::io::{Error, Read, Result};
 use std::path::Path;
 
+use crate::text::decode;
+
 /// Largest file that is read (bytes).
 const LARGEST: u64 = 16 << 20;
 
@@ -32,12 +34,12 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The text of a regular file, UTF-8.
+/// The text of a regular file.
 ///
 /// # Errors
-/// As for [`read`], and where the bytes are not UTF-8.
+/// As for [`read`], and where the bytes are no text.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
-    String::from_utf8(read(path)?).map_err(|_| Error::other("it is not UTF-8 text"))
+    decode(read(path)?).map_err(Error::other)
 }
 
 /// Whether a file lies in a folder or below it, wherever links lead.

@@ -72,7 +72,7 @@ pub use physics::potential::MagnetModel;
 pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
 pub use starting::{Shape, ShopMagnet, Start, StartError};
-pub use units::{angle, length};
+pub use units::{angle, energy, length, time};
 pub use word_set::WordSet;
 
 use std::collections::BTreeMap;
@@ -82,6 +82,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use crate::checksum::sha256;
+use crate::text::decode;
 use build::BuiltTile;
 use drawings::Drawings;
 use error::Result;
@@ -161,17 +162,19 @@ impl Design {
             let help = "check the path; shipped designs are in shapes/";
             DesignError::new(&file, None, message, help)
         })?;
-        match String::from_utf8(bytes) {
-            Ok(text) => Self::parse(&text, &file),
+        let checksum = sha256(&bytes);
+        match decode(bytes.clone()) {
+            Ok(text) => Ok(Self {
+                sha256: checksum,
+                ..Self::parse(&text, &file)?
+            }),
             Err(error) => {
-                let at = error.utf8_error().valid_up_to();
-                let text = String::from_utf8_lossy(error.as_bytes());
-                let place = Place::of(&text, at..at + 1);
-                let message = "the file is not UTF-8 text";
+                let text = String::from_utf8_lossy(&bytes[..error.at]);
+                let place = Place::of(&text, text.len()..text.len());
                 Err(DesignError::new(
                     &file,
                     Some(place),
-                    message,
+                    "the file is not text in UTF-8 or UTF-16",
                     "save it as UTF-8",
                 ))
             }

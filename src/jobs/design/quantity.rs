@@ -191,12 +191,23 @@ impl Quantity {
     /// What to write for a number, from one that is there in quotes.
     pub fn example(&self, text: &str) -> String {
         let with_unit = self.kind.units.iter().find(|(_, factor)| *factor > 1.0);
-        let (name, factor) = with_unit.unwrap_or(&self.kind.units[0]);
-        match text.trim().parse::<f64>().ok().filter(|x| x.is_finite()) {
-            Some(value) => format!(
-                "write {value} without the quotes, or \"{} {name}\"",
-                four_digits(value * factor)
-            ),
+        let (name, _) = with_unit.unwrap_or(&self.kind.units[0]);
+        let with_point = text.replacen(',', ".", 1);
+        if text.matches(',').count() == 1 && self.read(&with_point).is_some() {
+            return format!(
+                "write a point in place of the comma: \"{}\"",
+                with_point.trim()
+            );
+        }
+        let number = with_point.trim().parse::<f64>();
+        match number.ok().filter(|x| x.is_finite()) {
+            Some(value) => {
+                let meant = self.meant(value);
+                format!(
+                    "a number in quotes needs its unit: write {}",
+                    meant.join(", or ")
+                )
+            }
             None => {
                 let names: Vec<_> = self.unit_names().collect();
                 format!(
@@ -204,6 +215,32 @@ impl Quantity {
                     names.join(", ")
                 )
             }
+        }
+    }
+
+    /// What a number without a unit may mean: without the quotes, or with the units in which it has a
+    /// common magnitude.
+    fn meant(&self, value: f64) -> Vec<String> {
+        let (low, high) = self.typical;
+        let common = |meant: f64| (low..=high).contains(&meant.abs());
+        let plain = format!("{value} without the quotes");
+        let own = match self.kind.unit {
+            "" => plain,
+            unit => format!("{plain} for {unit}"),
+        };
+        let mut factors: Vec<f64> = Vec::new();
+        let others = self.kind.units.iter().filter(|(_, factor)| {
+            let first = *factor != 1.0 && !factors.contains(factor) && common(value / factor);
+            factors.push(*factor);
+            first
+        });
+        let others: Vec<String> = others
+            .map(|(name, _)| format!("\"{value} {name}\""))
+            .collect();
+        match others.is_empty() {
+            true => vec![own],
+            false if common(value) => [vec![own], others].concat(),
+            false => [others, vec![own]].concat(),
         }
     }
 

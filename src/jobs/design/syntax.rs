@@ -1,5 +1,7 @@
 //! From text to TOML.
 
+use std::ops::Range;
+
 use toml::de::DeTable;
 
 use super::error::Result;
@@ -33,9 +35,48 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
                     None => format!("write \"{with_unit}\""),
                 },
             ),
-            None => source.error(span.into(), error.message().trim(), HELP),
+            None => match mistaken(source.text, span.start) {
+                Some((range, message, help)) => source.error(range.into(), message, help),
+                None => source.error(span.into(), error.message().trim(), HELP),
+            },
         };
     }
     source.faults.check()?;
     Ok(root.into_inner())
+}
+
+/// What is no TOML but easily meant, at or about a place of the text: a decimal comma, or text without
+/// its quotes. Where it stands, what is wrong with it and what to write.
+fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String)> {
+    let begin = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let end = text[at..]
+        .find(['\n', '\r', '#'])
+        .map_or(text.len(), |end| at + end);
+    let line = &text[begin..end];
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    // `side = 0,43`
+    let (_, value) = line.split_once('=')?;
+    if let Some((whole, part)) = value.trim().split_once(',')
+        && digits(whole.trim_start_matches(['-', '+']))
+        && digits(part)
+    {
+        let from = begin + line.find(value.trim())?;
+        let told = format!("write {whole}.{part}");
+        let range = from..from + value.trim().len();
+        return Some((range, "a decimal number has a point, not a comma", told));
+    }
+    // `code = NNS`, as a value of its own, in a table or in an array.
+    let before = &text[begin..at];
+    let from = before.rfind(|c: char| c.is_whitespace() || "=[,{".contains(c));
+    let from = begin + from.map_or(0, |at| at + 1);
+    let word = &text[from..end];
+    let word = &word[..word
+        .find(|c: char| c.is_whitespace() || ",]}".contains(c))
+        .unwrap_or(word.len())];
+    let is_value =
+        text[begin..from].trim_end().ends_with(['=', '[', ',']) && text[begin..from].contains('=');
+    let plain = |c: char| c.is_alphanumeric() || "._-/".contains(c);
+    let is_word = word.contains(char::is_alphabetic) && word.chars().all(plain);
+    let told = format!("write \"{word}\"");
+    (is_value && is_word).then(|| (from..from + word.len(), "text goes in quotes", told))
 }

@@ -72,6 +72,27 @@ pub(super) const MOMENT: Units = &[
     ("mA·m²", 1e3),
     ("emu", 1e3),
 ];
+const ENERGY: Units = &[
+    ("J", 1.0),
+    ("kJ", 1e-3),
+    ("mJ", 1e3),
+    ("uJ", 1e6),
+    ("µJ", 1e6),
+    ("nJ", 1e9),
+    ("pJ", 1e12),
+];
+const TIME: Units = &[
+    ("s", 1.0),
+    ("ms", 1e3),
+    ("us", 1e6),
+    ("µs", 1e6),
+    ("min", 1.0 / 60.0),
+    ("minutes", 1.0 / 60.0),
+    ("h", 1.0 / 3600.0),
+    ("hours", 1.0 / 3600.0),
+    ("d", 1.0 / 86_400.0),
+    ("days", 1.0 / 86_400.0),
+];
 pub(super) const SHARE: Units = &[("%", 1e2)];
 
 /// A finite number and one of `units` behind it, with or without a space, in the file's own unit.
@@ -113,9 +134,10 @@ pub(super) fn beginning(text: &str) -> Option<(Option<f64>, &str)> {
 /// A length (m): a plain number, or one with a unit behind it.
 ///
 /// ```
-/// use tilebind_jobs::design::{angle, length};
+/// use tilebind_jobs::design::{angle, energy, length, time};
 /// assert_eq!((length("0.12"), length("12 cm"), length("12 kg")), (Some(0.12), Some(0.12), None));
 /// assert_eq!(angle("180 deg"), Some(std::f64::consts::PI));
+/// assert_eq!((energy("3 mJ"), time("2 min")), (Some(3e-3), Some(120.0)));
 /// ```
 pub fn length(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, LENGTH))
@@ -124,6 +146,16 @@ pub fn length(text: &str) -> Option<f64> {
 /// An angle (rad): a plain number, or one with a unit behind it.
 pub fn angle(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, ANGLE))
+}
+
+/// An energy (J): a plain number, or one with a unit behind it.
+pub fn energy(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, ENERGY))
+}
+
+/// A time (s): a plain number, or one with a unit behind it.
+pub fn time(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, TIME))
 }
 
 fn plain(text: &str) -> Option<f64> {

@@ -26,16 +26,16 @@ pub struct Request {
     pub repeats: usize,
 
     /// Accept milestones by Boltzmann's rule at this energy (J), not by the linear rule
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub boltzmann: Option<f64>,
 
     /// Thermal energy (J) of the transition probabilities [default: a hundredth of the bond]
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub thermal_energy: Option<f64>,
 
     /// Width (J) to which the certified bounds are narrowed [default: a hundredth of
     /// the bond or a twentieth of the barrier, whichever is less]
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
     /// What bounds of barriers are worth.
@@ -54,7 +54,7 @@ pub struct Request {
 
     /// Seconds by the clock after which that proof ends too, so that another run may differ; 0 for no
     /// proof [default: no limit]
-    #[arg(long, value_name = "S", value_parser = request::not_negative)]
+    #[arg(long, value_name = "S", value_parser = request::time_or_none)]
     pub complete_seconds: Option<f64>,
 
     /// Traps are looked for below this share of the bond's energy
@@ -203,7 +203,7 @@ pub struct Certify {
 
     /// Seconds by the clock after which the bounds stay as they are, so that another run may differ; 0
     /// for no bounds [default: no limit]
-    #[arg(long, value_name = "S", value_parser = request::not_negative)]
+    #[arg(long, value_name = "S", value_parser = request::time_or_none)]
     pub certify_seconds: Option<f64>,
 }
 

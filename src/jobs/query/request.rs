@@ -26,7 +26,7 @@ pub struct Request {
     pub to: End,
 
     /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
     /// What its bounds are worth.

@@ -39,7 +39,7 @@ pub struct Question {
 
     /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
     /// [default: half the bond's energy; without --start half way up to its lowest barrier]
-    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::negative)]
+    #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::binding)]
     pub basin_energy: Option<f64>,
 
     /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]

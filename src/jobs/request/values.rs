@@ -104,6 +104,49 @@ pub fn length_or_none(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a length of 0 or more is needed, such as 1e-4 (m) or \"0.1 mm\"".to_owned())
 }
 
+/// An angle (rad) of 0 or more, or with a unit.
+pub fn angle_or_none(text: &str) -> Result<f64, String> {
+    design::angle(text).filter(|x| *x >= 0.0).ok_or_else(|| {
+        "a number of 0 or more is needed, in rad or with a unit: \"30 deg\"".to_owned()
+    })
+}
+
+/// A positive energy (J), or with a unit.
+pub fn energy(text: &str) -> Result<f64, String> {
+    let found = design::energy(text).filter(|x| *x > 0.0);
+    found.ok_or_else(|| format!("a number greater than 0 is needed, {JOULES}"))
+}
+
+/// An energy (J) of 0 or more, or with a unit.
+pub fn energy_or_none(text: &str) -> Result<f64, String> {
+    let found = design::energy(text).filter(|x| *x >= 0.0);
+    found.ok_or_else(|| format!("a number of 0 or more is needed, {JOULES}"))
+}
+
+/// An energy (J) below 0, or with a unit.
+pub fn binding(text: &str) -> Result<f64, String> {
+    let found = design::energy(text).filter(|x| *x < 0.0);
+    found.ok_or_else(|| format!("a number less than 0 is needed, {JOULES}"))
+}
+
+/// How energies are told.
+const JOULES: &str = "in J or with a unit: 3e-3 or \"3 mJ\"";
+
+/// A positive time (s), or with a unit.
+pub fn time(text: &str) -> Result<f64, String> {
+    let found = design::time(text).filter(|x| *x > 0.0);
+    found.ok_or_else(|| format!("a number greater than 0 is needed, {SECONDS}"))
+}
+
+/// A time (s) of 0 or more, or with a unit.
+pub fn time_or_none(text: &str) -> Result<f64, String> {
+    let found = design::time(text).filter(|x| *x >= 0.0);
+    found.ok_or_else(|| format!("a number of 0 or more is needed, {SECONDS}"))
+}
+
+/// How times are told.
+const SECONDS: &str = "in s or with a unit: 120 or \"2 min\"";
+
 /// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
     text.parse()
@@ -118,10 +161,9 @@ const SHAKING: [f64; 2] = [1e-12, 1e3];
 /// An effective energy of shaking (J).
 pub fn shaking(text: &str) -> Result<f64, String> {
     let [least, most] = SHAKING;
-    positive(text)
-        .ok()
+    design::energy(text)
         .filter(|kt| (least..=most).contains(kt))
-        .ok_or_else(|| format!("a kT between {least:e} and {most:e} J is needed"))
+        .ok_or_else(|| format!("a kT between {least:e} and {most:e} J is needed, {JOULES}"))
 }
 
 /// A number that is not negative.
@@ -138,14 +180,6 @@ pub fn share(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x| *x <= 1.0)
         .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
-}
-
-/// A number below 0.
-pub fn negative(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|x: &f64| x.is_finite() && *x < 0.0)
-        .ok_or_else(|| "a number less than 0 is needed".to_owned())
 }
 
 /// A fraction greater than 0 and less than 1.
@@ -177,6 +211,12 @@ mod tests {
     #[test]
     fn limits() {
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
+        assert_eq!((shaking("3 mJ"), time("2 min")), (Ok(3e-3), Ok(120.0)));
+        assert_eq!(
+            (binding("-3 mJ"), energy_or_none("0")),
+            (Ok(-3e-3), Ok(0.0))
+        );
+        assert!(energy("3 mm").is_err() && energy("0 mJ").is_err() && time("-1 s").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
         assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
         assert!(runs("1e7").is_ok() && runs("4294967295").is_err());

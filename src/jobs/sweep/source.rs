@@ -108,7 +108,7 @@ impl Source {
     }
 
     /// The design as a document, always with its name.
-    pub(super) fn document(&self) -> Table {
+    pub fn document(&self) -> Table {
         let mut document: Table = self.text.parse().unwrap_or_default();
         document
             .entry("name")

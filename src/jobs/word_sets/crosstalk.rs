@@ -11,7 +11,7 @@ use physics::words::crosstalk::{Crosstalk, TOLERANCE};
 pub struct CrosstalkRequest {
     /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
-          value_parser = request::positive)]
+          value_parser = request::energy)]
     pub certify: Option<Option<f64>>,
 
     /// Cells spent on the proof at most

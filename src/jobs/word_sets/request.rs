@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::least_spacing;
-use crate::design::MagnetModel;
+use crate::design::{self, MagnetModel};
 use crate::request::{self, Word};
 use physics::words::word::MOST_PLACES;
 use physics::words::{Bar, Constraints, Faces, Fault, Shape};
@@ -68,7 +68,7 @@ pub struct Request {
     pub tolerate: Option<Fault>,
 
     /// From place to place (m), the least spacing with --continuous [default: the design's, or 0.04]
-    #[arg(long, value_name = "M", value_parser = request::positive)]
+    #[arg(long, value_name = "M", value_parser = request::length)]
     pub pitch: Option<f64>,
 
     /// As many north as south poles, or one more
@@ -89,7 +89,7 @@ pub struct Request {
     pub consecutive: Option<[usize; 2]>,
 
     /// Least depth of a bond (J)
-    #[arg(long, value_name = "E_J", value_parser = request::positive)]
+    #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub min_bond: Option<f64>,
 
     /// Range of the lowest energy (J) of two words over all slides
@@ -111,7 +111,7 @@ pub struct Request {
 
     /// Work to spend, as what takes about so many seconds of a core; it is counted, so that the
     /// same work gives the same words everywhere
-    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::positive)]
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]
     pub seconds: f64,
 
     /// Seed of all random numbers: the same seed gives the same results
@@ -232,17 +232,18 @@ fn mismatches(text: &str) -> Result<[usize; 3], String> {
 
 fn whole_range(text: &str) -> Result<[usize; 2], String> {
     let wrong = "a range is A:B in whole numbers, such as 0:3";
-    ends(text).ok_or_else(|| wrong.to_owned())
+    ends(text, |part| part.parse().ok()).ok_or_else(|| wrong.to_owned())
 }
 
 fn range(text: &str) -> Result<[f64; 2], String> {
-    let wrong = "a range is E:E in J, from the lower to the higher, such as -0.02:0";
-    ends(text).ok_or_else(|| wrong.to_owned())
+    let wrong =
+        "a range is E:E in J, from the lower to the higher, such as -0.02:0 or \"-20 mJ:0\"";
+    ends(text, design::energy).ok_or_else(|| wrong.to_owned())
 }
 
 /// The ends of `A:B`, as Python has them `A,B`.
-fn ends<T: std::str::FromStr + PartialOrd>(text: &str) -> Option<[T; 2]> {
+fn ends<T: PartialOrd>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<[T; 2]> {
     let (low, high) = text.split_once([':', ','])?;
-    let [low, high] = [low, high].map(|part| part.trim().parse().ok());
+    let [low, high] = [low, high].map(|part| read(part.trim()));
     Some([low?, high?]).filter(|[low, high]| low <= high)
 }

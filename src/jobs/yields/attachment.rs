@@ -30,7 +30,7 @@ pub struct Effort {
     pub runs: usize,
 
     /// How long each docking run lasts (s)
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = request::positive)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = request::time)]
     pub duration: f64,
 
     /// Where attachment rates come from: docking runs, or overdamped motion as in `tilebind rates`

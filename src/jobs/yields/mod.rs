@@ -40,7 +40,7 @@ pub struct Question {
     pub tiles: usize,
 
     /// How long the table is shaken (s)
-    #[arg(long, value_name = "S", value_parser = request::positive)]
+    #[arg(long, value_name = "S", value_parser = request::time)]
     pub time: f64,
 
     /// Effective energy kT of the shaking (J); of several, the best and a schedule are found

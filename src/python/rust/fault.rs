@@ -1,8 +1,10 @@
 //! Exceptions: what is wrong and how to mend it.
 
 use std::fmt::Display;
+use std::io::ErrorKind;
+use std::path::Path;
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tilebind::request::Unanswered;
@@ -46,6 +48,18 @@ pub fn of(error: impl Unanswered) -> PyErr {
     match error.is_of_the_question() {
         true => value(error.to_string().replace("--", "")),
         false => run(error),
+    }
+}
+
+/// A `FileNotFoundError` where there is no such file.
+pub fn if_missing(path: &Path) -> PyResult<()> {
+    match path.metadata() {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let (code, text) = (error.raw_os_error(), "No such file or directory");
+            let file = path.display().to_string();
+            Err(PyFileNotFoundError::new_err((code, text, file)))
+        }
+        _ => Ok(()),
     }
 }
 

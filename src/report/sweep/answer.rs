@@ -5,7 +5,7 @@ use crate::assessments::view;
 use crate::document::{Table, rows};
 use crate::figures::{cell, heading};
 use jobs::comparison::quantity::{QUANTITIES, placed};
-use jobs::comparison::{Assessment, Quantity};
+use jobs::comparison::{Assessment, Quantity, ranking};
 use jobs::sweep::Point;
 use physics::order::Order;
 
@@ -42,7 +42,7 @@ impl Sweep<'_> {
         let done = self.done();
         let by = self.by();
         let mut ranked: Vec<(usize, &Assessment)> = done.clone();
-        let value = |one: &Assessment| by.of(one).map_or(f64::NEG_INFINITY, |e| e.value);
+        let value = |one: &Assessment| ranking::value(one, by);
         let degree = |one: &Assessment| one.obstacle().map_or(0, |(degree, _)| degree);
         ranked.order_by(|(_, a), (_, b)| {
             degree(a)

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
+use tilebind::checksum::sha256;
 use tilebind::start;
 use tilebind::sweep::Source;
 
@@ -30,8 +31,11 @@ impl Design {
     /// ------
     /// DesignError
     ///     With line, column and mend of everything that is wrong with the file.
+    /// FileNotFoundError
+    ///     Where there is no such file.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        fault::if_missing(&path)?;
         let read = py.detach(|| Source::read(&path));
         Self::read(py, read)
     }
@@ -91,6 +95,9 @@ impl Design {
     ///     bind.
     /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
     ///     Of those faces.
+    /// magnet : str, optional
+    ///     As a shop describes it, length x width x height, magnetised through the last:
+    ///     ``"10 x 5 x 2 mm N42"``.
     ///
     /// Returns
     /// -------
@@ -138,8 +145,15 @@ impl Design {
     /// dict
     ///     What :meth:`from_dict` takes.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text = &self.content.source.text;
-        py.import("tomllib")?.call_method1("loads", (text,))
+        let source = &self.content.source;
+        let tables = py
+            .import("tomllib")?
+            .call_method1("loads", (&source.text,))?;
+        // A design without a name has that of its file.
+        if !tables.contains("name")? {
+            tables.set_item("name", &source.name)?;
+        }
+        Ok(tables)
     }
 
     /// str : The design as TOML.
@@ -150,14 +164,20 @@ impl Design {
 
     fn __eq__<'py>(&self, py: Python<'py>, other: &Bound<'py, PyAny>) -> PyResult<Py<PyAny>> {
         match other.cast::<Self>() {
-            Ok(other) => (self.content.source == other.get().content.source).into_py_any(py),
+            // However it was written, and wherever it was read from.
+            Ok(other) => {
+                let (one, other) = (&self.content.source, &other.get().content.source);
+                let same = one.drawings == other.drawings && one.document() == other.document();
+                same.into_py_any(py)
+            }
             Err(_) => Ok(py.NotImplemented()),
         }
     }
 
     fn __hash__(&self) -> u64 {
         // The checksum is as good as random.
-        u64::from_str_radix(&self.content.design.sha256[..16], 16).unwrap_or(0)
+        let checksum = sha256(self.content.source.document().to_string());
+        u64::from_str_radix(&checksum[..16], 16).unwrap_or(0)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {

@@ -380,5 +380,6 @@ fn text(table: &Bound<'_, PyAny>) -> PyResult<String> {
         return table.call_method("to_csv", (), Some(&keywords))?.extract();
     }
     let path: std::path::PathBuf = table.extract()?;
-    Ok(std::fs::read_to_string(path)?)
+    let text = tilebind::text::decode(std::fs::read(path)?).map_err(crate::fault::value)?;
+    Ok(tilebind::text::with_commas(&text).into_owned())
 }

@@ -1,0 +1,136 @@
+//! Text as programs save it: UTF-8 or UTF-16, with a byte-order mark or without, tables with commas or,
+//! where commas are decimal, with semicolons.
+
+use std::borrow::Cow;
+
+/// Bytes that are no text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it is not text in UTF-8 or UTF-16 (at byte {at})")]
+pub struct NoText {
+    /// The first byte that is none, from 0.
+    pub at: usize,
+}
+
+/// The text of a file, without a byte-order mark. UTF-16 is known by its mark, or by a first letter
+/// with a byte of 0.
+///
+/// ```
+/// use tilebind_jobs::text::decode;
+/// assert_eq!(decode(b"\xef\xbb\xbfname".to_vec()).unwrap(), "name");
+/// assert_eq!(decode(b"\xff\xfen\0a\0".to_vec()).unwrap(), "na");
+/// assert_eq!(decode(b"na\xff".to_vec()).unwrap_err().at, 2);
+/// ```
+///
+/// # Errors
+/// Where it is no text.
+pub fn decode(bytes: Vec<u8>) -> Result<String, NoText> {
+    match bytes.as_slice() {
+        [0xef, 0xbb, 0xbf, rest @ ..] => utf8(rest.to_vec(), 3),
+        [0xff, 0xfe, rest @ ..] => utf16(rest, 2, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, 2, u16::from_be_bytes),
+        [1..=0xff, 0, ..] => utf16(&bytes, 0, u16::from_le_bytes),
+        [0, 1..=0xff, ..] => utf16(&bytes, 0, u16::from_be_bytes),
+        _ => utf8(bytes, 0),
+    }
+}
+
+fn utf8(bytes: Vec<u8>, before: usize) -> Result<String, NoText> {
+    String::from_utf8(bytes).map_err(|error| NoText {
+        at: before + error.utf8_error().valid_up_to(),
+    })
+}
+
+fn utf16(bytes: &[u8], before: usize, unit: fn([u8; 2]) -> u16) -> Result<String, NoText> {
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    if !rest.is_empty() {
+        let at = before + bytes.len() - 1;
+        return Err(NoText { at });
+    }
+    let mut text = String::new();
+    let mut at = before;
+    for found in char::decode_utf16(pairs.iter().map(|pair| unit(*pair))) {
+        let letter = found.map_err(|_| NoText { at })?;
+        at += 2 * letter.len_utf16();
+        text.push(letter);
+    }
+    Ok(text)
+}
+
+/// A table with commas between its columns and points in its numbers, of one that has semicolons or
+/// tabs between its columns, where commas may be decimal. Lines stay where they are.
+///
+/// ```
+/// use tilebind_jobs::text::with_commas;
+/// assert_eq!(with_commas("x;y\n0,43;0\n"), "x,y\n0.43,0\n");
+/// assert_eq!(with_commas("x,y\n0.43,0\n"), "x,y\n0.43,0\n");
+/// ```
+pub fn with_commas(table: &str) -> Cow<'_, str> {
+    let mut lines = table.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = first.unwrap_or_default();
+    let between = match first {
+        // Text in quotes may hold anything.
+        _ if first.contains('"') => None,
+        _ if first.contains(';') => Some(';'),
+        _ if first.contains('\t') && !first.contains(',') => Some('\t'),
+        _ => None,
+    };
+    let Some(between) = between else {
+        return Cow::Borrowed(table);
+    };
+    let changed = table.split_inclusive('\n').map(|line| {
+        if line.trim_start().starts_with('#') {
+            return line.to_owned();
+        }
+        let points = line.replace(',', ".");
+        points.replace(between, ",")
+    });
+    Cow::Owned(changed.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_encoding_gives_the_same_text() {
+        let text = "name = \"\u{e4}\u{1f600}\"\nsize = 1\n";
+        let wide = |bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            text.encode_utf16().flat_map(bytes).collect()
+        };
+        let [little, big] = [wide(u16::to_le_bytes), wide(u16::to_be_bytes)];
+        let marked = |mark: &[u8], bytes: &[u8]| [mark, bytes].concat();
+        for bytes in [
+            text.as_bytes().to_vec(),
+            marked(b"\xef\xbb\xbf", text.as_bytes()),
+            marked(b"\xff\xfe", &little),
+            marked(b"\xfe\xff", &big),
+            little,
+            big,
+        ] {
+            assert_eq!(decode(bytes).as_deref(), Ok(text));
+        }
+        assert_eq!(decode(Vec::new()).as_deref(), Ok(""));
+        for (bytes, at) in [
+            (&b"\xff\xfen\0a"[..], 4),
+            (b"\xff\xfen\0\0\xd8n\0", 4),
+            (b"a\xc3", 1),
+        ] {
+            assert_eq!(decode(bytes.to_vec()), Err(NoText { at }), "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn tables_of_other_countries_are_read() {
+        let wanted = "x,y,theta\n0.43,0,0\n# a; b, c\n0.44,0,0\n";
+        for table in [
+            "x;y;theta\n0,43;0;0\n# a; b, c\n0,44;0;0\n",
+            "x;y;theta\n0.43;0;0\n# a; b, c\n0.44;0;0\n",
+            "x\ty\ttheta\n0,43\t0\t0\n# a; b, c\n0,44\t0\t0\n",
+            wanted,
+        ] {
+            assert_eq!(with_commas(table), wanted);
+        }
+        assert_eq!(with_commas("0,43;0;0\n"), "0.43,0,0\n");
+    }
+}
