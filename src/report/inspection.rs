@@ -189,11 +189,8 @@ impl Face {
         if self.code.is_empty() && straight {
             return None;
         }
-        let places: Vec<String> = self
-            .magnets
-            .iter()
-            .map(|s| format!("{:.0}", s * 1e3))
-            .collect();
+        // What a hundred-thousandth of the face is, a drill does not tell from the place.
+        let places = in_mm(&self.magnets, 0, 1e-5 * self.length);
         Some([
             name.to_owned(),
             si(self.length, "m", 3),
@@ -203,10 +200,40 @@ impl Face {
             },
             match straight {
                 true => "straight".to_owned(),
-                false => format!("from {:.1} to {:.1} mm", low * 1e3 + 0.0, high * 1e3 + 0.0),
+                false => {
+                    let heights = in_mm(&self.heights, 1, 1e-2 * (high - low));
+                    format!("from {} to {} mm", heights[0], heights[1])
+                }
             },
         ])
     }
+}
+
+/// Lengths (m) in mm, all with as many decimals, `least` or more, as it takes to come within `error`
+/// (m) of each.
+fn in_mm(lengths: &[f64], least: usize, error: f64) -> Vec<String> {
+    const MOST: usize = 6;
+    let written = |decimals: usize| -> Vec<String> {
+        let text = |length: &f64| format!("{:.decimals$}", 1e3 * length);
+        let zero = format!("-{:.decimals$}", 0.0);
+        let plain = |text: String| {
+            if text == zero {
+                text[1..].to_owned()
+            } else {
+                text
+            }
+        };
+        lengths.iter().map(|length| plain(text(length))).collect()
+    };
+    let close = |texts: &Vec<String>| {
+        let mut pairs = texts.iter().zip(lengths);
+        pairs.all(|(text, length)| {
+            let told: f64 = text.parse().unwrap_or(f64::NAN);
+            (told / 1e3 - length).abs() <= error
+        })
+    };
+    let found = (least..MOST).map(written).find(close);
+    found.unwrap_or_else(|| written(MOST))
 }
 
 /// The least and the greatest height (m) of a tile's rim over one of its faces. A corner of the rim
@@ -279,4 +306,21 @@ fn faces(tile: &Tile) -> Value {
         })
     };
     json!((0..tile.faces.len()).map(face).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_the_digits_that_they_need() {
+        let told = |lengths: &[f64], error: f64| in_mm(lengths, 0, error).join(", ");
+        assert_eq!(told(&[-0.06, -0.02, 0.02, 0.06], 4e-6), "-60, -20, 20, 60");
+        let small = [-0.003, -0.0018, -0.0006, 0.0006, 0.0018, 0.003];
+        assert_eq!(told(&small, 1e-7), "-3.0, -1.8, -0.6, 0.6, 1.8, 3.0");
+        assert_eq!(told(&[0.0127 / 3.0, -1e-12], 1e-6), "4.233, 0.000");
+        assert_eq!(told(&[], 1e-6), "");
+        assert_eq!(in_mm(&[0.0, 0.0123], 1, 1e-4), ["0.0", "12.3"]);
+        assert_eq!(in_mm(&[0.0, 0.000_05], 1, 5e-7), ["0.00", "0.05"]);
+    }
 }

@@ -26,6 +26,7 @@ pub mod crosstalk;
 pub mod csv;
 pub mod docking;
 pub mod document;
+mod dxf;
 pub mod dynamics;
 pub mod figures;
 pub mod files;

@@ -1,17 +1,19 @@
 //! Files for the workshop: lines as DXF and SVG to scale, and a sheet to work by.
 //!
-//! Lengths are in mm. DXF is R12 in ASCII, which every program reads: closed polylines on the layers
-//! OUTLINE and POCKETS, letters on POLES. In SVG a user unit is a millimetre.
+//! Lengths are in mm. In DXF there are closed polylines on the layers OUTLINE and POCKETS, letters on
+//! POLES; arcs are arcs, by their bulges. In SVG a user unit is a millimetre, and arcs are the `A` of
+//! paths.
 
 use std::fmt::Write;
 
 use nalgebra::Vector2;
 
+use super::dxf::{Dxf, Layer};
 use super::files::Files;
 use super::inspection::GRAM;
 use super::markdown::markdown_table;
 use jobs::design::Design;
-use jobs::workshop::{Making, Part, PartError, Pocket, grade, order};
+use jobs::workshop::{Corner, Making, Part, PartError, Pocket, grade, order};
 use physics::tile::barcode::Pole;
 use physics::tile::{Magnet, Tile};
 use physics::units::si;
@@ -65,78 +67,74 @@ fn letter(pole: Pole) -> &'static str {
     }
 }
 
+/// The layers of a drawing, with colours that tell them apart.
+const LAYERS: [Layer; 3] = [("OUTLINE", 7), ("POCKETS", 1), ("POLES", 5)];
+
+/// Height of letters in lengths of their magnet.
+const LETTER: f64 = 0.3;
+
+/// A pocket's rim.
+fn rim(pocket: &Pocket) -> [Corner; 4] {
+    pocket.corners.map(|point| Corner { point, bulge: 0.0 })
+}
+
+/// Where the letters of a pocket's poles stand.
+fn letters(pocket: &Pocket) -> [(&'static str, Vector2<f64>); 2] {
+    [("N", 0.5), ("S", -0.5)].map(|(pole, side)| (pole, pocket.middle + pocket.north * side))
+}
+
+/// The height of these letters (m).
+fn letter_height(pocket: &Pocket) -> f64 {
+    2.0 * LETTER * pocket.north.norm()
+}
+
 /// The lines as DXF.
 pub fn dxf(part: &Part) -> String {
-    let mut text = String::new();
-    let mut pair = |code: u32, value: &str| {
-        let _ = writeln!(text, "{code:>3}\n{value}");
-    };
-    pair(999, "tilebind, lengths in mm");
-    for (code, value) in [
-        (0, "SECTION"),
-        (2, "HEADER"),
-        (9, "$ACADVER"),
-        (1, "AC1009"),
-    ] {
-        pair(code, value);
-    }
-    pair(0, "ENDSEC");
-    pair(0, "SECTION");
-    pair(2, "ENTITIES");
-    let pockets = part
-        .pockets
-        .iter()
-        .map(|pocket| (&pocket.corners[..], "POCKETS"));
-    for (corners, layer) in std::iter::once((&part.outline[..], "OUTLINE")).chain(pockets) {
-        for (code, value) in [(0, "POLYLINE"), (8, layer), (66, "1"), (70, "1")] {
-            pair(code, value);
-        }
-        for corner in corners {
-            pair(0, "VERTEX");
-            pair(8, layer);
-            pair(10, &mm(corner.x));
-            pair(20, &mm(corner.y));
-        }
-        pair(0, "SEQEND");
-        pair(8, layer);
+    let [(outline, _), (pockets, _), (poles, _)] = LAYERS;
+    let mut dxf = Dxf::new(&LAYERS);
+    dxf.closed_line(outline, &part.outline);
+    for pocket in &part.pockets {
+        dxf.closed_line(pockets, &rim(pocket));
     }
     for pocket in &part.pockets {
-        for (pole, side) in [("N", 0.5), ("S", -0.5)] {
-            let at = pocket.middle + pocket.north * side;
-            pair(0, "TEXT");
-            pair(8, "POLES");
-            pair(10, &mm(at.x));
-            pair(20, &mm(at.y));
-            pair(40, &mm(pocket.north.norm() * 0.6));
-            pair(1, pole);
+        for (pole, middle) in letters(pocket) {
+            dxf.text(poles, middle, letter_height(pocket), pole);
         }
     }
-    pair(0, "ENDSEC");
-    pair(0, "EOF");
-    text
+    dxf.finish()
 }
 
 /// The lines as SVG, y upwards turned downwards as seen from above.
 pub fn svg(part: &Part) -> String {
-    let corners = || part.outline.iter();
-    let bound = |fold: fn(f64, f64) -> f64, start: f64| {
-        let fold = |axis: usize| corners().map(|p| 1e3 * p[axis]).fold(start, fold);
-        [fold(0), fold(1)]
-    };
-    let (low, high) = (
-        bound(f64::min, f64::INFINITY),
-        bound(f64::max, f64::NEG_INFINITY),
-    );
+    let [low, high] = extent(&part.outline).map(|corner| corner.map(|x| 1e3 * x));
     let size = [0, 1].map(|k| high[k] - low[k] + 2.0 * MARGIN);
+    let number = |x: f64| {
+        let text = format!("{:.6}", x + 0.0);
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
     let place = |p: &Vector2<f64>| {
         let at = [1e3 * p.x - low[0] + MARGIN, high[1] - 1e3 * p.y + MARGIN];
-        at.map(|x| format!("{x:.3}"))
+        at.map(number).join(" ")
     };
-    let path = |points: &[Vector2<f64>]| {
-        let points: Vec<String> = points.iter().map(|p| place(p).join(" ")).collect();
-        format!("M{}Z", points.join("L"))
+    let path = |corners: &[Corner]| {
+        let mut d = format!("M{}", place(&corners[0].point));
+        let nexts = corners.iter().cycle().skip(1);
+        for (k, (corner, next)) in corners.iter().zip(nexts).enumerate() {
+            let end = place(&next.point);
+            let _ = match corner.arc(next) {
+                // Counter-clockwise is so on paper too, where y runs down.
+                Some((radius, large)) => {
+                    let (large, sweep) = (u8::from(large), u8::from(corner.bulge < 0.0));
+                    let radius = number(1e3 * radius);
+                    write!(d, "A{radius} {radius} 0 {large} {sweep} {end}")
+                }
+                None if k + 1 == corners.len() => Ok(()),
+                None => write!(d, "L{end}"),
+            };
+        }
+        d + "Z"
     };
-    let [width, height] = size.map(|x| format!("{x:.3}"));
+    let [width, height] = size.map(number);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
          viewBox=\"0 0 {width} {height}\" fill=\"none\" stroke-width=\"0.1\">\n\
@@ -147,19 +145,33 @@ pub fn svg(part: &Part) -> String {
         let _ = writeln!(
             text,
             "<path stroke=\"#D55E00\" d=\"{}\"/>",
-            path(&pocket.corners)
+            path(&rim(pocket))
         );
-        for (pole, side) in [("N", 0.5), ("S", -0.5)] {
-            let [x, y] = place(&(pocket.middle + pocket.north * side));
-            let size = 600.0 * pocket.north.norm();
+        for (pole, middle) in letters(pocket) {
+            let at = place(&middle);
+            let (x, y) = at.split_once(' ').unwrap_or_default();
+            let size = number(1e3 * letter_height(pocket));
             let _ = writeln!(
                 text,
-                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size:.2}\" fill=\"#0072B2\" \
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"#0072B2\" \
                  text-anchor=\"middle\" dominant-baseline=\"central\">{pole}</text>"
             );
         }
     }
     text + "</svg>\n"
+}
+
+/// The least and the greatest x and y (m) of a closed line.
+fn extent(corners: &[Corner]) -> [[f64; 2]; 2] {
+    let mut points: Vec<Vector2<f64>> = Vec::new();
+    for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        points.push(corner.point);
+        points.extend(corner.turning_points(next));
+    }
+    let of = |fold: fn(f64, f64) -> f64, start: f64| {
+        [0, 1].map(|k| points.iter().map(|p| p[k]).fold(start, fold))
+    };
+    [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
 }
 
 /// The sheet, as Markdown.
@@ -229,10 +241,7 @@ fn purchases(parts: &[(&str, &Tile, Part)]) -> Vec<Vec<String>> {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(kinds.into_iter().map(|(magnet, count)| {
         let remanence = magnet.remanence();
-        let size = magnet
-            .size
-            .map(|x| format!("{}", (1e5 * x).round() / 100.0))
-            .join(" x ");
+        let size = magnet.size.map(plain).join(" x ");
         let nearest = match grade::nearest(remanence) {
             Some((grade, own)) => format!(
                 "{grade} ({own} T: forces {:+.0} %)",

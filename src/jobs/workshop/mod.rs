@@ -7,8 +7,10 @@
 pub mod grade;
 pub mod order;
 mod part;
+mod rim;
 
 pub use part::{Part, PartError, Pocket};
+pub use rim::Corner;
 
 /// What the workshop needs to know.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use super::Making;
+use super::rim::{Corner, rim};
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Tile};
@@ -24,8 +25,9 @@ pub enum PartError {
 /// A tile as it is cut, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Where the cutter's middle runs around the tile, counter-clockwise.
-    pub outline: Vec<Vector2<f64>>,
+    /// Where the cutter's middle runs around the tile, counter-clockwise: arcs are arcs again, where
+    /// the tile's outline has chords.
+    pub outline: Vec<Corner>,
     /// A pocket for each magnet, in their order.
     pub pockets: Vec<Pocket>,
     /// Of the tile (m).
@@ -84,11 +86,17 @@ impl Part {
 }
 
 /// The outline half a cut outside.
-fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Vector2<f64>>, PartError> {
-    let corners = tile.outline.vertices();
-    if kerf == 0.0 {
-        return Ok(corners.to_vec());
+fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Corner>, PartError> {
+    let wide = || PartError::Kerf(kerf);
+    if kerf > 0.0 {
+        check_details(tile, kerf)?;
     }
+    rim(&tile.outline, kerf / 2.0).ok_or_else(wide)
+}
+
+/// Refuses a cut that is wider than details of the outline: an edge would turn over.
+fn check_details(tile: &Tile, kerf: f64) -> Result<(), PartError> {
+    let corners = tile.outline.vertices();
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let faces: Vec<Face> = edges
         .map(|(start, end)| Face {
@@ -98,11 +106,11 @@ fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Vector2<f64>>, PartError> {
         })
         .collect();
     let line = FaceLine {
-        polyline: Vec::new(),
         fit: -kerf / 2.0,
+        ..FaceLine::default()
     };
     let ring = assemble(&faces, &vec![line; faces.len()]);
-    Ok(ring.map_err(|_| PartError::Kerf(kerf))?.points)
+    ring.map(|_| ()).map_err(|_| PartError::Kerf(kerf))
 }
 
 fn pocket(

@@ -22,6 +22,7 @@ fn east(profile: Profile, fit: f64) -> Vec<FaceLine> {
     lines[0] = FaceLine {
         polyline: profile.polyline().unwrap(),
         fit,
+        ..FaceLine::default()
     };
     lines
 }

@@ -11,6 +11,8 @@ pub(super) struct Stroke {
     /// One for each drawn segment: an arc is several cubics, any other segment one piece.
     pub segments: Vec<Vec<PathSeg>>,
     pub closed: bool,
+    /// Whether the last segment is none of the drawing's, but what closes the stroke.
+    pub closing: bool,
 }
 
 /// Largest radius of an arc, in units of how far cubics may leave it: 200 km in a drawing that is
@@ -60,6 +62,7 @@ impl Pen {
             start: to,
             segments: Vec::new(),
             closed: false,
+            closing: false,
         });
     }
 
@@ -122,11 +125,12 @@ impl Pen {
         let Some(start) = self.strokes.last().map(|stroke| stroke.start) else {
             return;
         };
-        if self.at != start {
+        let closing = self.at != start;
+        if closing {
             self.line_to(start);
         }
         if let Some(stroke) = self.strokes.last_mut() {
-            stroke.closed = true;
+            (stroke.closed, stroke.closing) = (true, closing);
         }
     }
 }
@@ -145,4 +149,47 @@ pub(super) fn points(segment: &[PathSeg], map: Affine, chord_error: f64) -> Vec<
         });
     }
     points
+}
+
+/// Points of each piece of a segment at which [`is_arc`] looks.
+const LOOKS: u32 = 12;
+
+/// Whether a segment, where the affine map has taken it, is an arc of a circle to within `error`:
+/// drawn as one, or as the curves that drawing programs make of arcs.
+pub(super) fn is_arc(segment: &[PathSeg], map: Affine, error: f64) -> bool {
+    if segment
+        .iter()
+        .any(|piece| matches!(piece, PathSeg::Line(_)))
+    {
+        return false;
+    }
+    let mut points = Vec::new();
+    for &piece in segment {
+        let piece = map * piece;
+        points.extend((0..LOOKS).map(|k| piece.eval(f64::from(k) / f64::from(LOOKS))));
+    }
+    let Some(last) = segment.last() else {
+        return false;
+    };
+    points.push((map * *last).end());
+    let n = points.len();
+    let Some((centre, radius)) = circle([points[0], points[n / 3], points[2 * n / 3]]) else {
+        return false;
+    };
+    let turn = |w: &[Point]| (w[1] - w[0]).cross(w[2] - w[1]);
+    let turns_left = turn(&points[..3]) > 0.0;
+    points
+        .iter()
+        .all(|p| ((*p - centre).hypot() - radius).abs() <= error)
+        && points.windows(3).all(|w| (turn(w) > 0.0) == turns_left)
+}
+
+/// The centre and radius of the circle through three points, if there is one.
+fn circle([a, b, c]: [Point; 3]) -> Option<(Point, f64)> {
+    let (u, v) = (b - a, c - a);
+    let twice = 2.0 * u.cross(v);
+    let (uu, vv) = (u.hypot2(), v.hypot2());
+    let to_centre = Vec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / twice;
+    let radius = to_centre.hypot();
+    radius.is_finite().then(|| (a + to_centre, radius))
 }
