@@ -138,9 +138,13 @@ impl Dxf {
             if corner.bulge != 0.0 {
                 pairs.push(42, &format!("{:.12}", corner.bulge));
             }
+        }
+        let ring = corners.iter().zip(corners.iter().cycle().skip(1));
+        let turns = ring.flat_map(|(corner, next)| corner.turning_points(next));
+        for point in turns.chain(corners.iter().map(|corner| corner.point)) {
             for k in 0..2 {
-                self.low[k] = self.low[k].min(at[k]);
-                self.high[k] = self.high[k].max(at[k]);
+                self.low[k] = self.low[k].min(1e3 * point[k]);
+                self.high[k] = self.high[k].max(1e3 * point[k]);
             }
         }
     }

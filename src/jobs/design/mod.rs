@@ -26,7 +26,7 @@
 //!   "nearest-face"` takes no constants.
 //! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
 //!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
-//!   physical units or with a `unit`, curves to within [`physics::tile::profile::CHORD_ERROR`]. A face
+//!   physical units or with a `unit` or `dpi`, curves to within [`physics::tile::profile::CHORD_ERROR`]. A face
 //!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
