@@ -319,7 +319,7 @@ mod tests {
         let shifted = rim(&outline, s).unwrap();
         let (r, side) = (1.0_f64 - s, 4.0 + 2.0 * s);
         let half = libm::acos(s / r);
-        let cut = r * r * (half - libm::sin(2.0 * half) / 2.0);
+        let cut = r * r * (PI - half + libm::sin(2.0 * half) / 2.0);
         assert!(
             (area(&shifted) - (side * side - cut)).abs() < 1e-12,
             "{shifted:?}"

@@ -542,6 +542,11 @@ fn arcs_of_drawings_are_known_as_arcs() {
         arcs(&drawn("<rect width=\"80\" height=\"80\" rx=\"9\"/>")),
         4
     );
+    let quarter = "C90 72.0914 72.0914 90 50 90C27.9086 90 10 72.0914 10 50";
+    let circle = format!(
+        "<path d=\"M90 50{quarter}C10 27.9086 27.9086 10 50 10C72.0914 10 90 27.9086 90 50Z\"/>"
+    );
+    assert_eq!(arcs(&drawn(&circle)), 4);
     assert_eq!(arcs(&drawn("<ellipse rx=\"40\" ry=\"39\"/>")), 0);
     assert_eq!(
         arcs(&drawn("<path d=\"M0 0C30 40 60 -40 90 0V90H0Z\"/>")),

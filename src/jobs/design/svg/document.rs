@@ -61,10 +61,6 @@ const TELLING: [&str; 19] = [
 /// what six digits resolve.
 const WINDOW_SHARE: f64 = 1e-6;
 
-/// How far a curve may leave the circle that it is taken for, as a share of the chord error: what is
-/// cut along the arc is then the curve.
-const ARC_ERROR: f64 = 1e-2;
-
 /// Most elements of a drawing.
 const MOST_NODES: u32 = 200_000;
 
@@ -555,7 +551,8 @@ impl<'d> Reader<'_, 'd> {
             for segment in &stroke.segments {
                 let points = points(segment, map, self.chord_error);
                 self.points += points.len();
-                let arc = points.len() > 1 && is_arc(segment, map, ARC_ERROR * self.chord_error);
+                let arc =
+                    points.len() > 1 && is_arc(segment, map, 2.0 * ARC_SHARE * self.chord_error);
                 segments.push(Segment { points, arc });
                 if self.points > MOST_POINTS {
                     let message = format!("the drawing has more than {MOST_POINTS} points");

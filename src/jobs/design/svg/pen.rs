@@ -154,9 +154,16 @@ pub(super) fn points(segment: &[PathSeg], map: Affine, chord_error: f64) -> Vec<
 /// Points of each piece of a segment at which [`is_arc`] looks.
 const LOOKS: u32 = 12;
 
-/// Whether a segment, where the affine map has taken it, is an arc of a circle to within `error`:
-/// drawn as one, or as the curves that drawing programs make of arcs.
+/// How far a curve may leave the circle that it is taken for, in heights of its arc: a quarter of a
+/// circle drawn as one cubic leaves it by 0.0009.
+const OFF_ARC: f64 = 1e-3;
+
+/// Whether a segment, where the affine map has taken it, is an arc of a circle: drawn as one, so that
+/// its cubics leave it by no more than `error`, or as the curves that drawing programs make of arcs.
 pub(super) fn is_arc(segment: &[PathSeg], map: Affine, error: f64) -> bool {
+    let Some(last) = segment.last() else {
+        return false;
+    };
     if segment
         .iter()
         .any(|piece| matches!(piece, PathSeg::Line(_)))
@@ -168,19 +175,24 @@ pub(super) fn is_arc(segment: &[PathSeg], map: Affine, error: f64) -> bool {
         let piece = map * piece;
         points.extend((0..LOOKS).map(|k| piece.eval(f64::from(k) / f64::from(LOOKS))));
     }
-    let Some(last) = segment.last() else {
-        return false;
-    };
     points.push((map * *last).end());
     let n = points.len();
     let Some((centre, radius)) = circle([points[0], points[n / 3], points[2 * n / 3]]) else {
         return false;
     };
+    let chord = points[n - 1] - points[0];
+    let height = |p: &Point| chord.cross(*p - points[0]).abs() / chord.hypot();
+    let height = match chord.hypot() > OFF_ARC * radius {
+        true => points.iter().map(height).fold(0.0, f64::max),
+        false => 2.0 * radius,
+    };
     let turn = |w: &[Point]| (w[1] - w[0]).cross(w[2] - w[1]);
     let turns_left = turn(&points[..3]) > 0.0;
+    let off = |p: &Point| ((*p - centre).hypot() - radius).abs();
     points
         .iter()
-        .all(|p| ((*p - centre).hypot() - radius).abs() <= error)
+        .map(off)
+        .all(|off| off <= error.max(OFF_ARC * height))
         && points.windows(3).all(|w| (turn(w) > 0.0) == turns_left)
 }
 
