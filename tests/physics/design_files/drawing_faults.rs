@@ -54,7 +54,7 @@ fn drawings_are_refused_where_the_fault_is() {
         (
             "<g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g>",
             "draws itself",
-            "2:12",
+            "2:42",
         ),
         (
             "<line x2=\"100\"/><line x1=\"100\" x2=\"100\" y2=\"100\"/>\n<path d=\"M100 100L0 .5\"/>",

@@ -462,7 +462,7 @@ fn lines_join_where_their_ends_meet() {
     }
     let error = outlined(&drawn(&square(0.2)), "").unwrap_err();
     assert!(
-        error.message.contains("ends left are 0.2 mm apart"),
+        error.message.contains("its ends are 0.2 mm apart"),
         "{error}"
     );
     // A piece that closes a path across a gap is no face; a drawn one is.

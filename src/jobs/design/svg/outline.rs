@@ -28,14 +28,15 @@ const MOST_FACES: usize = 64;
 /// the last of which is the first of the next.
 type Segments = Vec<Vec<Vector2<f64>>>;
 
+/// A corner, and the line of the face that begins there with the arcs of it.
+type Drawn = (Vector2<f64>, (Polyline, Arcs));
+
 /// Where an arc begins and ends.
 type Ends = [Vector2<f64>; 2];
 
 /// The corners of a drawn outline and, for each, the line of the face that begins there and the arcs
 /// of that.
-pub(in crate::design) fn read_outline(
-    entry: &Entry,
-) -> Result<Vec<(Vector2<f64>, (Polyline, Arcs))>> {
+pub(in crate::design) fn read_outline(entry: &Entry) -> Result<Vec<Drawn>> {
     let section = entry.section("`outline`")?;
     section.allow(&OUTLINE_KEYS);
     let (segments, arcs) = with_shape(&section, |source, shape| {
