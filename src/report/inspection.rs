@@ -150,24 +150,20 @@ impl Face {
     }
 
     fn told_magnets(&self) -> String {
-        // To a micrometre.
-        let places = self.magnets.iter().map(|s| (s * 1e6).round() / 1e3 + 0.0);
-        let places = places.map(|place| place.to_string());
+        // To a micrometre, and a hundred-thousandth of the face, which no drill resolves.
+        let places = in_mm(&self.magnets, 0, f64::min(0.5e-6, 1e-5 * self.length));
         match self.magnets.is_empty() {
             true => "none".to_owned(),
-            false => format!(
-                "{} at {} mm",
-                self.code,
-                places.collect::<Vec<_>>().join(", ")
-            ),
+            false => format!("{} at {} mm", self.code, places.join(", ")),
         }
     }
 
     fn told_shape(&self) -> String {
-        let [low, high] = self.heights.map(|height| height * 1e3 + 0.0);
+        let [low, high] = self.heights;
+        let told = in_mm(&self.heights, 1, 1e-2 * (high - low));
         match self.is_straight() {
             true => "straight".to_owned(),
-            false => format!("from {low:.1} to {high:.1} mm"),
+            false => format!("from {} to {} mm", told[0], told[1]),
         }
     }
 }
@@ -204,6 +200,33 @@ fn table(key: &'static str, faces: Vec<Face>) -> Table {
         .table(key)
 }
 
+/// Lengths (m) in mm, all with as many decimals, `least` or more, as it takes to come within `error`
+/// (m) of each.
+fn in_mm(lengths: &[f64], least: usize, error: f64) -> Vec<String> {
+    const MOST: usize = 6;
+    let written = |decimals: usize| -> Vec<String> {
+        let text = |length: &f64| format!("{:.decimals$}", 1e3 * length);
+        let zero = format!("-{:.decimals$}", 0.0);
+        let plain = |text: String| {
+            if text == zero {
+                text[1..].to_owned()
+            } else {
+                text
+            }
+        };
+        lengths.iter().map(|length| plain(text(length))).collect()
+    };
+    let close = |texts: &Vec<String>| {
+        let mut pairs = texts.iter().zip(lengths);
+        pairs.all(|(text, length)| {
+            let told: f64 = text.parse().unwrap_or(f64::NAN);
+            (told / 1e3 - length).abs() <= error
+        })
+    };
+    let found = (least..MOST).map(written).find(close);
+    found.unwrap_or_else(|| written(MOST))
+}
+
 /// The least and the greatest height (m) of a tile's rim over one of its faces. A corner of the rim
 /// belongs to the face whose base line it is nearest to.
 fn heights(tile: &Tile, number: usize) -> [f64; 2] {
@@ -221,4 +244,21 @@ fn heights(tile: &Tile, number: usize) -> [f64; 2] {
         let h = height(v, number);
         [f64::min(low, h), f64::max(high, h)]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_the_digits_that_they_need() {
+        let told = |lengths: &[f64], error: f64| in_mm(lengths, 0, error).join(", ");
+        assert_eq!(told(&[-0.06, -0.02, 0.02, 0.06], 4e-6), "-60, -20, 20, 60");
+        let small = [-0.003, -0.0018, -0.0006, 0.0006, 0.0018, 0.003];
+        assert_eq!(told(&small, 1e-7), "-3.0, -1.8, -0.6, 0.6, 1.8, 3.0");
+        assert_eq!(told(&[0.0127 / 3.0, -1e-12], 1e-6), "4.233, 0.000");
+        assert_eq!(told(&[], 1e-6), "");
+        assert_eq!(in_mm(&[0.0, 0.0123], 1, 1e-4), ["0.0", "12.3"]);
+        assert_eq!(in_mm(&[0.0, 0.000_05], 1, 5e-7), ["0.00", "0.05"]);
+    }
 }

@@ -29,6 +29,7 @@ pub mod crosstalk;
 pub mod csv;
 pub mod docking;
 pub mod document;
+mod dxf;
 pub mod dynamics;
 pub mod energies;
 pub mod figures;

@@ -1,7 +1,8 @@
 //! A design to be made: what people work by, and files for the workshop.
 //!
-//! Lengths in files are in mm. DXF is R12 in ASCII, which every program reads: closed polylines on the
-//! layers OUTLINE and POCKETS, letters on POLES. In SVG a user unit is a millimetre.
+//! Lengths in files are in mm. In DXF there are closed polylines on the layers OUTLINE and POCKETS,
+//! letters on POLES; arcs are arcs, by their bulges. In SVG a user unit is a millimetre, and arcs are
+//! the `A` of paths.
 
 use std::fmt::Write;
 
@@ -9,11 +10,12 @@ use nalgebra::Vector2;
 use serde_json::json;
 
 use crate::document::{Document, Drawing, Table, entries, rows};
+use crate::dxf::{Dxf, Layer};
 use crate::plots::glance;
 use crate::tiles::GRAM;
 use jobs::design::Design;
 use jobs::inspection::Inspection;
-use jobs::workshop::{Filled, Made, MadeTile, Part, Pocket, grade};
+use jobs::workshop::{Corner, Filled, Made, MadeTile, Part, Pocket, grade};
 use physics::tile::Magnet;
 use physics::tile::magnet::Shape;
 
@@ -69,7 +71,7 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
 // One line a column.
 #[rustfmt::skip]
 fn magnets(magnets: &[(Magnet, usize)]) -> Table {
-    let size = |magnet: &Magnet| magnet.axis_first().map(|x| format!("{}", (1e5 * x).round() / 100.0)).join(" x ");
+    let size = |magnet: &Magnet| magnet.axis_first().map(plain).join(" x ");
     let shape = |magnet: &Magnet| if magnet.form.shape == Shape::Disc { "discs " } else { "" };
     rows(magnets)
         .column("number", "number", "", |(_, count)| *count)
@@ -160,77 +162,56 @@ fn plain(metres: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// The layers of a drawing, with colours that tell them apart.
+const LAYERS: [Layer; 3] = [("OUTLINE", 7), ("POCKETS", 1), ("POLES", 5)];
+
 /// The lines as DXF.
 fn dxf(part: &Part) -> String {
-    let mut text = String::new();
-    let mut pair = |code: u32, value: &str| {
-        let _ = writeln!(text, "{code:>3}\n{value}");
-    };
-    pair(999, "tilebind, lengths in mm");
-    for (code, value) in [
-        (0, "SECTION"),
-        (2, "HEADER"),
-        (9, "$ACADVER"),
-        (1, "AC1009"),
-    ] {
-        pair(code, value);
-    }
-    pair(0, "ENDSEC");
-    pair(0, "SECTION");
-    pair(2, "ENTITIES");
-    let pockets = part
-        .pockets
-        .iter()
-        .map(|pocket| (&pocket.corners[..], "POCKETS"));
-    for (corners, layer) in std::iter::once((&part.outline[..], "OUTLINE")).chain(pockets) {
-        for (code, value) in [(0, "POLYLINE"), (8, layer), (66, "1"), (70, "1")] {
-            pair(code, value);
-        }
-        for corner in corners {
-            pair(0, "VERTEX");
-            pair(8, layer);
-            pair(10, &mm(corner.x));
-            pair(20, &mm(corner.y));
-        }
-        pair(0, "SEQEND");
-        pair(8, layer);
+    let [(outline, _), (pockets, _), (poles, _)] = LAYERS;
+    let mut dxf = Dxf::new(&LAYERS);
+    dxf.closed_line(outline, &part.outline);
+    for pocket in &part.pockets {
+        dxf.closed_line(pockets, &pocket.corners);
     }
     for pocket in &part.pockets {
-        for (pole, at, height) in pocket.letters() {
-            pair(0, "TEXT");
-            pair(8, "POLES");
-            pair(10, &mm(at.x));
-            pair(20, &mm(at.y));
-            pair(40, &mm(height));
-            pair(1, &pole.to_string());
+        for (pole, middle, height) in pocket.letters() {
+            dxf.text(poles, middle, height, &pole.to_string());
         }
     }
-    pair(0, "ENDSEC");
-    pair(0, "EOF");
-    text
+    dxf.finish()
 }
 
 /// The lines as SVG, y upwards turned downwards as seen from above.
 fn svg(part: &Part) -> String {
-    let corners = || part.outline.iter();
-    let bound = |fold: fn(f64, f64) -> f64, start: f64| {
-        let fold = |axis: usize| corners().map(|p| 1e3 * p[axis]).fold(start, fold);
-        [fold(0), fold(1)]
-    };
-    let (low, high) = (
-        bound(f64::min, f64::INFINITY),
-        bound(f64::max, f64::NEG_INFINITY),
-    );
+    let [low, high] = extent(&part.outline).map(|corner| corner.map(|x| 1e3 * x));
     let size = [0, 1].map(|k| high[k] - low[k] + 2.0 * MARGIN);
+    let number = |x: f64| {
+        let text = format!("{:.6}", x + 0.0);
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
     let place = |p: &Vector2<f64>| {
         let at = [1e3 * p.x - low[0] + MARGIN, high[1] - 1e3 * p.y + MARGIN];
-        at.map(|x| format!("{x:.3}"))
+        at.map(number).join(" ")
     };
-    let path = |points: &[Vector2<f64>]| {
-        let points: Vec<String> = points.iter().map(|p| place(p).join(" ")).collect();
-        format!("M{}Z", points.join("L"))
+    let path = |corners: &[Corner]| {
+        let mut d = format!("M{}", place(&corners[0].point));
+        let nexts = corners.iter().cycle().skip(1);
+        for (k, (corner, next)) in corners.iter().zip(nexts).enumerate() {
+            let end = place(&next.point);
+            let _ = match corner.arc(next) {
+                // Counter-clockwise is so on paper too, where y runs down.
+                Some((radius, large)) => {
+                    let (large, sweep) = (u8::from(large), u8::from(corner.bulge < 0.0));
+                    let radius = number(1e3 * radius);
+                    write!(d, "A{radius} {radius} 0 {large} {sweep} {end}")
+                }
+                None if k + 1 == corners.len() => Ok(()),
+                None => write!(d, "L{end}"),
+            };
+        }
+        d + "Z"
     };
-    let [width, height] = size.map(|x| format!("{x:.3}"));
+    let [width, height] = size.map(number);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
          viewBox=\"0 0 {width} {height}\" fill=\"none\" stroke-width=\"0.1\">\n\
@@ -243,15 +224,29 @@ fn svg(part: &Part) -> String {
             "<path stroke=\"#D55E00\" d=\"{}\"/>",
             path(&pocket.corners)
         );
-        for (pole, at, height) in pocket.letters() {
-            let [x, y] = place(&at);
-            let size = 1e3 * height;
+        for (pole, middle, height) in pocket.letters() {
+            let at = place(&middle);
+            let (x, y) = at.split_once(' ').unwrap_or_default();
+            let size = number(1e3 * height);
             let _ = writeln!(
                 text,
-                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size:.2}\" fill=\"#0072B2\" \
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"#0072B2\" \
                  text-anchor=\"middle\" dominant-baseline=\"central\">{pole}</text>"
             );
         }
     }
     text + "</svg>\n"
+}
+
+/// The least and the greatest x and y (m) of a closed line.
+fn extent(corners: &[Corner]) -> [[f64; 2]; 2] {
+    let mut points: Vec<Vector2<f64>> = Vec::new();
+    for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        points.push(corner.point);
+        points.extend(corner.turning_points(next));
+    }
+    let of = |fold: fn(f64, f64) -> f64, start: f64| {
+        [0, 1].map(|k| points.iter().map(|p| p[k]).fold(start, fold))
+    };
+    [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
 }

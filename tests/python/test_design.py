@@ -1,6 +1,7 @@
 """Designs: read, made, varied; what is wrong with them."""
 
 import copy
+import io
 import pickle
 
 import numpy as np
@@ -95,6 +96,35 @@ def test_files_for_the_workshop(design):
     assert b"OUTLINE" in files["fixed.dxf"] and b"mm" in files["sheet.md"]
     with pytest.raises(ValueError, match="kerf"):
         design.make(kerf=0.15)
+
+
+def test_cad_programs_read_the_workshop_files():
+    """What ezdxf makes of them: no fault, millimetres, the arc of the profile as one arc."""
+    ezdxf = pytest.importorskip("ezdxf")
+    text = """
+        table = { size = [2.0, 2.0] }
+        target = { fixed = "east", moving = "west" }
+        [fixed]
+        side = 0.1
+        thickness = 0.02
+        mass = 0.3
+        faces.east.profile = { shape = "arc", width = 0.06, depth = 0.005 }
+        [moving]
+        side = 0.1
+        thickness = 0.02
+        mass = 0.3
+        faces.west.mates = "east"
+    """
+    files = Design.loads(text).make(kerf=0.0)
+    for name, sign in [("fixed.dxf", 1), ("moving.dxf", -1)]:
+        drawing = ezdxf.read(io.StringIO(files[name].decode()))
+        assert not drawing.audit().errors and not drawing.audit().fixes
+        assert drawing.units == ezdxf.units.MM and drawing.header["$MEASUREMENT"] == 1
+        assert {"OUTLINE", "POCKETS", "POLES"} <= {layer.dxf.name for layer in drawing.layers}
+        [outline] = drawing.modelspace().query("LWPOLYLINE[layer=='OUTLINE']")
+        bulges = [bulge for *_, bulge in outline.get_points("xyb") if bulge]
+        # A segment 5 high over 60 wide: the tangent of a quarter of its angle is 2 * 5 / 60.
+        assert bulges == pytest.approx([sign / 6], abs=1e-9)
 
 
 def test_shields_are_fitted_to_measurements(root):

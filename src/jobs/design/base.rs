@@ -10,7 +10,7 @@ use super::reader::{Entry, Section};
 use super::svg;
 use physics::tile::Face;
 use physics::tile::outline::{Outline, OutlineError};
-use physics::tile::profile::Polyline;
+use physics::tile::profile::{Arcs, Polyline};
 
 /// Most faces of a tile.
 const MOST_FACES: u32 = 64;
@@ -20,6 +20,8 @@ pub(super) struct Base {
     pub faces: Vec<Face>,
     /// The line of each face that has no profile of its own; empty for the base line.
     pub lines: Vec<Polyline>,
+    /// Which points of these lines lie on arcs.
+    pub arcs: Vec<Arcs>,
     pub names: Vec<Vec<String>>,
 }
 
@@ -41,9 +43,12 @@ pub(super) fn read(section: &Section) -> Result<Base> {
         ));
     }
     if entry.key == "outline" {
-        let (corners, lines) = svg::read_outline(&entry)?;
+        let drawn = svg::read_outline(&entry)?;
+        let (corners, lines): (Vec<_>, Vec<_>) = drawn.into_iter().unzip();
+        let (lines, arcs) = lines.into_iter().unzip();
         return Ok(Base {
             lines,
+            arcs,
             ..base(&corners, &[])
         });
     }
@@ -94,6 +99,7 @@ fn base(corners: &[Vector2<f64>], names: &[&str]) -> Base {
     Base {
         faces: (0..n).map(face).collect(),
         lines: vec![Polyline::new(); n],
+        arcs: vec![Arcs::new(); n],
         names,
     }
 }

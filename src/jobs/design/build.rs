@@ -111,6 +111,7 @@ const MOST_POINTS: usize = 10_000;
 fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
     let line = |content: &FaceContent| FaceLine {
         polyline: content.polyline.clone(),
+        arcs: content.arcs.clone(),
         fit: content.fit,
     };
     contents.iter().map(line).collect()
@@ -135,7 +136,10 @@ fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline
         ));
     }
     match Outline::new(ring.points.clone()) {
-        Ok(outline) => Ok((ring, outline)),
+        Ok(outline) => {
+            let outline = outline.with_arcs(&ring.points, &ring.arcs);
+            Ok((ring, outline))
+        }
         Err(error) => Err(mend_outline(entry, contents, &ring, &error)),
     }
 }
@@ -201,6 +205,7 @@ fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Op
         line.is_some_and(|line| {
             let mut lines = lines(contents);
             lines[face].polyline = line;
+            lines[face].arcs.clear();
             let ring = assemble(&entry.base.faces, &lines);
             ring.is_ok_and(|ring| Outline::new(ring.points).is_ok())
         })

@@ -7,7 +7,7 @@ use super::quantity;
 use super::reader::{Entry, Section, all, nearest_help};
 use super::shield::ShieldKeys;
 use physics::tile::barcode::{Barcode, BarcodeError};
-use physics::tile::profile::{Polyline, Profile, complement};
+use physics::tile::profile::{Arcs, Polyline, Profile, complement, complement_arcs};
 
 /// The magnets of a face, before their sizes and spacing are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +35,8 @@ impl Pattern {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FaceContent {
     pub polyline: Polyline,
+    /// Which of its points lie on arcs.
+    pub arcs: Arcs,
     /// The profile that the face's own keys describe.
     pub profile: Option<Profile>,
     /// How far the line is drawn back (m).
@@ -52,6 +54,7 @@ impl FaceContent {
     fn mate(&self, at: Span) -> Self {
         Self {
             polyline: complement(&self.polyline),
+            arcs: complement_arcs(&self.arcs, self.polyline.len()),
             profile: None,
             fit: 0.0,
             pattern: self.pattern.mate(at),
@@ -119,10 +122,11 @@ impl<'a> FaceEntry<'a> {
     }
 
     /// The content of a face that mates with none; `length` is the face's (m), `drawn` its line in
-    /// the tile's own outline.
+    /// the tile's own outline and the arcs of that.
     pub fn content(
         &self,
-        (length, drawn): (f64, &Polyline),
+        length: f64,
+        drawn: (&Polyline, &Arcs),
         keys: MagnetKeys,
         span: Span,
     ) -> Result<FaceContent> {
@@ -137,12 +141,16 @@ impl<'a> FaceEntry<'a> {
         let line = profile.as_ref().map(|entry| read_profile(entry, length));
         let magnets = pattern.as_ref().map(read_pattern);
         let keys = self.magnet_keys()?.over(keys);
-        let (drawing, polyline) = match line.transpose()? {
-            Some((drawing, line)) => (Some(drawing), line),
-            None => (None, drawn.clone()),
+        let (drawing, polyline, arcs) = match line.transpose()? {
+            Some((drawing, line)) => {
+                let arcs = drawing.arcs(&line);
+                (Some(drawing), line, arcs)
+            }
+            None => (None, drawn.0.clone(), drawn.1.clone()),
         };
         Ok(FaceContent {
             polyline,
+            arcs,
             profile: drawing,
             fit: 0.0,
             pattern: magnets.unwrap_or_else(|| Ok(Pattern::List(Vec::new())))?,

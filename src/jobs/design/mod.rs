@@ -26,7 +26,7 @@
 //!   "nearest-face"` takes no constants.
 //! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
 //!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
-//!   physical units or with a `unit`, curves to within 1/2150 of the drawn shape's size. A face
+//!   physical units or with a `unit` or `dpi`, curves to within 1/2150 of the drawn shape's size. A face
 //!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
 //! - Faces that are to meet may differ by what no cutter resolves, up to 50 um or a thousandth of
 //!   their length: see `tolerance`, which says what is made of them.

@@ -23,7 +23,11 @@ pub(super) const SHAPES: [Shape; 6] = [
     ("teeth", &["shape", "form", "count", "depth", "span"], teeth),
     ("arc", &["shape", "width", "depth", "offset"], arc),
     ("points", &["shape", "points"], points),
-    ("svg", &["shape", "file", "unit", "id", "offset"], drawn),
+    (
+        "svg",
+        &["shape", "file", "unit", "dpi", "id", "offset"],
+        drawn,
+    ),
 ];
 
 /// Most points of a face's line, curves drawn as chords: contact with more takes too long.
@@ -113,7 +117,8 @@ fn points(section: &Section, _: f64) -> Result<Profile> {
 }
 
 fn drawn(section: &Section, _: f64) -> Result<Profile> {
-    svg::read_line(section).map(Profile::Points)
+    let (line, arcs) = svg::read_line(section)?;
+    Ok(Profile::Drawn(line, arcs))
 }
 
 fn width(section: &Section) -> Result<f64> {
@@ -230,7 +235,7 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
         }
         Profile::Tab { .. } | Profile::Arc { .. } => at_most("offset", half),
         Profile::Teeth { .. } => at_most("span", 2.0 * half),
-        Profile::Flat | Profile::Points(_) => (
+        Profile::Flat | Profile::Points(_) | Profile::Drawn(..) => (
             "file",
             "make the profile narrower or move it inwards".to_owned(),
         ),
@@ -243,6 +248,6 @@ pub(super) fn depth_of(profile: &mut Profile) -> Option<&mut f64> {
         Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {
             Some(depth)
         }
-        Profile::Flat | Profile::Points(_) => None,
+        Profile::Flat | Profile::Points(_) | Profile::Drawn(..) => None,
     }
 }

@@ -115,6 +115,16 @@ pub(super) const FIT: Quantity = LENGTH.not_negative(0.05, (1e-5, 5e-3));
 pub(super) const PROFILE_WIDTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 2.0));
 pub(super) const PROFILE_DEPTH: Quantity = LENGTH.any(1.0, (1e-4, 0.1));
 pub(super) const ALONG_FACE: Quantity = LENGTH.any(10.0, (1e-3, 2.0));
+/// A user unit of a drawing: from what 25,400 dots per inch leave to drawings in metres.
+pub(super) const DRAWING_UNIT: Quantity = LENGTH.positive((1e-6, 1.0), (1e-5, 0.01));
+/// Dots per inch of a drawing.
+pub(super) const DPI: Quantity = Kind {
+    unit: "",
+    rule: "a user unit of the drawing is an inch over `dpi`",
+    others: &[],
+    units: &[("dpi", 1.0), ("ppi", 1.0)],
+}
+.positive((1.0, 25_400.0), (10.0, 2400.0));
 /// The lean of a side: below a right angle.
 pub(super) const DRAFT: Quantity = ANGLE.any(1.5, (0.0, 1.5));
 /// A direction: up to a whole turn either way.

@@ -224,6 +224,15 @@ impl<'a> Entry<'a> {
         })
     }
 
+    /// Whether it is a number, or a text that begins with one, for a quantity that may be a word.
+    pub fn is_quantity(&self) -> bool {
+        let text = self.value.get_ref().as_str();
+        text.is_none_or(|text| {
+            text.trim_start()
+                .starts_with(|c: char| c.is_ascii_digit() || ".+-".contains(c))
+        })
+    }
+
     /// A number; one with a unit in quotes, where `quantity` says which units there are.
     fn raw_number(&self, quantity: Option<Quantity>) -> Result<f64> {
         let parsed = match self.value.get_ref() {

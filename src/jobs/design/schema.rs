@@ -93,7 +93,7 @@ mod tests {
         let units = UNITS.map(|(name, _)| name);
         let schema = schema();
         assert_eq!(
-            schema["$defs"]["drawing_unit"]["enum"],
+            schema["$defs"]["drawing_unit"]["anyOf"][0]["enum"],
             serde_json::json!(units)
         );
     }
@@ -115,7 +115,9 @@ mod tests {
     #[test]
     fn its_limits_are_those_of_the_reader() {
         let schema = schema();
-        let quantities: [(&str, Quantity); 23] = [
+        let quantities: [(&str, Quantity); 25] = [
+            ("drawing_unit_length", quantity::DRAWING_UNIT),
+            ("drawing_dpi", quantity::DPI),
             ("tile_side", quantity::TILE_SIDE),
             ("tile_corner", quantity::TILE_CORNER),
             ("tile_thickness", quantity::TILE_THICKNESS),

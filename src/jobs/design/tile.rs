@@ -139,8 +139,8 @@ fn resolve_face(
     let entry = &tiles[tile].faces[face];
     let base = &tiles[tile].base.faces[face];
     let Some(mates) = entry.mates() else {
-        let line = &tiles[tile].base.lines[face];
-        return entry.content((base.length(), line), keys, tiles[tile].section.span);
+        let drawn = (&tiles[tile].base.lines[face], &tiles[tile].base.arcs[face]);
+        return entry.content(base.length(), drawn, keys, tiles[tile].section.span);
     };
     let other = 1 - tile;
     let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;

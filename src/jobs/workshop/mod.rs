@@ -7,6 +7,7 @@
 pub mod grade;
 pub mod order;
 mod part;
+mod rim;
 
 use clap::Args;
 
@@ -14,6 +15,7 @@ use crate::design::Design;
 use crate::request;
 pub use part::{Part, PartError, Pocket};
 use physics::tile::{Magnet, Tile};
+pub use rim::Corner;
 
 /// Density of neodymium magnets (kg/m^3).
 const DENSITY: f64 = 7500.0;

@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use super::Making;
+use super::rim::{Corner, rim};
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Tile};
@@ -24,8 +25,9 @@ pub enum PartError {
 /// A tile as it is cut, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Where the cutter's middle runs around the tile, counter-clockwise.
-    pub outline: Vec<Vector2<f64>>,
+    /// Where the cutter's middle runs around the tile, counter-clockwise: arcs are arcs again, where
+    /// the tile's outline has chords.
+    pub outline: Vec<Corner>,
     /// A pocket for each magnet, in their order.
     pub pockets: Vec<Pocket>,
     /// Of the tile (m).
@@ -39,8 +41,8 @@ pub struct Pocket {
     pub name: String,
     /// Which pole points out of the face, or up.
     pub pole: Pole,
-    /// Where the cutter's middle runs, counter-clockwise.
-    pub corners: Vec<Vector2<f64>>,
+    /// Where the cutter's middle runs, counter-clockwise: two arcs about a disc that stands.
+    pub corners: Vec<Corner>,
     /// From the magnet's middle to its north pole (m) in the tile's plane.
     pub north: Vector2<f64>,
     /// The magnet's middle.
@@ -54,7 +56,7 @@ pub struct Pocket {
 impl Pocket {
     /// What is written into it, where (m), and how high (m): both poles, or the one that is up.
     pub fn letters(&self) -> Vec<(char, Vector2<f64>, f64)> {
-        let reach = (self.corners[0] - self.middle).norm();
+        let reach = (self.corners[0].point - self.middle).norm();
         match self.pole.stands() {
             true => vec![(self.pole.letter(), self.middle, 0.6 * reach)],
             false => [('N', 0.5), ('S', -0.5)]
@@ -98,11 +100,17 @@ impl Part {
 }
 
 /// The outline half a cut outside.
-fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Vector2<f64>>, PartError> {
-    let corners = tile.outline.vertices();
-    if kerf == 0.0 {
-        return Ok(corners.to_vec());
+fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Corner>, PartError> {
+    let wide = || PartError::Kerf(kerf);
+    if kerf > 0.0 {
+        check_details(tile, kerf)?;
     }
+    rim(&tile.outline, kerf / 2.0).ok_or_else(wide)
+}
+
+/// Refuses a cut that is wider than details of the outline: an edge would turn over.
+fn check_details(tile: &Tile, kerf: f64) -> Result<(), PartError> {
+    let corners = tile.outline.vertices();
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let faces: Vec<Face> = edges
         .map(|(start, end)| Face {
@@ -112,11 +120,11 @@ fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Vector2<f64>>, PartError> {
         })
         .collect();
     let line = FaceLine {
-        polyline: Vec::new(),
         fit: -kerf / 2.0,
+        ..FaceLine::default()
     };
     let ring = assemble(&faces, &vec![line; faces.len()]);
-    Ok(ring.map_err(|_| PartError::Kerf(kerf))?.points)
+    ring.map(|_| ()).map_err(|_| PartError::Kerf(kerf))
 }
 
 fn pocket(
@@ -142,7 +150,7 @@ fn pocket(
     Ok(Pocket {
         name: format!("{} {number}", face.name),
         pole: magnet.pole(face.normal()),
-        corners: cut.outline(),
+        corners: pocket_rim(&cut),
         north: magnet.moment_vector() / magnet.moment * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
@@ -151,4 +159,19 @@ fn pocket(
             .map(|p| tile.outline.signed_distance(*p))
             .fold(f64::NEG_INFINITY, f64::max),
     })
+}
+
+/// The line around a magnet.
+fn pocket_rim(magnet: &Magnet) -> Vec<Corner> {
+    let half_turn = |side: f64| Corner {
+        point: magnet.position
+            + Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle))
+                * (side * magnet.size[0] / 2.0),
+        bulge: 1.0,
+    };
+    if magnet.is_round() {
+        return vec![half_turn(1.0), half_turn(-1.0)];
+    }
+    let corners = magnet.corners();
+    corners.map(|point| Corner { point, bulge: 0.0 }).to_vec()
 }

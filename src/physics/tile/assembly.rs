@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 
 use super::Face;
 use super::outline::cross;
-use super::profile::Polyline;
+use super::profile::{Arcs, Polyline};
 
 /// Points closer to each other than this share of the tile's size are one point.
 const SAME_POINT: f64 = 1e-12;
@@ -25,6 +25,8 @@ const PARALLEL: f64 = 1e-9;
 pub struct FaceLine {
     /// The profile, as points (s, h) of the face's frame (m); empty for the base line.
     pub polyline: Polyline,
+    /// Which of its points lie on arcs.
+    pub arcs: Arcs,
     /// How far the line is drawn back along its normal (m).
     pub fit: f64,
 }
@@ -36,6 +38,8 @@ pub struct Ring {
     pub points: Vec<Vector2<f64>>,
     /// The face of the edge from point i to point i + 1.
     pub faces: Vec<usize>,
+    /// The arc that this edge is a chord of, by a number of its own; `None` for a straight line.
+    pub arcs: Vec<Option<usize>>,
 }
 
 /// The drawn-back line of a face vanishes or turns over somewhere: the face's number.
@@ -53,11 +57,15 @@ pub fn assemble(faces: &[Face], lines: &[FaceLine]) -> Result<Ring, FitTooLarge>
         .map(|face| face.start.norm())
         .fold(0.0, f64::max);
     let mut ring = Ring::default();
+    let mut arcs_before = 0;
     for (number, (face, line)) in faces.iter().zip(lines).enumerate() {
-        ring.push(face.start, number);
-        for &[s, h] in &line.polyline {
-            ring.push(face.point(s, h), number);
+        ring.push(face.start, number, None);
+        for (point, &[s, h]) in line.polyline.iter().enumerate() {
+            let begins_in = |arc: &[usize; 2]| (arc[0]..arc[1]).contains(&point);
+            let arc = line.arcs.iter().position(begins_in);
+            ring.push(face.point(s, h), number, arc.map(|arc| arcs_before + arc));
         }
+        arcs_before += line.arcs.len();
     }
     ring.clean(scale * SAME_POINT);
     if lines.iter().all(|line| line.fit == 0.0) {
@@ -69,9 +77,10 @@ pub fn assemble(faces: &[Face], lines: &[FaceLine]) -> Result<Ring, FitTooLarge>
 }
 
 impl Ring {
-    fn push(&mut self, point: Vector2<f64>, face: usize) {
+    fn push(&mut self, point: Vector2<f64>, face: usize, arc: Option<usize>) {
         self.points.push(point);
         self.faces.push(face);
+        self.arcs.push(arc);
     }
 
     fn len(&self) -> usize {
@@ -92,11 +101,13 @@ impl Ring {
             if self.edge(i).norm() <= tolerance {
                 // Keep the first point of the pair, and the edge that leaves the second.
                 self.faces[i] = self.faces[(i + 1) % n];
+                self.arcs[i] = self.arcs[(i + 1) % n];
                 self.remove((i + 1) % n);
             } else if self.faces[before] != self.faces[i] && self.folds_back(before, i) {
                 // The longer of the two edges is left over, its far part.
                 if self.edge(before).norm() <= self.edge(i).norm() {
                     self.faces[before] = self.faces[i];
+                    self.arcs[before] = self.arcs[i];
                 }
                 self.remove(i);
             } else {
@@ -110,6 +121,7 @@ impl Ring {
     fn remove(&mut self, i: usize) {
         self.points.remove(i);
         self.faces.remove(i);
+        self.arcs.remove(i);
     }
 
     /// Whether edge `next` runs straight back over edge `before`.
@@ -141,8 +153,8 @@ impl Ring {
                 };
                 return Err(FitTooLarge(self.faces[drawn]));
             }
-            ring.push(start, self.faces[i]);
-            ring.push(end, self.faces[i]);
+            ring.push(start, self.faces[i], self.arcs[i]);
+            ring.push(end, self.faces[i], self.arcs[i]);
         }
         Ok(ring)
     }

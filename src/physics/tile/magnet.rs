@@ -122,10 +122,15 @@ impl Magnet {
             && (self.moment - other.moment).abs() <= 1e-12 * self.moment
     }
 
+    /// Whether it covers a circle of the tiles' plane: a disc that stands.
+    pub fn is_round(&self) -> bool {
+        self.form.shape == Shape::Disc && self.form.stands.is_some()
+    }
+
     /// What it covers of the tiles' plane (m), counter-clockwise; of a disc that stands a polygon whose
     /// corners lie on its rim.
     pub fn outline(&self) -> Vec<Vector2<f64>> {
-        if self.form.shape == Shape::Block || self.form.stands.is_none() {
+        if !self.is_round() {
             return self.corners().to_vec();
         }
         let turn = |k: usize| self.angle + std::f64::consts::TAU * k as f64 / CHORDS as f64;

@@ -33,6 +33,10 @@ pub const SHALLOWEST: f64 = 2e-6;
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;
 
+/// Which points of a polyline lie on arcs of circles: the first and the last of each arc, in their
+/// order. The polygon is the outline; who cuts it may follow the arcs.
+pub type Arcs = Vec<[usize; 2]>;
+
 /// The waveform of [`Profile::Teeth`], odd in its phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Waveform {
@@ -84,6 +88,8 @@ pub enum Profile {
     },
     /// A polyline.
     Points(Polyline),
+    /// A drawn line, and which of its points lie on arcs.
+    Drawn(Polyline, Arcs),
 }
 
 /// Why a profile cannot be drawn.
@@ -144,7 +150,16 @@ impl Profile {
                 depth,
                 offset,
             } => Ok(arc(*width, *depth, *offset)),
-            Self::Points(points) => checked_points(points),
+            Self::Points(points) | Self::Drawn(points, _) => checked_points(points),
+        }
+    }
+
+    /// The arcs among the points of its [`polyline`](Self::polyline), which is given.
+    pub fn arcs(&self, polyline: &[[f64; 2]]) -> Arcs {
+        match (self, polyline.len()) {
+            (Self::Arc { .. }, points @ 3..) => vec![[0, points - 1]],
+            (Self::Drawn(_, arcs), _) => arcs.clone(),
+            _ => Arcs::new(),
         }
     }
 }
@@ -152,6 +167,12 @@ impl Profile {
 /// The complement `-h(-s)` of a polyline, point by point: the line of the mating face.
 pub fn complement(line: &[[f64; 2]]) -> Polyline {
     line.iter().rev().map(|[s, h]| [-s, -h]).collect()
+}
+
+/// The arcs of the [`complement`] of a polyline of so many points.
+pub fn complement_arcs(arcs: &[[usize; 2]], points: usize) -> Arcs {
+    let mirrored = |&[first, last]: &[usize; 2]| [points - 1 - last, points - 1 - first];
+    arcs.iter().rev().map(mirrored).collect()
 }
 
 fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, ProfileError> {

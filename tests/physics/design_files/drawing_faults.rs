@@ -5,7 +5,7 @@ use super::drawings::{design, drawn, outlined, parse, profiled};
 /// Each drawing with what is said of it, and the line and column where.
 #[test]
 fn drawings_are_refused_where_the_fault_is() {
-    let cases: [(&str, &str, &str); 16] = [
+    let cases: [(&str, &str, &str); 19] = [
         (
             "<path d=\"M0 0h100v100h-100\"/>",
             "the outline is open: its ends are 100 mm apart",
@@ -24,11 +24,11 @@ fn drawings_are_refused_where_the_fault_is() {
         ),
         (
             "<polygon points=\"0,0 9,9 x,1\"/>",
-            "not a list of pairs",
-            "2:18",
+            "`points` cannot be read",
+            "2:26",
         ),
         ("<rect height=\"9\"/>", "a rectangle without a width", "2:2"),
-        ("<circle r=\"10%\"/>", "relative to something else", "2:12"),
+        ("<circle r=\"10em\"/>", "relative to something else", "2:12"),
         (
             "<g transform=\"turn(9)\"><path d=\"M0 0h9v9z\"/></g>",
             "`transform` cannot be read",
@@ -44,7 +44,23 @@ fn drawings_are_refused_where_the_fault_is() {
             "holds 2 shapes",
             "3:2",
         ),
-        ("<text>a</text>", "the drawing holds no shape", "1:1"),
+        (
+            "<text>a</text><use href=\"#b\"/>",
+            "the drawing holds no shape that can be read, but <text> in line 2, <use> of \"#b\", which \
+             is not in the drawing in line 2",
+            "2:2",
+        ),
+        ("", "the drawing holds no shape", "1:1"),
+        (
+            "<g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g>",
+            "draws itself",
+            "2:42",
+        ),
+        (
+            "<line x2=\"100\"/><line x1=\"100\" x2=\"100\" y2=\"100\"/>\n<path d=\"M100 100L0 .5\"/>",
+            "the outline is open: its ends are 0.5 mm apart",
+            "2:2",
+        ),
         (
             "<path transform=\"scale(1e200)\" d=\"M0 0h1e200v9z\"/>",
             "not finite",

@@ -124,15 +124,15 @@ fn what_is_not_read_of_a_drawing_is_named() {
     let hidden = drawn(
         "<style>path{display:none}</style><path style=\"display:none\" d=\"M0 0h9v9z\"/>\n\
          <g visibility=\"hidden\"/><use href=\"#a\"/><defs><path id=\"a\"/></defs>\n\
-         <line x1=\"0\" x2=\"1\"/><path d=\"M0 0\"/>\
+         <line x1=\"0\" x2=\"0\"/><path d=\"M0 0\"/>\
          <path clip-path=\"url(#c)\" d=\"M0 0h100v100h-100z\"/>",
     );
     let design = outlined(&hidden, "").unwrap();
     assert_eq!(
         doubts(&design)[0].message,
         "not read of the drawing: <style> in line 2, <path> (not displayed) in line 2, \
-         <g> (hidden) in line 3, <use> in line 3, <line> in line 4, \
-         <path> that draws nothing in line 4, the clip-path of <path> in line 4"
+         <g> (hidden) in line 3, <path> that draws nothing in line 3 and 1 more of it, \
+         <line> that draws nothing in line 4, the clip-path of <path> in line 4"
     );
 }
 
@@ -345,4 +345,218 @@ fn every_path_command_draws() {
             .area();
         assert!((area - 0.01).abs() < smooth, "{d}: {area}");
     }
+}
+
+/// A square of 80 mm as programs write it: by lines, by way of others, in other units.
+#[test]
+fn an_outline_is_the_same_however_it_is_written() {
+    for (file, keys, error) in [
+        ("outline-as-four-line-elements.svg", "", 1e-15),
+        ("outline-as-four-subpaths.svg", "", 1e-15),
+        ("outline-as-symbol.svg", "", 1e-15),
+        ("outline-as-use-of-defs.svg", "", 1e-15),
+        ("outline-with-20um-gap.svg", "", 1e-15),
+        (
+            "affinity-300dpi-no-size.svg",
+            ", unit = \"0.0846667 mm\"",
+            1e-7,
+        ),
+        ("affinity-300dpi-no-size.svg", ", dpi = 300", 2e-7),
+        ("affinity-300dpi-no-size.svg", ", dpi = \"300 dpi\"", 2e-7),
+        ("illustrator-80mm-square-in-pt.svg", ", unit = \"pt\"", 1e-6),
+    ] {
+        let design = outlined(&load(file), keys).unwrap_or_else(|e| panic!("{file}: {e}"));
+        let outline = &design.pair.fixed.outline;
+        assert_eq!(design.pair.fixed.faces.len(), 4, "{file}");
+        for (vertex, expected) in outline.vertices().iter().zip([
+            [-0.04, 0.04],
+            [-0.04, -0.04],
+            [0.04, -0.04],
+            [0.04, 0.04],
+        ]) {
+            let distance = (vertex.x - expected[0]).hypot(vertex.y - expected[1]);
+            assert!(distance <= error, "{file}: {:?}", outline.vertices());
+        }
+        let gaps: Vec<_> = doubts(&design).iter().map(|d| &d.message).collect();
+        if file.contains("gap") {
+            assert!(
+                gaps.len() == 1 && gaps[0].contains("a gap of 0.02 mm"),
+                "{gaps:?}"
+            );
+        } else {
+            assert!(gaps.is_empty(), "{gaps:?}");
+        }
+    }
+}
+
+#[test]
+fn view_boxes_are_fitted_wherever_they_stand() {
+    let square = "<rect width=\"10\" height=\"10\"/>";
+    let large = "<rect width=\"50\" height=\"50\"/>";
+    let head = "<svg x=\"10\" y=\"10\" width=\"80\" height=\"40\" viewBox=\"0 0 10 10\"";
+    for (content, size) in [
+        (format!("{head}>{square}</svg>"), [0.04, 0.04]),
+        (
+            format!("{head} preserveAspectRatio=\"none\">{square}</svg>"),
+            [0.08, 0.04],
+        ),
+        (
+            format!("{head} preserveAspectRatio=\"xMinYMax slice\">{square}</svg>"),
+            [0.08, 0.08],
+        ),
+        (
+            format!(
+                "<symbol id=\"s\" viewBox=\"0 0 10 10\">{square}</symbol><use href=\"#s\" \
+                     width=\"80\" height=\"90\" transform=\"scale(.5 1)\"/>"
+            ),
+            [0.04, 0.08],
+        ),
+        (
+            format!(
+                "<symbol id=\"s\" width=\"60\" height=\"70\" viewBox=\"0 0 10 10\">{square}\
+                     </symbol><g transform=\"rotate(90)\"><use href=\"#s\"/></g>"
+            ),
+            [0.06, 0.06],
+        ),
+        (
+            format!("{head}><rect width=\"50%\" height=\"100%\"/></svg>"),
+            [0.02, 0.04],
+        ),
+        (format!("<svg x=\"3\">{large}</svg>"), [0.05, 0.05]),
+        (
+            format!("<switch><text/><g requiredExtensions=\"e\"/><g/></switch>{large}"),
+            [0.05, 0.05],
+        ),
+    ] {
+        let design = outlined(&drawn(&content), "").unwrap_or_else(|e| panic!("{content}: {e}"));
+        let vertices = design.pair.fixed.outline.vertices();
+        let most = |k: usize| vertices.iter().map(|p| p[k]).fold(0.0, f64::max);
+        let found = [0, 1].map(|k| 2.0 * most(k));
+        assert!(
+            (0..2).all(|k| (found[k] - size[k]).abs() < 1e-12),
+            "{content}: {found:?}"
+        );
+        // Only what is cut off is told.
+        let cut = doubts(&design)
+            .iter()
+            .any(|d| d.message.contains("cuts its content off"));
+        assert_eq!(cut, content.contains("slice"), "{:?}", design.warnings);
+    }
+}
+
+#[test]
+fn lines_join_where_their_ends_meet() {
+    let square = |gap: f64| {
+        format!(
+            "<line x1=\"0\" y1=\"0\" x2=\"80\" y2=\"0\"/><line x1=\"80\" y1=\"{gap}\" x2=\"80\" \
+             y2=\"80\"/><path d=\"M0 80H80\"/><path d=\"M0 80A80 80 0 0 0 0 0\"/>"
+        )
+    };
+    for gap in [0.0, 0.02, 0.09] {
+        let design = outlined(&drawn(&square(gap)), "").unwrap();
+        let tile = &design.pair.fixed;
+        assert_eq!(tile.faces.len(), 4);
+        // Straight sides meet where they cross, so the gap does not move them.
+        let half = PI / 6.0;
+        let bay = 0.08 * 0.08 * (half - half.sin() * half.cos());
+        let error = 0.08 * (0.08 * CHORD_SHARE);
+        assert!((tile.outline.area() - 0.0064 + bay).abs() < error, "{gap}");
+        assert_eq!(doubts(&design).len(), usize::from(gap > 0.0));
+        let arcs = tile.outline.arcs();
+        assert!(arcs.iter().filter(|arc| arc.is_some()).count() >= 2);
+        assert_eq!(arcs.iter().filter(|arc| arc.is_none()).count(), 3);
+    }
+    let error = outlined(&drawn(&square(0.2)), "").unwrap_err();
+    assert!(
+        error.message.contains("its ends are 0.2 mm apart"),
+        "{error}"
+    );
+    // A piece that closes a path across a gap is no face; a drawn one is.
+    let closing = |d: &str| outlined(&drawn(&format!("<path d=\"{d}\"/>")), "").unwrap();
+    assert_eq!(closing("M0 0H80V80H0V.05Z").pair.fixed.faces.len(), 4);
+    assert_eq!(closing("M0 0H80V80H0V.05V0Z").pair.fixed.faces.len(), 5);
+    // By the group's id, beside another shape.
+    let group = format!(
+        "<g id=\"tile\">{}</g><circle id=\"c\" r=\"9\"/>",
+        square(0.0)
+    );
+    let design = outlined(&drawn(&group), ", id = \"tile\"").unwrap();
+    assert_eq!(design.pair.fixed.faces.len(), 4);
+    assert!(
+        outlined(&drawn(&group), "")
+            .unwrap_err()
+            .message
+            .contains("holds 5 shapes")
+    );
+    // An open profile of two lines.
+    let profile =
+        drawn("<path d=\"M200 100L220 90\"/><line x1=\"200\" y1=\"100.05\" x2=\"180\" y2=\"90\"/>");
+    let line = profiled(&profile, "").unwrap();
+    assert!((line[1][1] + 0.01).abs() < 3e-5, "{line:?}");
+}
+
+#[test]
+fn what_is_not_painted_is_left_out_beside_what_is() {
+    let board = "<rect width=\"400\" height=\"400\" style=\"fill:none;\"/>";
+    let tile = "<g style=\"fill:none;stroke:#000\"><rect width=\"80\" height=\"80\"/></g>";
+    let design = outlined(&drawn(&format!("{board}{tile}")), "").unwrap();
+    assert!((design.pair.fixed.outline.area() - 0.0064).abs() < 1e-12);
+    assert!(
+        doubts(&design)[0]
+            .message
+            .contains("<rect> (no fill, no stroke)")
+    );
+    // Alone it is what is meant; a style sheet may paint it.
+    assert!(outlined(&drawn(board), "").is_ok());
+    let sheet = "<style>rect{stroke:red}</style>";
+    assert!(outlined(&drawn(&format!("{sheet}{board}{tile}")), "").is_err());
+}
+
+#[test]
+fn a_drawing_without_a_size_is_told_what_units_make_of_it() {
+    let drawing = load("illustrator-80mm-square-in-pt.svg");
+    let help = outlined(&drawing, "").unwrap_err().help;
+    for said in [
+        "unit = \"pt\" (what is drawn is 80 x 80 mm then)",
+        "unit = \"px\" (what is drawn is 60 x 60 mm then)",
+        "dpi = 300 (what is drawn is 19.2 x 19.2 mm then)",
+    ] {
+        assert!(help.contains(said), "{help}");
+    }
+    let wrong = |keys: &str| outlined(&drawing, keys).unwrap_err().to_string();
+    assert!(wrong(", unit = \"mmm\"").contains("`unit` cannot be \"mmm\""));
+    assert!(wrong(", unit = \"3 kg\"").contains("units here: m, cm, mm"));
+    assert!(wrong(", unit = \"pt\", dpi = 72").contains("keep one of the two"));
+    assert!(wrong(", dpi = 0").contains("above zero"));
+}
+
+/// What the workshop cuts along: arcs drawn as arcs or as the curves that programs make of them.
+#[test]
+fn arcs_of_drawings_are_known_as_arcs() {
+    let arcs = |drawing: &str| {
+        let design = outlined(drawing, "").unwrap();
+        let arcs = design.pair.fixed.outline.arcs().to_vec();
+        let mut known: Vec<usize> = arcs.into_iter().flatten().collect();
+        known.sort_unstable();
+        known.dedup();
+        known.len()
+    };
+    assert_eq!(arcs(&load("arc-bump-as-A-command.svg")), 1);
+    assert_eq!(arcs(&load("arc-hollow-as-A-command.svg")), 1);
+    // Two cubics, within a micrometre of an arc each.
+    assert_eq!(arcs(&load("arc-hollow-as-bezier.svg")), 2);
+    assert_eq!(
+        arcs(&drawn("<rect width=\"80\" height=\"80\" rx=\"9\"/>")),
+        4
+    );
+    let quarter = "C90 72.0914 72.0914 90 50 90C27.9086 90 10 72.0914 10 50";
+    let circle = format!(
+        "<path d=\"M90 50{quarter}C10 27.9086 27.9086 10 50 10C72.0914 10 90 27.9086 90 50Z\"/>"
+    );
+    assert_eq!(arcs(&drawn(&circle)), 4);
+    assert_eq!(arcs(&drawn("<ellipse rx=\"40\" ry=\"39\"/>")), 0);
+    assert_eq!(
+        arcs(&drawn("<path d=\"M0 0C30 40 60 -40 90 0V90H0Z\"/>")),
+        0
+    );
 }

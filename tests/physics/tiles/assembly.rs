@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use tilebind::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, surface_height};
-use tilebind::tile::profile::{Profile, Waveform};
+use tilebind::tile::profile::{Profile, Waveform, complement, complement_arcs};
 use tilebind::tile::{Face, Outline};
 
 fn square(side: f64) -> Vec<Face> {
@@ -22,6 +22,7 @@ fn east(profile: Profile, fit: f64) -> Vec<FaceLine> {
     lines[0] = FaceLine {
         polyline: profile.polyline().unwrap(),
         fit,
+        ..FaceLine::default()
     };
     lines
 }
@@ -102,4 +103,35 @@ fn the_surface_of_a_step_is_its_lower_side() {
     assert_eq!(surface_height(&edges, 0.5), Some(1.0));
     assert_eq!(surface_height(&edges, 2.0), None);
     assert_eq!(surface_height(&edges, 1.0), Some(1.5));
+}
+
+/// Edges that are chords of an arc stay so when the face is drawn back, and no others become so.
+#[test]
+fn the_chords_of_an_arc_are_known() {
+    let arc = Profile::Arc {
+        width: 1.0,
+        depth: -0.3,
+        offset: 0.1,
+    };
+    let polyline = arc.polyline().unwrap();
+    let arcs = arc.arcs(&polyline);
+    let chords = polyline.len() - 1;
+    assert_eq!(arcs, [[0, chords]]);
+    assert_eq!(complement_arcs(&[[1, 3], [3, 6]], 9), [[2, 5], [5, 7]]);
+    for (polyline, fit) in [(polyline.clone(), 0.0), (complement(&polyline), 0.05)] {
+        let mut lines = vec![FaceLine::default(); 4];
+        lines[0] = FaceLine {
+            polyline,
+            arcs: arcs.clone(),
+            fit,
+        };
+        let ring = assemble(&square(2.0), &lines).unwrap();
+        let outline = Outline::new(ring.points.clone()).unwrap();
+        let known = outline.with_arcs(&ring.points, &ring.arcs);
+        let on_it: Vec<bool> = known.arcs().iter().map(Option::is_some).collect();
+        assert_eq!(on_it.iter().filter(|on| **on).count(), chords);
+        // One after the other, and the rest are three whole sides and two halves.
+        let changes = (0..on_it.len()).filter(|&k| on_it[k] != on_it[(k + 1) % on_it.len()]);
+        assert_eq!((changes.count(), on_it.len() - chords), (2, 5));
+    }
 }

@@ -211,18 +211,12 @@ fn polylines(text: &str) -> Vec<(String, Vec<[f64; 2]>)> {
     let mut all: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
     let mut entity = "";
     for pair in lines.chunks(2) {
+        let number = || pair[1].parse::<f64>().unwrap();
         match (pair[0], entity) {
             ("0", _) => entity = pair[1],
-            ("8", "POLYLINE") => all.push((pair[1].to_owned(), Vec::new())),
-            ("10", "VERTEX") => {
-                all.last_mut()
-                    .unwrap()
-                    .1
-                    .push([pair[1].parse().unwrap(), 0.0]);
-            }
-            ("20", "VERTEX") => {
-                all.last_mut().unwrap().1.last_mut().unwrap()[1] = pair[1].parse().unwrap();
-            }
+            ("8", "LWPOLYLINE") => all.push((pair[1].to_owned(), Vec::new())),
+            ("10", "LWPOLYLINE") => all.last_mut().unwrap().1.push([number(), 0.0]),
+            ("20", "LWPOLYLINE") => all.last_mut().unwrap().1.last_mut().unwrap()[1] = number(),
             _ => {}
         }
     }
@@ -279,7 +273,9 @@ fn files_for_the_workshop_are_to_scale() {
         assert!((area(corners) - 10.1 * 10.1).abs() < 0.01, "{corners:?}");
     }
     assert!(
-        read("fixed.svg").contains("width=\"440.200mm\"") || read("fixed.svg").contains("mm\"")
+        read("fixed.svg").contains("width=\"460.2mm\""),
+        "{}",
+        read("fixed.svg")
     );
     let sheet = read("sheet.md");
     for said in [

@@ -1,20 +1,66 @@
 //! An SVG file as the shapes that it draws, in metres.
 
+use std::collections::HashMap;
 use std::str::FromStr;
 
-use kurbo::{Affine, PathSeg};
+use kurbo::{Affine, PathSeg, Point};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
-use super::super::error::{Result, Span};
+use super::super::error::{DesignError, Result, Span};
 use super::super::quantity;
 use super::super::source::Source;
-use super::path::{SHAPES, draw};
-use super::pen::{Pen, Stroke, points};
-use super::scale::{scale, span};
+use super::path::{self, Fault, SHAPES, Viewport, draw};
+use super::pen::{Pen, Stroke, is_arc, points};
+use super::scale::{fitted, scale, span, view_box};
 use physics::tile::profile::CHORD_SHARE;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
+const XLINK: &str = "http://www.w3.org/1999/xlink";
+
+/// Elements that draw nothing where they stand: notes, and what others refer to.
+const NOT_DRAWN: [&str; 13] = [
+    "title",
+    "desc",
+    "metadata",
+    "defs",
+    "symbol",
+    "clipPath",
+    "mask",
+    "marker",
+    "filter",
+    "pattern",
+    "linearGradient",
+    "radialGradient",
+    "view",
+];
+
+/// Properties of a style sheet that shape, move or hide what is drawn.
+const TELLING: [&str; 19] = [
+    "transform",
+    "translate",
+    "rotate",
+    "scale",
+    "offset-path",
+    "display",
+    "visibility",
+    "clip-path",
+    "mask",
+    "d",
+    "x",
+    "y",
+    "width",
+    "height",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
+];
+
+/// How far a shape may stick out of its window and still be whole, as a share of the window's size:
+/// what six digits resolve.
+const WINDOW_SHARE: f64 = 1e-6;
 
 /// Most elements of a drawing.
 const MOST_NODES: u32 = 200_000;
@@ -35,24 +81,54 @@ const MOST_NESTED: usize = 256;
 const CHORD_SHARE_OF_SHAPE: f64 = 1.0 / 2150.0;
 const CHORD_SHARE_OF_CURVE: f64 = 1.0 / 32.0;
 
+/// What is taken for an arc leaves its circle by this share of what its chords may leave it.
+const OFF_ARC_SHARE: f64 = 2e-3;
+
+/// A drawing, read.
+pub(super) struct Drawing {
+    pub shapes: Vec<Shape>,
+    pub skipped: Vec<Skipped>,
+    /// Whether it is known how long a user unit is; where not, it was read as a millimetre.
+    pub sized: bool,
+    /// The name of its outermost element in the file.
+    pub root: Span,
+    /// Every `id` of the drawing, and the name of its element.
+    pub ids: HashMap<String, String>,
+}
+
 /// A shape of a drawing.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
     /// The element's name.
     pub element: String,
-    pub id: Option<String>,
+    /// Its own id, those of the groups that it is in, and of what draws it.
+    pub ids: Vec<String>,
     /// The element's name in the file.
     pub span: Span,
+    /// Whether it has a fill or a stroke.
+    pub painted: bool,
+    /// As drawn (m).
+    pub strokes: Vec<Stroke>,
+    /// The same, curves as chords.
     pub lines: Vec<Line>,
     /// Largest distance of a chord from its curve (m).
     pub chord_error: f64,
 }
 
 impl Shape {
+    /// The shape with chords that leave its curves by another error (m).
+    pub fn with_chords(&self, chord_error: f64) -> Self {
+        Self {
+            lines: lines(&self.strokes, chord_error, usize::MAX).unwrap_or_default(),
+            chord_error,
+            ..self.clone()
+        }
+    }
+
     /// Points of all its lines.
     pub fn points(&self) -> usize {
         let segments = self.lines.iter().flat_map(|line| &line.segments);
-        self.lines.len() + segments.map(Vec::len).sum::<usize>()
+        self.lines.len() + segments.map(|segment| segment.points.len()).sum::<usize>()
     }
 }
 
@@ -60,22 +136,43 @@ impl Shape {
 #[derive(Clone, Debug)]
 pub(super) struct Line {
     pub start: [f64; 2],
-    /// For each drawn segment its points after the first one; one for a straight segment.
-    pub segments: Vec<Vec<[f64; 2]>>,
+    pub segments: Vec<Segment>,
     pub closed: bool,
+    /// Whether the last segment is none of the drawing's, but what closes the line.
+    pub closing: bool,
+}
+
+/// A drawn segment of a line.
+#[derive(Clone, Debug)]
+pub(super) struct Segment {
+    /// Its points after the first one; one for a straight segment.
+    pub points: Vec<[f64; 2]>,
+    /// Whether the points lie on an arc of a circle.
+    pub arc: bool,
+}
+
+impl Line {
+    /// All its points.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        let drawn = self.segments.iter().flat_map(|segment| &segment.points);
+        std::iter::once(self.start).chain(drawn.copied())
+    }
+
+    pub fn end(&self) -> [f64; 2] {
+        let last = self
+            .segments
+            .last()
+            .and_then(|segment| segment.points.last());
+        *last.unwrap_or(&self.start)
+    }
 }
 
 /// What is not read of a drawing: the place, and what is there.
 pub(super) type Skipped = (Span, String);
 
 /// All shapes of a drawing, and what else is in it. `unit` is what the design says of the length
-/// (m) of a user unit. Curves are drawn with chords that leave them by `chord_share` of the
-/// [`Shape::chord_error`] at most.
-pub(super) fn read(
-    source: Source,
-    unit: Option<f64>,
-    chord_share: f64,
-) -> Result<(Vec<Shape>, Vec<Skipped>)> {
+/// (m) of a user unit.
+pub(super) fn read(source: Source, unit: Option<f64>) -> Result<Drawing> {
     let options = ParsingOptions {
         // OpenSCAD begins with one.
         allow_dtd: true,
@@ -98,56 +195,157 @@ pub(super) fn read(
             "save the drawing as plain SVG",
         ));
     }
+    let named = document
+        .descendants()
+        .filter_map(|node| Some((node.attribute("id")?, node)));
+    let mut by_id = HashMap::new();
+    for (id, node) in named {
+        by_id.entry(id).or_insert(node);
+    }
+    let sheets = document
+        .descendants()
+        .filter(|node| node.tag_name().name() == "style");
     let mut reader = Reader {
         source,
-        chord_share,
         points: 0,
+        elements: 0,
+        styled: sheets
+            .into_iter()
+            .any(|sheet| !text(sheet).trim().is_empty()),
+        by_id,
         shapes: Vec::new(),
         skipped: Vec::new(),
     };
     reader.refuse_unread_transforms(root, true)?;
-    let map = scale(source, root, unit)?;
-    reader.children(root, map, 0)?;
-    Ok((reader.shapes, reader.skipped))
+    let scale = scale(source, root, unit)?;
+    let context = Context {
+        map: scale.unwrap_or(Affine::scale_non_uniform(1e-3, -1e-3)),
+        viewport: match view_box(source, root)? {
+            Some(view_box) => Some([view_box.w, view_box.h]),
+            None => reader.size(root, None).ok(),
+        },
+        depth: 0,
+        ids: root
+            .attribute("id")
+            .map(str::to_owned)
+            .into_iter()
+            .collect(),
+        paint: Paint::default().of(root),
+    };
+    reader.children(root, &context)?;
+    let ids = reader.by_id.iter();
+    let ids = ids.map(|(id, node)| ((*id).to_owned(), node.tag_name().name().to_owned()));
+    Ok(Drawing {
+        ids: ids.collect(),
+        shapes: reader.shapes,
+        skipped: reader.skipped,
+        sized: scale.is_some(),
+        root: span(root),
+    })
 }
 
-struct Reader<'a> {
+/// What holds where an element stands.
+#[derive(Clone)]
+struct Context {
+    /// To metres.
+    map: Affine,
+    viewport: Viewport,
+    /// Within how many elements.
+    depth: usize,
+    /// The ids of these.
+    ids: Vec<String>,
+    paint: Paint,
+}
+
+/// Whether shapes are filled and stroked.
+#[derive(Clone, Copy)]
+struct Paint {
+    fill: bool,
+    stroke: bool,
+}
+
+impl Default for Paint {
+    fn default() -> Self {
+        Self {
+            fill: true,
+            stroke: false,
+        }
+    }
+}
+
+impl Paint {
+    /// What an element's own properties make of what it inherits.
+    fn of(self, node: Node) -> Self {
+        let own = |name, inherited| match property(node, name) {
+            None | Some("inherit") => inherited,
+            Some(value) => value != "none",
+        };
+        Self {
+            fill: own("fill", self.fill),
+            stroke: own("stroke", self.stroke),
+        }
+    }
+}
+
+struct Reader<'a, 'd> {
     source: Source<'a>,
-    /// What chords may use of the chord error.
-    chord_share: f64,
     /// Points of all lines so far.
     points: usize,
+    /// Elements read so far, each as often as it is drawn.
+    elements: u32,
+    /// Whether the drawing has a style sheet, which may paint any shape.
+    styled: bool,
+    by_id: HashMap<&'d str, Node<'d, 'd>>,
     shapes: Vec<Shape>,
     skipped: Vec<Skipped>,
 }
 
-impl Reader<'_> {
-    /// Reads what an element holds, `depth` elements below the root.
-    fn children(&mut self, parent: Node, map: Affine, depth: usize) -> Result<()> {
-        if depth > MOST_NESTED {
+impl<'d> Reader<'_, 'd> {
+    /// Reads what an element holds.
+    fn children(&mut self, parent: Node<'d, 'd>, context: &Context) -> Result<()> {
+        if context.depth > MOST_NESTED {
             let message = format!("more than {MOST_NESTED} elements are within one another");
             let help = "ungroup the drawing's shapes in the drawing program";
             return Err(self.source.error(span(parent), message, help));
         }
-        for node in parent.children().filter(Node::is_element) {
-            // Notes of the drawing program, licences and the like draw nothing.
-            if is_svg(node) {
-                self.element(node, map, depth)?;
+        let within = Context {
+            depth: context.depth + 1,
+            ..context.clone()
+        };
+        // Notes of the drawing program, licences and the like draw nothing.
+        for node in parent
+            .children()
+            .filter(|node| node.is_element() && is_svg(*node))
+        {
+            // Of a choice, viewers draw the first that asks nothing of them.
+            let choice = parent.tag_name().name() == "switch";
+            if choice
+                && ["requiredExtensions", "systemLanguage"]
+                    .iter()
+                    .any(|name| node.has_attribute(*name))
+            {
+                continue;
+            }
+            self.element(node, &within)?;
+            if choice {
+                break;
             }
         }
         Ok(())
     }
 
-    fn element(&mut self, node: Node, map: Affine, depth: usize) -> Result<()> {
-        let name = node.tag_name().name();
-        let empty = || node.text().is_none_or(|text| text.trim().is_empty());
-        match name {
-            // Drawn only where a <use> asks for it, and that is listed.
-            "title" | "desc" | "metadata" | "defs" | "symbol" => return Ok(()),
-            "style" if empty() => return Ok(()),
-            _ => {}
+    fn element(&mut self, node: Node<'d, 'd>, context: &Context) -> Result<()> {
+        self.elements += 1;
+        if self.elements > MOST_NODES {
+            let message = format!("the drawing draws more than {MOST_NODES} elements");
+            let help = "keep the shapes that are needed: a <use> draws all that it refers to";
+            return Err(self.source.error(span(node), message, help));
         }
-        let container = matches!(name, "g" | "a");
+        let name = node.tag_name().name();
+        if NOT_DRAWN.contains(&name) || (name == "style" && moves_nothing(&text(node))) {
+            return Ok(());
+        }
+        let container = matches!(name, "g" | "a" | "switch" | "svg" | "use");
         if !container && !SHAPES.contains(&name) {
             self.skipped.push((span(node), format!("<{name}>")));
             return Ok(());
@@ -164,49 +362,172 @@ impl Reader<'_> {
             }
         }
         self.refuse_unread_transforms(node, false)?;
-        let map = map * self.transform(node)?;
-        if container {
-            return self.children(node, map, depth + 1);
+        let mut context = context.clone();
+        context.map *= self.transform(node)?;
+        context.paint = context.paint.of(node);
+        context.ids.extend(node.attribute("id").map(str::to_owned));
+        match name {
+            "svg" => self.viewport(node, &context, node),
+            "use" => self.used(node, context),
+            _ if container => self.children(node, &context),
+            _ => self.shape(node, &context),
         }
-        self.shape(node, map)
     }
 
-    fn shape(&mut self, node: Node, map: Affine) -> Result<()> {
-        let mut pen = Pen::default();
-        draw(node, &mut pen).map_err(|fault| {
-            let place = node.attribute_node(fault.attribute);
-            let place = place.map_or(span(node), |attribute| {
-                let value = attribute.range_value();
-                let written = &self.source.text[value.clone()];
-                let at = fault.character.and_then(|character| {
-                    // Past the end, the last character is to blame.
-                    written.char_indices().take(character + 1).last()
-                });
-                match at {
-                    Some((at, c)) => (value.start + at..value.start + at + c.len_utf8()).into(),
-                    None => value.into(),
+    /// Reads what a `<use>` draws.
+    fn used(&mut self, node: Node<'d, 'd>, mut context: Context) -> Result<()> {
+        let link = node
+            .attribute("href")
+            .or_else(|| node.attribute((XLINK, "href")));
+        let link = link.unwrap_or_default().trim();
+        let target = link.strip_prefix('#').and_then(|id| self.by_id.get(id));
+        let Some(&target) = target else {
+            let link: String = link.chars().take(40).collect();
+            let note = format!("<use> of \"{link}\", which is not in the drawing");
+            self.skipped.push((span(node), note));
+            return Ok(());
+        };
+        context.depth += 1;
+        if context.depth > MOST_NESTED || node.ancestors().any(|above| above == target) {
+            let message = "this <use> draws itself, over and over";
+            let help = "take it away, or let it refer to a shape";
+            return Err(self.source.error(span(node), message, help));
+        }
+        let (x, y) = (
+            self.length(node, "x", &context)?,
+            self.length(node, "y", &context)?,
+        );
+        context.map *= Affine::translate((x.unwrap_or(0.0), y.unwrap_or(0.0)));
+        match target.tag_name().name() {
+            "symbol" | "svg" => {
+                if let Some(reason) = hidden(target) {
+                    let note = format!("<{}> ({reason})", target.tag_name().name());
+                    self.skipped.push((span(target), note));
+                    return Ok(());
                 }
+                self.refuse_unread_transforms(target, false)?;
+                context.map *= self.transform(target)?;
+                context.paint = context.paint.of(target);
+                context
+                    .ids
+                    .extend(target.attribute("id").map(str::to_owned));
+                self.viewport(target, &context, node)
+            }
+            _ => self.element(target, &context),
+        }
+    }
+
+    /// Reads what a `<svg>` or `<symbol>` within the drawing holds, which is seen through a window
+    /// of its own. The size that `sized`, a `<use>` of it, gives it comes first.
+    fn viewport(
+        &mut self,
+        node: Node<'d, 'd>,
+        context: &Context,
+        sized: Node<'d, 'd>,
+    ) -> Result<()> {
+        let [x, y] = [
+            self.length(node, "x", context)?,
+            self.length(node, "y", context)?,
+        ];
+        let (x, y) = (x.unwrap_or(0.0), y.unwrap_or(0.0));
+        let view_box = view_box(self.source, node)?;
+        let own = [
+            self.length(sized, "width", context)?,
+            self.length(sized, "height", context)?,
+        ];
+        let other = [
+            self.length(node, "width", context)?,
+            self.length(node, "height", context)?,
+        ];
+        let whole = context.viewport.map_or([None; 2], |size| size.map(Some));
+        let [w, h] = [0, 1].map(|k| own[k].or(other[k]).or(whole[k]));
+        // Without a view box, the size does no more than cut off.
+        let (Some(w), Some(h)) = (w.or(view_box.map(|v| v.w)), h.or(view_box.map(|v| v.h))) else {
+            return self.children(node, context);
+        };
+        if w <= 0.0 || h <= 0.0 {
+            let note = format!("<{}> without a size", node.tag_name().name());
+            self.skipped.push((span(node), note));
+            return Ok(());
+        }
+        let inner = Context {
+            map: context.map
+                * match view_box {
+                    Some(view_box) => fitted(node, view_box, [x, y, w, h]),
+                    None => Affine::translate((x, y)),
+                },
+            viewport: Some(view_box.map_or([w, h], |view_box| [view_box.w, view_box.h])),
+            ..context.clone()
+        };
+        let before = self.shapes.len();
+        self.children(node, &inner)?;
+        let window = context.map.inverse();
+        let outside = |p: [f64; 2]| {
+            let p = window * Point::new(p[0], p[1]);
+            let beyond = (x - p.x).max(p.x - x - w).max(y - p.y).max(p.y - y - h);
+            beyond > WINDOW_SHARE * w.max(h)
+        };
+        let drawn = self.shapes[before..].iter().flat_map(|shape| &shape.lines);
+        if property(node, "overflow").is_none_or(|value| value != "visible")
+            && drawn.flat_map(Line::points).any(outside)
+        {
+            let note = format!("that <{}> cuts its content off", node.tag_name().name());
+            self.skipped.push((span(node), note));
+        }
+        Ok(())
+    }
+
+    /// The width and height of an element (user units).
+    fn size(&self, node: Node, viewport: Viewport) -> std::result::Result<[f64; 2], ()> {
+        let of = |name| path::length(node, name, viewport).ok().flatten().ok_or(());
+        Ok([of("width")?, of("height")?])
+    }
+
+    fn length(&self, node: Node, name: &'static str, context: &Context) -> Result<Option<f64>> {
+        let length = path::length(node, name, context.viewport);
+        length.map_err(|fault| self.fault(node, fault))
+    }
+
+    /// What is wrong with an attribute, at its place.
+    fn fault(&self, node: Node, fault: Fault) -> DesignError {
+        let place = node.attribute_node(fault.attribute);
+        let place = place.map_or(span(node), |attribute| {
+            let value = attribute.range_value();
+            let written = &self.source.text[value.clone()];
+            let at = fault.character.and_then(|character| {
+                // Past the end, the last character is to blame.
+                written.char_indices().take(character + 1).last()
             });
-            let help = "mend the shape, or convert it to a path in the drawing program";
-            self.source.error(place, fault.message, help)
-        })?;
+            match at {
+                Some((at, c)) => (value.start + at..value.start + at + c.len_utf8()).into(),
+                None => value.into(),
+            }
+        });
+        let help = "mend the shape, or convert it to a path in the drawing program";
+        self.source.error(place, fault.message, help)
+    }
+
+    fn shape(&mut self, node: Node, context: &Context) -> Result<()> {
+        let mut pen = Pen::default();
+        draw(node, context.viewport, &mut pen).map_err(|fault| self.fault(node, fault))?;
         let overdrawn = pen.overdrawn();
-        let strokes = pen.finish();
-        self.check_extent(node, &strokes, map)?;
+        let mut strokes = pen.finish();
+        for stroke in &mut strokes {
+            stroke.transform(context.map);
+        }
+        self.check_extent(node, &strokes)?;
         if overdrawn {
             let message =
                 "an arc is all but straight: its radius is over a million times its length";
             let help = "draw it as a line";
             return Err(self.source.error(span(node), message, help));
         }
-        let all = strokes.iter().flat_map(|s| s.segments.iter().flatten());
-        let [longer, shorter] = sides(all, map);
-        let flat = CHORD_SHARE * shorter;
-        let chord_error = match CHORD_SHARE_OF_SHAPE * longer {
-            error if flat > 0.0 => error.min(flat),
-            error => error,
-        };
-        let lines = self.lines(node, &strokes, (map, chord_error))?;
+        let chord_error = chord_error(&strokes);
+        let lines = lines(&strokes, chord_error, MOST_POINTS - self.points).ok_or_else(|| {
+            let message = format!("the drawing has more than {MOST_POINTS} points");
+            let help = "keep the shapes that are needed, and draw them simpler";
+            self.source.error(span(node), message, help)
+        })?;
         if lines.is_empty() {
             let note = format!("<{}> that draws nothing", node.tag_name().name());
             self.skipped.push((span(node), note));
@@ -214,8 +535,10 @@ impl Reader<'_> {
         }
         self.shapes.push(Shape {
             element: node.tag_name().name().to_owned(),
-            id: node.attribute("id").map(str::to_owned),
+            ids: context.ids.clone(),
             span: span(node),
+            painted: self.styled || context.paint.fill || context.paint.stroke,
+            strokes,
             lines,
             chord_error,
         });
@@ -224,10 +547,10 @@ impl Reader<'_> {
 
     /// Refuses what lies too far out, before it is drawn as chords. Curves stay among their control
     /// points.
-    fn check_extent(&self, node: Node, strokes: &[Stroke], map: Affine) -> Result<()> {
+    fn check_extent(&self, node: Node, strokes: &[Stroke]) -> Result<()> {
         let pieces = strokes.iter().flat_map(|s| s.segments.iter().flatten());
         let farthest = pieces
-            .map(|piece| map * piece.to_cubic())
+            .map(PathSeg::to_cubic)
             .flat_map(|cubic| [cubic.p0, cubic.p1, cubic.p2, cubic.p3])
             .flat_map(|point| [point.x.abs(), point.y.abs()])
             .map(|x| if x.is_nan() { f64::INFINITY } else { x })
@@ -247,37 +570,6 @@ impl Reader<'_> {
         Err(self.source.error(span(node), message, help))
     }
 
-    /// The lines of a shape, curves as chords.
-    fn lines(
-        &mut self,
-        node: Node,
-        strokes: &[Stroke],
-        (map, chord_error): (Affine, f64),
-    ) -> Result<Vec<Line>> {
-        let mut lines = Vec::with_capacity(strokes.len());
-        for stroke in strokes {
-            let start = map * stroke.start;
-            let mut segments = Vec::with_capacity(stroke.segments.len());
-            for segment in &stroke.segments {
-                let [longer, _] = sides(segment.iter(), map);
-                let error = chord_error.min(CHORD_SHARE_OF_CURVE * longer);
-                segments.push(points(segment, map, self.chord_share * error));
-                self.points += segments.last().map_or(0, Vec::len);
-                if self.points > MOST_POINTS {
-                    let message = format!("the drawing has more than {MOST_POINTS} points");
-                    let help = "keep the shapes that are needed, and draw them simpler";
-                    return Err(self.source.error(span(node), message, help));
-                }
-            }
-            lines.push(Line {
-                start: [start.x, start.y],
-                segments,
-                closed: stroke.closed,
-            });
-        }
-        Ok(lines)
-    }
-
     fn transform(&self, node: Node) -> Result<Affine> {
         let Some(attribute) = node.attribute_node("transform") else {
             return Ok(Affine::IDENTITY);
@@ -295,13 +587,14 @@ impl Reader<'_> {
     /// Refuses what would move a shape and is not read.
     fn refuse_unread_transforms(&self, node: Node, root: bool) -> Result<()> {
         let help = "apply the transform in the drawing program";
-        if style(node).any(|(name, _)| name.starts_with("transform"))
-            || node.has_attribute("transform-origin")
+        let transformed = node.has_attribute("transform");
+        if style(node).any(|(name, _)| name == "transform")
+            || (transformed && property(node, "transform-origin").is_some())
         {
             let message = "transforms in styles and about other origins are not read";
             return Err(self.source.error(span(node), message, help));
         }
-        if root && node.has_attribute("transform") {
+        if root && transformed {
             let message = "a transform of the whole drawing is not read";
             return Err(self.source.error(span(node), message, help));
         }
@@ -309,10 +602,49 @@ impl Reader<'_> {
     }
 }
 
+/// How far chords may leave the curves (m) of what is drawn as one shape, by its size.
+pub(super) fn chord_error<'a>(strokes: impl IntoIterator<Item = &'a Stroke>) -> f64 {
+    let segments = strokes.into_iter().flat_map(|stroke| &stroke.segments);
+    let [longer, shorter] = sides(segments.flatten());
+    let flat = CHORD_SHARE * shorter;
+    match CHORD_SHARE_OF_SHAPE * longer {
+        error if flat > 0.0 => error.min(flat),
+        error => error,
+    }
+}
+
+/// The lines of some strokes, curves as chords that leave them by no more than the error (m);
+/// `None` where they have more than `most` points.
+fn lines(strokes: &[Stroke], chord_error: f64, most: usize) -> Option<Vec<Line>> {
+    let mut lines = Vec::with_capacity(strokes.len());
+    let mut count = 0;
+    for stroke in strokes {
+        let mut segments = Vec::with_capacity(stroke.segments.len());
+        for segment in &stroke.segments {
+            let [longer, _] = sides(segment);
+            let error = chord_error.min(CHORD_SHARE_OF_CURVE * longer);
+            let points = points(segment, error);
+            count += points.len();
+            if count > most {
+                return None;
+            }
+            let arc = points.len() > 1 && is_arc(segment, OFF_ARC_SHARE * error);
+            segments.push(Segment { points, arc });
+        }
+        lines.push(Line {
+            start: [stroke.start.x, stroke.start.y],
+            segments,
+            closed: stroke.closed,
+            closing: stroke.closing,
+        });
+    }
+    Some(lines)
+}
+
 /// The longer and the shorter side (m) of the box around the control points of some segments.
-fn sides<'a>(segments: impl Iterator<Item = &'a PathSeg>, map: Affine) -> [f64; 2] {
+fn sides<'a>(segments: impl IntoIterator<Item = &'a PathSeg>) -> [f64; 2] {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for cubic in segments.map(|segment| map * segment.to_cubic()) {
+    for cubic in segments.into_iter().map(PathSeg::to_cubic) {
         for point in [cubic.p0, cubic.p1, cubic.p2, cubic.p3] {
             for (k, x) in [point.x, point.y].into_iter().enumerate() {
                 low[k] = f64::min(low[k], x);
@@ -329,6 +661,26 @@ fn is_svg(node: Node) -> bool {
     node.tag_name()
         .namespace()
         .is_none_or(|uri| uri == NAMESPACE)
+}
+
+/// The text that an element holds.
+fn text(node: Node) -> String {
+    let texts = node.descendants().filter(Node::is_text);
+    texts.filter_map(|text| text.text()).collect()
+}
+
+/// Whether a style sheet has none of the properties that shape, move or hide what is drawn.
+fn moves_nothing(sheet: &str) -> bool {
+    let mut plain = String::new();
+    for (k, part) in sheet.split("/*").enumerate() {
+        let after = part.split_once("*/").map_or("", |(_, after)| after);
+        plain.push_str(if k == 0 { part } else { after });
+    }
+    let names = plain
+        .split(['{', '}', ';'])
+        .filter_map(|declaration| declaration.split_once(':'));
+    let mut names = names.map(|(name, _)| name.trim());
+    !plain.contains("@import") && !names.any(|name| TELLING.contains(&name))
 }
 
 /// The properties in an element's `style`.

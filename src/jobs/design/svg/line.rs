@@ -10,36 +10,59 @@ use super::document::{Line, Shape};
 use super::simplify::simplified;
 use super::{SAME_POINT, only_line, with_shape};
 use physics::tile::outline::{Outline, OutlineError};
-use physics::tile::profile::Polyline;
+use physics::tile::profile::{Arcs, Polyline};
 
 /// How far the ends may lie from one base line (m): what six digits of a tile in mm resolve.
 const SAME_HEIGHT: f64 = 1e-5;
 
 /// The line of a profile `shape = "svg"`, as points (s, h).
-pub(in crate::design) fn read_line(section: &Section) -> Result<Polyline> {
+pub(in crate::design) fn read_line(section: &Section) -> Result<(Polyline, Arcs)> {
     let offset = section
         .number("offset", quantity::ALONG_FACE)?
         .unwrap_or(0.0);
-    let mut line = with_shape(section, |source, shape| {
+    let (mut line, arcs) = with_shape(section, |source, shape| {
         let line = only_line(source, shape)?;
-        let points = if is_closed(line) {
+        let points = if line.closed || apart(line.end(), line.start) <= SAME_POINT {
             standing(source, shape, line)?
         } else {
-            let mut points = vec![line.start];
-            points.extend(line.segments.iter().flatten());
-            points
+            line.points().collect()
         };
-        on_base_line(source, shape, points)
+        let (drawn, reversed, shift) = on_base_line(source, shape, points)?;
+        let arcs = arc_ends(line).into_iter().filter_map(|[first, last]| {
+            let place = |p: [f64; 2]| {
+                let moved = [p[0] - shift[0], p[1] - shift[1]];
+                drawn.iter().position(|q| apart(*q, moved) <= SAME_POINT)
+            };
+            let (first, last) = (place(first)?, place(last)?);
+            let (first, last) = if reversed {
+                (last, first)
+            } else {
+                (first, last)
+            };
+            (last >= first + 2).then_some([first, last])
+        });
+        let mut arcs: Arcs = arcs.collect();
+        arcs.sort_unstable();
+        Ok((drawn, arcs))
     })?;
     for point in &mut line {
         point[0] += offset;
     }
-    Ok(line)
+    Ok((line, arcs))
 }
 
-fn is_closed(line: &Line) -> bool {
-    let end = line.segments.last().and_then(|segment| segment.last());
-    line.closed || end.is_some_and(|end| apart(*end, line.start) <= SAME_POINT)
+/// Where each arc of a line begins and ends.
+fn arc_ends(line: &Line) -> Vec<[[f64; 2]; 2]> {
+    let mut at = line.start;
+    let mut ends = Vec::new();
+    for segment in &line.segments {
+        let end = segment.points.last().copied().unwrap_or(at);
+        if segment.arc {
+            ends.push([at, end]);
+        }
+        at = end;
+    }
+    ends
 }
 
 pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -48,8 +71,7 @@ pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// The points of a closed line without its lowest edge, from one end of this edge to the other.
 fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>> {
-    let mut ring = vec![line.start];
-    ring.extend(line.segments.iter().flatten());
+    let mut ring: Vec<[f64; 2]> = line.points().collect();
     if apart(ring[0], ring[ring.len() - 1]) <= SAME_POINT {
         ring.pop();
     }
@@ -67,11 +89,17 @@ fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>
     Ok((1..=n).map(|k| ring[(base + k) % n]).collect())
 }
 
-/// The points from left to right, with the middle between the ends at s = 0 and the ends at h = 0.
-fn on_base_line(source: &Source, shape: &Shape, mut points: Vec<[f64; 2]>) -> Result<Polyline> {
+/// The points from left to right, with the middle between the ends at s = 0 and the ends at h = 0;
+/// whether they were reversed for that, and by what they were moved.
+fn on_base_line(
+    source: &Source,
+    shape: &Shape,
+    mut points: Vec<[f64; 2]>,
+) -> Result<(Polyline, bool, [f64; 2])> {
     let fault = |message: String, help: &str| Err(source.error(shape.span, message, help));
     let last = points.len() - 1;
-    if points[0][0] > points[last][0] {
+    let reversed = points[0][0] > points[last][0];
+    if reversed {
         points.reverse();
     }
     let ([left, h_left], [right, h_right]) = (points[0], points[last]);
@@ -108,7 +136,7 @@ fn on_base_line(source: &Source, shape: &Shape, mut points: Vec<[f64; 2]>) -> Re
             "draw the profile as one line, from its left end to its right end",
         );
     }
-    Ok(points)
+    Ok((points, reversed, [middle, height]))
 }
 
 /// Near where a line from left to right crosses or touches itself, or the base line to either side

@@ -1,20 +1,29 @@
-//! Lines and outlines drawn in SVG files, as Inkscape and OpenSCAD write them.
+//! Lines and outlines drawn in SVG files, as drawing and CAD programs write them.
 //!
 //! A drawing is read in metres, y upwards. Its size comes from `width`, `height` and `viewBox` of
-//! the file, which must carry a physical unit, or from `unit` of the design, the length of a user
-//! unit; where both are there they must agree. Transforms of groups and shapes are composed.
-//! `path`, `polygon`, `polyline`, `rect`, `circle` and `ellipse` are read; anything else that would
-//! be seen is named in a warning, style sheets too, and what would move a shape without being read
-//! (a transform in an element's `style`, another origin of one) is refused.
+//! the file, which must carry a physical unit, or from `unit` or `dpi` of the design, the length of a
+//! user unit; where both are there they must agree. `path`, `polygon`, `polyline`, `rect`, `circle`,
+//! `ellipse` and `line` are read, also by way of `use`, `symbol`, `switch` and nested `svg` with their
+//! view boxes; transforms are composed. Anything else that would be seen is named in a warning, style
+//! sheets that move or hide too, and what would move a shape without being read (a transform in an
+//! element's `style`, another origin of one) is refused.
+//!
+//! The reader is our own because every fault and every doubt names an element and its line, and arcs
+//! stay arcs: `usvg` gives paths without places, in single precision, arcs as cubics, what it cannot
+//! read left out without a word.
 //!
 //! Curves become chords between points on the curve, no chord farther from it than a share of the
-//! shape's and the curve's size ([`Shape::chord_error`]). Arcs go by way of cubics that leave them by a
-//! millionth of their radius. Of
-//! lines with very many points, as tracing programs draw them, the points are left out that lie
-//! within half the chord error of the others; curves then are drawn to within the other half.
+//! size of the curve and of all that is drawn as one shape ([`document::chord_error`]). Arcs go by way
+//! of cubics that leave them by a millionth of their radius; which points lie on an arc is kept for
+//! the workshop. Of lines with very many points, as tracing programs draw them, the points are left
+//! out that lie within half the chord error of the others; curves then are drawn to within the other
+//! half.
 //!
-//! A drawing of several shapes needs `id`, the shape's own in the file; the other shapes then are
-//! left out.
+//! Lines whose ends meet are one line ([`join`]); gaps up to 0.1 mm are closed with a warning. Shapes
+//! without fill and stroke are left out, with a warning, where others have them.
+//!
+//! A drawing of several shapes needs `id`, that of the shape, or of the group that holds no more than
+//! its lines; the other shapes then are left out.
 //!
 //! - A *profile* ([`line`](mod@line)) is one line drawn as the graph of h over s: s to the right, h
 //!   upwards, either way along. Its ends are on the base line, and the middle between them is at
@@ -27,6 +36,7 @@
 //!   two corners is, counter-clockwise from the first one. The base line of a face is straight.
 
 mod document;
+mod join;
 mod line;
 mod outline;
 mod path;
@@ -43,10 +53,12 @@ pub(super) use scale::UNITS;
 use std::collections::HashMap;
 
 use super::drawings;
-use super::error::Result;
+use super::error::{DesignError, Result, Span};
+use super::quantity;
 use super::reader::{Entry, Section, nearest_help};
 use super::source::Source;
-use document::{Shape, Skipped};
+use document::{Drawing, Shape, Skipped};
+use path::INCH;
 
 /// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
 const SAME_POINT: f64 = 1e-6;
@@ -81,9 +93,18 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
 
 /// Notes what of a drawing is not read.
 fn note_skipped(source: &Source, skipped: &[Skipped]) {
-    let Some(&(first, _)) = skipped.first() else {
-        return;
-    };
+    if let Some((at, told)) = told(source, skipped) {
+        source.drawings.note(source.doubt(
+            at,
+            format!("not read of the drawing: {told}"),
+            "what belongs to the shape is to be converted to a path; delete the rest",
+        ));
+    }
+}
+
+/// What is not read of a drawing, by name, and the first place of it.
+fn told(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
+    let &(first, _) = skipped.first()?;
     let line = |at: usize| source.text[..at].matches('\n').count() + 1;
     // By their first places, each kind once.
     let mut kinds: Vec<(&str, usize, usize)> = Vec::new();
@@ -106,66 +127,189 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
     if kinds.len() > MOST_TOLD {
         told.push(format!("and {} more kinds", kinds.len() - MOST_TOLD));
     }
-    source.drawings.note(source.doubt(
-        first,
-        format!("not read of the drawing: {}", told.join(", ")),
-        "what belongs to the shape is to be converted to a path; delete the rest",
-    ));
+    Some((first, told.join(", ")))
 }
 
-/// Gives the shape that a section asks for with `file`, `unit` and `id` to `use_it`, with the
-/// drawing that it is in.
+/// The length (m) of a user unit that a section gives a drawing with `unit` or `dpi`.
+fn user_unit(section: &Section) -> Result<Option<f64>> {
+    match (section.get("unit"), section.get("dpi")) {
+        (Some(_), Some(dpi)) => Err(dpi.key_error(
+            "`unit` and `dpi` both say how long a user unit is",
+            "keep one of the two",
+        )),
+        (None, Some(dpi)) => Ok(Some(INCH / dpi.number(quantity::DPI)?)),
+        (Some(unit), None) => match unit.is_quantity() {
+            true => Ok(Some(unit.number(quantity::DRAWING_UNIT)?)),
+            false => Ok(Some(unit.word(&UNITS)?)),
+        },
+        (None, None) => Ok(None),
+    }
+}
+
+/// Gives the shape that a section asks for with `file`, `unit`, `dpi` and `id` to `use_it`, with the
+/// drawing that it is in. Lines whose ends meet are one line of it.
 fn with_shape<T>(
     section: &Section,
     use_it: impl FnOnce(&Source, &Shape) -> Result<T>,
 ) -> Result<T> {
     let file = section.require("file", "name the drawing: file = \"tile.svg\"")?;
-    let unit = section
-        .get("unit")
-        .map(|entry| entry.word(&UNITS))
-        .transpose()?;
+    let unit = user_unit(section)?;
     let id = section.get("id");
     with_drawing(&file, |source| {
-        let (shapes, skipped) = document::read(*source, unit, 1.0)?;
-        note_skipped(source, &skipped);
-        let use_it = |index: usize| match &shapes[index] {
-            shape if shape.points() <= simplify::MANY => use_it(source, shape),
-            // What is left out of it must leave no curve by more than the chord error.
-            _ => {
-                let (shapes, _) = document::read(*source, unit, 1.0 - simplify::SHARE)?;
-                use_it(source, &shapes[index])
-            }
-        };
-        let ids: Vec<&str> = shapes.iter().filter_map(|s| s.id.as_deref()).collect();
-        if let Some(entry) = id {
-            let wanted = entry.string()?;
-            let found = shapes.iter().position(|s| s.id.as_deref() == Some(wanted));
-            let missing = || {
-                let message = format!("the drawing has no shape with the id \"{wanted}\"");
-                entry.error(message, nearest_help(wanted, &ids))
-            };
-            return use_it(found.ok_or_else(missing)?);
+        let drawing = document::read(*source, unit)?;
+        note_skipped(source, &drawing.skipped);
+        let chosen = choose(source, &drawing, id);
+        if !drawing.sized {
+            let chosen = chosen.as_deref().unwrap_or(&[]);
+            return Err(unsized_error(source, &drawing, chosen));
         }
-        match shapes.as_slice() {
-            [_] => use_it(0),
-            [] => Err(source.error(
-                (0..0).into(),
-                "the drawing holds no shape",
-                "draw a path; text and strokes are to be converted to paths",
-            )),
-            [_, second, ..] => Err(source.error(
+        let chosen: Vec<&Shape> = chosen?.iter().map(|&k| &drawing.shapes[k]).collect();
+        // Of the whole, which may be drawn in pieces.
+        let error = document::chord_error(chosen.iter().flat_map(|shape| &shape.strokes));
+        let drawn = |error| -> Vec<Shape> {
+            let drawn = chosen.iter().map(|shape| shape.with_chords(error));
+            drawn.collect()
+        };
+        let mut shapes = drawn(error);
+        if shapes.iter().map(Shape::points).sum::<usize>() > simplify::MANY {
+            // What is left out of it must leave no curve by more than the chord error.
+            shapes = drawn((1.0 - simplify::SHARE) * error);
+        }
+        let whole = Shape {
+            chord_error: error,
+            ..merged(source, &shapes)?
+        };
+        use_it(source, &whole)
+    })
+}
+
+/// The numbers of the shapes that are meant: those with the id, or all that are painted.
+fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<usize>> {
+    let shapes = || drawing.shapes.iter().enumerate();
+    if let Some(entry) = id {
+        let wanted = entry.string()?;
+        let found = shapes().filter(|(_, shape)| shape.ids.iter().any(|id| id == wanted));
+        let found: Vec<usize> = found.map(|(k, _)| k).collect();
+        if !found.is_empty() {
+            return Ok(found);
+        }
+        let mut ids: Vec<&str> = Vec::new();
+        for (_, shape) in shapes() {
+            ids.extend(shape.ids.last().map(String::as_str));
+        }
+        ids.dedup();
+        return Err(match drawing.ids.get(wanted) {
+            Some(element) => entry.error(
+                format!("nothing that can be read is drawn by \"{wanted}\", a <{element}>"),
+                "convert it to a path in the drawing program",
+            ),
+            None => entry.error(
+                format!("the drawing has no shape with the id \"{wanted}\""),
+                nearest_help(wanted, &ids),
+            ),
+        });
+    }
+    let all: Vec<usize> = shapes().map(|(k, _)| k).collect();
+    let painted: Vec<usize> = all
+        .iter()
+        .copied()
+        .filter(|&k| drawing.shapes[k].painted)
+        .collect();
+    if !painted.is_empty() {
+        let left: Vec<Skipped> = shapes()
+            .filter(|(_, shape)| !shape.painted)
+            .map(|(_, shape)| {
+                (
+                    shape.span,
+                    format!("<{}> (no fill, no stroke)", shape.element),
+                )
+            })
+            .collect();
+        note_skipped(source, &left);
+        return Ok(painted);
+    }
+    if all.is_empty() {
+        let (at, message) = match told(source, &drawing.skipped) {
+            Some((at, told)) => (
+                at,
+                format!("the drawing holds no shape that can be read, but {told}"),
+            ),
+            None => ((0..0).into(), "the drawing holds no shape".to_owned()),
+        };
+        let help = "draw a path; text and strokes are to be converted to paths";
+        return Err(source.error(at, message, help));
+    }
+    Ok(all)
+}
+
+/// One shape of several, their lines joined where they meet.
+fn merged(source: &Source, shapes: &[Shape]) -> Result<Shape> {
+    let (lines, widest) = join::joined(source, shapes);
+    let first = &shapes[0];
+    if let (2.., [_, second, ..]) = (lines.len(), shapes) {
+        let open = lines.iter().filter(|line| !line.closed).count();
+        let nearest = join::nearest_ends(&lines).filter(|_| open == lines.len());
+        if let Some((gap, [x, y])) = nearest {
+            let [gap, x, y, widest] = [gap, x, y, widest].map(|x| quantity::four_digits(1e3 * x));
+            return Err(source.error(
                 second.span,
                 format!(
-                    "the drawing holds {} shapes; this is the second",
-                    shapes.len()
+                    "the drawing's {} shapes join to {} open lines, not to one: the nearest ends \
+                     left are {gap} mm apart, near x = {x} mm, y = {y} mm (y upwards)",
+                    shapes.len(),
+                    lines.len()
                 ),
-                match ids.as_slice() {
-                    [] => "keep one shape".to_owned(),
-                    ids => format!("keep one, or say which in the design: id = \"{}\"", ids[0]),
-                },
-            )),
+                format!("draw the ends at one point; gaps up to {widest} mm are closed"),
+            ));
         }
+        let ids = shapes.iter().find_map(|shape| shape.ids.last());
+        return Err(source.error(
+            second.span,
+            format!(
+                "the drawing holds {} shapes; this is the second",
+                shapes.len()
+            ),
+            match ids {
+                None => "keep one shape".to_owned(),
+                Some(id) => format!("keep one, or say which in the design: id = \"{id}\""),
+            },
+        ));
+    }
+    Ok(Shape {
+        lines,
+        ..first.clone()
     })
+}
+
+/// The fault of a drawing that does not say how large it is, with the sizes that units make of what
+/// is meant, or of all that is drawn; it was read in mm.
+fn unsized_error(source: &Source, drawing: &Drawing, chosen: &[usize]) -> DesignError {
+    let shapes = &drawing.shapes;
+    let meant = |k: &usize| chosen.is_empty() || chosen.contains(k);
+    let meant = (0..shapes.len())
+        .filter(meant)
+        .flat_map(|k| &shapes[k].lines);
+    let [width, height] = join::size(meant.flat_map(document::Line::points));
+    let drawn = |name: &str, unit: f64| {
+        let [width, height] = [width, height].map(|x| quantity::four_digits(1e6 * x * unit));
+        format!("{name} (what is drawn is {width} x {height} mm then)")
+    };
+    let units = UNITS
+        .iter()
+        .filter(|(name, _)| matches!(*name, "px" | "pt" | "mm"));
+    let units = units.map(|(name, unit)| drawn(&format!("unit = \"{name}\""), *unit));
+    let mut units: Vec<String> = units.rev().collect();
+    units.push(drawn("dpi = 300", INCH / 300.0));
+    source.error(
+        drawing.root,
+        "the drawing does not say how large it is: its width and height are not in mm, cm, in, pt \
+         or pc",
+        format!(
+            "give the length of a user unit in the design: {}; or write width and height with \
+             units in the drawing, such as width=\"430mm\"",
+            units.join(", ")
+        ),
+    )
 }
 
 /// The one line of a shape.
@@ -179,7 +323,15 @@ fn only_line<'a>(source: &Source, shape: &'a Shape) -> Result<&'a document::Line
                 shape.element,
                 lines.len()
             ),
-            "a tile has one outline and no holes; break the path apart and delete the others",
+            match join::nearest_ends(lines).filter(|_| lines.iter().all(|line| !line.closed)) {
+                Some((gap, _)) => format!(
+                    "draw one line, or lines whose ends meet: the nearest are {} mm apart",
+                    quantity::four_digits(1e3 * gap)
+                ),
+                None => "a tile has one outline and no holes; break the path apart and delete the \
+                         others"
+                    .to_owned(),
+            },
         )),
     }
 }

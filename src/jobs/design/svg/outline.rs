@@ -13,10 +13,10 @@ use super::simplify::{MANY, simplified};
 use super::{SAME_POINT, only_line, with_shape};
 use physics::tile::Face;
 use physics::tile::outline::{Outline, OutlineError, centroid, cross};
-use physics::tile::profile::Polyline;
+use physics::tile::profile::{Arcs, Polyline};
 
 /// The keys of `outline`.
-pub(in crate::design) const OUTLINE_KEYS: [&str; 4] = ["file", "unit", "id", "corners"];
+pub(in crate::design) const OUTLINE_KEYS: [&str; 5] = ["file", "unit", "dpi", "id", "corners"];
 
 /// How far a corner may lie from the drawn point that is meant (m).
 const NEAR: f64 = 1e-3;
@@ -28,12 +28,19 @@ const MOST_FACES: usize = 64;
 /// the last of which is the first of the next.
 type Segments = Vec<Vec<Vector2<f64>>>;
 
-/// The corners of a drawn outline and, for each, the line of the face that begins there.
-pub(in crate::design) fn read_outline(entry: &Entry) -> Result<(Vec<Vector2<f64>>, Vec<Polyline>)> {
+/// A corner, and the line of the face that begins there with the arcs of it.
+type Drawn = (Vector2<f64>, (Polyline, Arcs));
+
+/// Where an arc begins and ends.
+type Ends = [Vector2<f64>; 2];
+
+/// The corners of a drawn outline and, for each, the line of the face that begins there and the arcs
+/// of that.
+pub(in crate::design) fn read_outline(entry: &Entry) -> Result<Vec<Drawn>> {
     let section = entry.section("`outline`")?;
     section.allow(&OUTLINE_KEYS);
-    let segments = with_shape(&section, |source, shape| {
-        let (mut segments, centre) = closed(source, shape)?;
+    let (segments, arcs) = with_shape(&section, |source, shape| {
+        let (mut segments, centre, arcs) = closed(source, shape)?;
         if let Some(corners) = section.get("corners") {
             segments = joined(&segments, &corners)?;
         }
@@ -52,10 +59,20 @@ pub(in crate::design) fn read_outline(entry: &Entry) -> Result<(Vec<Vector2<f64>
             let points = ring(&segments).iter().map(|point| point + centre).collect();
             sound(source, shape, points)?;
         }
-        Ok(segments)
+        Ok((segments, arcs))
     })?;
-    let corners: Vec<_> = segments.iter().map(|segment| segment[0]).collect();
-    Ok((corners, segments.iter().map(|s| in_face(s)).collect()))
+    let face = |points: &Vec<Vector2<f64>>| {
+        // By their ends, which may be gone: of very many points some are left out.
+        let place = |end: &Vector2<f64>| points.iter().position(|point| point == end);
+        let arcs = arcs.iter().filter_map(|[first, last]| {
+            let (first, last) = (place(first)?, points.iter().rposition(|p| p == last)?);
+            (last >= first + 2).then_some([first, last])
+        });
+        let mut arcs: Arcs = arcs.collect();
+        arcs.sort_unstable();
+        (points[0], (in_face(points), arcs))
+    };
+    Ok(segments.iter().map(face).collect())
 }
 
 /// The points of closed segments, each once.
@@ -65,22 +82,24 @@ fn ring(segments: &Segments) -> Vec<Vector2<f64>> {
     points.copied().collect()
 }
 
-/// The segments of a shape's one closed line about the centre of its area, and this centre in the
-/// drawing. Whether a line of very many points is an outline is left open: that is for what is
+/// The segments of a shape's one closed line about the centre of its area, this centre in the
+/// drawing, and its arcs. Whether a line of very many points is an outline is left open: that is for what is
 /// left of it.
-fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>)> {
+fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec<Ends>)> {
     let line = only_line(source, shape)?;
     let fault = |message: String, help: &str| source.error(shape.span, message, help);
     let mut segments: Segments = Vec::new();
+    let mut arcs: Vec<bool> = Vec::new();
     let mut at = Vector2::from(line.start);
     for segment in &line.segments {
         let mut points = vec![at];
-        points.extend(segment.iter().copied().map(Vector2::from));
+        points.extend(segment.points.iter().copied().map(Vector2::from));
         points.dedup_by(|a, b| (*a - *b).norm() <= SAME_POINT);
         // A segment without length, such as the one that closes a line closed already.
         if let [_, .., end] = points[..] {
             at = end;
             segments.push(points);
+            arcs.push(segment.arc);
         }
     }
     let start = Vector2::from(line.start);
@@ -102,6 +121,7 @@ fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>)> {
         .sum();
     if signed < 0.0 {
         segments.reverse();
+        arcs.reverse();
         segments.iter_mut().for_each(|segment| segment.reverse());
     }
     let ring = ring(&segments);
@@ -121,7 +141,10 @@ fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>)> {
     for point in segments.iter_mut().flatten() {
         *point -= centre;
     }
-    Ok((segments, centre))
+    let arcs = segments.iter().zip(arcs).filter(|(_, arc)| *arc);
+    let arcs = arcs.map(|(points, _)| [points[0], points[points.len() - 1]]);
+    let arcs = arcs.collect();
+    Ok((segments, centre, arcs))
 }
 
 /// The outline of a drawn ring.

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use kurbo::{Point, Vec2};
 use roxmltree::Node;
-use svgtypes::{Length, LengthUnit, PathParser, PathSegment, PointsParser};
+use svgtypes::{Length, LengthUnit, NumberListParser, PathParser, PathSegment};
 
 use super::pen::Pen;
 
@@ -26,16 +26,40 @@ fn fault(attribute: &'static str, message: impl Into<String>) -> Fault {
 }
 
 /// The elements that are read.
-pub(super) const SHAPES: [&str; 6] = ["path", "polygon", "polyline", "rect", "circle", "ellipse"];
+pub(super) const SHAPES: [&str; 7] = [
+    "path", "polygon", "polyline", "rect", "circle", "ellipse", "line",
+];
+
+/// The size of what a drawing, or a part of it, is seen through (user units), where it is known:
+/// lengths in percent are shares of it.
+pub(super) type Viewport = Option<[f64; 2]>;
 
 /// Draws one of [`SHAPES`].
-pub(super) fn draw(node: Node, pen: &mut Pen) -> Result<(), Fault> {
+pub(super) fn draw(node: Node, viewport: Viewport, pen: &mut Pen) -> Result<(), Fault> {
+    let of = |name| length(node, name, viewport);
     match node.tag_name().name() {
         "path" => path(node.attribute("d").unwrap_or_default(), pen),
         "polygon" | "polyline" => polyline(node, pen),
-        "rect" => rect(node, pen),
-        _ => ellipse(node, pen),
+        "rect" => rect(&of, pen),
+        "line" => line(&of, pen),
+        _ => ellipse(node, &of, pen),
     }
+}
+
+/// What reads a length of a shape in user units.
+type Lengths<'a> = &'a dyn Fn(&'static str) -> Result<Option<f64>, Fault>;
+
+fn line(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
+    let at = |name| Ok(of(name)?.unwrap_or(0.0));
+    let (start, end) = (
+        Point::new(at("x1")?, at("y1")?),
+        Point::new(at("x2")?, at("y2")?),
+    );
+    pen.move_to(start);
+    if start != end {
+        pen.line_to(end);
+    }
+    Ok(())
 }
 
 fn path(d: &str, pen: &mut Pen) -> Result<(), Fault> {
@@ -120,18 +144,19 @@ fn malformed(attribute: &'static str, value: &str, error: &svgtypes::Error) -> F
 
 fn polyline(node: Node, pen: &mut Pen) -> Result<(), Fault> {
     let value = node.attribute("points").unwrap_or_default();
-    let points: Vec<Point> = PointsParser::from(value).map(Point::from).collect();
-    // The parser ends at whatever it cannot read, without a word.
-    let words = value.split([',', ' ', '\t', '\r', '\n']);
-    let mut words = words.filter(|word| !word.is_empty()).peekable();
-    let empty = words.peek().is_none();
-    let numbers = words.try_fold(0, |count, word| word.parse::<f64>().map(|_| count + 1));
-    if empty || numbers != Ok(2 * points.len()) {
-        return Err(fault(
-            "points",
-            "`points` is not a list of pairs of numbers",
-        ));
+    let numbers: Result<Vec<f64>, _> = NumberListParser::from(value).collect();
+    let numbers = numbers.map_err(|error| malformed("points", value, &error))?;
+    if numbers.is_empty() || numbers.len() % 2 == 1 {
+        let message = format!(
+            "`points` holds {} numbers, and points are pairs of them",
+            numbers.len()
+        );
+        return Err(fault("points", message));
     }
+    let points: Vec<Point> = numbers
+        .chunks(2)
+        .map(|xy| Point::new(xy[0], xy[1]))
+        .collect();
     for (k, point) in points.iter().enumerate() {
         if k == 0 {
             pen.move_to(*point);
@@ -148,26 +173,39 @@ fn polyline(node: Node, pen: &mut Pen) -> Result<(), Fault> {
 /// User units (CSS px) in one inch.
 const PX_PER_INCH: f64 = 96.0;
 
-/// A length of a shape in user units; `None` where it is not given or `auto`.
-fn length(node: Node, attribute: &'static str) -> Result<Option<f64>, Fault> {
+/// A length of an element in user units; `None` where it is not given or `auto`.
+pub(super) fn length(
+    node: Node,
+    attribute: &'static str,
+    viewport: Viewport,
+) -> Result<Option<f64>, Fault> {
     let Some(text) = node.attribute(attribute).filter(|text| *text != "auto") else {
         return Ok(None);
     };
-    let length = Length::from_str(text).map_err(|_| {
+    let length = Length::from_str(text.trim()).map_err(|_| {
         fault(
             attribute,
             format!("`{attribute}` = \"{text}\" is no length"),
         )
     })?;
-    let user_units = match (length.unit, metres(length.unit)) {
-        (LengthUnit::None | LengthUnit::Px, _) => length.number,
-        (_, Some(unit)) => length.number * unit / INCH * PX_PER_INCH,
-        _ => {
-            let message = format!("`{attribute}` = \"{text}\" is relative to something else");
-            return Err(fault(attribute, message));
-        }
+    let whole = || {
+        let [width, height] = viewport?;
+        Some(match attribute {
+            "x" | "x1" | "x2" | "cx" | "rx" | "width" => width,
+            "y" | "y1" | "y2" | "cy" | "ry" | "height" => height,
+            _ => libm::hypot(width, height) / std::f64::consts::SQRT_2,
+        })
     };
-    Ok(Some(user_units))
+    let user_units = match (length.unit, metres(length.unit)) {
+        (LengthUnit::None | LengthUnit::Px, _) => Some(length.number),
+        (LengthUnit::Percent, _) => whole().map(|whole| length.number / 100.0 * whole),
+        (_, unit) => unit.map(|unit| length.number * unit / INCH * PX_PER_INCH),
+    };
+    let relative = || {
+        let message = format!("`{attribute}` = \"{text}\" is relative to something else");
+        fault(attribute, message)
+    };
+    user_units.ok_or_else(relative).map(Some)
 }
 
 /// An inch (m).
@@ -186,8 +224,7 @@ pub(super) fn metres(unit: LengthUnit) -> Option<f64> {
 }
 
 /// A rectangle, its corners rounded where `rx` or `ry` say so.
-fn rect(node: Node, pen: &mut Pen) -> Result<(), Fault> {
-    let of = |name| length(node, name);
+fn rect(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
     let (x, y) = (of("x")?.unwrap_or(0.0), of("y")?.unwrap_or(0.0));
     let (width, height) = (of("width")?.unwrap_or(0.0), of("height")?.unwrap_or(0.0));
     for (name, size) in [("width", width), ("height", height)] {
@@ -227,12 +264,12 @@ fn rect(node: Node, pen: &mut Pen) -> Result<(), Fault> {
 }
 
 /// A circle or an ellipse in four quarters, from its rightmost point.
-fn ellipse(node: Node, pen: &mut Pen) -> Result<(), Fault> {
+fn ellipse(node: Node, of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
     let (rx, ry) = if node.tag_name().name() == "circle" {
-        let r = length(node, "r")?;
+        let r = of("r")?;
         (("r", r), ("r", r))
     } else {
-        let (rx, ry) = (length(node, "rx")?, length(node, "ry")?);
+        let (rx, ry) = (of("rx")?, of("ry")?);
         (("rx", rx.or(ry)), ("ry", ry.or(rx)))
     };
     for (name, radius) in [rx, ry] {
@@ -241,10 +278,7 @@ fn ellipse(node: Node, pen: &mut Pen) -> Result<(), Fault> {
         }
     }
     let (rx, ry) = (rx.1.unwrap_or(0.0), ry.1.unwrap_or(0.0));
-    let centre = Point::new(
-        length(node, "cx")?.unwrap_or(0.0),
-        length(node, "cy")?.unwrap_or(0.0),
-    );
+    let centre = Point::new(of("cx")?.unwrap_or(0.0), of("cy")?.unwrap_or(0.0));
     let quarters = [(rx, 0.0), (0.0, ry), (-rx, 0.0), (0.0, -ry)].map(|(x, y)| centre + (x, y));
     pen.move_to(quarters[0]);
     for k in 1..=4 {

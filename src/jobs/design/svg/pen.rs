@@ -11,6 +11,17 @@ pub(super) struct Stroke {
     /// One for each drawn segment: an arc is several cubics, any other segment one piece.
     pub segments: Vec<Vec<PathSeg>>,
     pub closed: bool,
+    /// Whether the last segment is none of the drawing's, but what closes the stroke.
+    pub closing: bool,
+}
+
+impl Stroke {
+    pub fn transform(&mut self, map: Affine) {
+        self.start = map * self.start;
+        for piece in self.segments.iter_mut().flatten() {
+            *piece = map * *piece;
+        }
+    }
 }
 
 /// Cubics that stand for an arc leave it by this share of its radius at most; of a short piece of a
@@ -53,6 +64,7 @@ impl Pen {
             start: to,
             segments: Vec::new(),
             closed: false,
+            closing: false,
         });
     }
 
@@ -115,21 +127,21 @@ impl Pen {
         let Some(start) = self.strokes.last().map(|stroke| stroke.start) else {
             return;
         };
-        if self.at != start {
+        let closing = self.at != start;
+        if closing {
             self.line_to(start);
         }
         if let Some(stroke) = self.strokes.last_mut() {
-            stroke.closed = true;
+            (stroke.closed, stroke.closing) = (true, closing);
         }
     }
 }
 
 /// The points of a segment after its first, each curve as chords that leave it by no more than
-/// `chord_error` where the affine map has taken it.
-pub(super) fn points(segment: &[PathSeg], map: Affine, chord_error: f64) -> Vec<[f64; 2]> {
+/// `chord_error`.
+pub(super) fn points(segment: &[PathSeg], chord_error: f64) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
-    for &piece in segment {
-        let piece = map * piece;
+    for piece in segment {
         let elements = [PathEl::MoveTo(piece.start()), piece.as_path_el()];
         flatten(elements, chord_error, |element| {
             if let PathEl::LineTo(point) = element {
@@ -138,4 +150,58 @@ pub(super) fn points(segment: &[PathSeg], map: Affine, chord_error: f64) -> Vec<
         });
     }
     points
+}
+
+/// Points of each piece of a segment at which [`is_arc`] looks.
+const LOOKS: u32 = 12;
+
+/// How far a curve may leave the circle that it is taken for, in heights of its arc: a quarter of a
+/// circle drawn as one cubic leaves it by 0.0009.
+const OFF_ARC: f64 = 1e-3;
+
+/// Whether a segment is an arc of a circle: it leaves it by no more than `error`, or by what the curves
+/// do that drawing programs make of arcs.
+pub(super) fn is_arc(segment: &[PathSeg], error: f64) -> bool {
+    let Some(last) = segment.last() else {
+        return false;
+    };
+    if segment
+        .iter()
+        .any(|piece| matches!(piece, PathSeg::Line(_)))
+    {
+        return false;
+    }
+    let mut points = Vec::new();
+    for piece in segment {
+        points.extend((0..LOOKS).map(|k| piece.eval(f64::from(k) / f64::from(LOOKS))));
+    }
+    points.push(last.end());
+    let n = points.len();
+    let Some((centre, radius)) = circle([points[0], points[n / 3], points[2 * n / 3]]) else {
+        return false;
+    };
+    let chord = points[n - 1] - points[0];
+    let height = |p: &Point| chord.cross(*p - points[0]).abs() / chord.hypot();
+    let height = match chord.hypot() > OFF_ARC * radius {
+        true => points.iter().map(height).fold(0.0, f64::max),
+        false => 2.0 * radius,
+    };
+    let turn = |w: &[Point]| (w[1] - w[0]).cross(w[2] - w[1]);
+    let turns_left = turn(&points[..3]) > 0.0;
+    let off = |p: &Point| ((*p - centre).hypot() - radius).abs();
+    points
+        .iter()
+        .map(off)
+        .all(|off| off <= error.max(OFF_ARC * height))
+        && points.windows(3).all(|w| (turn(w) > 0.0) == turns_left)
+}
+
+/// The centre and radius of the circle through three points, if there is one.
+fn circle([a, b, c]: [Point; 3]) -> Option<(Point, f64)> {
+    let (u, v) = (b - a, c - a);
+    let twice = 2.0 * u.cross(v);
+    let (uu, vv) = (u.hypot2(), v.hypot2());
+    let to_centre = Vec2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / twice;
+    let radius = to_centre.hypot();
+    radius.is_finite().then(|| (a + to_centre, radius))
 }

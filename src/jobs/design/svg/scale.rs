@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use kurbo::Affine;
 use roxmltree::Node;
-use svgtypes::{AspectRatio, Length, LengthUnit, ViewBox};
+use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
 use super::super::error::{Result, Span};
 use super::super::source::Source;
@@ -23,18 +23,10 @@ pub(in crate::design) const UNITS: [(&str, f64); 6] = [
     ("px", INCH / 96.0),
 ];
 
-/// From user units, y down, to metres, y up.
-pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Affine> {
-    let view_box = root
-        .attribute_node("viewBox")
-        .map(|attribute| {
-            ViewBox::from_str(attribute.value()).map_err(|error| {
-                let help = "give four numbers: viewBox=\"0 0 430 430\"";
-                source.error(attribute.range_value().into(), error.to_string(), help)
-            })
-        })
-        .transpose()?;
-    let size = view_box.map(|view_box| [view_box.w, view_box.h]);
+/// From user units, y down, to metres, y up; `None` where neither the drawing nor the design says
+/// how long a user unit is.
+pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Option<Affine>> {
+    let size = view_box(source, root)?.map(|view_box| [view_box.w, view_box.h]);
     let stated = stated_scale(source, root, size)?;
     let [x, y] = match (unit, stated) {
         (Some(unit), Some(stated)) if !agree(unit, stated[0]) || !agree(unit, stated[1]) => {
@@ -43,20 +35,57 @@ pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Aff
                 1e3 * stated[0],
                 1e3 * unit
             );
-            let help = "take `unit` away: the drawing knows its size";
+            let help = "take `unit` or `dpi` away: the drawing knows its size";
             return Err(source.error(span(root), message, help));
         }
         (_, Some(stated)) => stated,
         (Some(unit), None) => [unit, unit],
-        (None, None) => {
-            let message = "the drawing does not say how large it is: its width and height are \
-                           not in mm, cm, in, pt or pc";
-            let help = "write width and height with units, such as width=\"430mm\", or give \
-                        the length of a user unit in the design: unit = \"mm\"";
-            return Err(source.error(span(root), message, help));
-        }
+        (None, None) => return Ok(None),
     };
-    Ok(Affine::scale_non_uniform(x, -y))
+    Ok(Some(Affine::scale_non_uniform(x, -y)))
+}
+
+/// The `viewBox` of an element.
+pub(super) fn view_box(source: Source, node: Node) -> Result<Option<ViewBox>> {
+    let attribute = node.attribute_node("viewBox");
+    let read = attribute.map(|attribute| {
+        ViewBox::from_str(attribute.value()).map_err(|error| {
+            let help = "give four numbers: viewBox=\"0 0 430 430\"";
+            source.error(attribute.range_value().into(), error.to_string(), help)
+        })
+    });
+    read.transpose()
+}
+
+/// From what an element's view box shows to the place and size at which it is seen, as its
+/// `preserveAspectRatio` has it.
+pub(super) fn fitted(node: Node, view_box: ViewBox, [x, y, w, h]: [f64; 4]) -> Affine {
+    let aspect = aspect(node).unwrap_or_default();
+    let (sx, sy) = (w / view_box.w, h / view_box.h);
+    let (sx, sy) = match (aspect.align, aspect.slice) {
+        (Align::None, _) => (sx, sy),
+        (_, false) => (sx.min(sy), sx.min(sy)),
+        (_, true) => (sx.max(sy), sx.max(sy)),
+    };
+    let (left, top) = match aspect.align {
+        Align::None | Align::XMinYMin => (0.0, 0.0),
+        Align::XMidYMin => (0.5, 0.0),
+        Align::XMaxYMin => (1.0, 0.0),
+        Align::XMinYMid => (0.0, 0.5),
+        Align::XMidYMid => (0.5, 0.5),
+        Align::XMaxYMid => (1.0, 0.5),
+        Align::XMinYMax => (0.0, 1.0),
+        Align::XMidYMax => (0.5, 1.0),
+        Align::XMaxYMax => (1.0, 1.0),
+    };
+    let room = (w - sx * view_box.w, h - sy * view_box.h);
+    Affine::translate((x + left * room.0, y + top * room.1))
+        * Affine::scale_non_uniform(sx, sy)
+        * Affine::translate((-view_box.x, -view_box.y))
+}
+
+fn aspect(node: Node) -> Option<AspectRatio> {
+    AspectRatio::from_str(node.attribute("preserveAspectRatio")?).ok()
 }
 
 /// The length (m) of a user unit along x and y where the drawing states it.
@@ -97,10 +126,11 @@ fn stated_scale(
         let fit = scales[0].min(scales[1]);
         return Ok(Some([fit, fit]));
     }
-    let aspect = root.attribute("preserveAspectRatio");
-    let aspect = aspect.and_then(|text| AspectRatio::from_str(text).ok());
-    if aspect.is_some_and(|aspect| aspect.align == svgtypes::Align::None) {
-        return Ok(Some(scales));
+    match aspect(root) {
+        Some(aspect) if aspect.align == Align::None => return Ok(Some(scales)),
+        Some(aspect) if aspect.slice => return Ok(Some([scales[0].max(scales[1]); 2])),
+        Some(_) => return Ok(Some([scales[0].min(scales[1]); 2])),
+        None => {}
     }
     let message = format!(
         "width and height do not fit the view box: a user unit is {} mm along x, {} mm along y",
@@ -114,8 +144,9 @@ fn stated_scale(
 /// The name in an element's tag.
 pub(super) fn span(node: Node) -> Span {
     let start = node.range().start + 1;
-    let name = node.tag_name().name().len();
-    (start..start + name).into()
+    let tag = &node.document().input_text()[start..];
+    let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>');
+    (start..start + tag.find(ends).unwrap_or(0)).into()
 }
 
 fn agree(a: f64, b: f64) -> bool {

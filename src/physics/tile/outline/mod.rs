@@ -25,6 +25,7 @@ pub struct Outline {
     parts: Vec<ConvexPart>,
     circumradius: f64,
     grid: EdgeGrid,
+    arcs: Vec<Option<usize>>,
 }
 
 impl Outline {
@@ -57,7 +58,36 @@ impl Outline {
             parts,
             circumradius,
             grid,
+            arcs: vec![None; n],
         })
+    }
+
+    /// The same outline, with what is known of the curves that its edges are chords of: `points` are
+    /// those that it was made from, and `arcs` has the number of the arc of each edge between them.
+    pub fn with_arcs(mut self, points: &[Vector2<f64>], arcs: &[Option<usize>]) -> Self {
+        let n = points.len();
+        let Some(offset) = points.iter().position(|p| *p == self.vertices[0]) else {
+            return self;
+        };
+        let mut at = offset;
+        for edge in 0..self.vertices.len() {
+            let end = self.vertices[(edge + 1) % self.vertices.len()];
+            // Points between two vertices lie on the straight line between them.
+            let mut arc = arcs[at % n];
+            at += 1;
+            while points[at % n] != end && at < offset + n {
+                arc = arc.filter(|_| arcs[at % n] == arc);
+                at += 1;
+            }
+            self.arcs[edge] = arc;
+        }
+        self
+    }
+
+    /// The arc that each edge is a chord of, by a number of its own; `None` for straight edges. Arcs
+    /// are there for who cuts the outline: contact, areas and distances are those of the polygon.
+    pub fn arcs(&self) -> &[Option<usize>] {
+        &self.arcs
     }
 
     /// The vertices (m), counter-clockwise.
