@@ -119,9 +119,10 @@
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, matching, output, pipeline, query, rates, request, sweep, word_sets, workshop,
-    yields,
+    inspection, matching, output, pipeline, query, rates, request, sweep, table, word_sets,
+    workshop, yields,
 };
+pub use physics::table as many_bodies;
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,
     interruption, kinetics, landscape, observer, potential, problem, roadmap, tile, units, words,

@@ -7,6 +7,7 @@
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
+//! | [`table`] | many tiles on one table |
 //! | [`word_sets`] | sets of barcodes: what is asked, magnets anywhere, sets as files |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`request`] | what is asked: options, with their limits and help, of the command line and of Python alike |
@@ -28,6 +29,7 @@ pub mod rates;
 mod refused;
 pub mod request;
 pub mod sweep;
+pub mod table;
 pub mod word_sets;
 pub mod workshop;
 pub mod yields;

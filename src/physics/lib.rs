@@ -12,6 +12,7 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`table`] | many tiles that really move |
 //! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 
@@ -33,6 +34,7 @@ pub mod roadmap;
 #[cfg(test)]
 mod sample;
 pub mod subdivision;
+pub mod table;
 pub mod tile;
 pub mod units;
 pub mod words;

@@ -26,6 +26,7 @@ CALLS = {
     "dock": "dock",
     "match": "Design.matches",
     "sweep": "sweep",
+    "table": "Design.table",
     "words": "words",
     "yield": "Design.yields",
 }

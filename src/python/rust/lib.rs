@@ -12,6 +12,7 @@ mod assembly;
 mod barrier;
 mod comparison;
 mod convert;
+mod crowd;
 mod design;
 mod dock;
 mod fault;

@@ -137,6 +137,25 @@ class Design:
         seed: int = 1,
         progress: bool | None = None,
     ) -> dict[str, Any]: ...
+    def table(
+        self,
+        time: float,
+        *,
+        count: Sequence[int] | None = None,
+        start: str | PathLike[str] | None = None,
+        runs: int = 1,
+        shaking: float | None = None,
+        correlation: float | None = None,
+        orbital: tuple[float, float] | None = None,
+        fan: Sequence[Sequence[float]] | None = None,
+        drag: float = 0.005,
+        friction: float = 0.3,
+        restitution: float = 0.01,
+        step: float | None = None,
+        frames: float | None = None,
+        seed: int = 1,
+        progress: bool | None = None,
+    ) -> dict[str, Any]: ...
     def make(self, *, kerf: float = 0.0, clearance: float = 1e-4) -> dict[str, bytes]: ...
     def calibrate(
         self, table: Any, *, hold_out: int = 5

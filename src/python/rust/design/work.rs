@@ -7,7 +7,7 @@ use tilebind::workshop::Making;
 use super::Design;
 use crate::analysis::{self, Analysis};
 use crate::request::request;
-use crate::{barrier, dock, kinetics, workshop};
+use crate::{barrier, crowd, dock, kinetics, workshop};
 
 #[pymethods]
 impl Design {
@@ -194,6 +194,57 @@ impl Design {
         settings.set_item("kt", kt)?;
         let question = request(Some(&settings))?;
         kinetics::yielded(py, &self.content.design, &question, progress)
+    }
+
+    /// Many tiles on one table, with contact, friction and drives, and what they hold.
+    ///
+    /// Parameters
+    /// ----------
+    /// time : float
+    ///     How long each run lasts (s).
+    /// count : sequence of int, optional
+    ///     Tiles of the fixed tile's kind and of the moving one's, at random places.
+    /// start : str or os.PathLike, optional
+    ///     In place of `count`: a CSV file of the tiles at the start, with the columns `tile`, `kind`
+    ///     ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
+    /// runs : int, optional
+    /// shaking : float, optional
+    ///     Effective energy kT (J) of shaking.
+    /// correlation : float, optional
+    ///     Its correlation time (s): that between two random kicks.
+    /// orbital : tuple of float, optional
+    ///     The table goes round in a circle: radius (m) and rounds a second (Hz).
+    /// fan : sequence, optional
+    ///     Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and how
+    ///     often a second.
+    /// drag, friction, restitution : float, optional
+    ///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
+    ///     back.
+    /// step : float, optional
+    ///     Longest step (s).
+    /// frames : float, optional
+    ///     Time (s) between two moments whose places are kept.
+    /// seed : int, optional
+    /// progress : bool, optional
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind table --json``.
+    #[pyo3(signature = (time, *, start = None, progress = None, **settings))]
+    fn table<'py>(
+        &self,
+        py: Python<'py>,
+        time: f64,
+        start: Option<std::path::PathBuf>,
+        progress: Option<bool>,
+        settings: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let settings = settings.unwrap_or_else(|| PyDict::new(py));
+        settings.set_item("time", time)?;
+        let asked = request(Some(&settings))?;
+        let start = start.map(std::fs::read_to_string).transpose()?;
+        crowd::table_of(py, &self.content.design, &asked, start.as_deref(), progress)
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.

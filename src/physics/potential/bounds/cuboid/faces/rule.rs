@@ -24,7 +24,11 @@ impl Rule {
             nodes,
             weights,
         }) = self;
-        nodes.iter().copied().zip(weights.iter().copied()).take(*count)
+        nodes
+            .iter()
+            .copied()
+            .zip(weights.iter().copied())
+            .take(*count)
     }
 
     /// The error of an average by the rule, in units of the integrand's bound on an ellipse about
