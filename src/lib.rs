@@ -68,8 +68,9 @@
 //!
 //! # Limits
 //!
-//! - Point dipoles are too weak near contact (see `results/README.md`); they are the default
-//!   because they are fast and rank codes and shapes alike.
+//! - Magnets are blocks where a design says nothing. Point dipoles, the paper's model, are faster and
+//!   too weak near contact, or far too strong for thin magnets (see `results/README.md`): results with
+//!   them say what blocks have.
 //! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
 //!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds.
 //! - Work is counted, not timed (see [`budget`]): results are the same bytes on any number of threads,
@@ -78,7 +79,9 @@
 //!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair. From some
 //!   64 magnets a face on surveys take long all the same, up to hours for hundreds: there are many
 //!   states, and the motions that join each of them are followed to a fraction of the pitch.
-//! - Curves are polygons with chords within 0.2 mm.
+//! - Curves are polygons: chords leave arcs and sine waves by up to a hundredth of their depth, drawn
+//!   curves by up to 1/2150 of the drawn shape, 0.2 mm of a tile of 43 cm. Shallow states where two
+//!   curved faces touch beside their bond are off by some per cent for it.
 //! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
 //!   one outline without holes and at most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
@@ -119,7 +122,8 @@
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
-    inspection, matching, output, pipeline, query, rates, request, sweep, table, word_sets,
+    inspection, matching, memory, output, pipeline, query, rates, request, start, sweep, table,
+    word_sets,
     workshop, yields,
 };
 pub use physics::table as many_bodies;

@@ -70,7 +70,9 @@ impl Assemble {
             Ok((set, text))
         });
         let design = design.as_ref().map(|it| &it.0);
-        let assembly = self.request.build(&tiles, words.transpose()?, design)?;
+        let assembly = self
+            .request
+            .build(&tiles, words.transpose()?, design, &progress)?;
         self.results
             .deliver(&document(&assembly), output, &progress)
     }

@@ -3,17 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use serde_json::{Value, json};
-use tilebind::budget::Ended;
 use tilebind::landscape::minimax::End;
-use tilebind::output::Command;
-use tilebind::query::{self, Answer, QueryError, Request};
-use tilebind::report::states::barriers;
-use tilebind::report::{csv, json};
+use tilebind::query::{self, Request};
+use tilebind::report::barrier::{PATHWAY, document};
+use tilebind::report::csv;
+use tilebind::report::files::BARRIER;
 
-use super::options::{DesignOptions, ForceOption, ThreadOption};
+use super::options::{DesignOptions, ThreadOption};
 use super::progress::Progress;
-use super::{Failure, input, interrupt, memory, print, workload};
+use super::results::NumberOptions;
+use super::{Failure, input, interrupt, memory, workload};
 
 /// Print the barrier between two poses, between certified bounds, as JSON
 #[derive(Args)]
@@ -24,7 +23,8 @@ The barrier is the lowest possible value of the highest energy on the way, over 
 
 Examples:
   tilebind barrier shapes/paper-tile.toml --from 0.43,0.04,0 --to 0.43,0,0
-  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv"
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --text --out target/barrier"
 )]
 pub struct Barrier {
     #[command(flatten)]
@@ -39,17 +39,15 @@ pub struct Barrier {
     pathway: Option<PathBuf>,
 
     #[command(flatten)]
-    force: ForceOption,
-
-    #[command(flatten)]
     threads: ThreadOption,
 
     /// Print no progress
     #[arg(long)]
     quiet: bool,
-}
 
-const BARRIER: Command = Command::of_single_files("barrier");
+    #[command(flatten)]
+    results: NumberOptions,
+}
 
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
@@ -59,45 +57,26 @@ impl Barrier {
         if let End::At(to) = &self.request.to {
             input::doubt_pose(&design, to);
         }
-        let output = self.pathway.as_ref().map(|file| {
-            let inputs = self.design.inputs(&design);
-            self.force.file(&BARRIER, file, inputs)
-        });
-        let output = output.transpose()?;
+        let inputs = self.design.inputs(&design);
+        let pathway = self.pathway.as_ref();
+        let pathway = pathway.map(|file| self.results.file(&BARRIER, file, inputs.clone()));
+        let pathway = pathway.transpose()?;
+        let output = self.results.output(&BARRIER, inputs)?;
         let query = self.request.query(&design);
         memory::check(query.settings.milestones, None, 1)?;
         self.threads.use_threads()?;
         workload::tell_of(&design, &query.settings);
         let progress = Progress::new(self.quiet);
-        let answer = query::barrier(&design, &query, &progress).map_err(|error| {
-            let message = error.to_string();
-            match error {
-                QueryError::NoWay => Failure::Run(message),
-                _ => Failure::Usage(message),
-            }
-        })?;
+        let answer = query::barrier(&design, &query, &progress).map_err(Failure::of)?;
         progress.finish();
-        if let Some(output) = output {
+        if let Some(pathway) = pathway {
             let table = csv::pathway(&answer.barrier.pathway);
-            interrupt::without(|| output.write_file(table))?;
+            interrupt::without(|| pathway.write_file(table))?;
         }
-        print(&json::text(&self.entry(&answer)))
-    }
-
-    /// The barrier as in report.json, its ends given by their poses.
-    fn entry(&self, answer: &Answer) -> Value {
-        let mut entry = barriers([&answer.barrier]).json()[0].take();
-        entry["from"] = json!(self.request.from.to_array());
-        if let End::At(pose) = self.request.to {
-            entry["to"] = json!(pose.to_array());
-        }
-        // Why the bounds are null, where they are.
-        entry["uncertified"] = json!(answer.uncertified.map(|why| why.to_string()));
-        // What ended the narrowing before it was done: "work" or "clock", of which only the latter
-        // makes another run differ.
-        entry["ended_by"] = json!(answer.ended.map(Ended::name));
-        let pathway = self.pathway.as_ref();
-        entry["pathway"] = json!(pathway.map(|file| file.to_string_lossy()));
-        entry
+        let named = self.pathway.map(|file| file.to_string_lossy().into_owned());
+        let inside = output.as_ref().map(|_| PATHWAY.to_owned());
+        let file = named.or(inside);
+        let document = document(&design, &query, &answer, file.as_deref());
+        self.results.deliver(&document, output)
     }
 }

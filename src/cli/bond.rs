@@ -1,14 +1,12 @@
 //! `tilebind bond`.
 
 use clap::Args;
-use tilebind::bond::held;
-use tilebind::kinetics::bond::Shaking;
+use tilebind::bond::{Request, held};
 use tilebind::report::bond::document;
 use tilebind::report::files::BOND;
-use tilebind::request;
 use tilebind::{Settings, pipeline};
 
-use super::options::{DesignOptions, WorkOptions};
+use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 use super::{Failure, interrupt};
 
@@ -28,16 +26,11 @@ pub struct BondCommand {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// Effective energy kT of the shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
-    kt: f64,
-
-    /// Share of the table that tiles cover
-    #[arg(long, value_name = "F", value_parser = request::fraction)]
-    coverage: f64,
+    #[command(flatten)]
+    request: Request,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -48,17 +41,13 @@ impl BondCommand {
         interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&BOND, self.design.inputs(&design))?;
-        self.work.use_threads()?;
+        self.threads.use_threads()?;
         let progress = self.results.progress();
-        let settings = Settings::without_proofs(self.work.seed);
+        let settings = Settings::without_proofs(self.request.seed);
         let analysis = pipeline::analyse(&design, &settings, &progress);
-        let shaking = Shaking {
-            kt: self.kt,
-            coverage: self.coverage,
-        };
         let found = (&*analysis.problem, &analysis.catalogue);
-        let held = held(&design, found, shaking, output.is_some());
-        let held = held.map_err(|error| Failure::Run(error.to_string()))?;
+        let shaking = self.request.shaking();
+        let held = held(&design, found, shaking, output.is_some()).map_err(Failure::of)?;
         self.results
             .deliver(&document(&design, &held), output, &progress)
     }

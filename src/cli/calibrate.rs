@@ -1,27 +1,23 @@
 //! `tilebind calibrate`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::Settings;
-use tilebind::calibration::bonds::PairTimes;
-use tilebind::calibration::distances::PairDistances;
-use tilebind::calibration::{self, Specimen};
-use tilebind::design::MagnetModel;
-use tilebind::kinetics::Hold;
+use tilebind::calibration::Request;
 use tilebind::observer::Silent;
-use tilebind::pipeline;
-use tilebind::report::calibration as report;
+use tilebind::report::calibration::document;
 use tilebind::report::files::CALIBRATE;
-use tilebind::request;
 
-use super::progress::Progress;
+use super::options::DesignOptions;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
 /// Fit the constants of soft-iron shields to measured forces, or kT to pairs that bind and part
 #[derive(Args)]
-#[command(after_help = "\
+#[command(
+    mut_arg("area", |area| area.requires("bonds")),
+    mut_arg("within", |within| within.requires("bonds")),
+    after_help = "\
 The table is a CSV file. Its first line names the columns, in any order: x_m, y_m, theta_rad (the
 moving tile's pose in the fixed tile's frame), iron (1 with the shields in place, 0 without), and
 at least one of energy_J, force_x_N, force_y_N, torque_Nm (on the moving tile, in the fixed tile's
@@ -44,8 +40,8 @@ Examples:
   tilebind calibrate my.toml --bonds distances.csv --within 0.75
   tilebind calibrate my.toml --bonds intervals.csv --area 0.6")]
 pub struct Calibrate {
-    /// The design file of the tiles that were measured
-    design: PathBuf,
+    #[command(flatten)]
+    design: DesignOptions,
 
     /// The measurements (CSV)
     #[arg(required_unless_present = "bonds", conflicts_with = "bonds")]
@@ -56,23 +52,8 @@ pub struct Calibrate {
     #[arg(long, value_name = "FILE")]
     bonds: Option<PathBuf>,
 
-    /// Area that a pair had for itself (m^2) [default: the design's table]
-    #[arg(long, value_name = "M2", value_parser = request::positive, requires = "bonds")]
-    area: Option<f64>,
-
-    /// Distances (m) up to which those of --bonds count, for the rim of the table is felt beyond
-    /// [default: where tiles are free]
-    #[arg(long, value_name = "R", value_parser = request::length, requires = "bonds")]
-    within: Option<f64>,
-
-    /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = input::model(),
-          hide_possible_values = true)]
-    model: Option<MagnetModel>,
-
-    /// Of so many rows one is held out of the fit
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
-    hold_out: u16,
+    #[command(flatten)]
+    request: Request,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -80,39 +61,18 @@ pub struct Calibrate {
 
 impl Calibrate {
     pub fn run(self) -> Result<(), Failure> {
-        let design = input::load_as(&self.design, self.model)?;
+        let design = self.design.load()?;
         let file = self.bonds.as_ref().or(self.table.as_ref());
-        let file = file.map_or(Path::new(""), PathBuf::as_path);
-        let mut inputs = input::files_of(&self.design, &design);
-        inputs.push(file.to_owned());
+        let file = file.cloned().unwrap_or_default();
+        let mut inputs = self.design.inputs(&design);
+        inputs.push(file.clone());
         let output = self.results.output(&CALIBRATE, inputs)?;
-        let wrong =
-            |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", file.display()));
-        let text = input::text(file).map_err(|error| wrong(&error))?;
-        let document = match () {
-            () if self.bonds.is_none() => {
-                let rows = calibration::read_rows(&text).map_err(|error| wrong(&error))?;
-                let (specimen, settings) = Specimen::of(&design, self.hold_out.into());
-                let found = calibration::calibrate(&specimen, &rows, &settings);
-                report::shields(&design, &found.map_err(|error| wrong(&error))?)
-            }
-            () if PairDistances::is_named_in(&text) => {
-                let within = self.within.unwrap_or(design.space().free_distance);
-                let fit = PairDistances::read(&text)
-                    .and_then(|read| read.fit(&design.problem(), &design.pair.bound, within));
-                report::distances(&design, &fit.map_err(|error| wrong(&error))?)
-            }
-            () => {
-                let times = PairTimes::read(&text).map_err(|error| wrong(&error))?;
-                let settings = Settings::without_proofs(Settings::default().seed);
-                let analysis = pipeline::analyse(&design, &settings, &Silent);
-                let bond = Hold::bond(&analysis.problem, &analysis.catalogue)
-                    .map_err(|error| Failure::Run(error.to_string()))?;
-                let area = self.area.unwrap_or(design.table[0] * design.table[1]);
-                report::intervals(&design, &times, &bond, area)
-            }
-        };
+        let progress = self.results.progress();
+        let found = input::table(&file, |text| match self.bonds {
+            None => self.request.of_forces(&design, text),
+            Some(_) => self.request.of_pairs(&design, text, &Silent),
+        })?;
         self.results
-            .deliver(&document, output, &Progress::new(true))
+            .deliver(&document(&design, &found), output, &progress)
     }
 }

@@ -5,18 +5,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{self, Assessment, Quantity, Request};
+use tilebind::comparison::{Quantity, Question, assess_all};
 use tilebind::design::{Design, MagnetModel};
-use tilebind::observer::Observer;
 use tilebind::report::comparison::Comparison;
 use tilebind::report::files::COMPARE;
 
 use super::failure::tell_refuted;
 use super::options::ThreadOption;
-use super::progress::Progress;
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt, memory, workload};
-use tilebind::request::Word;
+use tilebind::request::{self, Word};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
@@ -30,7 +28,7 @@ pub struct Compare {
     designs: Vec<PathBuf>,
 
     /// Model of the magnets, dipole or cuboid [default: each design's own]
-    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
@@ -40,7 +38,7 @@ pub struct Compare {
     by: &'static Quantity,
 
     #[command(flatten)]
-    request: Request,
+    question: Question,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -56,27 +54,20 @@ impl Compare {
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
         let output = self.results.output(&COMPARE, inputs.collect())?;
-        let settings = self.request.settings(&designs);
+        let question = Question {
+            request: self.question.request.of(&designs),
+            ..self.question
+        };
+        let settings = question.request.settings(question.seed);
         memory::check(settings.milestones, settings.neighbours, 1)?;
         self.threads.use_threads()?;
-        for design in &designs {
-            workload::tell_of(design, &settings.settings(self.request.seed));
-        }
+        designs
+            .iter()
+            .for_each(|design| workload::tell_of(design, &settings));
 
         let progress = self.results.progress();
-        let assessments: Vec<Assessment> = designs
-            .iter()
-            .enumerate()
-            .map(|(k, design)| {
-                let observer = Part {
-                    progress: &progress,
-                    done: k,
-                    count: designs.len(),
-                };
-                comparison::assess(design, &settings, self.request.seed, &observer)
-            })
-            .collect();
-        let comparison = Comparison::new(&assessments, self.by, settings);
+        let assessments = assess_all(&designs, &question, &progress);
+        let comparison = Comparison::new(&assessments, self.by, question.request);
         self.results
             .deliver(&comparison.document(), output, &progress)?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));
@@ -101,20 +92,6 @@ impl Compare {
             }
         }
         Ok(designs)
-    }
-}
-
-/// The progress of one design among several.
-struct Part<'a> {
-    progress: &'a Progress,
-    done: usize,
-    count: usize,
-}
-
-impl Observer for Part<'_> {
-    fn stage(&self, name: &'static str, share: f64) {
-        let share = (self.done as f64 + share) / self.count as f64;
-        self.progress.share(name, share);
     }
 }
 

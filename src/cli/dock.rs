@@ -1,16 +1,9 @@
 //! `tilebind dock`.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use tilebind::Problem;
-use tilebind::design::Design;
-use tilebind::docking::{Paths, Request};
-use tilebind::dynamics::docking::{self, DockingError};
-use tilebind::kinetics::rates::Loosening;
-use tilebind::observer::Observer;
-use tilebind::rates::diffusion;
+use tilebind::docking::{Paths, ReleaseOptions, Request, docked, loosening, released};
 use tilebind::report::files::DOCK;
 use tilebind::report::{docking as report, release};
 
@@ -41,19 +34,12 @@ pub struct Dock {
     #[command(flatten)]
     request: Request,
 
-    /// Start bound instead, with a thermal velocity, and find the rate of detachment; the options of
-    /// starts do not matter
-    #[arg(long, requires = "shaking", conflicts_with = "trajectory")]
-    from_bond: bool,
-
-    /// With --from-bond: tell the rate of overdamped motion at the same kT and drag beside it, solved
-    /// on a mesh as `tilebind rates` does
-    #[arg(long, requires = "from_bond")]
-    overdamped: bool,
+    #[command(flatten)]
+    release: ReleaseOptions,
 
     /// Number of the trajectory that is written to trajectory.csv and that the page plays first
     /// [default: the first bound one]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", conflicts_with = "from_bond")]
     trajectory: Option<usize>,
 
     #[command(flatten)]
@@ -79,47 +65,26 @@ impl Dock {
             )));
         }
         let progress = self.results.progress();
-        let done = AtomicUsize::new(0);
-        let step = || {
-            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            progress.share("trajectories", done as f64 / settings.runs as f64);
-        };
-        if self.from_bond {
-            let beside = self.overdamped(&design, &problem, &progress)?;
-            let found = docking::releases(&problem, &settings, &step).map_err(usage)?;
+        if self.release.from_bond {
+            let posed = (&design, &problem);
+            let beside = self.release.overdamped;
+            let beside = beside.then(|| loosening(posed, &settings, &progress));
+            let beside = beside
+                .transpose()
+                .map_err(|error| match Failure::of(error) {
+                    // What sets kT here.
+                    Failure::Usage(message) => Failure::Usage(message.replace("--kt", "--shaking")),
+                    other => other,
+                })?;
+            let found = released(&problem, &settings, &progress).map_err(Failure::of)?;
             let document = release::document(&design, &settings, &found, beside);
             return self.results.deliver(&document, output, &progress);
         }
-        let docking = docking::dock(&problem, &settings, &step).map_err(usage)?;
+        let docking = docked(&problem, &settings, &progress).map_err(Failure::of)?;
         let paths = output.as_ref();
         let paths = paths.map(|_| Paths::new(&problem, &docking, self.trajectory));
-        let paths = paths.transpose().map_err(usage)?;
+        let paths = paths.transpose().map_err(Failure::of)?;
         let document = report::document((&design, &problem), &docking, paths.as_ref());
         self.results.deliver(&document, output, &progress)
     }
-
-    /// The off-rates of overdamped motion (1/s), if they are asked for.
-    fn overdamped(
-        &self,
-        design: &Design,
-        problem: &Problem,
-        progress: &dyn Observer,
-    ) -> Result<Option<Loosening>, Failure> {
-        let Some(kt) = self.request.shaking.filter(|_| self.overdamped) else {
-            return Ok(None);
-        };
-        progress.stage("rates", 0.0);
-        let diffusion = diffusion(design, kt, self.request.drag);
-        let found = Loosening::new(problem, &design.pair.bound, kt);
-        let found = found.map_err(|error| match Failure::from(error) {
-            // What sets kT here.
-            Failure::Usage(message) => Failure::Usage(message.replace("--kt", "--shaking")),
-            other => other,
-        })?;
-        Ok(Some(found.times(diffusion)))
-    }
-}
-
-fn usage(error: DockingError) -> Failure {
-    Failure::Usage(error.to_string())
 }

@@ -1,24 +1,24 @@
 //! `tilebind energy`.
 
-use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use serde::Serialize;
-use tilebind::query::poses;
-use tilebind::report::json;
+use tilebind::Configuration;
+use tilebind::query::poses::{self, Felt};
+use tilebind::report::energies::document;
+use tilebind::report::files::ENERGY;
 use tilebind::request;
-use tilebind::{Configuration, Problem};
 
 use super::options::DesignOptions;
-use super::{Failure, input, print};
+use super::results::NumberOptions;
+use super::{Failure, input};
 
 /// Print energy, force, torque and clearance at given poses, as JSON
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   tilebind energy shapes/paper-tile.toml --pose 0.43,0,0 --pose 0.43,-0.04,0
-  tilebind energy shapes/paper-tile.toml --pose \"43 cm,-4 cm,30 deg\"
+  tilebind energy shapes/paper-tile.toml --pose \"43 cm,-4 cm,30 deg\" --text
   tilebind energy shapes/paper-tile.toml --poses results/pathways/0-free.csv")]
 pub struct Energy {
     #[command(flatten)]
@@ -37,61 +37,29 @@ pub struct Energy {
     /// CSV file of poses, one a line: columns x, y and theta (others are passed over)
     #[arg(long = "poses", value_name = "FILE.csv")]
     file: Option<PathBuf>,
+
+    #[command(flatten)]
+    results: NumberOptions,
 }
 
 /// Most poses that are looked at for another unit.
 const MOST_DOUBTED: usize = 3;
 
-/// What is known of a pose.
-#[derive(Serialize)]
-#[allow(non_snake_case)]
-struct Entry {
-    pose: [f64; 3],
-    energy_J: f64,
-    /// On the moving tile.
-    force_N: [f64; 2],
-    /// On the moving tile, about its reference point.
-    torque_Nm: f64,
-    /// Negative where the tiles overlap.
-    clearance_m: f64,
-    free: bool,
-}
-
 impl Energy {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
+        let inputs = self.design.inputs(&design).into_iter();
+        let inputs = inputs.chain(self.file.clone()).collect();
+        let output = self.results.output(&ENERGY, inputs)?;
         let mut poses = self.poses;
         if let Some(file) = &self.file {
-            poses.extend(read(file)?);
+            poses.extend(input::table(file, poses::read)?);
         }
         for pose in poses.iter().take(MOST_DOUBTED) {
             input::doubt_pose(&design, pose);
         }
         let problem = design.problem();
-        let entries: Vec<Entry> = poses.iter().map(|q| entry(&problem, q)).collect();
-        print(&json::text(&entries))
-    }
-}
-
-/// The poses of a file.
-fn read(file: &Path) -> Result<Vec<Configuration>, Failure> {
-    let wrong = |error: &dyn Display| Failure::Usage(format!("{}: {error}", file.display()));
-    let text = input::text(file).map_err(|error| wrong(&error))?;
-    poses::read(&text).map_err(|error| wrong(&error))
-}
-
-fn entry(problem: &Problem, q: &Configuration) -> Entry {
-    let (energy, gradient) = problem.energy_and_gradient(q);
-    let free = problem.is_clear(q);
-    let clearance = problem.clearance(q);
-    let [fx, fy, torque] = [-gradient.x, -gradient.y, -gradient.z].map(json::positive_zero);
-    Entry {
-        pose: q.to_array().map(json::positive_zero),
-        energy_J: json::positive_zero(energy),
-        force_N: [fx, fy],
-        torque_Nm: torque,
-        // Tiles that touch may overlap by a rounding error.
-        clearance_m: json::positive_zero(if free { clearance.max(0.0) } else { clearance }),
-        free,
+        let found: Vec<Felt> = poses.iter().map(|q| Felt::new(&problem, q)).collect();
+        self.results.deliver(&document(&design, &found), output)
     }
 }

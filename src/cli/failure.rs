@@ -1,15 +1,15 @@
 //! How a command ends when it does not succeed.
 
+use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 
 use tilebind::Refused;
 use tilebind::comparison::Assessment;
 use tilebind::design::DesignError;
-use tilebind::kinetics::exit::ExitError;
-use tilebind::kinetics::rates::RatesError;
 use tilebind::output::OutputError;
 use tilebind::report::plots::PictureError;
+use tilebind::request::Unanswered;
 
 use super::tell;
 
@@ -30,6 +30,24 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// The command line or a design file is wrong.
+    pub fn usage(error: impl Display) -> Self {
+        Self::Usage(error.to_string())
+    }
+
+    /// The run failed.
+    pub fn run(error: impl Display) -> Self {
+        Self::Run(error.to_string())
+    }
+
+    /// Why there is no answer.
+    pub fn of(error: impl Unanswered) -> Self {
+        match error.is_of_the_question() {
+            true => Self::usage(error),
+            false => Self::run(error),
+        }
+    }
+
     /// Tells the user and gives the exit status.
     pub fn report(&self) -> ExitCode {
         match self {
@@ -63,10 +81,9 @@ pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure
 /// Barriers that moving tiles contradict fail a run, whose results are written all the same.
 pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Result<(), Failure> {
     let all: Vec<String> = contradictions.collect();
-    if all.is_empty() {
-        Ok(())
-    } else {
-        Err(Failure::Run(all.join("\n")))
+    match all.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Run(all.join("\n"))),
     }
 }
 
@@ -78,25 +95,7 @@ impl From<DesignError> for Failure {
 
 impl From<Refused> for Failure {
     fn from(why: Refused) -> Self {
-        Self::Usage(why.to_string())
-    }
-}
-
-impl From<RatesError> for Failure {
-    fn from(error: RatesError) -> Self {
-        match error {
-            RatesError::Unsolved(_) => Self::Run(error.to_string()),
-            _ => Self::Usage(error.to_string()),
-        }
-    }
-}
-
-impl From<ExitError> for Failure {
-    fn from(error: ExitError) -> Self {
-        match error {
-            ExitError::Unsolved(_) => Self::Run(error.to_string()),
-            _ => Self::Usage(error.to_string()),
-        }
+        Self::usage(why)
     }
 }
 

@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::design::{STARTER, Shape, Start};
 use tilebind::output::{Command, Output};
-use tilebind::request;
+use tilebind::start::Request;
 
 use super::{Failure, print, tell};
-use tilebind::request::Word;
 
 /// Write a design to start from
 #[derive(Args)]
@@ -21,6 +19,7 @@ Examples:
   tilebind init
   tilebind init my-tile.toml
   tilebind init hexagon.toml --sides 6 --side 0.12 --magnets 3 --shape arc
+  tilebind init small.toml --side \"10 cm\" --magnet \"10 x 5 x 2 mm N42\"
   tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
     /// The file to write; - is standard output
@@ -31,33 +30,16 @@ pub struct Init {
     #[arg(long)]
     force: bool,
 
-    /// Sides of both tiles, 3 to 24 [default: 4]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
-    sides: Option<u32>,
-
-    /// Length of a side (m), or with a unit: \"12 cm\" [default: 0.43]
-    #[arg(long, value_name = "M", value_parser = request::length)]
-    side: Option<f64>,
-
-    /// Magnets on each of the two faces that are to bind, 1 to 16 [default: 4]
-    #[arg(long, value_name = "K", value_parser = request::count)]
-    magnets: Option<usize>,
-
-    /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
-    #[arg(long, value_parser = shape(), hide_possible_values = true)]
-    shape: Option<Shape>,
-}
-
-fn shape() -> Word<Shape> {
-    let names = Shape::NAMES.map(|(name, _)| name).join(", ");
-    Word::new(&Shape::NAMES, format!("a shape is one of {names}"))
+    #[command(flatten)]
+    request: Request,
 }
 
 const INIT: Command = Command::of_single_files("init");
 
 impl Init {
     pub fn run(self) -> Result<(), Failure> {
-        let text = self.text()?;
+        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        let text = self.request.text(&stem).map_err(Failure::usage)?;
         if self.file == Path::new("-") {
             return print(&text);
         }
@@ -73,28 +55,5 @@ impl Init {
             "wrote {name}; next: tilebind show {name}, or tilebind analyse {name} --out results"
         ));
         Ok(())
-    }
-
-    /// The design asked for.
-    fn text(&self) -> Result<String, Failure> {
-        let asked = (self.sides, self.side, self.magnets, self.shape);
-        if asked == (None, None, None, None) {
-            return Ok(STARTER.to_owned());
-        }
-        let usual = Start::default();
-        let start = Start {
-            sides: self.sides.unwrap_or(usual.sides),
-            side: self.side.unwrap_or(usual.side),
-            magnets: self.magnets.unwrap_or(usual.magnets),
-            shape: self.shape.unwrap_or(usual.shape),
-        };
-        let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
-        // A name that no quotes or control characters end.
-        let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);
-        let name: String = stem.chars().filter(plain).collect();
-        let name = name.trim_matches(|c| c == '-' || c == ' ');
-        let name = if name.is_empty() { "starter" } else { name };
-        let design = start.design(name);
-        design.map_err(|error| Failure::Usage(error.to_string()))
     }
 }

@@ -1,5 +1,6 @@
 //! What users type: designs, poses, numbers with limits.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -8,20 +9,30 @@ use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
 
 use super::{Failure, tell};
-pub use tilebind::request::model;
+use tilebind::request::Unanswered;
 
 /// Reads a design; its warnings go to standard error.
 pub fn load(path: &Path) -> Result<Design, Failure> {
-    let design = Design::load(path)?;
+    load_as(path, None)
+}
+
+/// Tells the warnings of a design on standard error.
+pub fn tell_doubts(design: &Design) {
     for warning in &design.warnings {
         tell(format!("warning: {warning}"));
     }
-    Ok(design)
 }
 
 /// A design with its magnets modelled as `model` says, if it says so.
 pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
-    let mut design = load(path)?;
+    let design = load_silently_as(path, model)?;
+    tell_doubts(&design);
+    Ok(design)
+}
+
+/// The same, whose warnings the caller tells.
+pub fn load_silently_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
+    let mut design = Design::load(path)?;
     design.interaction.model = model.unwrap_or(design.interaction.model);
     Ok(design)
 }
@@ -69,4 +80,17 @@ pub fn text(path: &Path) -> io::Result<String> {
         return Err(io::Error::other(message));
     }
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
+}
+
+/// What is read from a table named on the command line; what is wrong with it is told with its name.
+pub fn table<T, E: Unanswered>(
+    file: &Path,
+    read: impl FnOnce(&str) -> Result<T, E>,
+) -> Result<T, Failure> {
+    let wrong = |error: &dyn Display| Failure::usage(format!("{}: {error}", file.display()));
+    let text = text(file).map_err(|error| wrong(&error))?;
+    read(&text).map_err(|error| match error.is_of_the_question() {
+        true => wrong(&error),
+        false => Failure::run(error),
+    })
 }

@@ -13,6 +13,15 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// Held while files take their places; an interruption waits for it.
 static WRITING: Mutex<()> = Mutex::new(());
 
+/// What is known by now, told when the work is interrupted.
+static KNOWN: Mutex<String> = Mutex::new(String::new());
+
+/// Keeps a sentence to be told if the work is interrupted, in place of the one before.
+pub fn keep(what: &str) {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    what.clone_into(&mut known);
+}
+
 /// From now on an interruption ends the program cleanly.
 pub fn prepare() -> Result<(), Failure> {
     end_with("interrupted: nothing was written; the same command starts again")
@@ -26,7 +35,11 @@ pub fn prepare_resumable() -> Result<(), Failure> {
 fn end_with(message: &'static str) -> Result<(), Failure> {
     ctrlc::set_handler(move || {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
-        tell_soon(message);
+        let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        tell_soon(match known.is_empty() {
+            true => message.to_owned(),
+            false => format!("{message}; {known}"),
+        });
         std::process::exit(INTERRUPTED.into());
     })
     .map_err(|error| Failure::Run(format!("cannot prepare for interruptions: {error}")))
@@ -34,10 +47,10 @@ fn end_with(message: &'static str) -> Result<(), Failure> {
 
 /// Tells the user, but does not wait for ever: a pipe that is full and that nobody reads takes
 /// nothing.
-fn tell_soon(message: &'static str) {
+fn tell_soon(message: String) {
     let (told, waits) = mpsc::channel();
     let _ = thread::Builder::new().spawn(move || {
-        tell(message);
+        tell(&message);
         let _ = told.send(());
     });
     let _ = waits.recv_timeout(PATIENCE);

@@ -6,7 +6,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use tilebind::Settings;
 use tilebind::design::{Design, MagnetModel};
 use tilebind::output::{Command, Output};
 use tilebind::request;
@@ -21,7 +20,7 @@ pub struct DesignOptions {
     design: PathBuf,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 }
@@ -34,9 +33,7 @@ impl DesignOptions {
 
     /// Reads the design, whose warnings the caller tells.
     pub fn load_silently(&self) -> Result<Design, Failure> {
-        let mut design = Design::load(&self.design)?;
-        design.interaction.model = self.model.unwrap_or(design.interaction.model);
-        Ok(design)
+        input::load_silently_as(&self.design, self.model)
     }
 
     /// The design file.
@@ -87,25 +84,6 @@ impl ForceOption {
     }
 }
 
-/// What the work starts from, and on how many threads it is done.
-#[derive(Args)]
-pub struct WorkOptions {
-    /// Seed of all random numbers: the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
-          value_parser = request::seed)]
-    pub seed: u64,
-
-    #[command(flatten)]
-    threads: ThreadOption,
-}
-
-impl WorkOptions {
-    /// Has the library work on the number of threads asked for.
-    pub fn use_threads(&self) -> Result<(), Failure> {
-        self.threads.use_threads()
-    }
-}
-
 /// On how many threads work is done.
 #[derive(Args)]
 pub struct ThreadOption {
@@ -120,9 +98,22 @@ impl ThreadOption {
         self.threads.map_or_else(cores, useful)
     }
 
-    /// Has the library work on the number of threads asked for.
+    /// Has the library work on the number of threads asked for, or on all cores.
     pub fn use_threads(&self) -> Result<(), Failure> {
-        use_threads(self.threads)
+        let Some(threads) = self.threads else {
+            return Ok(());
+        };
+        let used = useful(threads);
+        if used < usize::from(threads) {
+            tell(format!(
+                "note: {used} threads are used: more on {} cores would gain nothing",
+                cores()
+            ));
+        }
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(used)
+            .build_global()
+            .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
     }
 }
 
@@ -136,24 +127,6 @@ fn cores() -> usize {
 /// The threads asked for, as far as they are of use.
 fn useful(threads: u16) -> usize {
     usize::from(threads).min(MOST_FOR_A_CORE * cores())
-}
-
-/// Has the library work on so many threads, or on all cores.
-pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else {
-        return Ok(());
-    };
-    let used = useful(threads);
-    if used < usize::from(threads) {
-        tell(format!(
-            "note: {used} threads are used: more on {} cores would gain nothing",
-            cores()
-        ));
-    }
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(used)
-        .build_global()
-        .map_err(|error| Failure::Run(format!("cannot start {threads} threads: {error}")))
 }
 
 /// What is printed.

@@ -6,6 +6,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tilebind::observer::Observer;
 
+use super::interrupt;
+
 /// Steps of the bar.
 const STEPS: u64 = 100;
 
@@ -39,6 +41,10 @@ impl Observer for Progress {
     fn part(&self, name: &'static str, done: usize, count: usize) {
         self.0
             .set_message(format!("{name}, {done} of {count} done"));
+    }
+
+    fn known(&self, what: &str) {
+        interrupt::keep(what);
     }
 }
 

@@ -1,16 +1,13 @@
 //! `tilebind rates`.
 
 use clap::Args;
-use tilebind::design::Design;
 use tilebind::observer::Observer;
-use tilebind::output::Output;
-use tilebind::rates::Question;
+use tilebind::rates::Request;
 use tilebind::report::files::RATES;
 use tilebind::report::rates::{document, exit_document};
-use tilebind::request;
-use tilebind::{Configuration, Problem, Settings, pipeline};
+use tilebind::{Settings, pipeline};
 
-use super::options::{DesignOptions, WorkOptions};
+use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt, memory};
 
@@ -46,29 +43,10 @@ pub struct Rates {
     design: DesignOptions,
 
     #[command(flatten)]
-    question: Question,
-
-    /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
-    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
-    start: Option<Configuration>,
-
-    /// Kinds of traps with rates, the deepest first
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
-          conflicts_with = "start")]
-    traps: usize,
-
-    /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
-    /// that of overdamped motion
-    #[arg(long, value_name = "N", requires = "start", value_parser = request::runs_of_a_mean)]
-    check: Option<usize>,
-
-    /// Share of the approach velocity that a knock gives back, in --check
-    #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
-          value_parser = request::share)]
-    restitution: f64,
+    request: Request,
 
     #[command(flatten)]
-    work: WorkOptions,
+    threads: ThreadOption,
 
     #[command(flatten)]
     results: ResultOptions,
@@ -79,54 +57,29 @@ impl Rates {
         interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&RATES, self.design.inputs(&design))?;
-        let problem = design.problem();
-        let question = &self.question;
-        if let Some(why) = question.refused(&design, &problem) {
-            return Err(Failure::Usage(why));
-        }
-        self.work.use_threads()?;
-        match self.start {
-            Some(start) => self.exit(question, (&design, &problem), start, output),
-            None => self.table(question, &design, problem, output),
-        }
-    }
-
-    fn exit(
-        &self,
-        question: &Question,
-        (design, problem): (&Design, &Problem),
-        start: Configuration,
-        output: Option<Output>,
-    ) -> Result<(), Failure> {
-        input::doubt_pose(design, &start);
-        let found = question.exit((design, problem), start)?;
-        let checked =
-            |runs| found.checked((design, problem), runs, self.restitution, self.work.seed);
-        let check = self.check.map(checked).transpose();
-        let check = check.map_err(|error| Failure::Usage(error.to_string()))?;
-        let document = exit_document(design, &found, check.as_ref());
+        let (problem, request) = (design.problem(), &self.request);
+        request.check(&design, &problem).map_err(Failure::of)?;
+        self.threads.use_threads()?;
         let progress = self.results.progress();
-        self.results.deliver(&document, output, &progress)
-    }
-
-    fn table(
-        &self,
-        question: &Question,
-        design: &Design,
-        problem: Problem,
-        output: Option<Output>,
-    ) -> Result<(), Failure> {
+        if let Some(start) = request.start {
+            input::doubt_pose(&design, &start);
+            let (found, check) = request
+                .exit((&design, &problem), start)
+                .map_err(Failure::of)?;
+            let document = exit_document(&design, &found, check.as_ref());
+            return self.results.deliver(&document, output, &progress);
+        }
         // States and their lowest barriers are needed, and no proofs.
         let settings = Settings {
             milestones: Settings::default().milestones,
-            ..Settings::without_proofs(self.work.seed)
+            ..Settings::without_proofs(request.seed)
         };
         memory::check(settings.milestones, None, 1)?;
-        let progress = self.results.progress();
-        let analysis = pipeline::analyse_problem(design, problem, &settings, &progress);
+        let analysis = pipeline::analyse_problem(&design, problem, &settings, &progress);
         progress.stage("rates", 0.9);
-        let found = question.rates(design, &analysis, self.traps, output.is_some())?;
-        let document = document(design, &found, self.work.seed);
+        let found = request.rates(&design, &analysis, output.is_some());
+        let found = found.map_err(Failure::of)?;
+        let document = document(&design, &found, request.seed);
         self.results.deliver(&document, output, &progress)
     }
 }

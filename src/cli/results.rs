@@ -1,6 +1,6 @@
 //! Where results go.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::output::{Command, Output};
@@ -9,11 +9,11 @@ use tilebind::report::document::Document;
 use super::figures::{FigureOptions, command_line};
 use super::options::{ForceOption, PrintOptions};
 use super::progress::Progress;
-use super::{Failure, interrupt, style};
+use super::{Failure, interrupt, print, style};
 
-/// What is kept and what is printed.
+/// What is kept.
 #[derive(Args)]
-pub struct ResultOptions {
+pub struct FolderOptions {
     /// Folder for report.html, report.json, tables and pictures
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -23,6 +23,55 @@ pub struct ResultOptions {
 
     #[command(flatten)]
     figures: FigureOptions,
+}
+
+impl FolderOptions {
+    /// The folder for results of a command that reads `inputs`, if any is asked for. What is in the way
+    /// is refused.
+    fn output(
+        &self,
+        command: &'static Command,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Option<Output>, Failure> {
+        self.figures.sheet()?;
+        let folder = self.out.as_ref();
+        let folder = folder.map(|it| self.force.folder(command, it, inputs));
+        folder.transpose()
+    }
+
+    fn write(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
+        let Some(output) = output else { return Ok(()) };
+        let files = document.files(&self.figures.sheet()?, &command_line())?;
+        Ok(interrupt::without(|| output.write(&files))?)
+    }
+
+    /// What people read on a terminal.
+    fn told(&self, document: &Document) -> String {
+        match &self.out {
+            Some(folder) => told_of(document, folder),
+            None => format!(
+                "{}nothing was written: --out DIR keeps page and tables\n",
+                document.text(style::columns())
+            ),
+        }
+    }
+}
+
+/// What people read on a terminal of results in a folder.
+pub fn told_of(document: &Document, folder: &Path) -> String {
+    format!(
+        "{}results in {}: report.html to look at; {}report.json, tables, pictures\n",
+        document.text(style::columns()),
+        folder.display(),
+        beside(document)
+    )
+}
+
+/// What is kept and what is printed.
+#[derive(Args)]
+pub struct ResultOptions {
+    #[command(flatten)]
+    folder: FolderOptions,
 
     #[command(flatten)]
     print: PrintOptions,
@@ -36,10 +85,7 @@ impl ResultOptions {
         command: &'static Command,
         inputs: Vec<PathBuf>,
     ) -> Result<Option<Output>, Failure> {
-        self.figures.sheet()?;
-        let folder = self.out.as_ref();
-        let folder = folder.map(|it| self.force.folder(command, it, inputs));
-        folder.transpose()
+        self.folder.output(command, inputs)
     }
 
     /// The bar that shows progress, unless all is to be quiet.
@@ -54,21 +100,50 @@ impl ResultOptions {
         output: Option<Output>,
         progress: &Progress,
     ) -> Result<(), Failure> {
-        if let Some(output) = output {
-            let files = document.files(&self.figures.sheet()?, &command_line())?;
-            interrupt::without(|| output.write(&files))?;
-        }
+        self.folder.write(document, output)?;
         progress.finish();
-        self.print.results(&document.printed(), || {
-            let told = document.text(style::columns());
-            match &self.out {
-                Some(folder) => format!(
-                    "{told}results in {}: report.html to look at; {}report.json, tables, pictures\n",
-                    folder.display(),
-                    beside(document)
-                ),
-                None => format!("{told}nothing was written: --out DIR keeps page and tables\n"),
-            }
+        self.print
+            .results(&document.printed(), || self.folder.told(document))
+    }
+}
+
+/// The same of commands that print numbers for programs.
+#[derive(Args)]
+pub struct NumberOptions {
+    #[command(flatten)]
+    folder: FolderOptions,
+
+    /// Print text instead of JSON
+    #[arg(long)]
+    text: bool,
+}
+
+impl NumberOptions {
+    /// See [`ResultOptions::output`].
+    pub fn output(
+        &self,
+        command: &'static Command,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Option<Output>, Failure> {
+        self.folder.output(command, inputs)
+    }
+
+    /// A single file of the command. What is in the way is refused.
+    pub fn file(
+        &self,
+        command: &'static Command,
+        file: &Path,
+        inputs: Vec<PathBuf>,
+    ) -> Result<Output, Failure> {
+        self.folder.force.file(command, file, inputs)
+    }
+
+    /// See [`ResultOptions::deliver`].
+    pub fn deliver(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
+        self.folder.write(document, output)?;
+        print(&match self.text {
+            true => self.folder.told(document),
+            false => document.printed(),
         })
     }
 }

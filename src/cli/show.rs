@@ -6,10 +6,12 @@ use std::time::{Duration, SystemTime};
 use clap::Args;
 use tilebind::design::Design;
 use tilebind::inspection::Inspection;
-use tilebind::output::Command;
-use tilebind::report::plots::{PictureError, Sheet, glance};
-use tilebind::report::{inspection, json};
+use tilebind::report::document::Document;
+use tilebind::report::files::SHOW;
+use tilebind::report::inspection::document;
+use tilebind::report::plots::Sheet;
 
+use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, ForceOption};
 use super::{Failure, interrupt, print, style, tell};
 
@@ -26,18 +28,23 @@ The tiles are drawn where their target faces meet; nothing is searched, so it ta
 Examples:
   tilebind show shapes/paper-tile.toml
   tilebind show my.toml --out my.svg
+  tilebind show my.toml --out target/my
   tilebind show my.toml --watch
   tilebind show my.toml --json | jq .pull_off_N")]
 pub struct Show {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// File for the picture: .svg, .png or .pdf by its ending
-    #[arg(long, short, value_name = "FILE", value_parser = picture_file)]
+    /// File for the picture, .svg, .png or .pdf by its ending; or folder for report.html, report.json,
+    /// tables and pictures
+    #[arg(long, short, value_name = "FILE|DIR", value_parser = place)]
     out: Option<PathBuf>,
 
     #[command(flatten)]
     force: ForceOption,
+
+    #[command(flatten)]
+    figures: FigureOptions,
 
     /// Print JSON instead of text
     #[arg(long)]
@@ -47,8 +54,6 @@ pub struct Show {
     #[arg(long, conflicts_with = "json")]
     watch: bool,
 }
-
-const SHOW: Command = Command::of_single_files("show");
 
 impl Show {
     pub fn run(self) -> Result<(), Failure> {
@@ -78,23 +83,46 @@ impl Show {
     fn show(&self) -> Result<(), Failure> {
         let design = self.design.load_silently()?;
         let found = Inspection::new(&design);
-        if let Some(file) = &self.out {
-            let output = self.force.file(&SHOW, file, self.design.inputs(&design))?;
-            let bytes = picture(&design, &found, file)?;
-            interrupt::without(|| output.write_file(bytes))?;
+        let document = document(&design, &found);
+        if let Some(place) = &self.out {
+            self.write(&document, place, self.design.inputs(&design))?;
         }
         if self.json {
-            return print(&json::text(&inspection::json(&design, &found)));
+            return print(&document.report());
         }
-        print(&inspection::text(
-            &design,
-            &found,
-            style::columns().unwrap_or(80),
-        ))?;
-        if let Some(file) = &self.out {
-            tell(format!("picture in {}", file.display()));
+        print(&document.text(style::columns()))?;
+        match &self.out {
+            Some(place) if ending(place).is_some() => {
+                tell(format!("picture in {}", place.display()))
+            }
+            Some(place) => tell(format!("results in {}", place.display())),
+            None => {}
         }
         Ok(())
+    }
+
+    fn write(
+        &self,
+        document: &Document,
+        place: &Path,
+        inputs: Vec<PathBuf>,
+    ) -> Result<(), Failure> {
+        let sheet = self.figures.sheet()?;
+        let Some(ending) = ending(place) else {
+            let output = self.force.folder(&SHOW, place, inputs)?;
+            let files = document.files(&sheet, &command_line())?;
+            return Ok(interrupt::without(|| output.write(&files))?);
+        };
+        let output = self.force.file(&SHOW, place, inputs)?;
+        let sheet = match ending == "pdf" && sheet == Sheet::SCREEN {
+            true => Sheet::of_pixels(PIXEL),
+            false => sheet,
+        };
+        let drawn = document.figures(&sheet)?.into_iter().flatten();
+        let mut files = drawn.flat_map(|figure| figure.files());
+        let picture = files.find(|(name, _)| name.ends_with(ending));
+        let (_, bytes) = picture.ok_or_else(|| Failure::run("there is no such picture"))?;
+        Ok(interrupt::without(|| output.write_file(bytes))?)
     }
 
     /// When the design file and its drawings were written last.
@@ -114,30 +142,21 @@ impl Show {
     }
 }
 
-/// The picture of a design as the file's ending asks for it.
-fn picture(design: &Design, found: &Inspection, file: &Path) -> Result<Vec<u8>, PictureError> {
-    let ending = file.extension().unwrap_or_default();
-    let sheet = match ending == "pdf" {
-        true => Sheet::of_pixels(PIXEL),
-        false => Sheet::SCREEN,
-    };
-    let picture = glance::draw(design, found, &sheet)?;
-    let svg = picture.svg.into_bytes();
-    Ok(match ending.to_str() {
-        Some("pdf") => picture.pdf.unwrap_or(svg),
-        Some("png") => picture.png.unwrap_or(svg),
-        _ => svg,
-    })
+/// The ending of a file that a picture can be written to.
+fn ending(place: &Path) -> Option<&str> {
+    let ending = place.extension()?.to_str()?;
+    ["svg", "png", "pdf"].contains(&ending).then_some(ending)
 }
 
-/// A file that a picture can be written to.
-fn picture_file(text: &str) -> Result<PathBuf, String> {
-    let file = PathBuf::from(text);
-    let ending = file
-        .extension()
-        .map(|ending| ending.to_string_lossy().into_owned());
-    match ending.as_deref() {
-        Some("svg" | "png" | "pdf") => Ok(file),
-        _ => Err("a picture is a .svg, .png or .pdf file, such as design.svg".to_owned()),
+/// A file for a picture, or a folder.
+fn place(text: &str) -> Result<PathBuf, String> {
+    let place = PathBuf::from(text);
+    match place.extension() {
+        Some(_) if ending(&place).is_none() => Err(
+            "a picture is a .svg, .png or .pdf file, such as design.svg; a name without an ending is a \
+             folder"
+                .to_owned(),
+        ),
+        _ => Ok(place),
     }
 }

@@ -1,27 +1,21 @@
 //! `tilebind sweep`: many designs from one.
 
-mod refinement;
-
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
-use tilebind::Design;
-use tilebind::comparison::Request;
 use tilebind::output::{Output, OutputError};
 use tilebind::report::files::{REPORT, SWEEP};
 use tilebind::report::json;
 use tilebind::report::sweep::{Sweep as Report, counts};
-use tilebind::request;
-use tilebind::sweep::{
-    self, Axis, Plan, PlanError, Point, Progress as Counts, Shard, Source, Store,
-};
+use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shard, Source, Store};
 
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{ForceOption, PrintOptions, ThreadOption};
+use super::results::told_of;
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, style};
+use super::{Failure, input, interrupt, memory, print, tell};
 
 /// The manifest's file where no other is named.
 const PLAN: &str = "plan.json";
@@ -35,6 +29,8 @@ Points worked on at the same time [default: all cores]; the results do not depen
 /// Vary keys of a design and assess every design that comes of it
 #[derive(Args)]
 #[command(
+    mut_arg("refine", |refine| refine.conflicts_with_all(["plan", "run", "merge", "status"])),
+    mut_arg("baseline", |baseline| baseline.conflicts_with_all(["run", "merge", "status"])),
     mut_arg("seed", |seed| seed.help("Seed that all points' seeds come from")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
@@ -70,16 +66,6 @@ pub struct Sweep {
     #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
-
-    /// Add so many points, between those at which the figures bend most, one number being varied
-    #[arg(long, value_name = "N", value_parser = request::count,
-          conflicts_with_all = ["plan", "run", "merge", "status"])]
-    refine: Option<usize>,
-
-    /// The point that all are set against: values that are varied, such as depth=0, or a design's
-    /// name
-    #[arg(long, value_name = "POINT", conflicts_with_all = ["run", "merge", "status"])]
-    baseline: Option<String>,
 
     #[command(flatten)]
     force: ForceOption,
@@ -140,24 +126,14 @@ impl Sweep {
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
         }
-        // Doubts about the designs as they stand are told here.
-        let designs: Vec<Design> = self
-            .designs
-            .iter()
-            .map(|design| input::load(design))
-            .collect::<Result<_, _>>()?;
-        let plan = Plan::new(
-            &self.designs,
-            self.vary.clone(),
-            self.request.settings(&designs),
-            self.request.seed,
-        )
-        .map_err(usage)?;
-        let plan = match &self.baseline {
-            Some(point) => plan.against(point).map_err(usage)?,
-            None => plan,
-        };
-        self.check_refinement(&plan)?;
+        let mut designs = Vec::new();
+        for file in &self.designs {
+            let (source, design) = Source::read(file)?;
+            input::tell_doubts(&design);
+            designs.push((source, design));
+        }
+        let plan = self.request.plan(designs, self.vary.clone());
+        let plan = plan.map_err(Failure::usage)?;
         let file = self.plan_file()?;
         let manifest = self.force.file(&SWEEP, &file, inputs(&plan, None))?;
         interrupt::prepare_resumable()?;
@@ -174,7 +150,23 @@ impl Sweep {
         self.check_memory(&plan)?;
         begin(&plan, &manifest, &folder)?;
         self.work(&plan, &folder, Shard::WHOLE)?;
-        let plan = self.refine(plan, &folder, &manifest)?;
+        let store = Store::new(&folder);
+        let known = |plan: &Plan| {
+            plan.points()
+                .iter()
+                .map(|point| store.load(point))
+                .collect()
+        };
+        let (plan, left) = self.request.refined(plan, known, |plan| {
+            begin(plan, &manifest, &folder)?;
+            self.work(plan, &folder, Shard::WHOLE)
+        })?;
+        if let (1.., Some(asked), false) = (left, self.request.refine, self.print.quiet) {
+            tell(format!(
+                "{} of {asked} points added: nothing else bends by a twentieth",
+                asked - left
+            ));
+        }
         self.merge(&plan, &folder, &output)
     }
 
@@ -222,8 +214,8 @@ impl Sweep {
     /// Refuses points for which the machine has not the memory, as many as are worked on at once.
     fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
         let at_once = self.threads.count().min(plan.points().len());
-        let settings = &plan.settings;
-        memory::check(settings.milestones, settings.neighbours, at_once)
+        let survey = &plan.settings.survey;
+        memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
 
     fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {
@@ -277,13 +269,8 @@ impl Sweep {
             files.insert(PLAN.to_owned(), plan.to_text().into_bytes());
         }
         interrupt::without(|| output.write(&files))?;
-        self.print.results(&document.report(), || {
-            format!(
-                "{}results in {}: report.html to look at; report.json, tables, pictures\n",
-                document.text(style::columns()),
-                folder.display()
-            )
-        })?;
+        self.print
+            .results(&document.report(), || told_of(&document, folder))?;
         match report.progress().failed {
             0 => {
                 let point = |index| Some((format!("point {index}"), report.assessment(index)?));
@@ -321,10 +308,6 @@ fn folder_of(file: &Path) -> PathBuf {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     }
-}
-
-fn usage(error: PlanError) -> Failure {
-    Failure::Usage(error.to_string())
 }
 
 /// A part as `i/n`.

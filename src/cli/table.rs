@@ -68,7 +68,7 @@ impl TableCommand {
         let start = start.map_err(Failure::Usage)?;
         let progress = self.results.progress();
         let found = table::table(crowd, &self.request, &start, &progress);
-        let found = found.map_err(|error| Failure::Usage(error.to_string()))?;
+        let found = found.map_err(Failure::of)?;
         let document = document(&design, &found, self.request.seed);
         self.results.deliver(&document, output, &progress)
     }

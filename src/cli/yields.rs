@@ -44,12 +44,7 @@ impl YieldCommand {
         let output = self.results.output(&YIELD, self.design.inputs(&design))?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        let found = yields(&design, &self.question, &progress).map_err(|error| {
-            match error.is_of_the_question() {
-                true => Failure::Usage(error.to_string()),
-                false => Failure::Run(error.to_string()),
-            }
-        })?;
+        let found = yields(&design, &self.question, &progress).map_err(Failure::of)?;
         let document = document(&design, &self.question, &found);
         self.results.deliver(&document, output, &progress)
     }

@@ -1,6 +1,10 @@
 //! How strongly the bond and the traps hold shaken tiles.
 
+use clap::Args;
+
 use crate::design::Design;
+use crate::pipeline::Settings;
+use crate::request;
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
 use physics::landscape::Catalogue;
@@ -11,6 +15,31 @@ use physics::problem::Problem;
 const SHAKINGS: [f64; 9] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5];
 /// Relative tolerance of integrals that are pictured.
 const ROUGH: f64 = 1e-2;
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Effective energy kT of the shaking (J)
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
+    pub kt: f64,
+
+    /// Share of the table that tiles cover
+    #[arg(long, value_name = "F", value_parser = request::fraction)]
+    pub coverage: f64,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+          value_parser = request::seed)]
+    pub seed: u64,
+}
+
+impl Request {
+    /// The shaking.
+    pub fn shaking(&self) -> Shaking {
+        let Self { kt, coverage, .. } = *self;
+        Shaking { kt, coverage }
+    }
+}
 
 /// The bond and the traps at one shaking.
 #[derive(Clone, Debug)]

@@ -1,12 +1,19 @@
 //! Docking experiments: what is asked of them, and paths to be looked at.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use clap::Args;
 
+use crate::design::Design;
+use crate::rates::diffusion;
 use crate::request;
 use physics::dynamics::docking::{
-    Docking, DockingError, DockingRun, DockingSettings, End, Starts, trajectory,
+    Docking, DockingError, DockingRun, DockingSettings, End, Release, Starts, dock, releases,
+    trajectory,
 };
 use physics::dynamics::{Fan, MotionSettings, Snapshot};
+use physics::kinetics::rates::{Loosening, RatesError};
+use physics::observer::Observer;
 use physics::problem::Problem;
 
 /// What is asked of a docking experiment.
@@ -84,6 +91,67 @@ impl Request {
             threshold: self.threshold,
         }
     }
+}
+
+/// How long bound tiles hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
+pub struct ReleaseOptions {
+    /// Start bound instead, with a thermal velocity, and find the rate of detachment; the options of
+    /// starts do not matter
+    #[arg(long, requires = "shaking")]
+    pub from_bond: bool,
+
+    /// With --from-bond: tell the rate of overdamped motion at the same kT and drag beside it, solved
+    /// on a mesh as `tilebind rates` does
+    #[arg(long, requires = "from_bond")]
+    pub overdamped: bool,
+}
+
+/// Runs an experiment, and tells how many of its trajectories have ended.
+///
+/// # Errors
+/// As [`dock`].
+pub fn docked(
+    problem: &Problem,
+    settings: &DockingSettings,
+    observer: &dyn Observer,
+) -> Result<Docking, DockingError> {
+    dock(problem, settings, &counted(settings, observer))
+}
+
+/// Lets bound tiles go, and tells how many of the trajectories have ended.
+///
+/// # Errors
+/// As [`releases`].
+pub fn released(
+    problem: &Problem,
+    settings: &DockingSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Release>, DockingError> {
+    releases(problem, settings, &counted(settings, observer))
+}
+
+fn counted(settings: &DockingSettings, observer: &dyn Observer) -> impl Fn() + Sync {
+    let (done, runs) = (AtomicUsize::new(0), settings.runs as f64);
+    move || {
+        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+        observer.stage("trajectories", done as f64 / runs);
+    }
+}
+
+/// The off-rates of overdamped motion (1/s) at the kT and the drag of an experiment.
+///
+/// # Errors
+/// See [`RatesError`].
+pub fn loosening(
+    (design, problem): (&Design, &Problem),
+    settings: &DockingSettings,
+    observer: &dyn Observer,
+) -> Result<Loosening, RatesError> {
+    observer.stage("rates", 0.0);
+    let kt = settings.motion.shaking.unwrap_or_default();
+    let found = Loosening::new(problem, &design.pair.bound, kt)?;
+    Ok(found.times(diffusion(design, kt, settings.motion.drag)))
 }
 
 /// Ranges from which starts are drawn.

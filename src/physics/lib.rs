@@ -5,7 +5,7 @@
 //!
 //! | floor, from the ground up | what it holds |
 //! |---|---|
-//! | [`units`], [`configuration`], [`cell`], [`subdivision`], [`observer`], [`interruption`], [`budget`] | SI prefixes; (x, y, theta), its space and metric; boxes of configurations, and how they are subdivided; who is told of progress; work that is given up; work that is counted |
+//! | [`units`], [`scale`], [`configuration`], [`cell`], [`subdivision`], [`observer`], [`interruption`], [`budget`] | SI prefixes; lengths that grow with the tiles; (x, y, theta), its space and metric; boxes of configurations, and how they are subdivided; who is told of progress; work that is given up; work that is counted |
 //! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; two tiles and how they are meant to bind |
 //! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the one place where an energy is chosen |
 //! | [`problem`] | the three above, put together once, with the symmetries of the pair |
@@ -33,6 +33,7 @@ pub mod problem;
 pub mod roadmap;
 #[cfg(test)]
 mod sample;
+pub mod scale;
 pub mod subdivision;
 pub mod table;
 pub mod tile;

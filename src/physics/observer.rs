@@ -7,6 +7,9 @@ pub trait Observer: Sync {
 
     /// Of a stage that has `count` parts, `done` are done.
     fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
+
+    /// What is known by now, in a sentence, and stays known if the work is given up.
+    fn known(&self, _what: &str) {}
 }
 
 /// An observer that looks away.

@@ -11,7 +11,7 @@ use super::figures::percent;
 use super::files::{Files, PAGE, PICTURES};
 use super::names::{self, alternative_file, pathway_file, place};
 use super::page::{Landscape, pathways};
-use super::plots::scale::minus;
+use super::plots::style::minus;
 use super::plots::{self, PictureError, Scene, Sheet};
 use super::summary::{self, ended_by, left_out};
 use super::values::{pose, positive_zero, proportion};
@@ -68,7 +68,7 @@ pub fn document<'a>(
     Document {
         title: design.name.clone(),
         answer: summary::answer(design, analysis),
-        remarks: summary::remarks(analysis),
+        remarks: summary::remarks(design, analysis),
         entries: report(design, analysis, is_whole, wall).and(shown),
         part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
         pictures: vec![Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page()],
@@ -299,7 +299,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
             (both.join(" / "), "as point dipoles / as blocks".to_owned())
         }
         None => {
-            let magnets = format!("magnets as {}s", design.interaction.model.name());
+            let magnets = format!("magnets as {}", design.interaction.model.plural());
             (energy(bond.state.energy), magnets)
         }
     };

@@ -17,11 +17,6 @@ pub struct Braille {
 }
 
 impl Braille {
-    /// Nothing yet.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// Draws a closed line.
     pub fn polygon(&mut self, corners: &[Vector2<f64>]) {
         self.polygons.push(corners.to_vec());
@@ -100,7 +95,7 @@ mod tests {
 
     #[test]
     fn a_rectangle_has_its_corners_and_its_letter() {
-        let mut drawing = Braille::new();
+        let mut drawing = Braille::default();
         let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]].map(Vector2::from);
         drawing.polygon(&corners);
         drawing.letter(Vector2::new(1.5, 0.5), 'N');
@@ -115,6 +110,6 @@ mod tests {
             "{text}"
         );
         assert_eq!(text.matches('N').count(), 1);
-        assert_eq!(Braille::new().text(20), "");
+        assert_eq!(Braille::default().text(20), "");
     }
 }

@@ -3,12 +3,11 @@
 use serde_json::{Value, json};
 
 use crate::document::{Document, Entries, Table, entries, rows};
-use jobs::calibration::bonds::{PairTimes, Times};
+use jobs::calibration::bonds::{Times, TimesFit};
 use jobs::calibration::distances::DistanceFit;
-use jobs::calibration::{Calibration, QUANTITIES, Residuals};
+use jobs::calibration::{Calibration, Fitted, QUANTITIES, Residuals};
 use jobs::design::Design;
 use physics::dynamics::docking::OnRate;
-use physics::kinetics::Hold;
 use physics::units::si;
 
 /// The constants of a shield: key in reports, name in a design file, unit.
@@ -21,8 +20,17 @@ const CONSTANTS: [(&str, &str, &str); 4] = [
 /// Keys of the measured quantities.
 const KEYS: [&str; 4] = ["energy_J", "force_x_N", "force_y_N", "torque_Nm"];
 
+/// What measurements tell.
+pub fn document(design: &Design, found: &Fitted) -> Document<'static> {
+    match found {
+        Fitted::Shields(found) => shields(design, found),
+        Fitted::Distances(found) => distances(design, found),
+        Fitted::Times(found) => intervals(design, found),
+    }
+}
+
 /// What is known of fitted shields, with the lines for a design file.
-pub fn shields(design: &Design, found: &Calibration) -> Document<'static> {
+fn shields(design: &Design, found: &Calibration) -> Document<'static> {
     let (fitted, held_out) = (&found.fitted, &found.held_out);
     let constants = |values: [f64; 4]| -> Value {
         let named = CONSTANTS.iter().zip(values);
@@ -148,11 +156,12 @@ fn energy(kt: Option<f64>) -> String {
     kt.map_or("?".to_owned(), |kt| si(kt, "J", 3))
 }
 
-/// What is known of kT from intervals of pairs that have an area (m^2) for themselves.
-pub fn intervals(design: &Design, times: &PairTimes, bond: &Hold, area: f64) -> Document<'static> {
-    let (odds, [low, high]) = times.log_odds();
-    // The longer tiles are bound, the colder they are.
-    let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));
+/// What is known of kT from intervals of pairs.
+fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
+    let TimesFit {
+        times, area, kt, ..
+    } = found;
+    let (kt, [least, most]) = (*kt, found.interval);
     let (bound, apart) = (&times.bound, &times.apart);
     let kind = |times: &Times| {
         json!({
@@ -192,7 +201,7 @@ pub fn intervals(design: &Design, times: &PairTimes, bond: &Hold, area: f64) -> 
                 .to_owned(),
         ],
         entries: of_kt(design, kt, [least, most])
-            .fact("area_m2", "", area)
+            .fact("area_m2", "", *area)
             .data("bound", kind(bound))
             .data("apart", kind(apart))
             .data("critical", OnRate::CRITICAL),
@@ -220,7 +229,7 @@ fn doubt(name: &str, times: &Times) -> Option<String> {
 }
 
 /// What is known of kT from distances of pairs, and whether one kT tells of them at all.
-pub fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
+fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
     let [low, high] = found.interval.map(energy);
     let (statistic, freedom) = found.pearson.unzip();
     let refuted = found

@@ -7,10 +7,11 @@ use serde_json::{Map, Value, json};
 use crate::assessments::{capture_settings, checked, merge, numbers, quantities, tables, views};
 use crate::document::{Document, Drawing, Entries, Table, rows};
 use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
-use crate::plots::ranking as picture;
+use crate::plots::{Figure, PictureError, Sheet, ranking as picture};
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
-use jobs::comparison::{Assessment, AssessmentSettings, Quantity, capture_range, ranking};
+use jobs::comparison::{Assessment, Quantity, Request, capture_range, ranking};
 use physics::landscape::minimax::Ordering;
+use physics::potential::MagnetModel;
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]
@@ -20,16 +21,12 @@ pub struct Comparison {
     /// What designs are ranked by.
     pub by: &'static Quantity,
     /// How they were assessed.
-    pub settings: AssessmentSettings,
+    pub settings: Request,
 }
 
 impl Comparison {
     /// Designs ranked by a figure.
-    pub fn new(
-        designs: &[Assessment],
-        by: &'static Quantity,
-        settings: AssessmentSettings,
-    ) -> Self {
+    pub fn new(designs: &[Assessment], by: &'static Quantity, settings: Request) -> Self {
         let order = ranking::ranked_for_use(designs, by);
         Self {
             designs: order.into_iter().map(|i| designs[i].clone()).collect(),
@@ -47,7 +44,7 @@ impl Comparison {
             entries: self.entries(),
             pictures: vec![Drawing::new(
                 format!("Ranked by {}", self.by.label),
-                |sheet| picture::draw(self, sheet),
+                |sheet| self.picture(sheet),
             )],
             notes: self.notes(),
             origin: format!("seed {seed}"),
@@ -58,6 +55,14 @@ impl Comparison {
             .beside
             .insert("compare.md".to_owned(), markdown.into_bytes());
         document
+    }
+
+    /// Its picture.
+    ///
+    /// # Errors
+    /// See [`PictureError`].
+    pub fn picture(&self, sheet: &Sheet) -> Result<Figure, PictureError> {
+        picture::draw(&self.designs, self.by, self.table().csv(), sheet)
     }
 
     fn entries(&self) -> Entries {
@@ -88,6 +93,10 @@ impl Comparison {
             1 => "1 design".to_owned(),
             many => format!("{many} designs"),
         };
+        let of = match self.model() {
+            Some(model) => format!("{of}, magnets as {model}"),
+            None => of,
+        };
         match self.designs.first() {
             Some(best) if docking.count() > 0 => format!(
                 "{of}, ranked by {}: {} is first with {}",
@@ -116,7 +125,7 @@ impl Comparison {
             "brackets: certified bounds; percentages: of {} far starts, with 95 % intervals; offset, gap \
              and tilt: how far off a tile that touches head-on may be slid, drawn back or tilted and \
              still run downhill into the bond, to within {} % of its depth",
-            self.settings.far_starts,
+            self.settings.survey.far_starts.unwrap_or(0),
             100.0 * capture_range::ENERGY_SHARE,
         ));
         if self.designs.iter().any(has_estimates) {
@@ -132,12 +141,19 @@ impl Comparison {
 
     /// A design's name, with the model where models differ.
     pub fn name(&self, design: &Assessment) -> String {
-        let models = |d: &Assessment| d.model != self.designs[0].model;
-        if self.designs.iter().any(models) {
-            format!("{} ({})", design.name, design.model)
-        } else {
-            design.name.clone()
+        match self.model() {
+            Some(_) => design.name.clone(),
+            None => format!("{} ({})", design.name, design.model),
         }
+    }
+
+    /// The model of all, `dipoles` or `blocks`; `None` where they differ.
+    fn model(&self) -> Option<&'static str> {
+        let first = &self.designs.first()?.model;
+        let same = self.designs.iter().all(|design| design.model == *first);
+        let mut known = MagnetModel::NAMES.into_iter();
+        let (_, model) = known.find(|(name, _)| same && name == first)?;
+        Some(model.plural())
     }
 
     /// The figures that designs are known by, and for each the design that has most of it.

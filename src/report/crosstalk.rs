@@ -154,7 +154,7 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
 /// The map as a picture, and how many pairs have which gap.
 pub(super) fn pictures(map: Option<&Meetings>, found: &Crosstalk) -> Vec<Drawing<'static>> {
     let gaps = histogram("Gaps of all pairs of faces", found.gaps());
-    let map = map.map(|map| map.picture().off_page());
+    let map = map.map(|map| map.picture());
     map.into_iter().chain([gaps.into()]).collect()
 }
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::document::{Document, Drawing, Entries, Part, Table, entries, rows};
 use crate::page::{Landscape, Played};
-use crate::plots::{Scene, dock, paths};
+use crate::plots::{Figure, PictureError, Scene, Sheet, dock, paths};
 use jobs::design::Design;
 use jobs::docking::Paths;
 use physics::configuration::Configuration;
@@ -257,11 +257,19 @@ fn notes(docking: &Docking) -> Vec<String> {
     notes
 }
 
-fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> Vec<Drawing<'a>> {
+/// The picture of the chances of a match.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn picture(design: &Design, docking: &Docking, sheet: &Sheet) -> Result<Figure, PictureError> {
     let coarse = DockingMap::new(docking, dock::cells(docking.runs.len()));
+    dock::chances(design, &coarse, chances(&coarse).csv(), sheet)
+}
+
+fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> Vec<Drawing<'a>> {
     vec![
         Drawing::new("Chance of a match", move |sheet| {
-            dock::chances(design, &coarse, sheet)
+            picture(design, docking, sheet)
         }),
         Drawing::new("Paths", move |sheet| {
             paths::trajectories(design, &paths.drawn, sheet)

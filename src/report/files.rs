@@ -168,11 +168,36 @@ pub const CALIBRATE: Command = Command {
 pub const MAKE: Command = Command {
     name: "make",
     files: &[
+        REPORT,
+        PAGE,
+        "magnets.csv",
+        "order.csv",
         "fixed.dxf",
         "fixed.svg",
         "moving.dxf",
         "moving.svg",
         "sheet.md",
     ],
-    pictures: &[],
+    pictures: &["tiles"],
+};
+
+/// `tilebind show`.
+pub const SHOW: Command = Command {
+    name: "show",
+    files: &[REPORT, PAGE, "models.csv", "faces.csv"],
+    pictures: &["tiles"],
+};
+
+/// `tilebind energy`.
+pub const ENERGY: Command = Command {
+    name: "energy",
+    files: &[REPORT, PAGE, "poses.csv"],
+    pictures: &["poses"],
+};
+
+/// `tilebind barrier`.
+pub const BARRIER: Command = Command {
+    name: "barrier",
+    files: &[REPORT, PAGE, "pathway.csv"],
+    pictures: &["profile", "poses"],
 };

@@ -1,49 +1,38 @@
-//! A design at a glance, for the terminal and for scripts.
-
-use std::fmt::Write;
+//! A design at a glance.
 
 use nalgebra::Vector2;
 use serde_json::{Value, json};
 
-use super::braille::Braille;
-use super::terminal::write_table;
-use super::values::{pose, positive_zero};
+use crate::braille::Braille;
+use crate::document::{Document, Drawing, Entries, Table, entries, rows};
+use crate::plots::glance;
+use crate::sold;
+use crate::tiles::{GRAM, force, letter, magnets, models, pull_off, wrong};
+use crate::values::{pose, positive_zero};
 use jobs::design::Design;
-use jobs::inspection::{Hold, Inspection};
+use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
-use physics::order::Order;
 use physics::potential::MagnetModel;
-use physics::tile::barcode::Pole;
-use physics::tile::{Magnet, Tile};
+use physics::tile::Tile;
 use physics::units::si;
 
-/// Weight of a gram (N).
-pub const GRAM: f64 = 9.806_65e-3;
 /// Significant digits of energies and forces.
 const DIGITS: usize = 4;
 
-/// What is wrong with a design, its reader's doubts first; empty where nothing is.
-pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
-    let doubts = design.warnings.iter();
-    let doubts = doubts.map(|doubt| format!("{}; {}", doubt.message, doubt.help));
-    doubts.chain(inspection.faults(design)).collect()
-}
-
 /// The sentence that answers: whether the tiles bind, and how strongly.
-pub fn headline(design: &Design, inspection: &Inspection) -> String {
+fn answer(design: &Design, inspection: &Inspection) -> String {
     let bond = &inspection.models[0];
-    let faces = {
-        let (fixed, moving) = design.pair.target;
-        let name = |tile: &Tile, face: usize| tile.faces[face].name.clone();
-        let (fixed, moving) = (
-            name(&design.pair.fixed, fixed),
-            name(&design.pair.moving, moving),
-        );
-        format!("{fixed} and {moving}")
+    let faces = names(design, design.pair.target).join(" and ");
+    let magnets = match inspection.models[1] {
+        blocks if bond.model == MagnetModel::Dipole => format!(
+            "(magnets as point dipoles; as blocks {})",
+            si(blocks.energy, "J", DIGITS)
+        ),
+        _ => "(magnets as blocks)".to_owned(),
     };
     match bond.energy < 0.0 {
         true => format!(
-            "{}: faces {faces} bind with {}; straight apart takes {}",
+            "{}: faces {faces} bind with {} {magnets}; straight apart takes {}",
             design.name,
             si(bond.energy, "J", DIGITS),
             force(bond.pull_off)
@@ -52,103 +41,97 @@ pub fn headline(design: &Design, inspection: &Inspection) -> String {
     }
 }
 
-/// A force in newtons and grams.
-pub fn force(newtons: f64) -> String {
-    let grams = newtons / GRAM;
-    let decimals = match grams.abs() {
-        100.0.. => 0,
-        1.0.. => 1,
-        _ => 3,
-    };
-    format!("{} ({grams:.decimals$} g)", si(newtons, "N", 3))
+/// What there is to know of a design at a glance.
+pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
+    let faults = wrong(design, found).into_iter();
+    Document {
+        title: format!("{} at a glance", design.name),
+        answer: answer(design, found),
+        remarks: faults.map(|fault| format!("! {fault}")).collect(),
+        sketch: Some(sketch(design)),
+        entries: found_entries(design, found),
+        pictures: vec![Drawing::new("Both tiles where they bind", move |sheet| {
+            glance::draw(design, found, sheet)
+        })],
+        origin: "the tiles where their target faces meet; nothing is searched".to_owned(),
+        notes: design.sold.iter().map(sold::told).collect(),
+        ..Document::default()
+    }
 }
 
-/// What is shown on a terminal: the tiles drawn, the bond, the faces, what is wrong.
-pub fn text(design: &Design, inspection: &Inspection, columns: usize) -> String {
-    let mut text = format!("{}\n", headline(design, inspection));
-    for fault in wrong(design, inspection) {
-        let _ = writeln!(text, "! {fault}");
+// One line an entry.
+#[rustfmt::skip]
+fn found_entries(design: &Design, found: &Inspection) -> Entries {
+    let (bond, pair) = (&found.models[0], &design.pair);
+    let fixed = faces("fixed", &pair.fixed);
+    let moving = faces("moving", &pair.moving);
+    let told = [&fixed[..], &moving].concat().into_iter().filter(Face::is_worth_telling);
+    let sold = design.sold.iter().map(sold::entry);
+    let shown = entries(design)
+        .data("bound", json!({ "pose": pose(&found.bound), "energy_J": positive_zero(bond.energy) }))
+        .fact("pull_contact_N", "pull at contact", bond.contact).viewed(force(bond.contact))
+        .data("pull_contact_g", bond.contact / GRAM)
+        .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(bond)).noted("the largest pull on the way")
+        .data("pull_off_g", bond.pull_off / GRAM)
+        .table(models(&found.models))
+        .fact("comes_straight_out", "comes straight out", found.comes_straight_out)
+        .table(rivals(design, found))
+        .table(table("fixed", fixed).in_data().in_file("faces"))
+        .table(table("moving", moving).in_data().in_file("faces"))
+        .table(table("", told.collect()).in_view())
+        .data("wrong", wrong(design, found));
+    match design.sold.is_empty() {
+        true => shown,
+        false => shown.data("magnets", sold.collect::<Value>()),
     }
-    text.push_str(&drawing(design, columns));
-    let mut rows = vec![["magnets as", "energy", "pull at contact", "pull-off"].map(str::to_owned)];
-    rows.extend(inspection.models.iter().map(row));
-    write_table(&mut text, &rows);
-    text.push('\n');
-    let mut rows = vec![["face", "length", "magnets", "shape"].map(str::to_owned)];
-    for (name, tile) in tiles(design) {
-        rows.extend((0..tile.faces.len()).filter_map(|face| {
-            let entry = Face::new(tile, face);
-            entry.row(&format!("{name} {}", tile.faces[face].name))
-        }));
-    }
-    write_table(&mut text, &rows);
-    text
 }
 
-fn row(hold: &Hold) -> [String; 4] {
+/// Pairs of faces that bind as strongly as the target.
+// One line a column.
+#[rustfmt::skip]
+fn rivals(design: &Design, found: &Inspection) -> Table {
+    rows(&found.rivals)
+        .column("faces", "faces", "of the fixed tile, of the moving tile", |it| json!(names(design, it.faces))).without_csv()
+            .viewed(|it| names(design, it.faces).join(" and "))
+        .column("pose", "x, y (mm), angle", "of the moving tile", |it| it.configuration)
+        .column("energy_J", "energy", "where they meet", |it| it.energy).digits(DIGITS)
+        .table("rivals")
+        .titled("Other faces that bind as strongly", "")
+        .on_page()
+}
+
+/// Names of a face of the fixed tile and of one of the moving tile.
+fn names(design: &Design, (fixed, moving): (usize, usize)) -> [&str; 2] {
+    let pair = &design.pair;
     [
-        model(hold.model).to_owned(),
-        si(hold.energy, "J", DIGITS),
-        force(hold.contact),
-        match hold.pull_off_gap {
-            0.0 => force(hold.pull_off),
-            gap => format!("{} at {}", force(hold.pull_off), si(gap, "m", 2)),
-        },
-    ]
-}
-
-fn model(model: MagnetModel) -> &'static str {
-    match model {
-        MagnetModel::Dipole => "dipoles",
-        MagnetModel::Cuboid => "blocks",
-    }
-}
-
-fn tiles(design: &Design) -> [(&'static str, &Tile); 2] {
-    [
-        ("fixed", &design.pair.fixed),
-        ("moving", &design.pair.moving),
+        &pair.fixed.faces[fixed].name,
+        &pair.moving.faces[moving].name,
     ]
 }
 
 /// Both tiles bound, as characters.
-fn drawing(design: &Design, columns: usize) -> String {
+fn sketch(design: &Design) -> Braille {
     let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
-    let mut drawing = Braille::new();
-    for ((_, tile), q) in tiles(design).into_iter().zip(poses) {
-        let rim: Vec<_> = tile
-            .outline
-            .vertices()
-            .iter()
-            .map(|v| q.transform(*v))
-            .collect();
-        drawing.polygon(&rim);
+    let mut sketch = Braille::default();
+    for (tile, q) in [&design.pair.fixed, &design.pair.moving]
+        .into_iter()
+        .zip(poses)
+    {
+        let rim = tile.outline.vertices().iter().map(|v| q.transform(*v));
+        sketch.polygon(&rim.collect::<Vec<_>>());
         for magnet in &tile.magnets {
-            let letter = match pole(tile, magnet) {
-                Pole::North => 'N',
-                Pole::South => 'S',
-            };
             let inwards = tile.faces[magnet.face].normal() * -magnet.size[0];
-            drawing.letter(q.transform(magnet.position + inwards), letter);
+            sketch.letter(q.transform(magnet.position + inwards), letter(tile, magnet));
         }
     }
-    drawing.text(columns.clamp(20, 72))
-}
-
-/// Which pole a magnet turns outwards.
-pub fn pole(tile: &Tile, magnet: &Magnet) -> Pole {
-    match magnet
-        .moment_vector()
-        .dot(&tile.faces[magnet.face].normal())
-        >= 0.0
-    {
-        true => Pole::North,
-        false => Pole::South,
-    }
+    sketch
 }
 
 /// What one face carries.
+#[derive(Clone)]
 struct Face {
+    tile: &'static str,
+    name: String,
     length: f64,
     /// Poles outwards, counter-clockwise.
     code: String,
@@ -158,55 +141,67 @@ struct Face {
 }
 
 impl Face {
-    fn new(tile: &Tile, number: usize) -> Self {
-        let face = &tile.faces[number];
-        let mut magnets: Vec<(f64, char)> = tile
-            .magnets
-            .iter()
-            .filter(|magnet| magnet.face == number)
-            .map(|magnet| {
-                let s = (magnet.position - face.middle()).dot(&face.tangent());
-                let letter = match pole(tile, magnet) {
-                    Pole::North => 'N',
-                    Pole::South => 'S',
-                };
-                (s, letter)
-            })
-            .collect();
-        magnets.order_by(|a, b| a.0.total_cmp(&b.0));
-        Self {
-            length: face.length(),
-            code: magnets.iter().map(|(_, letter)| letter).collect(),
-            magnets: magnets.into_iter().map(|(s, _)| s).collect(),
-            heights: heights(tile, number),
+    fn is_straight(&self) -> bool {
+        self.heights[1] - self.heights[0] < 1e-6
+    }
+
+    fn is_worth_telling(&self) -> bool {
+        !self.code.is_empty() || !self.is_straight()
+    }
+
+    fn told_magnets(&self) -> String {
+        // To a micrometre.
+        let places = self.magnets.iter().map(|s| (s * 1e6).round() / 1e3 + 0.0);
+        let places = places.map(|place| place.to_string());
+        match self.magnets.is_empty() {
+            true => "none".to_owned(),
+            false => format!(
+                "{} at {} mm",
+                self.code,
+                places.collect::<Vec<_>>().join(", ")
+            ),
         }
     }
 
-    /// A row of the table; none for a bare, straight face.
-    fn row(&self, name: &str) -> Option<[String; 4]> {
-        let [low, high] = self.heights;
-        let straight = high - low < 1e-6;
-        if self.code.is_empty() && straight {
-            return None;
+    fn told_shape(&self) -> String {
+        let [low, high] = self.heights.map(|height| height * 1e3 + 0.0);
+        match self.is_straight() {
+            true => "straight".to_owned(),
+            false => format!("from {low:.1} to {high:.1} mm"),
         }
-        let places: Vec<String> = self
-            .magnets
-            .iter()
-            .map(|s| format!("{:.0}", s * 1e3))
-            .collect();
-        Some([
-            name.to_owned(),
-            si(self.length, "m", 3),
-            match places.is_empty() {
-                true => "none".to_owned(),
-                false => format!("{} at {} mm", self.code, places.join(", ")),
-            },
-            match straight {
-                true => "straight".to_owned(),
-                false => format!("from {:.1} to {:.1} mm", low * 1e3 + 0.0, high * 1e3 + 0.0),
-            },
-        ])
     }
+}
+
+fn faces(name: &'static str, tile: &Tile) -> Vec<Face> {
+    let face = |number: usize| {
+        let magnets = magnets(tile, number);
+        Face {
+            tile: name,
+            name: tile.faces[number].name.clone(),
+            length: tile.faces[number].length(),
+            code: magnets
+                .iter()
+                .map(|(_, magnet)| letter(tile, magnet))
+                .collect(),
+            magnets: magnets.into_iter().map(|(s, _)| s).collect(),
+            heights: heights(tile, number),
+        }
+    };
+    (0..tile.faces.len()).map(face).collect()
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn table(key: &'static str, faces: Vec<Face>) -> Table {
+    rows(faces)
+        .column("tile", "", "", |it| it.tile).in_csv()
+        .column("name", "face", "of which tile", |it| it.name.clone()).viewed(|it| format!("{} {}", it.tile, it.name))
+        .column("length_m", "length", "of its base line", |it| it.length)
+        .column("code", "", "", |it| it.code.clone())
+        .column("magnets_m", "magnets", "poles outwards and their places, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::told_magnets)
+        .column("heights_m", "shape", "how far the line leaves the base line", |it| json!(it.heights)).without_csv().viewed(Face::told_shape)
+        .column("height_bounds_m", "", "", |it| it.heights).in_csv()
+        .table(key)
 }
 
 /// The least and the greatest height (m) of a tile's rim over one of its faces. A corner of the rim
@@ -226,57 +221,4 @@ fn heights(tile: &Tile, number: usize) -> [f64; 2] {
         let h = height(v, number);
         [f64::min(low, h), f64::max(high, h)]
     })
-}
-
-/// The inspection as JSON.
-pub fn json(design: &Design, inspection: &Inspection) -> Value {
-    let bond = &inspection.models[0];
-    let models: Vec<Value> = inspection.models.iter().map(hold).collect();
-    let name = |tile: &Tile, face: usize| tile.faces[face].name.clone();
-    let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
-    json!({
-        "tilebind": env!("CARGO_PKG_VERSION"),
-        "design": { "name": design.name, "sha256": design.sha256 },
-        "bound": { "pose": pose(&inspection.bound), "energy_J": positive_zero(bond.energy) },
-        "pull_contact_N": bond.contact,
-        "pull_contact_g": bond.contact / GRAM,
-        "pull_off_N": bond.pull_off,
-        "pull_off_g": bond.pull_off / GRAM,
-        "models": models,
-        "comes_straight_out": inspection.comes_straight_out,
-        "rivals": inspection.rivals.iter().map(|rival| json!({
-            "faces": [name(fixed, rival.faces.0), name(moving, rival.faces.1)],
-            "pose": pose(&rival.configuration),
-            "energy_J": rival.energy,
-        })).collect::<Vec<_>>(),
-        "fixed": faces(fixed),
-        "moving": faces(moving),
-        "wrong": wrong(design, inspection),
-    })
-}
-
-fn hold(hold: &Hold) -> Value {
-    json!({
-        "model": hold.model.name(),
-        "energy_J": positive_zero(hold.energy),
-        "contact_N": positive_zero(hold.contact),
-        "along_N": positive_zero(hold.along),
-        "torque_Nm": positive_zero(hold.torque),
-        "pull_off_N": positive_zero(hold.pull_off),
-        "pull_off_gap_m": hold.pull_off_gap,
-    })
-}
-
-fn faces(tile: &Tile) -> Value {
-    let face = |number: usize| {
-        let entry = Face::new(tile, number);
-        json!({
-            "name": tile.faces[number].name,
-            "length_m": entry.length,
-            "code": entry.code,
-            "magnets_m": entry.magnets,
-            "heights_m": entry.heights,
-        })
-    };
-    json!((0..tile.faces.len()).map(face).collect::<Vec<_>>())
 }

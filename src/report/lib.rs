@@ -9,15 +9,18 @@
 //! - [`docking`], [`release`] - tiles sent towards each other, and shaken loose;
 //! - [`bond`], [`rates`], [`yields`] - how strongly, how soon and how many shaken tiles bind;
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
-//! - [`matching`] - how two outlines fit; [`calibration`] - what is fitted to measurements.
+//! - [`barrier`], [`energies`] - one barrier between two poses, what is felt at given poses;
+//! - [`matching`] - how two outlines fit; [`calibration`] - what is fitted to measurements;
+//! - [`inspection`] - a design at a glance; [`workshop`] - what it takes to make one.
 //!
-//! [`inspection`] shows a design at a glance, [`workshop`] what it takes to make one. Below these:
+//! Below these:
 //! [`document`]; [`plots`] (pictures) and [`page`] (`report.html`); [`names`], [`figures`], [`json`],
 //! [`csv`] (how things are called and numbers written); [`files`] (what each command writes).
 
 pub mod analysis;
 pub mod assembly;
 mod assessments;
+pub mod barrier;
 pub mod bond;
 mod braille;
 pub mod calibration;
@@ -27,6 +30,7 @@ pub mod csv;
 pub mod docking;
 pub mod document;
 pub mod dynamics;
+pub mod energies;
 pub mod figures;
 pub mod files;
 pub mod gsd;
@@ -40,12 +44,13 @@ pub mod page;
 pub mod plots;
 pub mod rates;
 pub mod release;
+mod sold;
 pub mod states;
 pub mod summary;
 pub mod sweep;
-mod sweep_answer;
 pub mod table;
 mod terminal;
+mod tiles;
 pub mod topsearch;
 mod values;
 pub mod words;

@@ -53,9 +53,10 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
     }
 }
 
+/// The ways, longest contact first.
 // One line a column.
 #[rustfmt::skip]
-fn table(found: &[Match]) -> Table {
+pub fn table(found: &[Match]) -> Table {
     rows(found)
         .column("pose", "x, y (mm), angle", "of the moving tile", |it| it.pose)
         .column("contact_m", "contact", "along which the outlines touch", |it| it.contact).digits(4)

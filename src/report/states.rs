@@ -152,13 +152,13 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
     rows(barriers)
         .column("from", "", "", |it| it.from)
         .column("to", "", "", |it| it.to)
-        .column("saddle_energy_J", "", "", |it| it.saddle_energy)
+        .column("saddle_energy_J", "saddle", "highest energy on the way", |it| it.saddle_energy)
         // Null where no way is known, as is the file of the pathway, relative to the report.
         .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
         .column("lower_J", "", "", |it| it.bounds.lower)
         .column("upper_J", "", "", |it| it.bounds.upper)
-        .column("forward_J", "", "", |it| it.forward())
-        .column("reverse_J", "", "", |it| it.reverse())
+        .column("forward_J", "climb", "from the start", |it| it.forward())
+        .column("reverse_J", "climb back", "from the end", |it| it.reverse())
         // Lowest and highest saddle energy over repeated runs; null for a single run.
         .column("spread_bounds_J", "", "", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
         .column("spread_J", "", "", |it| json!(it.spread)).in_json()
@@ -167,9 +167,9 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         // Proved that there is no way at all; the saddle energy is then infinite.
         .column("caged", "", "", |it| it.bounds.caged)
         // Work against the energy along the pathway and back, and its length.
-        .column("work_J", "", "", |it| it.work().map(|work| work[0]))
+        .column("work_J", "work", "what all climbs add up to", |it| it.work().map(|work| work[0]))
         .column("reverse_work_J", "", "", |it| it.work().map(|work| work[1]))
-        .column("length_m", "", "", |it| it.length())
+        .column("length_m", "length", "of the way", |it| it.length())
         .table("barriers")
         .in_file("barriers")
         .in_data()

@@ -45,13 +45,52 @@ fn bond(analysis: &Analysis) -> Option<Kind<'_>> {
     analysis.catalogue.kinds().find(Kind::is_bond)
 }
 
-/// Where far starts end.
+/// Where dipoles are off by more than this share of the blocks' energy, they are warned of.
+const DOUBTFUL: f64 = 0.2;
+
+/// Of dipoles: what the bond has by either model, and how far they are off at worst, where that is
+/// much.
+fn models(design: &Design, analysis: &Analysis) -> String {
+    let states = analysis.catalogue.states.iter();
+    let kinds = states.filter(|state| state.id == state.class);
+    let off = kinds.filter_map(|state| {
+        let share = state.dipole_error()?.abs() / state.block_energy?.abs();
+        Some((state, share))
+    });
+    let mut lines = String::new();
+    let bond = bond(analysis);
+    if let Some((own, blocks)) = bond.and_then(|kind| {
+        let bond = kind.first();
+        Some((bond.energy, bond.block_energy?))
+    }) {
+        let [own, blocks] = [own, blocks].map(|energy| si(energy, "J", DIGITS));
+        lines += &format!(
+            "{}: the bond has {own} with magnets as point dipoles, {blocks} as blocks\n",
+            design.name
+        );
+    }
+    let off: Vec<_> = off.collect();
+    let most = off.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+    // The first of those that are off alike, whatever rounding makes of their shares.
+    let worst = off.iter().find(|(_, share)| *share >= 0.99 * most);
+    if let Some((state, share)) = worst.filter(|_| most > DOUBTFUL) {
+        lines += &format!(
+            "! dipoles are off by {:.0} % at {}: real magnets are blocks (--model cuboid)\n",
+            100.0 * share,
+            analysis.catalogue.name_of(Place::State(state.id)),
+        );
+    }
+    lines
+}
+
+/// Where far starts end; of dipoles, first what they make of the bond.
 pub fn answer(design: &Design, analysis: &Analysis) -> String {
     let of = analysis.uncaptured.gone.of;
     let captured = |kinds: &[Kind]| kinds.iter().map(|kind| kind.captured().count).sum();
     let bound = bond(analysis).map_or(0, |kind| kind.captured().count);
+    let models = models(design, analysis);
     format!(
-        "{}: of {of} far starts {} end in the bond, {} in traps,\n\
+        "{models}{}: of {of} far starts {} end in the bond, {} in traps,\n\
          {} at rest in something shallow, {} gone",
         design.name,
         percent(&Proportion::new(bound, of)),
@@ -62,10 +101,11 @@ pub fn answer(design: &Design, analysis: &Analysis) -> String {
 }
 
 /// What to know of far starts, and of other faces that bind as well.
-pub fn remarks(analysis: &Analysis) -> Vec<String> {
+pub fn remarks(design: &Design, analysis: &Analysis) -> Vec<String> {
     let [inner, outer] = analysis.ring;
+    let model = design.interaction.model.plural();
     let starts = format!(
-        "(overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)"
+        "({model}, overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)"
     );
     let rivals = inspection::rivals(analysis.problem.rivals().len());
     [starts].into_iter().chain(rivals).collect()

@@ -1,50 +1,158 @@
-//! Files for the workshop: lines as DXF and SVG to scale, and a sheet to work by.
+//! A design to be made: what people work by, and files for the workshop.
 //!
-//! Lengths are in mm. DXF is R12 in ASCII, which every program reads: closed polylines on the layers
-//! OUTLINE and POCKETS, letters on POLES. In SVG a user unit is a millimetre.
+//! Lengths in files are in mm. DXF is R12 in ASCII, which every program reads: closed polylines on the
+//! layers OUTLINE and POCKETS, letters on POLES. In SVG a user unit is a millimetre.
 
 use std::fmt::Write;
 
 use nalgebra::Vector2;
+use serde_json::json;
 
-use super::files::Files;
-use super::inspection::GRAM;
-use super::markdown::markdown_table;
+use crate::document::{Document, Drawing, Table, entries, rows};
+use crate::plots::glance;
+use crate::tiles::GRAM;
 use jobs::design::Design;
-use jobs::workshop::{Making, Part, PartError, Pocket, grade, order};
+use jobs::inspection::Inspection;
+use jobs::workshop::{Filled, Made, MadeTile, Part, Pocket, grade};
+use physics::tile::Magnet;
 use physics::tile::barcode::Pole;
-use physics::tile::{Magnet, Tile};
-use physics::units::si;
 
-/// Density of neodymium magnets (kg/m^3).
-const DENSITY: f64 = 7500.0;
-/// Standard gravity (m/s^2).
-const GRAVITY: f64 = 9.806_65;
 /// White space around an SVG drawing (mm).
 const MARGIN: f64 = 5.0;
 
-/// All files of a design by name.
-///
-/// # Errors
-/// Where the cut is too wide for the design.
-pub fn files(design: &Design, making: &Making) -> Result<Files, PartError> {
-    let mut files = Files::new();
-    let tiles = [
-        ("fixed", &design.pair.fixed),
-        ("moving", &design.pair.moving),
-    ];
-    let mut parts = Vec::new();
-    for (name, tile) in tiles {
-        let part = Part::new(tile, making)?;
-        files.insert(format!("{name}.dxf"), dxf(&part).into_bytes());
-        files.insert(format!("{name}.svg"), svg(&part).into_bytes());
-        parts.push((name, tile, part));
+/// What it takes to make a design; its text is the sheet to work by.
+pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
+    let making = &made.making;
+    let count = match made.magnets.iter().map(|(_, count)| count).sum() {
+        1 => "1 magnet".to_owned(),
+        many => format!("{many} magnets"),
+    };
+    let [fixed, moving] = &made.tiles;
+    let mut document = Document {
+        title: format!("{}: to be made", design.name),
+        answer: format!(
+            "Two tiles with {count}, to scale in mm: `fixed` and `moving` as `.dxf` (layers OUTLINE, \
+             POCKETS, POLES) and `.svg`. They are the lines of the cutter's middle: a kerf of {} mm is \
+             allowed for, and pockets are {} mm larger than their magnets on every side.",
+            plain(making.kerf),
+            plain(making.clearance)
+        ),
+        entries: entries(design)
+            .data(
+                "settings",
+                json!({ "kerf_m": making.kerf, "clearance_m": making.clearance }),
+            )
+            .table(magnets(&made.magnets))
+            .table(steps("fixed", fixed))
+            .table(steps("moving", moving)),
+        pictures: vec![Drawing::new(
+            "Which pole each magnet turns outwards",
+            |sheet| glance::draw(design, &Inspection::new(design), sheet),
+        )],
+        origin: "order of the magnets: that in which the worst push is least".to_owned(),
+        ..Document::default()
+    };
+    let sheet = document.markdown();
+    document.beside = [("fixed", fixed), ("moving", moving)]
+        .into_iter()
+        .flat_map(|(name, tile)| {
+            let (dxf, svg) = (dxf(&tile.part), svg(&tile.part));
+            [(format!("{name}.dxf"), dxf), (format!("{name}.svg"), svg)]
+        })
+        .chain([("sheet.md".to_owned(), sheet)])
+        .map(|(name, text)| (name, text.into_bytes()))
+        .collect();
+    document
+}
+
+/// The magnets to buy.
+// One line a column.
+#[rustfmt::skip]
+fn magnets(magnets: &[(Magnet, usize)]) -> Table {
+    let size = |magnet: &Magnet| magnet.size.map(|x| format!("{}", (1e5 * x).round() / 100.0)).join(" x ");
+    rows(magnets)
+        .column("number", "number", "", |(_, count)| *count)
+        .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.size)).without_csv()
+            .viewed(move |(magnet, _)| format!("{}, magnetised along the first", size(magnet)))
+        .column("length_m", "", "", |(magnet, _)| magnet.size[0]).in_csv()
+        .column("width_m", "", "", |(magnet, _)| magnet.size[1]).in_csv()
+        .column("height_m", "", "", |(magnet, _)| magnet.size[2]).in_csv()
+        .column("remanence_T", "remanence", "", |(magnet, _)| magnet.remanence())
+        .column("nearest", "nearest in the catalogue", "", |(magnet, _)| nearest(magnet.remanence()))
+        .table("magnets")
+        .in_file("magnets")
+        .titled("Magnets", "")
+}
+
+fn nearest(remanence: f64) -> String {
+    match grade::nearest(remanence) {
+        Some((grade, own)) => format!(
+            "{grade} ({own} T: forces {:+.0} %)",
+            100.0 * ((own / remanence).powi(2) - 1.0)
+        ),
+        None if remanence < grade::sold()[0].remanence[1] => "weaker than N35 (1.19 T)".to_owned(),
+        None => "none: stronger than N52 (1.46 T)".to_owned(),
     }
-    files.insert(
-        "sheet.md".to_owned(),
-        sheet(design, making, &parts).into_bytes(),
-    );
-    Ok(files)
+}
+
+/// The magnets of a tile in the order in which they go in.
+// One line a column.
+#[rustfmt::skip]
+fn steps(name: &'static str, tile: &MadeTile) -> Table {
+    let pocket = |it: &(usize, &Filled)| tile.part.pockets[it.1.pocket].clone();
+    let open = |pocket: &Pocket| if pocket.is_open() { " (*open*)" } else { "" };
+    let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
+    let depths = tile.part.pockets.iter().map(|pocket| plain(pocket.depth));
+    let mut depths: Vec<String> = depths.collect();
+    depths.sort();
+    depths.dedup();
+    let wanting = tile.part.pockets.iter().map(Pocket::wanting).fold(0.0, f64::max);
+    // Up to tenths of a millimetre.
+    let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
+    let thin = match wanting > 0.0 {
+        true => format!(
+            "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through it and \
+             glue the magnets flush, or raise `inset` by {} mm, on slopes by more",
+            plain(more)
+        ),
+        false => String::new(),
+    };
+    rows((1..).zip(&tile.steps))
+        .column("tile", "", "", move |_| name).in_csv()
+        .column("step", "step", "", |(step, _)| *step)
+        .column("pocket", "pocket", "its face, and which magnet of it, counter-clockwise", move |it| pocket(it).name).viewed(told)
+        .column("pole", "pole outwards", "", move |it| letter(pocket(it).pole))
+        .column("push_N", "on the way in", "the largest push out", |(_, it)| it.push).viewed(|(_, it)| advice(it))
+        .column("wall_m", "", "", move |it| pocket(it).wall)
+        .column("depth_m", "", "", move |it| pocket(it).depth)
+        .table(name)
+        .in_file("order")
+        .titled(
+            format!("The {name} tile"),
+            format!(
+                "{} mm thick; pockets {} mm deep hold the magnets midway: put them in from above, in \
+                 this order{thin}",
+                plain(tile.part.thickness),
+                depths.join(" or ")
+            ),
+        )
+}
+
+fn advice(filled: &Filled) -> String {
+    match filled.is_to_be_held {
+        true => format!(
+            "pushed out with {:.0} g: hold it until the glue is set",
+            filled.push / GRAM
+        ),
+        false => "stays by itself".to_owned(),
+    }
+}
+
+fn letter(pole: Pole) -> &'static str {
+    match pole {
+        Pole::North => "N",
+        Pole::South => "S",
+    }
 }
 
 /// Millimetres to a micrometre.
@@ -58,15 +166,8 @@ fn plain(metres: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn letter(pole: Pole) -> &'static str {
-    match pole {
-        Pole::North => "N",
-        Pole::South => "S",
-    }
-}
-
 /// The lines as DXF.
-pub fn dxf(part: &Part) -> String {
+fn dxf(part: &Part) -> String {
     let mut text = String::new();
     let mut pair = |code: u32, value: &str| {
         let _ = writeln!(text, "{code:>3}\n{value}");
@@ -117,7 +218,7 @@ pub fn dxf(part: &Part) -> String {
 }
 
 /// The lines as SVG, y upwards turned downwards as seen from above.
-pub fn svg(part: &Part) -> String {
+fn svg(part: &Part) -> String {
     let corners = || part.outline.iter();
     let bound = |fold: fn(f64, f64) -> f64, start: f64| {
         let fold = |axis: usize| corners().map(|p| 1e3 * p[axis]).fold(start, fold);
@@ -160,123 +261,4 @@ pub fn svg(part: &Part) -> String {
         }
     }
     text + "</svg>\n"
-}
-
-/// The sheet, as Markdown.
-fn sheet(design: &Design, making: &Making, parts: &[(&str, &Tile, Part)]) -> String {
-    let mut text = format!("# {}: to be made\n\n", design.name);
-    let _ = writeln!(
-        text,
-        "Drawings are to scale in mm: `fixed` and `moving` as `.dxf` (layers OUTLINE, POCKETS, POLES) \
-         and `.svg`. They are the lines of the cutter's middle: a kerf of {} mm is allowed for, and \
-         pockets are {} mm larger than their magnets on every side.\n",
-        plain(making.kerf),
-        plain(making.clearance)
-    );
-    text.push_str("## Magnets\n\n");
-    text.push_str(&markdown_table(&purchases(parts)));
-    for (name, tile, part) in parts {
-        let _ = writeln!(
-            text,
-            "\n## The {name} tile\n\n{} mm thick; pockets {} mm deep hold the magnets midway. Put \
-             them in from above, in this order:\n",
-            plain(part.thickness),
-            depths(part)
-        );
-        text.push_str(&markdown_table(&steps(tile, part)));
-        let wanting = part.pockets.iter().map(Pocket::wanting).fold(0.0, f64::max);
-        if wanting > 0.0 {
-            // Up to tenths of a millimetre.
-            let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
-            let _ = writeln!(
-                text,
-                "\nPockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them \
-                 through it and glue the magnets flush, or raise `inset` by {} mm, on slopes by more.",
-                plain(more)
-            );
-        }
-    }
-    text
-}
-
-/// The depths of a part's pockets.
-fn depths(part: &Part) -> String {
-    let depths = part.pockets.iter().map(|pocket| plain(pocket.depth));
-    let mut depths: Vec<String> = depths.collect();
-    depths.sort();
-    depths.dedup();
-    depths.join(" or ")
-}
-
-/// How many magnets of which kind to buy.
-fn purchases(parts: &[(&str, &Tile, Part)]) -> Vec<Vec<String>> {
-    let mut kinds: Vec<(&Magnet, usize)> = Vec::new();
-    for magnet in parts.iter().flat_map(|(_, tile, _)| &tile.magnets) {
-        let same = |known: &&mut (&Magnet, usize)| {
-            known.0.size == magnet.size && (known.0.moment - magnet.moment).abs() < 1e-12
-        };
-        match kinds.iter_mut().find(same) {
-            Some(kind) => kind.1 += 1,
-            None => kinds.push((magnet, 1)),
-        }
-    }
-    let head = [
-        "number",
-        "size (mm)",
-        "remanence",
-        "nearest in the catalogue",
-    ];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(kinds.into_iter().map(|(magnet, count)| {
-        let remanence = magnet.remanence();
-        let size = magnet
-            .size
-            .map(|x| format!("{}", (1e5 * x).round() / 100.0))
-            .join(" x ");
-        let nearest = match grade::nearest(remanence) {
-            Some((grade, own)) => format!(
-                "{grade} ({own} T: forces {:+.0} %)",
-                100.0 * ((own / remanence).powi(2) - 1.0)
-            ),
-            None if remanence < grade::GRADES[0].1 => "weaker than N35 (1.19 T)".to_owned(),
-            None => "none: stronger than N52 (1.46 T)".to_owned(),
-        };
-        vec![
-            count.to_string(),
-            format!("{size}, magnetised along the first"),
-            si(remanence, "T", 3),
-            nearest,
-        ]
-    }));
-    rows
-}
-
-/// The magnets of a tile in the order in which they go in.
-fn steps(tile: &Tile, part: &Part) -> Vec<Vec<String>> {
-    let head = ["step", "pocket", "pole outwards", "on the way in"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for face in 0..tile.faces.len() {
-        let own = |i: &usize| tile.magnets[*i].face == face;
-        let places: Vec<usize> = (0..tile.magnets.len()).filter(own).collect();
-        let magnets: Vec<&Magnet> = places.iter().map(|&i| &tile.magnets[i]).collect();
-        for step in order::order(&magnets) {
-            let pocket: &Pocket = &part.pockets[places[step.magnet]];
-            let weight = DENSITY * GRAVITY * magnets[step.magnet].size.iter().product::<f64>();
-            let advice = match step.push {
-                push if push > weight => format!(
-                    "pushed out with {:.0} g: hold it until the glue is set",
-                    push / GRAM
-                ),
-                _ => "stays by itself".to_owned(),
-            };
-            let open = if pocket.is_open() { " (*open*)" } else { "" };
-            rows.push(vec![
-                rows.len().to_string(),
-                format!("{}{open}", pocket.name),
-                letter(pocket.pole).to_owned(),
-                advice,
-            ]);
-        }
-    }
-    rows
 }

@@ -8,6 +8,7 @@ use jobs::design::Design;
 use jobs::yields::attachment::Source;
 use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
 use physics::kinetics::mixture::Mixture;
+use physics::kinetics::population::MOST_STATES;
 use physics::order::Order;
 use physics::units::{duration, si};
 
@@ -21,6 +22,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
     let mixture = found.mixture.as_ref();
     let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
     let without = found.without.iter().map(|(_, why)| why.to_string());
+    let means = found.outcomes.iter().filter(|it| !it.exact).map(of_means);
     Document {
         title: format!("Yield of {}", design.name),
         answer: answer(design, question, found),
@@ -34,6 +36,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         entries: found_entries(design, question, found),
         pictures: pictures(question, found),
         notes: without
+            .chain(means)
             .chain(schedule)
             .chain([format!(
                 "on: {told}; off: by detailed balance, with kT as if the table had one"
@@ -125,7 +128,9 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
             .viewed(|(_, at)| at.map_or("-".to_owned(), |it| within(it.bound, it.interval)))
         .column("yield_interval", "", "", |(_, at)| at.ok().map(|it| it.interval))
         .column("trapped", "in traps", "share of all pairs in traps at the end", of(|it| it.trapped)).share()
-        .column("yield_difference_equations", "", "of difference equations, for many tiles", known(|it| it.smooth))
+        .column("yield_method", "", "", |(_, at)| at.ok().map(method)).in_json()
+        .column("mean_numbers_error", "", "", known(|it| it.off)).in_json()
+        .column("yield_difference_equations", "", "of the equations for mean numbers, which are right for many tiles", known(|it| it.smooth))
         .column("yield_equilibrium", "in the end", "share in the bond in equilibrium", known(|it| it.equilibrium)).share()
         .column("yield_simulated", "simulated", "by simulation, with twice its standard error", move |row| json!(simulated(row).map(entry)))
             .viewed(move |row| simulated(row).map_or("-".to_owned(), told)).without_csv()
@@ -160,6 +165,14 @@ fn states(outcome: &Outcome) -> Table {
         .in_file("rates")
 }
 
+/// How shares over time were found.
+fn method(outcome: &Outcome) -> &'static str {
+    match outcome.exact {
+        true => "forward equation of all numbers of pairs",
+        false => "mean numbers",
+    }
+}
+
 fn course(outcome: &Outcome) -> Table {
     rows(&outcome.course)
         .column("time_s", "time", "since the start", |it| it[0])
@@ -180,6 +193,8 @@ fn crowds(outcome: &Outcome) -> Table {
         .column("yield", "bound", "share of all pairs in the bond", |it| {
             it.2
         })
+        .column("exact", "", "", |it| it.3)
+        .in_json()
         .table("table")
         .in_file("yield")
 }
@@ -248,6 +263,23 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
     all.into_iter().map(Into::into).collect()
 }
 
+/// What is said of a share that follows from mean numbers.
+fn of_means(outcome: &Outcome) -> String {
+    let kinds = outcome.states.len();
+    let off = match outcome.off {
+        Some(off) => format!(
+            "from the simulation it is {} away at most, which its interval holds",
+            percent(off)
+        ),
+        None => "without --simulations nobody knows how far off it is".to_owned(),
+    };
+    format!(
+        "at kT = {} mean numbers stand for all numbers of pairs in {kinds} kinds of states, of which \
+         there are more than {MOST_STATES}: {off}",
+        si(outcome.kt, "J", 3)
+    )
+}
+
 /// Which shaking when: `30 min at 2 mJ, then 30 min at 1 mJ`.
 fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture) -> String {
     let kts = mixture.schedule.chunk_by(|a, b| a == b);
@@ -260,7 +292,7 @@ fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture
         "{tiles} tiles, one shaking after another: {} ({}); no schedule yields more than {}",
         percent(mixture.value),
         phases.collect::<Vec<_>>().join(", then "),
-        mixture.bound.map_or("?".to_owned(), percent),
+        percent(mixture.bound),
     )
 }
 

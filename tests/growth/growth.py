@@ -70,6 +70,8 @@ inset = {inset}
 [target]
 fixed = "{target[0]}"
 moving = "{target[1]}"
+[potential]
+model = "dipole"
 """
 
 

@@ -24,7 +24,7 @@ fn squares(pitch: f64, [fixed, moving]: &[String; 2]) -> Design {
          [magnet]\nsize = [0.002, {}, 0.003]\nremanence = 1.2\npitch = {pitch}\ninset = 0.0\n\
          [fixed]\n{tile}\n[fixed.faces]\n{fixed}\n\
          [moving]\n{tile}\n[moving.faces]\n{moving}\n\
-         [target]\nfixed = \"east\"\nmoving = \"west\"\n",
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n",
         0.6 * pitch
     );
     Design::parse(&text, "many.toml").unwrap()

@@ -88,6 +88,8 @@ inset = 0.0
 [target]
 fixed = "0"
 moving = "6"
+[potential]
+model = "dipole"
 "#;
 
 #[test]

@@ -239,7 +239,7 @@ fn planted(rng: &mut ChaCha8Rng) -> (Design, [usize; 2], f64) {
          0 = {{ code = \"{}\" }}\n{fixed} = {{ code = \"{}\", profile = {} }}\n\
          [moving]\nside = 0.06\nthickness = 0.008\nmass = 0.03\n[moving.faces]\n\
          0 = {{ mates = \"0\" }}\n{moving} = {{ code = \"{}\", profile = {} }}\n\
-         [target]\nfixed = \"0\"\nmoving = \"0\"\n",
+         [target]\nfixed = \"0\"\nmoving = \"0\"\n[potential]\nmodel = \"dipole\"\n",
         code(true).replace("........", "N......."),
         single(slot, 'N'),
         profile(slot, half, -depth),

@@ -194,7 +194,7 @@ fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
          remanence = 1.2\npitch = 0.01\ninset = 0.0\n\
          [fixed]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n[fixed.faces]\nall = {{ code = \"{code}\" }}\n\
          [moving]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n[moving.faces]\nall = {{ code = \"{code}\" }}\n\
-         [target]\nfixed = \"east\"\nmoving = \"west\"\n"
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n"
     );
     let design = Design::parse(&text, "many.toml").unwrap_or_else(|error| panic!("{error}"));
     let problem = design.problem();

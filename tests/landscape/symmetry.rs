@@ -14,7 +14,7 @@ fn design(fixed: &str, moving: &str, target: [&str; 2]) -> Design {
          remanence = 1.2\npitch = 0.04\n[fixed]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n\
          [fixed.faces]\nall = {{ code = '{fixed}' }}\n[moving]\nside = 0.43\nthickness = 0.013\n\
          mass = 0.1\n[moving.faces]\nall = {{ code = '{moving}' }}\n[target]\nfixed = '{}'\n\
-         moving = '{}'\n",
+         moving = '{}'\n[potential]\nmodel = 'dipole'\n",
         target[0], target[1]
     );
     Design::parse(&text, "pair.toml").unwrap()

@@ -21,7 +21,7 @@ def check_docking(check, file):
     check.changes(["around", "tiles", "profile"], "(() => { const p = document.getElementById('path'); p.value = 3;"
                   " p.dispatchEvent(new Event('change')); })()", "another trajectory")
     check_playing(check)
-    check.that(browser.run("document.querySelectorAll('#pictures img').length") == 2, "the chances and the trajectories are shown")
+    check.that(browser.run("document.querySelectorAll('#pictures svg').length") == 2, "the chances and the trajectories are shown")
     check_other_looks(check, "docking", file)
 
 
@@ -38,10 +38,11 @@ def check_colour_bar(check, name, file):
 STRUCK = """(() => {
   const box = (e) => { const b = e.getBBox(); return [b.x, b.y, b.x + b.width, b.y + b.height]; };
   const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-  const labels = [...document.querySelectorAll('#tree text.merge')];
-  const lines = [...document.querySelectorAll('#tree line.limb, #tree line.certified')].map(box);
+  const labels = [...document.querySelectorAll('#tree text[fill="#696969"]')].filter((e) => /J$/.test(e.textContent));
+  const lines = [...document.querySelectorAll('#tree polyline')]
+    .filter((e) => [16, 18, 30].includes(Number(e.getAttribute('stroke-width')))).map(box);
   // Halos and ascents make boxes a little higher than what is seen.
-  const inner = (e) => { const [l, t, r, b] = box(e); return [l + 1, t + 4, r - 1, b - 4]; };
+  const inner = (e) => { const [l, t, r, b] = box(e); return [l + 10, t + 40, r - 10, b - 40]; };
   return labels.filter((label, k) => lines.some((line) => meet(inner(label), line))
     || labels.some((other, j) => j < k && meet(inner(label), inner(other)))).map((label) => label.textContent);
 })()"""

@@ -31,8 +31,7 @@ def check_comparison(check, program, folder):
                     "--far-starts", "100", "--certify-cells", "20000"], check=True)
 
     def use(browser):
-        image = "document.querySelector('#pictures img')"
-        browser.wait(f"{image}.complete && {image}.naturalWidth > 0")
+        browser.wait("document.querySelector('#pictures svg').getBoundingClientRect().width > 300")
         names, click = column(1)
         browser.run(click)
         check.that(browser.run(names) == sorted(browser.run(names)), "designs sort by name")
@@ -53,37 +52,40 @@ def check_sweep(check, program, folder):
     depth = "fixed.faces.east.profile.depth="
     design = SHAPES / "tab-20mm.toml"
 
-    def hover(browser, canvas, u, v):
-        return browser.run(f"(() => {{ const c = document.querySelectorAll('#charts .panels canvas')[{canvas}],"
-                           f" b = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove',"
-                           f" {{bubbles: true, clientX: b.left + {u} * b.width, clientY: b.top + {v} * b.height}}));"
+    def hover(browser, spot):
+        """What is told of a spot of a picture, and which row is marked while the pointer is there."""
+        return browser.run(f"(() => {{ const s = {spot}; s.dispatchEvent(new PointerEvent('pointerenter'));"
                            " const here = document.querySelector('#tables tr.chosen');"
-                           " return [document.querySelector('#point .readout')?.textContent ?? '',"
-                           " here ? [...here.parentNode.rows].indexOf(here) : null]; })()")
+                           " const told = [document.querySelector('#point .readout')?.textContent ?? '', s.textContent.trim(),"
+                           " here ? [...here.parentNode.rows].indexOf(here) : null];"
+                           " s.dispatchEvent(new PointerEvent('pointerleave')); return told; })()")
 
     def picture(browser):
         browser.settled()
-        return browser.run("document.querySelectorAll('#charts .panels canvas')[1].toDataURL()")
+        return browser.run("document.querySelector('#charts .panels canvas').toDataURL()")
 
     out = folder / "curves"
     subprocess.run([program, "sweep", design, SHAPES / "arc-20mm.toml", "--vary", depth + "0,0.01,0.02,0.06",
                     "--vary", "potential.model=dipole,cuboid", "--out", out, *quick], check=True)
 
     def curves(browser):
-        check.that(browser.run("document.querySelectorAll('#charts .panels').length") == 3, "a group of curves a model, and one to choose")
+        check.that(browser.run("document.querySelectorAll('#pictures svg').length") == 2, "a picture of curves a model")
+        check.that(browser.run("document.querySelectorAll('#charts .panels').length") == 1, "and one to choose")
         before = picture(browser)
-        # The first design's bond at the first depth: the dot nearest to the curve's beginning.
-        dot = browser.run("(() => { const c = document.querySelector('#charts .panels canvas'),"
-                          " g = charts.curves[0], p = g.series[0].points[1][1];"
-                          " return [p, charts.points[p].readout]; })()")
+        # The first design's bond at the second depth.
+        dot = browser.run("[2, charts.points[2].readout]")
         row = "document.querySelectorAll('#tables table')[0].tBodies[0].rows[%d]" % dot[0]
+        marked = "document.querySelectorAll('#pictures [data-point].chosen').length"
         browser.run(f"{row}.dispatchEvent(new PointerEvent('pointerenter'))")
-        check.that(picture(browser) != before, "a row of the table is shown among the curves")
+        check.that(picture(browser) != before and browser.run(marked) > 3, "a row of the table is shown among the curves")
         browser.run(f"{row}.dispatchEvent(new PointerEvent('pointerleave'))")
-        told = [hover(browser, 0, u / 50, v / 50) for u in range(50) for v in range(0, 50, 3)]
-        seen = {text: place for text, place in told if place is not None}
-        check.that(dot[1] in seen and seen[dot[1]] == dot[0], "a point under the pointer tells its values and its row")
-        check.that(len(seen) > 3, "points can be pointed at")
+        check.that(browser.run(marked) == 0, "and no more")
+        count = browser.run("charts.points.length")
+        told = [hover(browser, f"document.querySelector('#pictures [data-point=\"{k}\"]')") for k in range(count)]
+        check.that(told[dot[0]][0] == dot[1] and [row for _, _, row in told] == list(range(count)),
+                   "a point under the pointer tells its values and its row")
+        name = browser.run("charts.points[2].name")
+        check.that(told[2][1].startswith(f"{name}: ") and "mJ" in told[2][1], f"a title tells them, too ({told[2][1]})")
         check_chosen(browser, dot)
 
     def check_chosen(browser, dot):
@@ -105,7 +107,7 @@ def check_sweep(check, program, folder):
         check.that(picture(browser) != before, "curves are set against a point")
         browser.run(change % ("baseline", 0, "baseline"))
         check.that(picture(browser) == before, "and no more")
-        button = "document.querySelectorAll('#charts .panels button')[1]"
+        button = "document.querySelector('#charts .panels button')"
         word = browser.run(f"{button}.textContent")
         browser.run(f"{button}.click()")
         check.that(browser.run(f"{button}.textContent") != word and picture(browser) != before, "a panel changes its scale")
@@ -124,10 +126,17 @@ def check_sweep(check, program, folder):
 
     def maps(browser):
         before = picture(browser)
-        text, row = hover(browser, 1, 0.25, 0.8)
-        check.that("depth = 0 mm, width = 50 mm" in text and row == 0, f"the map's lowest left cell ({text}, {row})")
-        text, row = hover(browser, 1, 0.85, 0.8)
-        check.that("depth = 40 mm, width = 50 mm: a magnet of face east sticks out" in text, f"an impossible point's reason ({text})")
-        check.that(picture(browser) != before, "the cell under the pointer is marked")
+        spot = "document.querySelector('#pictures [data-point=\"%d\"]')"
+        text, title, row = hover(browser, spot % 0)
+        check.that(all("depth = 0 mm, width = 50 mm" in it for it in (text, title)) and row == 0,
+                   f"the map's lowest left cell ({text}, {title}, {row})")
+        last = browser.run("charts.points.findIndex(({ name }) => name === 'depth = 40 mm, width = 50 mm')")
+        text, title, _ = hover(browser, spot % last)
+        reason = "depth = 40 mm, width = 50 mm: a magnet of face east sticks out"
+        check.that(reason in text and reason in title, f"an impossible point's reason ({text}, {title})")
+        browser.run(f"{spot % 0}.dispatchEvent(new PointerEvent('pointerenter'))")
+        check.that(browser.run(f"{spot % 0}.classList.contains('chosen')"), "the cell under the pointer is marked")
+        browser.run(f"{spot % 0}.dispatchEvent(new PointerEvent('pointerleave'))")
+        check.that(picture(browser) == before, "and no more")
 
     check_table_page(check, "sweep-maps", out / "report.html", maps)

@@ -10,18 +10,19 @@ def check_words(check, program, folder):
     def use(browser):
         ink = ("((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data"
                ".filter((v, k) => k % 4 === 3 && v).length)")
-        for canvas in ["meeting-map", "meeting-tiles"]:
-            check.that(browser.run(f"{ink}(document.getElementById('{canvas}'))") > 1000, f"#{canvas} shows something")
+        check.that(browser.run(f"{ink}(document.getElementById('meeting-tiles'))") > 1000, "#meeting-tiles shows something")
+        check.that(browser.run("document.querySelectorAll('#meeting-map text').length") > 10, "#meeting-map shows something")
         first = text(browser, "meeting-readout")
-        click = ("(() => { const c = document.getElementById('meeting-map'), b = c.getBoundingClientRect(),"
-                 " g = meetingGrid(c.clientWidth); c.dispatchEvent(new MouseEvent('click', {bubbles: true,"
-                 " clientX: b.left + g.left + 0.5 * g.cell, clientY: b.top + g.left + 2.5 * g.cell})); })()")
-        check.changes(["meeting-map", "meeting-tiles"], click, "a click on a cell")
+        chosen = "[...document.querySelectorAll('#meeting-map .chosen')].map((cell) => cell.dataset.cell).join()"
+        click = "document.querySelector('#meeting-map [data-cell=\"2 0\"]').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
+        check.changes(["meeting-tiles"], click, "a click on a cell")
         check.that("C on A" in text(browser, "meeting-readout") != first, "the meeting is told")
+        check.that(browser.run(chosen) == "2 0", "its cell is marked")
         arrow = ("document.getElementById('meeting-map').dispatchEvent("
                  "new KeyboardEvent('keydown', {key: 'ArrowRight', bubbles: true}))")
-        check.changes(["meeting-map"], arrow, "an arrow key")
+        check.changes(["meeting-tiles"], arrow, "an arrow key")
         check.that("C on B" in text(browser, "meeting-readout"), "the next meeting is told")
+        check.that(browser.run(chosen) == "2 1", "the next cell is marked")
 
     out = folder / "words"
     subprocess.run([program, "words", "--length", "6", "--gap", "0.3", "--out", out, "--quiet"], check=True)

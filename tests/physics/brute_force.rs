@@ -36,6 +36,8 @@ all = { code = "S" }
 [target]
 fixed = "east"
 moving = "west"
+[potential]
+model = "dipole"
 "#;
 
 /// kT (J): the bond is 3.2 kT deep.

@@ -161,6 +161,8 @@ west = { mates = "east", fit = 0.0004 }
 [target]
 fixed = "east"
 moving = "west"
+[potential]
+model = "dipole"
 "#;
 const DEPTH: f64 = 0.06;
 const PLAY: f64 = 0.0004;

@@ -1,8 +1,14 @@
-//! How strong a magnet is: the three ways to say it.
+//! How strong a magnet is: the ways to say it.
 
 use std::f64::consts::PI;
 
-use tilebind::tile::strength::{Strength, surface_field_share};
+use nalgebra::Vector2;
+use tilebind::Configuration;
+use tilebind::potential::{CuboidPotential, Potential};
+use tilebind::tile::Magnet;
+use tilebind::tile::grade::{Grade, NEODYMIUM};
+use tilebind::tile::strength::{PULL_SPREAD, Strength, pull, surface_field_share};
+use tilebind::units::MU0;
 
 /// The field at a point on the axis, summed over both pole faces cut into small charges.
 fn summed_field(size: [f64; 3], above: f64) -> f64 {
@@ -55,4 +61,85 @@ fn the_three_ways_to_say_a_strength_agree() {
     let field = 1.2 * surface_field_share(size);
     let from_field = Strength::SurfaceField(field).moment(size);
     assert!((from_field / moment - 1.0).abs() < 1e-14);
+}
+
+/// The force (N) of two equal blocks pole to pole: a block on its mirror image.
+fn between_twins(size: [f64; 3], remanence: f64) -> f64 {
+    let block = Magnet {
+        position: Vector2::zeros(),
+        angle: 0.0,
+        moment: Strength::Remanence(remanence).moment(size),
+        size,
+        face: 0,
+    };
+    let blocks = CuboidPotential::new(&[block.clone()], &[block]);
+    let touching = Configuration::new(size[0] * (1.0 + 1e-9), 0.0, 0.0);
+    blocks.energy_and_gradient(&touching).1.x
+}
+
+#[test]
+fn a_pull_is_the_force_of_a_block_on_its_image() {
+    for size in [
+        [0.010, 0.010, 0.003],
+        [0.002, 0.010, 0.005],
+        [0.0127, 0.0127, 0.0127],
+        [0.001, 0.02, 0.01],
+    ] {
+        let expected = between_twins(size, 1.3);
+        let found = pull(size, 1.3);
+        assert!((found / expected - 1.0).abs() < 2e-5, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_pull_has_its_limits_and_scales() {
+    // A long bar is drawn by the pressure of its own field alone.
+    let [a, b] = [0.01, 0.02];
+    let most = 1.2 * 1.2 * a * b / (2.0 * MU0);
+    assert!((pull([10.0, a, b], 1.2) / most - 1.0).abs() < 1e-4);
+    // A thin plate's goes to nothing; sides are alike; areas count.
+    assert!(pull([1e-6, a, b], 1.2) < 1e-3 * most);
+    let [one, other] = [[0.003, a, b], [0.003, b, a]].map(|size| pull(size, 1.2));
+    assert!((one / other - 1.0).abs() < 1e-12);
+    let doubled = pull([0.006, 2.0 * a, 2.0 * b], 2.4);
+    assert!((doubled / one - 16.0).abs() < 1e-10);
+}
+
+/// N38 of a shop (dhit.pl): length, width, height (mm), magnetised through the last, and what it says
+/// that it pulls (N).
+const SOLD: [([f64; 3], f64); 7] = [
+    ([12.0, 10.0, 4.0], 33.88),
+    ([40.0, 20.0, 10.0], 241.53),
+    ([40.0, 10.0, 5.0], 116.27),
+    ([42.0, 20.0, 5.0], 108.46),
+    ([10.0, 5.0, 1.5], 8.47),
+    ([10.0, 4.0, 1.5], 8.65),
+    ([20.0, 10.0, 5.0], 60.31),
+];
+
+#[test]
+fn what_a_shop_states_lies_within_the_spread() {
+    let n38 = Grade::named("N38").unwrap();
+    for ([a, b, l], stated) in SOLD {
+        let size = [l, a, b].map(|x| x * 1e-3);
+        let share = stated / pull(size, n38.remanence[1]);
+        let [least, most] = PULL_SPREAD;
+        assert!((least - 0.01..most + 0.01).contains(&share), "{share}");
+        // What the pull says, and how sure it is, holds the grade's own remanence.
+        let told = MU0 * Strength::Pull(stated).moment(size) / size.iter().product::<f64>();
+        let known = n38.remanence[1];
+        let range = [told / most.sqrt() - 0.01, told / least.sqrt() + 0.01];
+        assert!(range[0] < known && known < range[1], "{range:?}");
+    }
+}
+
+#[test]
+fn a_pull_gives_the_remanence_that_it_was_made_of() {
+    let size = [0.002, 0.010, 0.005];
+    for grade in NEODYMIUM {
+        let force = pull(size, grade.remanence[1]);
+        let [by_pull, by_grade] =
+            [Strength::Pull(force), Strength::Grade(grade)].map(|strength| strength.moment(size));
+        assert!((by_pull / by_grade - 1.0).abs() < 1e-12);
+    }
 }

@@ -95,6 +95,8 @@ fn plain_tiles() -> Design {
         [target]
         fixed = 1
         moving = "west"
+        [potential]
+        model = "dipole"
     "#;
     Design::parse(text, "plain.toml").unwrap_or_else(|error| panic!("{error}"))
 }
@@ -240,7 +242,7 @@ fn larger_tiles_have_larger_wells() {
         let text = format!(
             "name = \"scaled\"\ntable = {{ size = [4.0, 4.0] }}\nmagnet = {{ size = [{0}, {0}, {1}], \
              remanence = 1.2, pitch = {2} }}\nfixed = {3}\nmoving = {4}\ntarget = {{ fixed = \
-             \"east\", moving = \"west\" }}\n",
+             \"east\", moving = \"west\" }}\npotential = {{ model = \"dipole\" }}\n",
             length(0.01),
             length(0.003),
             length(0.04),

@@ -177,7 +177,7 @@ fn a_comparison_says_the_same_in_all_forms() {
         let design = Design::load(format!("shapes/{name}.toml").as_ref()).unwrap();
         Assessment::new(&design, &pipeline::analyse(&design, &few(), &Silent))
     });
-    let settings = comparison::AssessmentSettings::default();
+    let settings = comparison::Request::default();
     check(&Comparison::new(&designs, &QUANTITIES[0], settings).document());
 }
 

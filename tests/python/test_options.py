@@ -9,11 +9,11 @@ import pytest
 import tilebind
 
 # Where results go and how they look: Python returns them.
-SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "quiet", "threads",
+SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "text", "quiet", "threads",
          "help", "version", "compact", "pathway"}
-# The design is an object, its model a keyword of energies; tile sets and words are read from their
-# places; a bar is Python's own.
-OBJECTS = {"self", "design", "designs", "tiles", "progress", "model"}
+# The design is an object, its model a keyword of energies; tile sets, words and tables are read from
+# their places; a bar is Python's own.
+OBJECTS = {"self", "design", "designs", "tiles", "progress", "model", "name", "table"}
 # Called otherwise: a flag with a number, poses by their place, several files.
 NAMES = {"dynamics": "dynamics_runs", "from": "start", "to": "end"}
 
@@ -21,19 +21,26 @@ CALLS = {
     "analyse": "Design.analyse",
     "assemble": "assemble",
     "barrier": "Design.barrier",
+    "bond": "Analysis.bond",
+    "calibrate": "Design.calibrate Design.calibrate_bonds",
     "compare": "compare",
     "crosstalk": "crosstalk",
-    "dock": "dock",
+    "dock": "dock Design.releases",
+    "init": "Design.start",
+    "make": "Design.make",
     "match": "Design.matches",
+    "rates": "Design.exits Analysis.rates",
     "sweep": "sweep",
-    "table": "Design.table",
+    "table": "AirTable.__call__",
     "words": "words",
     "yield": "Design.yields",
 }
-# Parts of a sweep on many machines, and what adds points to it; bound tiles have a method of their own.
+# Parts of a sweep on many machines; what has a method of its own; the seed of an analysis that is there.
 ELSEWHERE = {
-    "sweep": {"run", "merge", "status", "shard", "plan", "refine", "baseline"},
-    "dock": {"from_bond", "overdamped", "trajectory"},
+    "bond": {"seed"},
+    "calibrate": {"bonds"},
+    "dock": {"from_bond", "trajectory"},
+    "sweep": {"run", "merge", "status", "shard", "plan"},
 }
 # A set of words is a file of the program's.
 FILES = {"crosstalk": {"words"}}
@@ -56,4 +63,5 @@ def test_options_are_keywords(program, command):
     told = re.split(r"\n(?=\S)", told.split("Options:")[1])[0]
     options = {one.replace("-", "_") for one in re.findall(r"^\s+(?:-\w, )?--([a-z-]+)", told, re.M)}
     options = {NAMES.get(one, one) for one in options - SHOWN - OBJECTS - ELSEWHERE.get(command, set())}
-    assert options == parameters(CALLS[command]) - FILES.get(command, set())
+    keywords = set().union(*map(parameters, CALLS[command].split()))
+    assert options == keywords - FILES.get(command, set())

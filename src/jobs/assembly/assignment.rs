@@ -8,7 +8,7 @@
 
 use super::depths::Depths;
 use super::matrix::Matrix;
-use super::wiring::Bond;
+use super::wiring::{Group, Wiring};
 use physics::order::Order;
 use physics::words::Word;
 
@@ -18,38 +18,97 @@ const DEPTH: f64 = 8.0;
 const ALIKE: f64 = 0.05;
 /// Rounds of exchanges at most.
 const ROUNDS: usize = 12;
+/// Steps at most in looking for words that hold each other's mates.
+const MOST_STEPS: usize = 1_000_000;
 
 /// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
 /// `all` for the strongest bonds, then exchanged.
-pub fn assign(all: &Matrix, bonds: &[Bond], depths: Option<&Depths>) -> Vec<Word> {
+///
+/// # Errors
+/// Where no words hold each other's mates as some bonds ask for.
+pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Result<Vec<Word>, String> {
+    let bonds = &wiring.bonds;
+    let fixed = fixed(all, wiring)?;
     let (there, needed) = (all.words.len(), bonds.len());
-    let mut by_depth: Vec<usize> = (0..there).collect();
+    let is_fixed = |word: &usize| fixed.iter().flatten().any(|face| face % there == *word);
+    let mut by_depth: Vec<usize> = (0..there).filter(|word| !is_fixed(word)).collect();
     // Depths that differ in their last digits only are the same.
     let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
     by_depth.order_by(|a, b| rank(*a).total_cmp(&rank(*b)));
-    let mut by_strength: Vec<usize> = (0..needed).collect();
+    let is_free = |bond: &usize| fixed[*bond].is_none();
+    let mut by_strength: Vec<usize> = (0..needed).filter(is_free).collect();
     by_strength.order_by(|a, b| bonds[*b].strength.total_cmp(&bonds[*a].strength));
     // Faces of bonds, then words that are left.
-    let mut faces = vec![0; needed];
+    let mut faces: Vec<usize> = fixed.iter().map(|face| face.unwrap_or(0)).collect();
     for (bond, word) in by_strength.iter().zip(&by_depth) {
         faces[*bond] = *word;
     }
-    faces.extend(by_depth.iter().skip(needed));
-    let weights = |faces: &[usize], changed: &[usize]| weights(all, bonds, faces, changed);
-    exchange(&mut faces, all, needed, 1, |faces, others, changed| {
+    faces.extend(by_depth.iter().skip(by_strength.len()));
+    let weights = |faces: &[usize], changed: &[usize]| weights(all, wiring, faces, changed);
+    exchange(&mut faces, all, &fixed, 1, |faces, others, changed| {
         weights(others, changed) < weights(faces, changed) * (1.0 - 1e-9)
     });
     if let Some(depths) = depths {
         let every: Vec<usize> = (0..needed).collect();
         let most = weights(&faces, &every) * depths.price;
-        exchange(&mut faces, all, needed, 4, |faces, others, _| {
+        exchange(&mut faces, all, &fixed, 4, |faces, others, _| {
             let deeper = depths.excess(faces);
             deeper > 0.0
                 && depths.excess(others) < deeper * (1.0 - 1e-9)
                 && weights(others, &every) <= most
         });
     }
-    faces[..needed].iter().map(|face| all.code(*face)).collect()
+    Ok(faces[..needed].iter().map(|face| all.code(*face)).collect())
+}
+
+/// The faces of bonds whose words hold each other's mates: the first that do, in order.
+fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
+    let mut fixed: Vec<Option<usize>> = vec![None; wiring.bonds.len()];
+    for Group { bonds, strengths } in wiring.groups() {
+        let taken: Vec<usize> = fixed.iter().flatten().copied().collect();
+        let mut chosen: Vec<usize> = Vec::new();
+        let mut next = 0;
+        let mut steps = 0;
+        while chosen.len() < bonds.len() {
+            let k = chosen.len();
+            let goes = |face: &usize| {
+                let unit = |face: usize, k: usize| all.bond(face) / strengths[k][k];
+                let own = unit(*face, k) / chosen.first().map_or(unit(*face, k), |it| unit(*it, 0));
+                let like = |(j, other): (usize, &usize)| {
+                    let holds = -all.energies[*other][all.mate(*face)];
+                    let asked = strengths[j][k] * unit(*other, j);
+                    (holds - asked).abs() <= ALIKE * 2.0 * unit(*other, j)
+                };
+                let word = face % all.words.len();
+                let mut others = taken.iter().chain(&chosen);
+                (own - 1.0).abs() <= 2.0 * ALIKE
+                    && others.all(|other| other % all.words.len() != word)
+                    && chosen.iter().enumerate().all(like)
+            };
+            steps += 1;
+            match (next..all.energies.len()).find(goes) {
+                Some(face) => {
+                    chosen.push(face);
+                    next = 0;
+                }
+                None => match chosen.pop() {
+                    Some(face) if steps < MOST_STEPS => next = face + 1,
+                    _ => {
+                        return Err(format!(
+                            "the words have no {} that hold each other's mates as the glues that bind \
+                             each other less than themselves ask for: leave out --words, so that such \
+                             are searched",
+                            bonds.len()
+                        ));
+                    }
+                },
+            }
+        }
+        for (bond, face) in bonds.into_iter().zip(chosen) {
+            fixed[bond] = Some(face);
+        }
+    }
+    Ok(fixed)
 }
 
 /// Exchanges the faces of bonds, with each other and with what is left, and words with mates, as long
@@ -58,11 +117,13 @@ pub fn assign(all: &Matrix, bonds: &[Bond], depths: Option<&Depths>) -> Vec<Word
 fn exchange(
     faces: &mut Vec<usize>,
     all: &Matrix,
-    needed: usize,
+    fixed: &[Option<usize>],
     ways: usize,
     better: impl Fn(&[usize], &[usize], &[usize]) -> bool,
 ) {
-    let there = all.words.len();
+    let needed = fixed.len();
+    let is_fixed = |k: usize| fixed.get(k).is_some_and(Option::is_some);
+    let there = faces.len();
     let take = |faces: &mut Vec<usize>, others: Vec<usize>, changed: &[usize]| {
         let taken = better(faces, &others, changed);
         if taken {
@@ -72,11 +133,11 @@ fn exchange(
     };
     for _ in 0..ROUNDS {
         let mut any = false;
-        for i in 0..needed {
+        for i in (0..needed).filter(|i| !is_fixed(*i)) {
             let mut turned = faces.clone();
             turned[i] = all.mate(faces[i]);
             any |= take(faces, turned, &[i]);
-            for k in i + 1..there {
+            for k in (i + 1..there).filter(|k| !is_fixed(*k)) {
                 let [one, other] = [faces[i], faces[k]].map(|face| all.bond(face));
                 if (one / other - 1.0).abs() > ALIKE {
                     continue;
@@ -101,7 +162,8 @@ fn exchange(
 }
 
 /// The weights of the wrong meetings of some bonds.
-fn weights(all: &Matrix, bonds: &[Bond], faces: &[usize], changed: &[usize]) -> f64 {
+fn weights(all: &Matrix, wiring: &Wiring, faces: &[usize], changed: &[usize]) -> f64 {
+    let bonds = &wiring.bonds;
     let meeting = |i: usize, j: usize| {
         let energy = all.energies[faces[i]][all.mate(faces[j])];
         let unit = all.bond(faces[i]) / bonds[i].strength;
@@ -109,6 +171,7 @@ fn weights(all: &Matrix, bonds: &[Bond], faces: &[usize], changed: &[usize]) -> 
     };
     let with = |i: &usize| -> f64 {
         let others = (0..bonds.len()).filter(|j| j != i && bonds[*j].axis == bonds[*i].axis);
+        let others = others.filter(|j| !wiring.are_linked(*i, *j));
         others.map(|j| meeting(*i, j) + meeting(j, *i)).sum()
     };
     changed.iter().map(with).sum()

@@ -24,7 +24,7 @@ use super::{Glue, TileSet};
 use crate::design::WordSet;
 use physics::kinetics::bond::Shaking;
 use physics::kinetics::corner;
-use physics::words::{Bar, Lags};
+use physics::words::{Bar, Lags, Word};
 
 /// A tile set with its words and energies.
 pub struct Built {
@@ -38,6 +38,8 @@ pub struct Built {
     pub shaking: Shaking,
     /// Depth (J) of the weakest bond, over its strength.
     pub unit: f64,
+    /// That bond.
+    pub weakest: usize,
     /// The integral Z0 (m^2 rad) about that bond.
     pub volume: f64,
     /// What it costs a tile to dock, were all tiles of its kind (kT).
@@ -63,6 +65,10 @@ pub enum Verdict {
     TauHolds,
     /// One bond holds, as it should.
     OneHolds,
+    /// Bonds hold as they should, but so do wrong tiles that others lock in: growths end with errors.
+    ErrorsStay,
+    /// Bonds hold as they should, but so little that growths do not end.
+    Slow,
 }
 
 /// Tiles that grow without errors where they would not end.
@@ -89,7 +95,7 @@ impl Built {
         let rests = Rests::new(words);
         let all = Matrix::new(words, &words.words);
         let depths = Depths::new(&all, &rests, (set, &wiring), &grown);
-        let chosen = assign(&all, bonds, depths.as_ref());
+        let chosen = assign(&all, &wiring, depths.as_ref())?;
         let matrix = Matrix::new(words, &chosen);
         let loose = |bond: usize| {
             let word = chosen[bond];
@@ -104,20 +110,16 @@ impl Built {
         let weakest = weakest
             .min_by(|a, b| depth(a).total_cmp(&depth(b)))
             .unwrap_or(0);
-        let pair = &words.stage.pair;
-        let word = chosen[weakest];
-        let problem = words.carriers().problem_of(word, word.mate());
-        let volume = corner::volume(&problem, &pair.bound, shaking.kt);
+        let volume = volume(words, chosen[weakest], shaking.kt);
         let volume = volume.ok_or_else(|| loose(weakest))?;
-        let area = pair.moving.outline.area();
-        let docking_cost = -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU);
-        let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
+        let docking_cost = docking_cost(words, &shaking, volume);
         Ok(Self {
             set: set.clone(),
             unit: depth(&weakest),
+            weakest,
             volume,
             docking_cost,
-            gmc: docking_cost + libm::log(shares.max(f64::MIN_POSITIVE)),
+            gmc: docking_cost + of_shares(set),
             grown,
             rests,
             wiring,
@@ -126,9 +128,36 @@ impl Built {
         })
     }
 
+    /// Gse and Gmc (kT) at another kT (J), with the same words.
+    pub fn at(&self, words: &WordSet, kt: f64) -> Option<[f64; 2]> {
+        let volume = volume(words, self.matrix.words[self.weakest], kt)?;
+        let shaking = Shaking { kt, ..self.shaking };
+        let gmc = docking_cost(words, &shaking, volume) + of_shares(&self.set);
+        Some([self.unit / kt, gmc])
+    }
+
+    /// By which share bonds are at most stronger or weaker than was asked, in units of the weakest one's;
+    /// with the bond, its strength and what it has.
+    pub fn unlike(&self) -> Option<(usize, f64, f64)> {
+        let bonds = self.wiring.bonds.iter().enumerate();
+        let got = bonds.map(|(k, bond)| (k, bond.strength, self.matrix.bond(k) / self.unit));
+        let off = |it: &(usize, f64, f64)| (it.2 / it.1 - 1.0).abs();
+        got.reduce(|most, next| if off(&next) > off(&most) { next } else { most })
+    }
+
     /// Gse (kT): the weakest bond of strength 1.
     pub fn gse(&self) -> f64 {
         self.unit / self.shaking.kt
+    }
+
+    /// The strongest wrong attraction of aligned faces (J, below zero), and whose.
+    pub fn strongest_wrong(&self) -> Option<(usize, usize, f64)> {
+        let n = self.matrix.words.len();
+        let wanted = |i: usize, j: usize| {
+            i < n && j >= n && (j - i == n || self.wiring.are_linked(i, j - n))
+        };
+        let wrong = |i: usize, j: usize| !wanted(i, j);
+        self.matrix.strongest(&wrong)
     }
 
     /// The word (place in the matrix; mates lie behind the words) that a face carries.
@@ -151,7 +180,7 @@ impl Built {
     pub fn verdict(&self) -> Verdict {
         let (gse, tau) = (self.gse(), self.set.tau());
         let less = self.wiring.least_strength();
-        let wrong = self.matrix.strongest_wrong();
+        let wrong = self.strongest_wrong();
         let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / self.shaking.kt);
         match () {
             () if self.gmc > tau * gse => Verdict::TooHard,
@@ -307,4 +336,22 @@ impl Built {
         let bar = Bar::of_face(tile, face, &design.interaction, design.pitch?);
         Some(Lags::new(&bar.ok()?, words.words.first()?.places()))
     }
+}
+
+/// The integral Z0 (m^2 rad) about the bond of a word at kT (J).
+fn volume(words: &WordSet, word: Word, kt: f64) -> Option<f64> {
+    let problem = words.carriers().problem_of(word, word.mate());
+    corner::volume(&problem, &words.stage.pair.bound, kt)
+}
+
+/// What it costs a tile to dock, were all tiles of its kind (kT).
+fn docking_cost(words: &WordSet, shaking: &Shaking, volume: f64) -> f64 {
+    let area = words.stage.pair.moving.outline.area();
+    -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU)
+}
+
+/// What a tile of share 1 has to pay besides, as it is one kind of many (kT).
+fn of_shares(set: &TileSet) -> f64 {
+    let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
+    libm::log(shares.max(f64::MIN_POSITIVE))
 }

@@ -5,8 +5,10 @@
 //! included, attract by at most (1 - gap) of the weakest bond of strength 1.
 
 use super::Request;
+use super::wiring::Group;
 use crate::word_sets::least_spacing;
 use physics::budget::Budget;
+use physics::observer::Observer;
 use physics::order::Order;
 use physics::words::candidates::{Candidates, number};
 use physics::words::graph::Graph;
@@ -60,6 +62,10 @@ const FOR_BOUNDS: f64 = 0.3;
 /// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
 const MOST_JUDGED: usize = 1 << 16;
 const LEAST_BESIDE: usize = 256;
+/// Strengths are met by numbers of magnets to within this share where the length is to be found.
+const NEAR: f64 = 0.1;
+/// What is told while longer and longer faces are tried.
+const PLACES: &str = "words";
 /// The longest face that is looked at.
 pub const MOST_PLACES: usize = 48;
 
@@ -67,6 +73,8 @@ pub const MOST_PLACES: usize = 48;
 struct Asked<'a> {
     /// Strengths and how many words of each are needed, the strongest first.
     demand: &'a [(f64, usize)],
+    /// Words among them that are to hold each other's mates.
+    groups: &'a [Group],
     places: usize,
     bar: &'a Bar,
     request: &'a Request,
@@ -78,6 +86,38 @@ impl Asked<'_> {
         let most = self.request.magnets.unwrap_or(self.places).min(self.places);
         let strongest = self.demand.first().map_or(1.0, |first| first.0);
         ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
+    }
+
+    /// Whether any two strengths that differ by more than [`NEAR`] have numbers of magnets that
+    /// differ, and none is off by more than that.
+    fn tells_apart(&self) -> bool {
+        let strongest = self.demand.first().map_or(1.0, |first| first.0);
+        let all = self.demand.iter().map(|it| it.0);
+        let most = self.magnets(strongest) as f64;
+        let off = |strength: f64| {
+            let got = self.magnets(strength) as f64 / most * strongest;
+            (got / strength - 1.0).abs()
+        };
+        all.map(off).all(|off| off <= NEAR)
+    }
+
+    /// The numbers of magnets that are needed, with how many words of each, most magnets first:
+    /// strengths so near each other that they have as many share their words.
+    fn classes(&self) -> Vec<Class> {
+        let mut classes: Vec<Class> = Vec::new();
+        for (strength, needed) in self.demand {
+            let magnets = self.magnets(*strength);
+            match classes.last_mut().filter(|last| last.magnets == magnets) {
+                Some(last) => last.needed += needed,
+                None => classes.push(Class {
+                    magnets,
+                    needed: *needed,
+                    found: 0,
+                    upper: usize::MAX,
+                }),
+            }
+        }
+        classes
     }
 
     fn task(&self, magnets: usize) -> Task {
@@ -96,9 +136,15 @@ impl Asked<'_> {
 
 /// Words for a face of so many places, with the gap asked for or the widest that is reached: all
 /// trials, of which the last one is the answer. `demand` as [`super::Wiring::demand`] gives it.
-pub fn choose(demand: &[(f64, usize)], places: usize, bar: &Bar, request: &Request) -> Vec<Choice> {
+pub fn choose(
+    (demand, groups): (&[(f64, usize)], &[Group]),
+    places: usize,
+    bar: &Bar,
+    request: &Request,
+) -> Vec<Choice> {
     let asked = Asked {
         demand,
+        groups,
         places,
         bar,
         request,
@@ -137,10 +183,36 @@ pub fn choose(demand: &[(f64, usize)], places: usize, bar: &Bar, request: &Reque
 }
 
 /// The answers for longer and longer faces, up to the first that carries the words.
-pub fn shortest(demand: &[(f64, usize)], most: usize, bar: &Bar, request: &Request) -> Vec<Choice> {
+pub fn shortest(
+    (demand, groups): (&[(f64, usize)], &[Group]),
+    most: usize,
+    bar: &Bar,
+    request: &Request,
+    observer: &dyn Observer,
+) -> Vec<Choice> {
     let mut tried: Vec<Choice> = Vec::new();
-    for places in request.magnets.unwrap_or(1)..=most {
-        tried.extend(choose(demand, places, bar, request));
+    let asked = |places: usize| Asked {
+        demand,
+        groups,
+        places,
+        bar,
+        request,
+    };
+    // Strengths that differ take magnets enough to differ.
+    let tells_apart = |places: &usize| asked(*places).tells_apart();
+    let first = request.magnets.unwrap_or(1);
+    let first = (first..=most).find(tells_apart).unwrap_or(first);
+    for places in first..=most {
+        observer.part(PLACES, places, most);
+        tried.extend(choose((demand, groups), places, bar, request));
+        let refuted = |it: &&Choice| it.verdict == Verdict::Refuted;
+        observer.known(&format!(
+            "on faces of up to {places} places no such words are known ({} of {} tries are proved \
+             impossible); --length {} goes on from there",
+            tried.iter().filter(refuted).count(),
+            tried.len(),
+            places + 1
+        ));
         if tried.last().is_some_and(|it| it.verdict == Verdict::Found) {
             break;
         }
@@ -149,34 +221,50 @@ pub fn shortest(demand: &[(f64, usize)], most: usize, bar: &Bar, request: &Reque
 }
 
 fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
-    let demand = asked.demand;
-    let class = |(strength, needed): &(f64, usize)| Class {
-        magnets: asked.magnets(*strength),
-        needed: *needed,
-        found: 0,
-        upper: usize::MAX,
-    };
     let mut choice = Choice {
         places: asked.places,
         gap,
         verdict: Verdict::Found,
         words: Vec::new(),
-        classes: demand.iter().map(class).collect(),
+        classes: asked.classes(),
     };
+    let count = choice.classes.len();
     let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
     // Of several strengths bounds are searched apart.
-    let several = demand.len() > 1;
+    let several = count > 1;
     let for_bounds = effort.budget.share(if several { FOR_BOUNDS } else { 0.0 });
     let mut proof = Effort::new(effort.seed, for_bounds);
-    for part in 0..demand.len() {
+    // Words that hold each other's mates come first, and all others keep away from them.
+    let limit = |task: &Task| (1.0 - gap) * unit * WEAKER * task.lags.contact();
+    for group in asked.groups {
+        let found = linked(asked, group, &choice.words, &limit, effort);
+        if found.len() < group.bonds.len() {
+            choice.verdict = Verdict::Open;
+            return choice;
+        }
+        for word in &found {
+            let magnets = word.magnets() as usize;
+            let class = choice.classes.iter_mut().find(|it| it.magnets == magnets);
+            class.into_iter().for_each(|class| class.found += 1);
+        }
+        choice.words.extend(found);
+    }
+    for part in 0..count {
         let Class {
-            magnets, needed, ..
+            magnets,
+            needed,
+            found: already,
+            ..
         } = choice.classes[part];
+        let needed = needed - already;
+        if needed == 0 {
+            continue;
+        }
         let task = asked.task(magnets);
-        let words = if part == 0 {
+        let words = if choice.words.is_empty() {
             // The gap is of the weakest bond.
             let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
-            let found = effort.share(1.0 / demand.len() as f64, |part| {
+            let found = effort.share(1.0 / count as f64, |part| {
                 search::largest(&task, own_gap, needed, part)
             });
             if !several {
@@ -184,11 +272,10 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
             }
             found.words
         } else {
-            let limit = (1.0 - gap) * unit * WEAKER * task.lags.contact();
-            beside(&task, &choice.words, limit, needed, unit, effort)
+            beside(&task, &choice.words, limit(&task), needed, unit, effort)
         };
         choice.words.extend(words.iter().take(needed));
-        choice.classes[part].found = words.len().min(needed);
+        choice.classes[part].found = already + words.len().min(needed);
         if words.len() < needed {
             if several {
                 bound(&mut choice, asked, &mut proof);
@@ -202,6 +289,79 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
         }
     }
     choice
+}
+
+/// Words for bonds of which words and others' mates hold each other as strongly as they should: the
+/// first such in order; fewer than there are bonds where there are none.
+fn linked(
+    asked: &Asked,
+    group: &Group,
+    there: &[Word],
+    limit: &dyn Fn(&Task) -> f64,
+    effort: &mut Effort,
+) -> Vec<Word> {
+    let strongest = asked.demand.first().map_or(1.0, |first| first.0);
+    let a_unit = asked.magnets(strongest) as f64 / strongest;
+    let lists: Vec<(Task, Vec<Word>)> = (0..group.bonds.len())
+        .map(|k| {
+            let task = asked.task(asked.magnets(group.strengths[k][k]));
+            let all = match few(&task) {
+                true => Candidates::new(&task, limit(&task), effort.seed, u64::MAX),
+                false => Candidates::sampled(&task, limit(&task), effort.seed, 2 * MOST_JUDGED),
+            };
+            effort.budget.spend(all.work.min(effort.budget.left() / 2));
+            let goes = |word: &Word| {
+                let mut others = there.iter();
+                others.all(|it| task.rules.within(&task.lags, *word, *it, limit(&task)))
+            };
+            let words = all.words.into_iter().filter(goes);
+            // Either of a word and its mate may lie on the east or north faces.
+            let both: Vec<Word> = words.flat_map(|word| [word, word.mate()]).collect();
+            (task, both)
+        })
+        .collect();
+    // Net contacts that a strength asks for; none where no number of them comes near.
+    let goes = |i: usize, u: Word, j: usize, v: Word| {
+        let (task, strength) = (&lists[i].0, group.strengths[i][j]);
+        if strength <= 0.0 {
+            return u != v && u != v.mate() && task.rules.within(&task.lags, u, v, limit(task));
+        }
+        let contacts = f64::from(u.correlation(v, 0));
+        (contacts / (strength * a_unit) - 1.0).abs() <= NEAR
+            && task.rules.within_but_aligned(&task.lags, u, v, limit(task))
+    };
+    let mut chosen: Vec<usize> = Vec::new();
+    let mut next = 0;
+    loop {
+        let k = chosen.len();
+        if k == lists.len() {
+            return chosen
+                .iter()
+                .zip(&lists)
+                .map(|(at, list)| list.1[*at])
+                .collect();
+        }
+        let mut rest = next..lists[k].1.len();
+        let fits = rest.find(|at| {
+            let word = lists[k].1[*at];
+            effort
+                .budget
+                .spend(lists[k].0.judgement().min(effort.budget.left()));
+            let mut before = chosen.iter().enumerate();
+            !effort.budget.is_spent() && before.all(|(j, it)| goes(j, lists[j].1[*it], k, word))
+        });
+        match fits {
+            Some(at) => {
+                chosen.push(at);
+                next = 0;
+            }
+            // Back to the one before, and on from there.
+            None => match chosen.pop() {
+                Some(at) if !effort.budget.is_spent() => next = at + 1,
+                _ => return Vec::new(),
+            },
+        }
+    }
 }
 
 /// Bounds the classes, each as if it stood alone: no wrong meeting among its words attracts by more

@@ -5,7 +5,6 @@ use std::fmt::Write;
 
 use super::Assembly;
 use super::axis::{Met, SIDES};
-use physics::potential::MagnetModel;
 
 /// Names and texts of the designs of every two tiles that meet in what grows.
 pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
@@ -88,10 +87,11 @@ fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
             }
         }
     }
-    let _ = write!(text, "\n[target]\nfixed = \"{out}\"\nmoving = \"{back}\"\n");
-    if stage.interaction.model == MagnetModel::Cuboid {
-        text += "\n[potential]\nmodel = \"cuboid\"\n";
-    }
+    let _ = write!(
+        text,
+        "\n[target]\nfixed = \"{out}\"\nmoving = \"{back}\"\n\n[potential]\nmodel = \"{}\"\n",
+        stage.interaction.model.name()
+    );
     text
 }
 

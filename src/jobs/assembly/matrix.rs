@@ -75,12 +75,12 @@ impl Matrix {
         }
     }
 
-    /// The strongest wrong attraction of aligned faces (J, below zero), and whose.
-    pub fn strongest_wrong(&self) -> Option<(usize, usize, f64)> {
-        let (n, faces) = (self.words.len(), self.energies.len());
+    /// The strongest attraction of aligned faces among some pairs (J, below zero), and whose.
+    pub fn strongest(&self, of: &dyn Fn(usize, usize) -> bool) -> Option<(usize, usize, f64)> {
+        let faces = self.energies.len();
         let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| (i, j)));
         let wrong = pairs
-            .filter(|(i, j)| j - i != n)
+            .filter(|(i, j)| of(*i, *j))
             .map(|(i, j)| (i, j, self.energies[i][j]));
         wrong
             .min_by(|a, b| a.2.total_cmp(&b.2))

@@ -13,7 +13,7 @@
 //! - [`TileSet`] - tiles, glues, strengths, seed; [`rgrow`], [`xgrow`] - as the engines write them;
 //! - [`wiring`] - which faces bind which: the words that are needed;
 //! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
-//! - [`growth`] - what grows without errors;
+//! - [`growth`] - what grows without errors; [`kinetic`] - and with them;
 //! - [`Request`] - what is asked; [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
 //!   other faces add; [`slides`] - what engines leave out;
 //! - [`built`] - all of it for one shaking and one coverage of the table; [`Assembly`] - with what
@@ -27,6 +27,7 @@ pub mod choice;
 mod depths;
 pub mod designs;
 pub mod growth;
+pub mod kinetic;
 pub mod lattice;
 pub mod matrix;
 pub mod proofread;
@@ -108,10 +109,16 @@ pub struct TileSet {
     pub gse: Option<f64>,
     /// Gmc in kT.
     pub gmc: Option<f64>,
+    /// What its file says besides, which only steers the engine and is passed over.
+    pub passed_over: Vec<String>,
 }
 
 /// A tile set may have so many tiles, and so many glues.
 pub const MOST: usize = 4096;
+/// Strengths, and energies in kT, are no larger.
+const MOST_STRENGTH: f64 = 1e6;
+/// Rows and columns of a canvas at most.
+const MOST_CANVAS: usize = 65_536;
 
 impl TileSet {
     /// Reads a file: YAML or JSON of rgrow, or `.tiles` of xgrow, whatever its name.
@@ -211,12 +218,30 @@ impl TileSet {
         let mut numbers = strengths
             .chain(self.links.iter().map(|link| link.2))
             .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
-        if numbers.any(|x| !x.is_finite()) {
-            let message = "a strength is no number".to_owned();
+        if let Some(x) = numbers.find(|x| x.is_nan() || x.abs() > MOST_STRENGTH) {
+            let message = format!("{x:?} is no strength, nor an energy: at most {MOST_STRENGTH}");
             return wrong("", message, "write it as 1 or 0.5");
         }
+        if self.tiles.iter().all(|tile| tile.stoic == 0.0) {
+            let message =
+                "all of its tiles have a share of 0: there are none on the table".to_owned();
+            return wrong(
+                "stoic",
+                message,
+                "give one at least a share (stoic) above 0",
+            );
+        }
         for (row, column, tile) in &self.seed {
-            let [rows, columns] = self.size.unwrap_or([usize::MAX; 2]);
+            if (*row).max(*column) >= MOST_CANVAS {
+                let message =
+                    format!("the seed at {row}, {column} is farther out than {MOST_CANVAS}");
+                return wrong(
+                    "seed",
+                    message,
+                    "write seed: [row, column, tile] with smaller numbers",
+                );
+            }
+            let [rows, columns] = self.size.unwrap_or([MOST_CANVAS; 2]);
             if *tile >= self.tiles.len() || *row >= rows || *column >= columns {
                 let message = format!("the seed at {row}, {column} is no tile on the canvas");
                 return wrong("seed", message, "write seed: [row, column, tile]");

@@ -3,14 +3,16 @@
 //! Keys are those of rgrow 0.23 (`tiles` with `name`, `edges` clockwise from the north, `stoic`,
 //! `color`; `bonds`; `glues`; `seed` as row, column, tile; `size`, `tau`, `Gse`, `Gmc`), with
 //! `options`, `params` or `xgrowargs` for a part of them. A glue that no bond names has strength 1;
-//! the glue 0 is none. Keys that only steer the engine are passed over.
+//! the glue 0 is none. Keys that only steer the engine are passed over, and noted; any other key, and a
+//! canvas that no table is, are faults.
 
 use std::fmt::Write;
 
 use serde::Deserialize;
+use serde_yaml_ng::Value;
 
 use super::{TileSet, TileType, fault};
-use crate::design::{DesignError, Place};
+use crate::design::{DesignError, Place, nearest_help};
 
 #[derive(Clone, Deserialize)]
 #[serde(untagged)]
@@ -74,8 +76,8 @@ struct Entries {
     #[serde(alias = "Gmc")]
     gmc: Option<f64>,
     #[serde(alias = "doubletiles")]
-    hdoubletiles: Option<serde_yaml_ng::Value>,
-    vdoubletiles: Option<serde_yaml_ng::Value>,
+    hdoubletiles: Option<Value>,
+    vdoubletiles: Option<Value>,
     #[serde(alias = "xgrowargs", alias = "params")]
     options: Option<Box<Entries>>,
 }
@@ -87,14 +89,16 @@ const DOUBLE: &str = "write the two halves as tiles that share a strong glue";
 /// # Errors
 /// Where the text is no such set.
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
-    let mut entries: Entries = serde_yaml_ng::from_str(text).map_err(|error| {
+    let wrong = |error: serde_yaml_ng::Error| {
         let at = error.location().map(|it| it.index()..it.index() + 1);
         let place = at.map(|at| Place::of(text, at));
         let message = format!("it is no tile set: {error}");
         let help = "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
                     a .tiles file of xgrow";
         DesignError::new(file, place, message, help)
-    })?;
+    };
+    let mut entries: Entries = serde_yaml_ng::from_str(text).map_err(wrong)?;
+    let value: Value = serde_yaml_ng::from_str(text).map_err(wrong)?;
     if let Some(more) = entries.options.take() {
         entries.tiles.extend(more.tiles);
         entries.bonds.extend(more.bonds);
@@ -107,11 +111,126 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
         entries.hdoubletiles = more.hdoubletiles.or(entries.hdoubletiles);
         entries.vdoubletiles = more.vdoubletiles.or(entries.vdoubletiles);
     }
-    if entries.hdoubletiles.is_some() || entries.vdoubletiles.is_some() {
+    let some = |tiles: &Option<Value>| {
+        let none =
+            |tiles: &Value| tiles.is_null() || tiles.as_sequence().is_some_and(Vec::is_empty);
+        tiles.as_ref().is_some_and(|tiles| !none(tiles))
+    };
+    if some(&entries.hdoubletiles) || some(&entries.vdoubletiles) {
         let message = "it has double tiles, which magnetic squares are not".to_owned();
         return Err(fault(text, file, "doubletiles", message, DOUBLE));
     }
-    made_of(entries, text, file)
+    let passed_over = check(&value, text, file)?;
+    let set = made_of(entries, text, file)?;
+    Ok(TileSet { passed_over, ..set })
+}
+
+/// Keys that are read; those of tiles and of bonds.
+const READ: [&str; 15] = [
+    "tiles",
+    "bonds",
+    "glues",
+    "seed",
+    "size",
+    "tau",
+    "threshold",
+    "gse",
+    "Gse",
+    "gmc",
+    "Gmc",
+    "hdoubletiles",
+    "doubletiles",
+    "vdoubletiles",
+    "canvas_type",
+];
+const MORE: [&str; 3] = ["options", "xgrowargs", "params"];
+const OF_TILE: [&str; 5] = ["name", "edges", "stoic", "color", "shape"];
+const OF_BOND: [&str; 2] = ["name", "strength"];
+/// Keys of either engine that only steer it.
+const STEERING: [&str; 32] = [
+    "alpha",
+    "smax",
+    "smin",
+    "fsmax",
+    "tmax",
+    "emax",
+    "update_rate",
+    "kf",
+    "k_f",
+    "k",
+    "fission",
+    "block",
+    "chunk_handling",
+    "chunk_size",
+    "chunk_fission",
+    "model",
+    "start_paused",
+    "tracking",
+    "rand",
+    "window",
+    "pause",
+    "wander",
+    "datafile",
+    "arrayfile",
+    "tracefile",
+    "exportfile",
+    "font",
+    "movie",
+    "min_strength",
+    "error_radius",
+    "zero_bonds",
+    "info",
+];
+
+/// What steers the engine only.
+///
+/// # Errors
+/// Where there are keys that say nothing, or a canvas that is no table.
+fn check(value: &Value, text: &str, file: &str) -> Result<Vec<String>, DesignError> {
+    let mut steering = Vec::new();
+    let name = |key: &Value| match key {
+        Value::String(name) => name.clone(),
+        other => format!("{other:?}"),
+    };
+    let known = |map: &serde_yaml_ng::Mapping, known: &[&str]| -> Result<(), DesignError> {
+        let unknown = map.keys().map(name).find(|key| !known.contains(&&key[..]));
+        let Some(key) = unknown else { return Ok(()) };
+        let message = format!("nothing is known of the key `{key}`");
+        Err(fault(text, file, &key, message, &nearest_help(&key, known)))
+    };
+    let Some(whole) = value.as_mapping() else {
+        return Ok(steering);
+    };
+    let parts = MORE.iter().filter_map(|key| whole.get(*key)?.as_mapping());
+    for (map, more) in [(whole, &MORE[..])]
+        .into_iter()
+        .chain(parts.map(|map| (map, &[][..])))
+    {
+        known(map, &[&READ[..], more, &STEERING].concat())?;
+        for (entries, keys) in [("tiles", &OF_TILE[..]), ("bonds", &OF_BOND)] {
+            let entries = map.get(entries).and_then(Value::as_sequence);
+            for entry in entries.into_iter().flatten().filter_map(Value::as_mapping) {
+                known(entry, keys)?;
+            }
+        }
+        let canvas = map.get("canvas_type").and_then(Value::as_str);
+        if let Some(canvas) = canvas.filter(|it| !it.to_lowercase().starts_with("square")) {
+            let message = format!("its canvas is `{canvas}`, and a table is flat and has edges");
+            let help = "take canvas_type away, or write square; a seed and a size that fit in the \
+                        plane go with it";
+            return Err(fault(text, file, "canvas_type", message, help));
+        }
+        let model = map.get("model").and_then(Value::as_str);
+        if let Some(model) = model.filter(|it| !it.to_lowercase().ends_with("tam")) {
+            let message = format!("its model `{model}` is not that of square tiles with glues");
+            return Err(fault(text, file, "model", message, "write model: kTAM"));
+        }
+        let own = |key: &String, value: &Value| key == "fission" && value == "keep-seeded";
+        let passed = map.iter().map(|(key, value)| (name(key), value));
+        let passed = passed.filter(|(key, value)| STEERING.contains(&&key[..]) && !own(key, value));
+        steering.extend(passed.map(|it| it.0));
+    }
+    Ok(steering)
 }
 
 fn made_of(entries: Entries, text: &str, file: &str) -> Result<TileSet, DesignError> {

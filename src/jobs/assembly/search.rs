@@ -4,30 +4,55 @@ use super::choice::{self, Choice, Class, Verdict};
 use super::{Request, Wiring};
 use crate::design::Design;
 use crate::word_sets::{self, file};
+use physics::observer::Observer;
 use physics::units::si;
-use physics::words::Bar;
+use physics::words::{Bar, Word};
+
+/// What a search has found.
+pub(super) struct Sought {
+    /// The magnets.
+    pub bar: Bar,
+    /// Side of the tiles (m).
+    pub side: f64,
+    /// What was tried; last of all what was found.
+    pub tried: Vec<Choice>,
+}
+
+impl Sought {
+    /// The text of a set of words of these magnets.
+    pub fn text(&self, words: &[Word]) -> String {
+        let places = words.first().map_or(0, |word| word.places());
+        let headline = format!("{} words of {places} places", words.len());
+        file::of_words(&headline, words, &self.bar, self.side)
+    }
+
+    /// The words found.
+    pub fn words(&self) -> &[Word] {
+        self.tried.last().map_or(&[], |last| &last.words)
+    }
+}
 
 impl Request {
-    /// Words for the bonds of a tile set, as the text of a set, and what was tried. Magnets are
-    /// those of a design's target face, or the paper's.
+    /// Words for the bonds of a tile set. Magnets are those of a design's target face, or the
+    /// paper's.
     pub(super) fn search(
         &self,
         wiring: &Wiring,
         design: Option<&Design>,
-    ) -> Result<(String, Vec<Choice>), String> {
+        observer: &dyn Observer,
+    ) -> Result<Sought, String> {
         let (bar, face) = word_sets::bar(design, self.pitch, self.model)?;
         let most = self.most_places(&bar, face)?;
-        let demand = wiring.demand();
+        let (demand, groups) = (wiring.demand(), wiring.groups());
+        let demand = (&demand[..], &groups[..]);
         let tried = match self.length {
-            Some(places) => choice::choose(&demand, places, &bar, self),
-            None => choice::shortest(&demand, most, &bar, self),
+            Some(places) => choice::choose(demand, places, &bar, self),
+            None => choice::shortest(demand, most, &bar, self, observer),
         };
         match tried.last() {
             Some(last) if last.verdict == Verdict::Found => {
-                let (words, places) = (&last.words, last.places);
-                let headline = format!("{} words of {places} places", words.len());
-                let side = face.unwrap_or_else(|| word_sets::side(&bar, places));
-                Ok((file::of_words(&headline, words, &bar, side), tried))
+                let side = face.unwrap_or_else(|| word_sets::side(&bar, last.places));
+                Ok(Sought { bar, side, tried })
             }
             Some(last) => Err(missing(last)),
             None => Err("the face holds no magnet".to_owned()),

@@ -7,6 +7,7 @@ use physics::kinetics::bond::Shaking;
 use super::{Axis, Built, Request, TileSet, Wiring, lattice, proofread, rgrow, square, xgrow};
 use crate::design::WordSet;
 use crate::request::of_keywords;
+use physics::observer::Silent;
 use physics::words::Bar;
 
 fn shipped(name: &str) -> TileSet {
@@ -78,6 +79,12 @@ fn files_of_the_engines_are_read() {
 #[test]
 fn faults_are_told_with_their_place() {
     let tiles = |rest: &str| format!("tiles:\n- {{name: t, edges: [a, a, a{rest}\n");
+    let one = |line: &str| {
+        format!(
+            "tile edges matches {{{{N E S W}}*}}\nnum tile types=1\nnum binding types=1\ntile \
+             edges={{\n{{1 1 1 1}}\n}}\nbinding strengths={{1}}\n{line}\n"
+        )
+    };
     for (text, line) in [
         (tiles("]}"), Some(2)),
         (tiles(", a], stoic: -1}"), Some(2)),
@@ -93,6 +100,21 @@ fn faults_are_told_with_their_place() {
             "num tile types=1\nnum binding types=x\ntile edges={".to_owned(),
             Some(2),
         ),
+        (tiles(", a]}") + "tua: 5", Some(3)),
+        (tiles(", a]}") + "bond:\n- {name: a, strength: 2}", Some(3)),
+        (tiles(", a], label: x}"), Some(2)),
+        (tiles(", a]}") + "canvas_type: tube-diagonals", Some(3)),
+        (tiles(", a]}") + "options: {canvas_type: periodic}", Some(3)),
+        (tiles(", a]}") + "cover_strands: [a]", Some(3)),
+        (tiles(", a]}") + "model: SDC", Some(3)),
+        (tiles(", a], stoic: 0}"), Some(2)),
+        (tiles(", a]}") + "bonds: [{name: a, strength: 1e308}]", None),
+        (tiles(", a]}") + "seed: [4294967296, 0, t]", Some(3)),
+        (one("importfile=corner.seed"), Some(8)),
+        (one("periodic"), Some(8)),
+        (one("stoic=1[0.5]"), Some(8)),
+        (one("sed=1,1,1"), Some(8)),
+        (one("size=8,9"), Some(8)),
         ("[1, 2".to_owned(), None),
         (String::new(), None),
     ] {
@@ -105,6 +127,71 @@ fn faults_are_told_with_their_place() {
                 "{fault}"
             );
         }
+    }
+}
+
+#[test]
+fn what_only_steers_an_engine_is_noted() {
+    let yaml = "tiles:\n- {name: t, edges: [a, a, a, a]}\nblock: 4\nfission: keep-seeded\noptions: \
+                {update_rate: 100, canvas_type: square}\n";
+    assert_eq!(
+        TileSet::parse(yaml, "a").unwrap().passed_over,
+        ["block", "update_rate"]
+    );
+    let xgrow = "num tile types=1\nnum binding types=1\ntile edges={\n{00 1 0 1}\n}\nbinding \
+                 strengths={1}\nblock=2 % large\nfission\nperiodic=False\nupdate_rate=10\n";
+    let set = TileSet::parse(xgrow, "a").unwrap();
+    assert_eq!(set.passed_over, ["block", "update_rate"]);
+    assert_eq!(set.tiles[0].glues, [None, Some(0), None, Some(0)]);
+}
+
+/// Two glues that bind themselves and each other half as much: two words, alike in three places of
+/// four; what strengths they have is what was asked.
+#[test]
+fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
+    for asked in [0.5, 0.34] {
+        let text = format!(
+            "num tile types=2\nnum binding types=2\ntile edges={{\n{{0 1 0 2}}\n{{0 2 0 \
+             1}}\n}}\nbinding strengths={{1 1}}\ng(1,2)={asked}\n"
+        );
+        let set = TileSet::parse(&text, "a.tiles").unwrap();
+        let wiring = Wiring::new(&set).unwrap();
+        assert_eq!((wiring.bonds.len(), wiring.links.len()), (2, 1));
+        let asked_for = [("kt", "1e-3"), ("seconds", "4")];
+        let request: Request =
+            of_keywords(asked_for.map(|(key, value)| (key.to_owned(), vec![value.to_owned()])))
+                .unwrap();
+        let assembly = request.build(&set, None, None, &Silent).unwrap();
+        let matrix = &assembly.built.matrix;
+        let held = -matrix.energies[0][matrix.mate(1)] / matrix.bond(0);
+        assert!((held / asked - 1.0).abs() < 0.13, "{asked}: {held}");
+        let again = -matrix.energies[1][matrix.mate(0)] / matrix.bond(1);
+        assert!((held - again).abs() < 0.02, "{held} {again}");
+        // Nothing else holds by more than the gap leaves.
+        let wrong = assembly
+            .built
+            .strongest_wrong()
+            .map_or(0.0, |it| -it.2 / matrix.bond(0));
+        assert!(wrong <= 0.55, "{wrong}");
+    }
+}
+
+#[test]
+fn strengths_near_each_other_share_words() {
+    for strengths in ["1 0.95", "1 2", "1.15 0.92", "1 1.5"] {
+        let text = format!(
+            "num tile types=1\nnum binding types=2\ntile edges={{\n{{1 2 1 2}}\n}}\nbinding \
+             strengths={{{strengths}}}\n"
+        );
+        let set = TileSet::parse(&text, "a.tiles").unwrap();
+        let request: Request = of_keywords([("kt".to_owned(), vec!["1e-3".to_owned()])]).unwrap();
+        let built = request.build(&set, None, None, &Silent).unwrap().built;
+        let (_, asked, has) = built.unlike().unwrap();
+        assert!(
+            (has / asked - 1.0).abs() < 0.13,
+            "{strengths}: {asked} {has}"
+        );
+        assert_ne!(built.matrix.words[0], built.matrix.words[1]);
     }
 }
 
@@ -138,7 +225,7 @@ fn glues_that_hold_others_share_their_word() {
                 {name: d, strength: 0}]\nglues:\n- [a, b, 1]\n- [c, d, 1]\n";
     let wiring = Wiring::new(&TileSet::parse(text, "a").unwrap()).unwrap();
     assert_eq!(wiring.bonds.len(), 2);
-    // a holds b and d, c holds d alone: no word does that.
+    // a holds b and d, c holds d alone, and none itself: no word does that.
     let mixed = TileSet::parse(&(text.to_owned() + "- [a, d, 1]\n"), "a").unwrap();
     assert!(
         Wiring::new(&mixed)
@@ -239,7 +326,7 @@ fn words(set: &TileSet, places: usize) -> WordSet {
     let asked = asked.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]));
     let request: Request = of_keywords(asked).unwrap();
     let demand = Wiring::new(set).unwrap().demand();
-    let tried = choice::choose(&demand, places, &Bar::paper(), &request);
+    let tried = choice::choose((&demand, &[]), places, &Bar::paper(), &request);
     let choice = tried.last().unwrap();
     assert_eq!(choice.verdict, Verdict::Found);
     let list: Vec<String> = choice

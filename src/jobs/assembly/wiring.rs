@@ -1,8 +1,10 @@
 //! Which faces bind which: the words that a tile set needs.
 //!
 //! On each axis the glues of east (north) faces bind those of west (south) faces. Where each of
-//! some glues on the one side binds each of some on the other they are one bond, and one word; a
-//! glue that binds nothing needs none, and its faces stay empty.
+//! some glues on the one side binds each of some on the other alike they are one bond, and one word; a
+//! glue that binds nothing needs none, and its faces stay empty. Glues that bind themselves and, less,
+//! each other have a word each, and these are alike in as many places as the strength asks for
+//! ([`Link`]): `NNNN` holds the mate of `NNNS` with half of its bond.
 
 use super::TileSet;
 use super::axis::{Axis, Met, SIDES};
@@ -19,11 +21,31 @@ pub struct Bond {
     pub glues: [Vec<usize>; 2],
 }
 
+/// Two bonds of which the words of the one hold the mates of the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The bonds, ascending.
+    pub bonds: [usize; 2],
+    /// In Gse.
+    pub strength: f64,
+}
+
+/// Bonds that links join, and what words they need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// The bonds, ascending.
+    pub bonds: Vec<usize>,
+    /// What holds each one's words and each other's mates (in Gse), their own on the diagonal.
+    pub strengths: Vec<Vec<f64>>,
+}
+
 /// All bonds of a tile set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wiring {
     /// The bonds, by their first glue.
     pub bonds: Vec<Bond>,
+    /// What bonds have to do with each other.
+    pub links: Vec<Link>,
     /// By side and glue.
     by_face: [Vec<Option<usize>>; 4],
 }
@@ -55,6 +77,7 @@ impl Wiring {
         let strengths = set.strengths();
         let mut wiring = Self {
             bonds: Vec::new(),
+            links: Vec::new(),
             by_face: std::array::from_fn(|_| vec![None; n]),
         };
         for axis in Axis::ALL {
@@ -85,12 +108,16 @@ impl Wiring {
                 if glues[1].is_empty() {
                     continue;
                 }
-                wiring.bonds.push(bond(set, axis, glues, &strengths)?);
+                match each(axis, &glues, &strengths) {
+                    Some(bonds) => wiring.bonds.extend(bonds),
+                    None => wiring.bonds.push(bond(set, axis, glues, &strengths)?),
+                }
             }
         }
         wiring
             .bonds
-            .order_by_key(|bond| (bond.glues[0].iter().min().copied(), bond.axis));
+            .order_by_key(|bond| (bond.glues.iter().flatten().min().copied(), bond.axis));
+        wiring.link(&strengths);
         for (number, bond) in wiring.bonds.iter().enumerate() {
             for (side, glues) in bond.axis.sides().into_iter().zip(&bond.glues) {
                 for glue in glues {
@@ -106,6 +133,65 @@ impl Wiring {
             );
         }
         Ok(wiring)
+    }
+
+    fn link(&mut self, strengths: &[Vec<f64>]) {
+        for (j, second) in self.bonds.iter().enumerate() {
+            for (i, first) in self.bonds[..j].iter().enumerate() {
+                let meet = |a: &Bond, b: &Bond| {
+                    let pairs = a.glues[0]
+                        .iter()
+                        .flat_map(|g| b.glues[1].iter().map(move |h| (*g, *h)));
+                    pairs.map(|(g, h)| strengths[g][h]).fold(0.0, f64::max)
+                };
+                let strength = f64::max(meet(first, second), meet(second, first));
+                if first.axis == second.axis && strength > 0.0 {
+                    self.links.push(Link {
+                        bonds: [i, j],
+                        strength,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Whether the words of one bond and the mates of the other are to hold each other; bonds that do
+    /// are none of each other's wrong meetings.
+    pub fn are_linked(&self, a: usize, b: usize) -> bool {
+        let bonds = [a.min(b), a.max(b)];
+        self.links.iter().any(|link| link.bonds == bonds)
+    }
+
+    /// The bonds that links join.
+    pub fn groups(&self) -> Vec<Group> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for Link { bonds, .. } in &self.links {
+            let (mut joined, others): (Vec<_>, Vec<_>) = groups
+                .into_iter()
+                .partition(|group| bonds.iter().any(|bond| group.contains(bond)));
+            joined.push(bonds.to_vec());
+            let mut one: Vec<usize> = joined.concat();
+            one.sort_unstable();
+            one.dedup();
+            groups = others;
+            groups.push(one);
+        }
+        let strength = |a: usize, b: usize| {
+            let bonds = [a.min(b), a.max(b)];
+            let link = self.links.iter().find(|link| link.bonds == bonds);
+            match a == b {
+                true => self.bonds[a].strength,
+                false => link.map_or(0.0, |link| link.strength),
+            }
+        };
+        let group = |bonds: Vec<usize>| Group {
+            strengths: bonds
+                .iter()
+                .map(|a| bonds.iter().map(|b| strength(*a, *b)).collect())
+                .collect(),
+            bonds,
+        };
+        groups.into_iter().map(group).collect()
     }
 
     /// The bond of a face of a tile, if it carries anything.
@@ -133,6 +219,36 @@ impl Wiring {
         let alike = strengths.chunk_by(|a, b| a == b);
         alike.map(|some| (some[0], some.len())).collect()
     }
+}
+
+/// Of glues that do not all bind alike a bond each, where each binds itself and no other one more
+/// strongly; else `None`.
+fn each(
+    axis: Axis,
+    [firsts, seconds]: &[Vec<usize>; 2],
+    strengths: &[Vec<f64>],
+) -> Option<Vec<Bond>> {
+    let pairs = || firsts.iter().flat_map(|a| seconds.iter().map(|b| (*a, *b)));
+    let mut all = pairs().map(|(a, b)| strengths[a][b]);
+    let first = all.next()?;
+    if all.all(|strength| strength == first) {
+        return None;
+    }
+    let mut glues: Vec<usize> = [&firsts[..], seconds].concat();
+    glues.sort_unstable();
+    glues.dedup();
+    let own = |glue: usize| strengths[glue][glue];
+    let weaker = |(a, b): (usize, usize)| a == b || strengths[a][b] < f64::min(own(a), own(b));
+    let holds = glues.iter().all(|glue| own(*glue) > 0.0) && pairs().all(weaker);
+    let one = |glue: &usize| Bond {
+        axis,
+        strength: own(*glue),
+        glues: [firsts, seconds].map(|side| {
+            let own = side.iter().copied().filter(|it| it == glue);
+            own.collect()
+        }),
+    };
+    holds.then(|| glues.iter().map(one).collect())
 }
 
 fn bond(

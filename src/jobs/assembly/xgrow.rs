@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::{Glue, TileSet, TileType};
-use crate::design::{DesignError, Place};
+use crate::design::{DesignError, Place, nearest_help};
 
 struct Scanner<'a> {
     text: &'a str,
@@ -136,7 +136,7 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
         let name = scan.until(&ENDS);
         let by_name = set.glues.iter().position(|glue| glue.name == name);
         *glue = match (name, name.parse::<usize>()) {
-            ("0" | "null", _) => None,
+            ("null", _) | (_, Ok(0)) => None,
             (_, Ok(number)) if number <= set.glues.len() => Some(number - 1),
             _ if by_name.is_some() => by_name,
             _ => {
@@ -165,6 +165,105 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
     Ok(tile)
 }
 
+/// Lines that say something of what grows which magnetic squares on a table cannot do, or which is not
+/// in this file.
+const REFUSED: [(&str, &str, &str); 6] = [
+    ("doubletile=", DOUBLE, HALVES),
+    ("vdoubletile=", DOUBLE, HALVES),
+    (
+        "periodic",
+        "its canvas is periodic, and a table has edges",
+        "take the line away, and give a size that what grows fits into",
+    ),
+    (
+        "importfile",
+        "its seed stands in another file",
+        "write the tile it begins with as seed=row,column,tile (or seeds as a list, in YAML)",
+    ),
+    (
+        "stripe=",
+        "it begins with stripes of tiles",
+        "write the tile it begins with as seed=row,column,tile (or seeds as a list, in YAML)",
+    ),
+    (
+        "stoic=",
+        "it changes the share of a tile",
+        "write the share behind the tile: {1 2 1 2}[0.5]",
+    ),
+];
+const DOUBLE: &str = "double tiles are no magnetic squares";
+const HALVES: &str = "write the two halves as tiles that share a strong glue";
+
+/// Lines that only steer the engine.
+const STEERING: [&str; 64] = [
+    "block",
+    "update_rate",
+    "rand",
+    "k",
+    "tmax",
+    "emax",
+    "smax",
+    "smin",
+    "fsmax",
+    "mmax",
+    "fission",
+    "no_fission",
+    "chunk_fission",
+    "wander",
+    "pause",
+    "window",
+    "font",
+    "tracefile",
+    "datafile",
+    "arrayfile",
+    "exportfile",
+    "largeflakedatafile",
+    "movie",
+    "movieformat",
+    "import_offset",
+    "importoffset",
+    "addflakes",
+    "tinybox",
+    "untiltiles",
+    "untiltilescount",
+    "min_strength",
+    "error_radius",
+    "repair_unique",
+    "repair_unique_T",
+    "clean_X",
+    "clean_cycles",
+    "fill_X",
+    "fill_cycles",
+    "blast_rate",
+    "blast_rate_alpha",
+    "blast_rate_beta",
+    "blast_rate_gamma",
+    "zero_bonds",
+    "no_zero_bonds",
+    "Gfc",
+    "Gas",
+    "Gam",
+    "Gae",
+    "Gah",
+    "Gao",
+    "Gseh",
+    "Gmch",
+    "Ghyd",
+    "anneal",
+    "linan",
+    "testing",
+    "pulse",
+    "present",
+    "tmp",
+    "fluxes",
+    "-nw",
+    "-rv",
+    "nw",
+    "rv",
+];
+/// Those that this writes itself.
+const OWN: [&str; 1] = ["fission"];
+
 /// A line after the strengths; what only steers the engine is passed over.
 fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     if scan.takes("g(") {
@@ -183,10 +282,12 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
         }
         return Ok(());
     }
-    for double in ["doubletile=", "vdoubletile="] {
-        if scan.rest().starts_with(double) {
-            let help = "write the two halves as tiles that share a strong glue";
-            return Err(scan.wrong("double tiles are no magnetic squares".to_owned(), help));
+    if scan.takes("periodic=False") {
+        return Ok(());
+    }
+    for (line, message, help) in REFUSED {
+        if scan.rest().starts_with(line) {
+            return Err(scan.wrong(message.to_owned(), help));
         }
     }
     if scan.takes("seed=") {
@@ -205,7 +306,20 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     } else if scan.takes("Gmc=") {
         set.gmc = Some(scan.number()?);
     } else {
-        scan.until(&['\n']);
+        let start = scan.at;
+        let line = scan.until(&['\n']).trim();
+        let key = line
+            .split(['=', ' ', '\t', '%', '('])
+            .next()
+            .unwrap_or_default();
+        if !STEERING.contains(&key) {
+            scan.at = start;
+            let message = format!("`{key}` is nothing that xgrow knows after the strengths");
+            return Err(scan.wrong(message, &nearest_help(key, &STEERING)));
+        }
+        if !OWN.contains(&line) {
+            set.passed_over.push(key.to_owned());
+        }
     }
     Ok(())
 }

@@ -11,9 +11,9 @@
 //! Sobel 1953, doi:10.1080/01621459.1953.10483488). The ratio of two such is Fisher's, which gives the
 //! interval for few times as for many.
 
-use csv::{ReaderBuilder, Trim};
 use statrs::distribution::{Beta, ContinuousCDF};
 
+use super::lines::{positive, records};
 use physics::dynamics::docking::exponential_statistic;
 use physics::units::to_digits;
 
@@ -65,34 +65,17 @@ pub struct PairTimes {
     pub apart: Times,
 }
 
-/// What is wrong with a file of intervals, and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TimesError {
-    /// A column is not there, or another one is.
-    #[error(
-        "the first line must name the columns bound_s,apart_s (in any order) or distance_m alone, not \
-         `{0}`"
-    )]
-    Columns(String),
-    /// A line has too many entries, or cannot be read.
-    #[error("line {0} has not two entries; leave one empty, but keep its comma")]
-    Entries(usize),
-    /// An entry is no positive number.
-    #[error("line {line}: `{text}` is no time above 0 (s), nor one with > before it")]
-    NoTime {
-        /// Which line, from 1.
-        line: usize,
-        /// The entry.
-        text: String,
-    },
-    /// One of the columns has too few entries.
-    #[error("{column}: {found} intervals seen to their ends are too few; measure 5 or more")]
-    TooFew {
-        /// Which column.
-        column: &'static str,
-        /// How many entries it has.
-        found: usize,
-    },
+/// kT as intervals tell it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimesFit {
+    /// What was measured.
+    pub times: PairTimes,
+    /// Area (m^2) that the pair had for itself.
+    pub area: f64,
+    /// kT (J) at which pairs bind and part so; `None` where there is none.
+    pub kt: Option<f64>,
+    /// Its 95 % interval (J).
+    pub interval: [Option<f64>; 2],
 }
 
 /// Fewest whole intervals of either kind.
@@ -103,50 +86,48 @@ impl PairTimes {
     ///
     /// # Errors
     /// Where the text is no table of [`COLUMNS`], or has fewer than five whole intervals of a kind.
-    pub fn read(text: &str) -> Result<Self, TimesError> {
-        let mut reader = ReaderBuilder::new()
-            .flexible(true)
-            .trim(Trim::All)
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let header: Vec<String> = reader
-            .headers()
-            .map(|header| header.iter().map(str::to_owned).collect())
-            .unwrap_or_default();
+    pub fn read(text: &str) -> Result<Self, String> {
+        let mut records = records(text);
+        let header = records.next().map(|(_, header)| header).unwrap_or_default();
         let place = |name: &str| header.iter().position(|column| column == name);
         let (Some(bound), Some(apart), 2) = (place(COLUMNS[0]), place(COLUMNS[1]), header.len())
         else {
-            return Err(TimesError::Columns(header.join(",")));
+            let named = header.iter().collect::<Vec<_>>().join(",");
+            return Err(format!(
+                "the first line must name the columns bound_s,apart_s (in any order) or distance_m \
+                 alone, not `{named}`"
+            ));
         };
         let mut times = Self::default();
-        for record in reader.records() {
-            let record = record.map_err(|_| TimesError::Entries(0))?;
-            let line = record.position().map_or(0, |at| at.line() as usize);
+        for (line, record) in records {
             if record.len() != 2 {
-                return Err(TimesError::Entries(line));
+                return Err(format!(
+                    "line {line} has not two entries; leave one empty, but keep its comma"
+                ));
             }
             for (column, list) in [(bound, &mut times.bound), (apart, &mut times.apart)] {
                 let text = &record[column];
-                if text.is_empty() {
-                    continue;
-                }
                 let (list, number) = match text.strip_prefix(CUT) {
-                    Some(number) => (&mut list.cut, number.trim()),
+                    Some(number) => (&mut list.cut, number),
                     None => (&mut list.whole, text),
                 };
-                let number = number.parse().ok();
-                let time = number.filter(|time: &f64| time.is_finite() && *time > 0.0);
-                let wrong = || TimesError::NoTime {
-                    line,
-                    text: text.to_owned(),
-                };
-                list.push(time.ok_or_else(wrong)?);
+                match positive(number) {
+                    Some(time) => list.push(time),
+                    None if text.is_empty() => {}
+                    None => {
+                        return Err(format!(
+                            "line {line}: `{text}` is no time above 0 (s), nor one with > before it"
+                        ));
+                    }
+                }
             }
         }
         for (column, list) in COLUMNS.into_iter().zip([&times.bound, &times.apart]) {
             let found = list.whole.len();
             if found < FEWEST {
-                return Err(TimesError::TooFew { column, found });
+                return Err(format!(
+                    "{column}: {found} intervals seen to their ends are too few; measure 5 or more"
+                ));
             }
         }
         Ok(times)

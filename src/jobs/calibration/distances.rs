@@ -9,8 +9,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use csv::{ReaderBuilder, Trim};
+use csv::StringRecord;
 
+use super::lines::{positive, records};
 use physics::configuration::Configuration;
 use physics::kinetics::distance::Distances;
 use physics::problem::Problem;
@@ -38,33 +39,6 @@ pub struct PairDistances {
     rows: Vec<(usize, f64)>,
 }
 
-/// What is wrong with distances, and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DistancesError {
-    /// A line cannot be read.
-    #[error("line {0} is no single entry")]
-    Entries(usize),
-    /// An entry is no positive number.
-    #[error("line {line}: `{text}` is no distance above 0 (m)")]
-    NoDistance {
-        /// Which line, from 1.
-        line: usize,
-        /// The entry.
-        text: String,
-    },
-    /// The tiles would overlap.
-    #[error(
-        "line {0}: with their centres {1} m apart the tiles would overlap, however they are turned; \
-         distances are those of the tiles' reference points"
-    )]
-    Overlap(usize, f64),
-    /// Too few distances up to the end (m).
-    #[error(
-        "{0} distances up to {1} m are too few; measure 10 or more, or choose a larger --within"
-    )]
-    TooFew(usize, f64),
-}
-
 /// kT as distances tell it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceFit {
@@ -88,36 +62,23 @@ pub struct DistanceFit {
 impl PairDistances {
     /// Whether a file's first line names the column of distances.
     pub fn is_named_in(text: &str) -> bool {
-        let lines = text.lines().map(str::trim);
-        let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
-        lines.next() == Some(COLUMN)
+        records(text)
+            .next()
+            .is_some_and(|(_, header)| header == [COLUMN][..])
     }
 
     /// Reads distances; empty lines and lines that begin with `#` are skipped.
     ///
     /// # Errors
     /// Where a line is no distance.
-    pub fn read(text: &str) -> Result<Self, DistancesError> {
-        let mut reader = ReaderBuilder::new()
-            .flexible(true)
-            .trim(Trim::All)
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|_| DistancesError::Entries(0))?;
-            let line = record.position().map_or(0, |at| at.line() as usize);
-            if record.len() != 1 {
-                return Err(DistancesError::Entries(line));
-            }
-            let number = record[0].parse().ok();
-            let distance = number.filter(|it: &f64| it.is_finite() && *it > 0.0);
-            let wrong = || DistancesError::NoDistance {
-                line,
-                text: record[0].to_owned(),
-            };
-            rows.push((line, distance.ok_or_else(wrong)?));
-        }
+    pub fn read(text: &str) -> Result<Self, String> {
+        let row = |(line, record): (usize, StringRecord)| match record.len() {
+            1 => positive(&record[0])
+                .map(|distance| (line, distance))
+                .ok_or_else(|| format!("line {line}: `{}` is no distance above 0 (m)", &record[0])),
+            _ => Err(format!("line {line} is no single entry")),
+        };
+        let rows = records(text).skip(1).map(row).collect::<Result<_, _>>()?;
         Ok(Self { rows })
     }
 
@@ -130,7 +91,7 @@ impl PairDistances {
         problem: &Problem,
         bond: &Configuration,
         within: f64,
-    ) -> Result<DistanceFit, DistancesError> {
+    ) -> Result<DistanceFit, String> {
         let depth = -problem.energy(bond);
         let kt = |at: f64| depth * libm::exp(-at);
         let law = |node: i32| Distances::new(problem, bond, kt(f64::from(node) * STEP), within);
@@ -142,12 +103,20 @@ impl PairDistances {
             match first.part(distance) {
                 Some(part) => counts[part] += 1,
                 None if distance > within => beyond += 1,
-                None => return Err(DistancesError::Overlap(line, distance)),
+                None => {
+                    return Err(format!(
+                        "line {line}: with their centres {distance} m apart the tiles would overlap, \
+                         however they are turned; distances are those of the tiles' reference points"
+                    ));
+                }
             }
         }
         let count = self.rows.len() - beyond;
         if count < FEWEST {
-            return Err(DistancesError::TooFew(count, within));
+            return Err(format!(
+                "{count} distances up to {within} m are too few; measure 10 or more, or choose a larger \
+                 --within"
+            ));
         }
         let known = RefCell::new(BTreeMap::from([(nodes[0], first)]));
         let logarithms = |node: i32| -> Vec<f64> {

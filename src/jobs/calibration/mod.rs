@@ -15,16 +15,121 @@
 pub mod bonds;
 pub mod distances;
 mod fit;
+mod lines;
 mod rows;
 
+use clap::Args;
+
 use crate::design::Design;
+use crate::pipeline::{self, Settings};
+use crate::request::{self, Unanswered};
+use bonds::{PairTimes, TimesFit};
+use distances::{DistanceFit, PairDistances};
 use fit::{Fit, least_squares};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
+use physics::kinetics::Hold;
+use physics::kinetics::bond::BondError;
+use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::tile::Tile;
-pub use rows::{COLUMNS, CsvError, read_rows};
+pub use rows::{COLUMNS, read_rows};
+
+/// What is asked of measurements.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Area that a pair had for itself (m^2) [default: the design's table]
+    #[arg(long, value_name = "M2", value_parser = request::positive)]
+    pub area: Option<f64>,
+
+    /// Distances (m) up to which those of pairs count, for the rim of the table is felt beyond
+    /// [default: where tiles are free]
+    #[arg(long, value_name = "R", value_parser = request::length)]
+    pub within: Option<f64>,
+
+    /// Of so many rows one is held out of the fit
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
+    pub hold_out: u16,
+}
+
+/// What measurements tell.
+pub enum Fitted {
+    /// The constants of shields.
+    Shields(Box<Calibration>),
+    /// kT of pairs' distances.
+    Distances(DistanceFit),
+    /// kT of intervals for which pairs were bound and apart.
+    Times(TimesFit),
+}
+
+/// Why measurements tell nothing.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// They are wrong or too few: what is wrong, and where.
+    #[error("{0}")]
+    Table(String),
+    /// There is no bond.
+    #[error(transparent)]
+    Bond(#[from] BondError),
+}
+
+impl From<String> for FitError {
+    fn from(wrong: String) -> Self {
+        Self::Table(wrong)
+    }
+}
+
+impl Unanswered for FitError {
+    fn is_of_the_question(&self) -> bool {
+        !matches!(self, Self::Bond(_))
+    }
+}
+
+impl Request {
+    /// The constants of shields, of a table of forces and energies.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn of_forces(&self, design: &Design, table: &str) -> Result<Fitted, FitError> {
+        let rows = read_rows(table)?;
+        let (specimen, settings) = Specimen::of(design, self.hold_out.into());
+        let found = calibrate(&specimen, &rows, &settings)?;
+        Ok(Fitted::Shields(Box::new(found)))
+    }
+
+    /// kT, of a table of pairs: their distances, or how long they were bound and apart.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn of_pairs(
+        &self,
+        design: &Design,
+        table: &str,
+        observer: &dyn Observer,
+    ) -> Result<Fitted, FitError> {
+        if PairDistances::is_named_in(table) {
+            let within = self.within.unwrap_or(design.space().free_distance);
+            let read = PairDistances::read(table)?;
+            let found = read.fit(&design.problem(), &design.pair.bound, within)?;
+            return Ok(Fitted::Distances(found));
+        }
+        let times = PairTimes::read(table)?;
+        let settings = Settings::without_proofs(Settings::default().seed);
+        let analysis = pipeline::analyse(design, &settings, observer);
+        let bond = Hold::bond(&analysis.problem, &analysis.catalogue)?;
+        let area = self.area.unwrap_or(design.table[0] * design.table[1]);
+        let (odds, [low, high]) = times.log_odds();
+        // The longer tiles are bound, the colder they are.
+        let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));
+        Ok(Fitted::Times(TimesFit {
+            times,
+            area,
+            kt,
+            interval: [least, most],
+        }))
+    }
+}
 
 /// What can be measured at a pose, and its unit.
 pub const QUANTITIES: [(&str, &str); 4] = [
@@ -158,28 +263,6 @@ pub struct Calibration {
     pub settled: bool,
 }
 
-/// Why there is no calibration.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CalibrationError {
-    /// So many measured values with iron determine no fit.
-    #[error(
-        "{0} measured values with iron are too few to fit four constants; give at least five rows \
-         that are not held out"
-    )]
-    TooFew(usize),
-    /// At a pose the tiles would lie in each other.
-    #[error(
-        "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in rad, \
-         in the fixed tile's frame", 1e3 * .depth
-    )]
-    Overlap {
-        /// Of the row, in the file.
-        line: usize,
-        /// How deep they overlap (m).
-        depth: f64,
-    },
-}
-
 /// By how much (m) the tiles may overlap at a pose that was measured, with its error.
 const MEASURED_OVERLAP: f64 = 1e-3;
 
@@ -191,7 +274,7 @@ pub fn calibrate(
     specimen: &Specimen,
     rows: &[Row],
     settings: &CalibrationSettings,
-) -> Result<Calibration, CalibrationError> {
+) -> Result<Calibration, String> {
     let (fixed, moving) = (specimen.fixed, specimen.moving);
     let contact = Contact::new(&fixed.outline, &moving.outline);
     for Row {
@@ -202,7 +285,11 @@ pub fn calibrate(
     {
         let depth = -contact.clearance(configuration);
         if depth > MEASURED_OVERLAP {
-            return Err(CalibrationError::Overlap { line: *line, depth });
+            return Err(format!(
+                "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in \
+                 rad, in the fixed tile's frame",
+                1e3 * depth
+            ));
         }
     }
     let bare = ShieldedPotential::new(specimen.model, fixed, moving, &Shields::default());
@@ -227,7 +314,10 @@ pub fn calibrate(
     let start = constants_of(&settings.start);
     let values = residuals(&start).len();
     if values <= start.len() {
-        return Err(CalibrationError::TooFew(values));
+        return Err(format!(
+            "{values} measured values with iron are too few to fit four constants; give at least five \
+             rows that are not held out"
+        ));
     }
     let fits = STARTING_LENGTHS.map(|factor| {
         let mut start = start;

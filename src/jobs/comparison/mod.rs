@@ -21,109 +21,16 @@ mod request;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Drawing};
-use crate::pipeline::{self, Analysis, Settings};
-use physics::budget::Allowance;
+use crate::pipeline::{self, Analysis};
 use physics::dynamics::check::BarrierCheck;
 use physics::landscape::minimum::Known;
-use physics::landscape::{
-    Barrier, Claims, Completeness, CompletenessSettings, Proportion, SaddleBounds, State, StateKind,
-};
+use physics::landscape::{Barrier, Completeness, Proportion, SaddleBounds, State, StateKind};
 use physics::observer::Observer;
 use physics::potential::MagnetModel;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
-pub use request::Request;
-
-/// How designs are assessed: all that decides an assessment besides the design and the seed.
-///
-/// Work is counted, so that every machine finds the same.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AssessmentSettings {
-    /// Milestones of the roadmap.
-    pub milestones: usize,
-    /// Neighbours of each milestone; by the PRM* rule where `None`.
-    pub neighbours: Option<usize>,
-    /// A barrier is settled when it moves by less than this fraction.
-    pub settled: f64,
-    /// Number of far starts from which capture shares are counted.
-    pub far_starts: usize,
-    /// So many kinds of states are looked at closely, the deepest; all where `None`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub most_kinds: Option<usize>,
-    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the
-    /// bond or a twentieth of the barrier, whichever is less.
-    #[serde(rename = "tolerance_J")]
-    pub tolerance: Option<f64>,
-    /// Cells spent on the bounds of a barrier at most; 0 for no bounds.
-    pub certify_cells: usize,
-    /// Cells spent on the search for states that the survey missed, at most; 0 for no search. Of blocks
-    /// it is a thirtieth, which takes about as long.
-    pub complete_cells: usize,
-    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub dynamics_runs: usize,
-}
-
-/// Settings of sweeps without the check read as they always did.
-fn is_zero(runs: &usize) -> bool {
-    *runs == 0
-}
-
-impl Default for AssessmentSettings {
-    fn default() -> Self {
-        Self::like(Settings::default())
-    }
-}
-
-impl AssessmentSettings {
-    /// Defaults for designs, the same for all of them: see [`Settings::of`].
-    pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
-        Self::like(Settings::of(designs))
-    }
-
-    fn like(settings: Settings) -> Self {
-        let cells = |allowed: Allowance, usual: usize| if allowed.is_none() { 0 } else { usual };
-        Self {
-            milestones: settings.milestones,
-            neighbours: settings.neighbours,
-            settled: settings.settled,
-            far_starts: settings.far_starts,
-            most_kinds: settings.most_kinds,
-            tolerance: settings.tolerance,
-            certify_cells: cells(settings.certify, 200_000),
-            complete_cells: cells(settings.completeness.allowed, 300_000),
-            dynamics_runs: 0,
-        }
-    }
-
-    /// The settings of the main job.
-    pub fn settings(&self, seed: u64) -> Settings {
-        let worth = |cells: usize| match cells {
-            0 => Allowance::NONE,
-            _ => Allowance::UNLIMITED,
-        };
-        Settings {
-            seed,
-            milestones: self.milestones,
-            neighbours: self.neighbours,
-            settled: self.settled,
-            far_starts: self.far_starts,
-            most_kinds: self.most_kinds,
-            tolerance: self.tolerance,
-            certify_cells: self.certify_cells,
-            certify: worth(self.certify_cells),
-            completeness: CompletenessSettings {
-                cells: self.complete_cells,
-                allowed: worth(self.complete_cells),
-                ..Settings::default().completeness
-            },
-            claims: Claims::BondAndDeepestTrap,
-            dynamics_runs: self.dynamics_runs,
-            ..Settings::default()
-        }
-    }
-}
+pub use request::{Question, Request};
 
 /// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -242,16 +149,49 @@ const CELLS_OF_BLOCKS: usize = 30;
 /// Analyses a design and keeps what is compared.
 pub fn assess(
     design: &Design,
-    settings: &AssessmentSettings,
+    request: &Request,
     seed: u64,
     observer: &dyn Observer,
 ) -> Assessment {
-    let mut settings = settings.settings(seed);
+    let mut settings = request.settings(seed);
     if design.interaction.model == MagnetModel::Cuboid {
         settings.completeness.cells /= CELLS_OF_BLOCKS;
     }
     let analysis = pipeline::analyse(design, &settings, observer);
     Assessment::new(design, &analysis)
+}
+
+/// Assesses designs one after another.
+pub fn assess_all<'a>(
+    designs: impl IntoIterator<Item = &'a Design>,
+    question: &Question,
+    observer: &dyn Observer,
+) -> Vec<Assessment> {
+    let designs: Vec<&Design> = designs.into_iter().collect();
+    let count = designs.len();
+    let assessed = designs.into_iter().enumerate().map(|(done, design)| {
+        let part = Part {
+            observer,
+            done,
+            count,
+        };
+        assess(design, &question.request, question.seed, &part)
+    });
+    assessed.collect()
+}
+
+/// The progress of one design among several.
+struct Part<'a> {
+    observer: &'a dyn Observer,
+    done: usize,
+    count: usize,
+}
+
+impl Observer for Part<'_> {
+    fn stage(&self, name: &'static str, share: f64) {
+        let share = (self.done as f64 + share) / self.count as f64;
+        self.observer.stage(name, share);
+    }
 }
 
 impl Assessment {

@@ -10,6 +10,7 @@ use super::tile::TileEntry;
 use physics::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, face_edges};
 use physics::tile::outline::{Outline, OutlineError};
 use physics::tile::profile::SHALLOWEST;
+use physics::tile::strength::Strength;
 use physics::tile::{Magnet, Tile};
 
 /// A tile, and where the file puts each of its magnets.
@@ -25,6 +26,8 @@ pub(super) struct Placing {
     pub span: Span,
     /// How far it lies behind the surface (m).
     pub inset: f64,
+    /// How the file says how strong it is.
+    pub strength: Option<Strength>,
 }
 
 /// Puts a tile together from the contents of its faces.
@@ -46,6 +49,7 @@ pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<Built
                 placings.push(Placing {
                     span: listed.span,
                     inset: listed.keys.inset.unwrap_or(0.0),
+                    strength: listed.keys.strength,
                 });
             }
         }
@@ -213,5 +217,5 @@ fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Op
         }
     }
     let rounded = rounded_down(right);
-    (right > SHALLOWEST && possible(rounded)).then_some(rounded)
+    (right > SHALLOWEST * depth.abs() && possible(rounded)).then_some(rounded)
 }

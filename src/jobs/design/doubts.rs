@@ -4,7 +4,7 @@ use super::DesignError;
 use super::face::FaceContent;
 use super::quantity::{self, four_digits};
 use super::reader::Section;
-use super::tile::TileEntry;
+use super::tile::{TileEntry, nearly_mates};
 
 /// Doubts about a design that is sound: an enormous table, a fit that swallows the shape.
 pub(super) fn find(
@@ -17,7 +17,8 @@ pub(super) fn find(
         let faces = entry.base.faces.iter().zip(contents);
         faces.filter_map(|(face, content)| loose(entry, &face.name, content))
     });
-    enormous(root, table).into_iter().chain(fits).collect()
+    let doubts = enormous(root, table).into_iter().chain(fits);
+    doubts.chain(nearly_mates(entries)).collect()
 }
 
 /// A table so large that another unit may have been meant.

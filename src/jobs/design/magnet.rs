@@ -6,7 +6,8 @@ use super::quantity::{self, four_digits};
 use super::reader::{Entry, Section};
 use physics::order::Order;
 use physics::tile::barcode::Pole;
-use physics::tile::strength::Strength;
+use physics::tile::grade::Grade;
+use physics::tile::strength::{Strength, pull};
 
 /// The magnet keys of one place in the file; what is not given there is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,13 +19,15 @@ pub(super) struct MagnetKeys {
     pub axis: Option<f64>,
 }
 
-const STRENGTHS: [&str; 3] = ["remanence", "moment", "surface_field"];
+const STRENGTHS: [&str; 5] = ["remanence", "moment", "surface_field", "grade", "pull"];
 /// The keys of `[magnet]` and of a face's `magnet`.
-pub(super) const MAGNET_KEYS: [&str; 7] = [
+pub(super) const MAGNET_KEYS: [&str; 9] = [
     "size",
     "remanence",
     "moment",
     "surface_field",
+    "grade",
+    "pull",
     "pitch",
     "inset",
     "axis",
@@ -96,7 +99,7 @@ fn strength(section: &Section) -> Result<Option<Strength>> {
                 "`{}` and `{}` both say how strong the magnet is",
                 first.key, second.key
             ),
-            "keep exactly one of remanence, moment and surface_field",
+            "keep exactly one of remanence, moment, surface_field, grade and pull",
         ));
     }
     let Some(entry) = given.first() else {
@@ -105,17 +108,64 @@ fn strength(section: &Section) -> Result<Option<Strength>> {
     Ok(Some(match entry.key {
         "moment" => Strength::Moment(entry.number(quantity::MOMENT)?),
         "remanence" => Strength::Remanence(entry.number(quantity::REMANENCE)?),
+        "grade" => Strength::Grade(grade(entry)?),
+        "pull" => Strength::Pull(entry.number(quantity::PULL)?),
         _ => Strength::SurfaceField(entry.number(quantity::SURFACE_FIELD)?),
     }))
+}
+
+/// A grade by its name.
+fn grade(entry: &Entry) -> Result<Grade> {
+    let name = entry.string()?;
+    Grade::named(name).ok_or_else(|| {
+        let lower = name.to_lowercase();
+        let help = match lower.starts_with("aln") || lower.starts_with("lng") {
+            // What is left of its remanence depends on its length and on what it has been through.
+            true => {
+                "short magnets of AlNiCo lose most of their remanence by themselves: measure \
+                     the field at the pole, surface_field = \"60 mT\", or give their pull"
+            }
+            false => {
+                "known are N35 to N52 (also N42SH and the like), Y30 and other ferrite, YXG28 \
+                      or SmCo 28; or give remanence = 1.2 (T), or pull = \"1.8 kg\""
+            }
+        };
+        entry.error(format!("`grade` cannot be \"{name}\""), help)
+    })
 }
 
 /// The remanence (T) that no material comes near; a moment or a surface field that asks for more
 /// was given in another unit.
 const IMPOSSIBLE_REMANENCE: f64 = 10.0;
+/// The largest remanence (T) of magnets that can be bought; what a pull says beyond it, the pull or
+/// the size is wrong.
+const STRONGEST: f64 = 1.7;
 
 /// What is wrong with the strength of a block, if anything.
-pub(super) fn impossible(size: [f64; 3], moment: f64) -> Option<(String, String)> {
+pub(super) fn impossible(
+    size: [f64; 3],
+    strength: Option<Strength>,
+    moment: f64,
+) -> Option<(String, String)> {
     let remanence = physics::units::MU0 * moment / size.iter().product::<f64>();
+    if let Some(Strength::Pull(force)) = strength
+        && remanence > STRONGEST
+    {
+        return Some((
+            format!(
+                "a block of {} mm that pulls {} N ({} kg) would have a remanence of {} T",
+                size.map(|x| four_digits(x * 1e3).to_string()).join(" x "),
+                four_digits(force),
+                four_digits(force / 9.806_65),
+                four_digits(remanence)
+            ),
+            format!(
+                "the strongest, N52, pulls {} kg; the first number of `size` is the one that it is \
+                 magnetised through",
+                four_digits(pull(size, 1.46) / 9.806_65)
+            ),
+        ));
+    }
     (remanence > IMPOSSIBLE_REMANENCE).then(|| {
         (
             format!(

@@ -26,8 +26,10 @@
 //!   "nearest-face"` takes no constants.
 //! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
 //!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
-//!   physical units or with a `unit`, curves to within [`physics::tile::profile::CHORD_ERROR`]. A face
+//!   physical units or with a `unit`, curves to within 1/2150 of the drawn shape's size. A face
 //!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
+//! - Faces that are to meet may differ by what no cutter resolves, up to 50 um or a thousandth of
+//!   their length: see `tolerance`, which says what is made of them.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
 
@@ -56,6 +58,7 @@ mod svg;
 mod syntax;
 mod target;
 mod tile;
+mod tolerance;
 mod units;
 mod word_places;
 mod word_set;
@@ -65,8 +68,9 @@ pub use drawings::Drawing;
 pub use error::{DesignError, Place};
 pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
+pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
-pub use starting::{Shape, Start, StartError};
+pub use starting::{Shape, ShopMagnet, Start, StartError};
 pub use units::{angle, length};
 pub use word_set::WordSet;
 
@@ -77,17 +81,21 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use crate::checksum::sha256;
+use build::BuiltTile;
 use drawings::Drawings;
 use error::Result;
+use face::FaceContent;
 use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
-use physics::configuration::ConfigurationSpace;
+use physics::configuration::{Configuration, ConfigurationSpace};
 use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
 use physics::tile::Pair;
+use physics::tile::strength::Strength;
 use reader::Section;
 use source::Source;
+use target::Bound;
 use tile::{TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
@@ -117,6 +125,9 @@ pub struct Design {
     pub interaction: Interaction,
     /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
     pub pitch: Option<f64>,
+    /// The kinds of magnets that are given by what shops say of them, a grade or a pull, each with
+    /// its size (m).
+    pub sold: Vec<(Strength, [f64; 3])>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
     /// Doubts that do not keep the design from being used, such as a magnet whose corners break
@@ -210,7 +221,7 @@ impl Design {
         root.allow(&ROOT_KEYS);
         let table = table(&root);
         let keys = magnet_keys(&root);
-        let model = potential::read(&root);
+        let model = potential::read(&root, MagnetModel::default());
         let name = root.get("name").map(|name| name.line()).transpose();
         let description = root.string("description");
         let entries = tile_entries(&root)?;
@@ -221,19 +232,23 @@ impl Design {
         faults.check()?;
         let (table, keys, contents, target) = (table?, keys?, contents?, target?);
         let [fixed, moving] = [0, 1].map(|i| build::build(&entries[i], &contents[i]));
-        let built = [fixed?, moving?];
+        let mut built = [fixed?, moving?];
+        let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
+        let sold = sold(&built);
         let [fixed, moving] = built.map(|built| built.tile);
+        warnings.extend(too_near);
+        warnings.extend(target.doubt);
         let design = Self {
             name: name?.map_or_else(|| stem(source.file), str::to_owned),
             description: description?.unwrap_or_default().to_owned(),
             sha256: sha256(source.text),
             table,
             pair: Arc::new(Pair {
-                bound: target.configuration(&fixed, &moving)?,
+                bound,
                 target: target.faces,
                 fixed,
                 moving,
@@ -243,6 +258,7 @@ impl Design {
                 shields,
             },
             pitch: keys.pitch,
+            sold,
             drawings: Vec::new(),
             warnings,
         };
@@ -289,6 +305,53 @@ impl Design {
         }
         Ok(())
     }
+}
+
+/// The bound configuration, and a doubt where the target faces overlap a little there; where only
+/// that helps, the moving tile is built anew with its face drawn back by the overlap.
+fn bound(
+    target: &target::Target,
+    entries: &[TileEntry; 2],
+    contents: &[Vec<FaceContent>; 2],
+    built: &mut [BuiltTile; 2],
+) -> Result<(Configuration, Option<DesignError>)> {
+    let met = target.meet(&built[0].tile, &built[1].tile)?;
+    let overlap = match met {
+        Bound::At(bound, doubt) => return Ok((bound, doubt)),
+        Bound::Overlap(overlap) => overlap,
+    };
+    // With room for what rounding makes of a corner.
+    let drawn = overlap * (1.0 + 1e-6);
+    let mut moving = contents[1].clone();
+    moving[target.faces.1].fit += drawn;
+    built[1] = build::build(&entries[1], &moving)?;
+    let doubt = target.overlapping(
+        overlap,
+        &format!(
+            "the moving face is drawn back by {}, as `fit` does it",
+            tolerance::micrometres(drawn)
+        ),
+    );
+    match target.meet(&built[0].tile, &built[1].tile)? {
+        Bound::At(bound, _) => Ok((bound, Some(doubt))),
+        // Not the face's line, but something beside it is in the way.
+        Bound::Overlap(_) => Err(target.blocked(overlap)),
+    }
+}
+
+/// The kinds of magnets whose strength is a grade or a pull.
+fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, [f64; 3])> {
+    let mut sold = Vec::new();
+    for tile in built {
+        for (magnet, placing) in tile.tile.magnets.iter().zip(&tile.placings) {
+            if let Some(strength @ (Strength::Grade(_) | Strength::Pull(_))) = placing.strength
+                && !sold.contains(&(strength, magnet.size))
+            {
+                sold.push((strength, magnet.size));
+            }
+        }
+    }
+    sold
 }
 
 const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";

@@ -78,7 +78,7 @@ pub(super) fn magnet(
     let error =
         |message: String, help: String| entry.section.source.error(listed.span, message, help);
     let (size, moment) = listed.keys.block().map_err(|key| missing_key(key, error))?;
-    if let Some((message, help)) = impossible(size, moment) {
+    if let Some((message, help)) = impossible(size, listed.keys.strength, moment) {
         return Err(error(message, help));
     }
     let Some(surface) = surface_height(edges, listed.at) else {

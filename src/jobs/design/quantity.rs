@@ -59,6 +59,12 @@ const FIELD: Kind = Kind {
     others: &[(1000.0, "mT"), (1e4, "G")],
     units: units::FIELD,
 };
+const FORCE: Kind = Kind {
+    unit: "N",
+    rule: "a pull is in newtons; shops state it in kilograms: pull = \"1.8 kg\"",
+    others: &[],
+    units: units::FORCE,
+};
 const DIPOLE: Kind = Kind {
     unit: "A m^2",
     rule: "magnetic moments are in A m^2",
@@ -100,10 +106,10 @@ impl Kind {
 
 pub(super) const TILE_SIDE: Quantity = LENGTH.positive((1e-3, 10.0), (0.01, 2.0));
 pub(super) const TILE_CORNER: Quantity = LENGTH.any(10.0, (0.01, 2.0));
-pub(super) const TILE_THICKNESS: Quantity = LENGTH.positive((1e-4, 0.5), (5e-4, 0.1));
-pub(super) const TABLE_SIZE: Quantity = LENGTH.positive((0.01, 100.0), (0.1, 10.0));
-pub(super) const MAGNET_SIZE: Quantity = LENGTH.positive((1e-4, 0.5), (5e-4, 0.05));
-pub(super) const PITCH: Quantity = LENGTH.positive((1e-4, 2.0), (1e-3, 0.2));
+pub(super) const TILE_THICKNESS: Quantity = LENGTH.positive((1e-5, 0.5), (5e-4, 0.1));
+pub(super) const TABLE_SIZE: Quantity = LENGTH.positive((1e-3, 100.0), (0.1, 10.0));
+pub(super) const MAGNET_SIZE: Quantity = LENGTH.positive((1e-5, 0.5), (5e-4, 0.05));
+pub(super) const PITCH: Quantity = LENGTH.positive((1e-5, 2.0), (1e-3, 0.2));
 pub(super) const INSET: Quantity = LENGTH.not_negative(0.5, (1e-4, 0.05));
 pub(super) const FIT: Quantity = LENGTH.not_negative(0.05, (1e-5, 5e-3));
 pub(super) const PROFILE_WIDTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 2.0));
@@ -124,9 +130,11 @@ pub(super) const FRONT_GAIN: Quantity =
     share("the gain is a factor, 1 for a shield that only takes away")
         .positive((0.1, 10.0), (0.1, 10.0));
 /// Of a tile.
-pub(super) const MASS: Quantity = WEIGHT.positive((1e-6, 1e3), (1e-3, 10.0));
+pub(super) const MASS: Quantity = WEIGHT.positive((1e-9, 1e3), (1e-3, 10.0));
 pub(super) const REMANENCE: Quantity = FIELD.positive((1e-3, 2.5), (0.05, 1.6));
 pub(super) const SURFACE_FIELD: Quantity = FIELD.positive((1e-5, 1.25), (0.01, 0.8));
+/// Of a magnet off thick steel.
+pub(super) const PULL: Quantity = FORCE.positive((1e-4, 1e5), (0.01, 2e3));
 pub(super) const MOMENT: Quantity = DIPOLE.positive((1e-9, 1e4), (1e-4, 100.0));
 
 impl Quantity {

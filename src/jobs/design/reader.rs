@@ -300,7 +300,7 @@ impl<'a> Entry<'a> {
 }
 
 /// Names the known word nearest to `word`, or all of them where none is near.
-pub(super) fn nearest_help(word: &str, known: &[&str]) -> String {
+pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
     // Of numbers none is near another.
     let number = word.bytes().all(|b| b.is_ascii_digit());
     let nearest = known

@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn its_limits_are_those_of_the_reader() {
         let schema = schema();
-        let quantities: [(&str, Quantity); 22] = [
+        let quantities: [(&str, Quantity); 23] = [
             ("tile_side", quantity::TILE_SIDE),
             ("tile_corner", quantity::TILE_CORNER),
             ("tile_thickness", quantity::TILE_THICKNESS),
@@ -125,6 +125,7 @@ mod tests {
             ("remanence", quantity::REMANENCE),
             ("moment", quantity::MOMENT),
             ("surface_field", quantity::SURFACE_FIELD),
+            ("pull", quantity::PULL),
             ("pitch", quantity::PITCH),
             ("inset", quantity::INSET),
             ("axis", quantity::AXIS),

@@ -25,10 +25,13 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
             Some((value, with_unit)) => source.error(
                 (from..from + with_unit.len()).into(),
                 "a number with a unit goes in quotes",
-                format!(
-                    "write \"{with_unit}\", or {} in SI units",
-                    four_digits(value)
-                ),
+                match value {
+                    Some(value) => format!(
+                        "write \"{with_unit}\", or {} in SI units",
+                        four_digits(value)
+                    ),
+                    None => format!("write \"{with_unit}\""),
+                },
             ),
             None => source.error(span.into(), error.message().trim(), HELP),
         };

@@ -6,9 +6,10 @@ use super::error::{DesignError, Result};
 use super::face::find_face;
 use super::quantity::four_digits;
 use super::reader::{Entry, Section};
-use super::tile::{TILES, TileEntry, same_length};
+use super::tile::{TILES, TileEntry};
+use super::tolerance::{Lengths, allowance, micrometres, nearly_equal, told_apart};
 use physics::configuration::Configuration;
-use physics::contact::{Contact, TOUCH};
+use physics::contact::Contact;
 use physics::tile::outline::cross;
 use physics::tile::{Face, Tile};
 
@@ -16,6 +17,12 @@ use physics::tile::{Face, Tile};
 pub(super) struct Target<'a> {
     /// Face of the fixed tile, face of the moving tile.
     pub faces: (usize, usize),
+    /// By how much they may overlap (m).
+    pub allowance: f64,
+    /// That they are not quite equal.
+    pub doubt: Option<DesignError>,
+    /// What the two are called.
+    names: [String; 2],
     moving: Entry<'a>,
 }
 
@@ -30,44 +37,108 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
         let face = find_face(&tiles[i].base.names, &entry, TILES[i])?;
         Ok::<_, DesignError>((entry, face))
     };
-    let [fixed, moving] = [0, 1].map(|i| face(i));
+    let [fixed, moving] = [0, 1].map(face);
     let ((_, fixed), (entry, moving)) = (fixed?, moving?);
     let lengths = [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].length());
     section.source.faults.check_guesses()?;
-    if !same_length(lengths[0], lengths[1]) {
+    let lengths: [f64; 2] = lengths;
+    let [a, b] = lengths;
+    let kind = Lengths::of(a, b);
+    if kind == Lengths::Unequal {
+        let [a, b] = told_apart(a, b);
         return Err(entry.error(
-            format!(
-                "the target faces cannot coincide: they are {} m and {} m long",
-                four_digits(lengths[0]),
-                four_digits(lengths[1])
-            ),
+            format!("the target faces cannot coincide: they are {a} and {b} long"),
             "choose two faces of equal length",
         ));
     }
+    // A mate that is nearly as long is told of at its `mates`.
+    let mates = tiles[1].mates_of(moving).is_some();
+    let doubt = (kind == Lengths::Near && !mates)
+        .then(|| nearly_equal(&entry, "the target faces measure", a, b));
     Ok(Target {
         faces: (fixed, moving),
+        allowance: allowance(a, b),
+        names: [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].name.clone()),
         moving: entry,
+        doubt,
     })
 }
 
+/// How two tiles meet with their target faces.
+pub(super) enum Bound {
+    /// There they are bound; with a doubt where they had to be drawn apart to touch.
+    At(Configuration, Option<DesignError>),
+    /// They overlap by so much (m), no more than is allowed, and drawing them apart does not help.
+    Overlap(f64),
+}
+
+/// Halvings of how far tiles are drawn apart: to 1e-13 of the allowance.
+const HALVINGS: usize = 44;
+
 impl Target<'_> {
-    /// The configuration in which the two base lines coincide, face to face.
-    pub fn configuration(&self, fixed: &Tile, moving: &Tile) -> Result<Configuration> {
-        let bound = face_to_face(&fixed.faces[self.faces.0], &moving.faces[self.faces.1]);
-        let depth = -Contact::new(&fixed.outline, &moving.outline).clearance(&bound);
-        if depth > TOUCH {
-            return Err(self.moving.error(
-                format!(
-                    "the target faces cannot coincide: there the tiles overlap by {} mm",
-                    four_digits(depth * 1e3)
-                ),
-                format!(
-                    "make the moving face the complement of the fixed one: {} = {{ mates = \"{}\" }} under [moving.faces]",
-                    moving.faces[self.faces.1].name, fixed.faces[self.faces.0].name
-                ),
-            ));
+    /// The configuration in which the two base lines coincide, face to face, drawn apart as far as
+    /// they overlap by less than a cutter resolves.
+    pub fn meet(&self, fixed: &Tile, moving: &Tile) -> Result<Bound> {
+        let flush = face_to_face(&fixed.faces[self.faces.0], &moving.faces[self.faces.1]);
+        let contact = Contact::new(&fixed.outline, &moving.outline);
+        let depth = |q: &Configuration| -contact.clearance(q);
+        let overlap = depth(&flush);
+        if overlap <= contact.touch() {
+            return Ok(Bound::At(flush, None));
         }
-        Ok(bound)
+        if overlap > self.allowance {
+            return Err(self.blocked(overlap));
+        }
+        let out = fixed.faces[self.faces.0].normal();
+        let drawn = |by: f64| {
+            let place = flush.position() + out * by;
+            Configuration::new(clean(place.x), clean(place.y), flush.theta)
+        };
+        if depth(&drawn(self.allowance)) > contact.touch() {
+            return Ok(Bound::Overlap(overlap));
+        }
+        let (mut inside, mut outside) = (0.0, self.allowance);
+        for _ in 0..HALVINGS {
+            let middle = (inside + outside) / 2.0;
+            match depth(&drawn(middle)) > contact.touch() {
+                true => inside = middle,
+                false => outside = middle,
+            }
+        }
+        let doubt = self.overlapping(
+            overlap,
+            &format!(
+                "the outlines stay as drawn, and the bond is where they touch, {} farther apart",
+                micrometres(outside)
+            ),
+        );
+        Ok(Bound::At(drawn(outside), Some(doubt)))
+    }
+
+    /// That the target faces cannot meet for an overlap (m).
+    pub fn blocked(&self, overlap: f64) -> DesignError {
+        self.moving.error(
+            format!(
+                "the target faces cannot coincide: there the tiles overlap by {} mm",
+                four_digits(overlap * 1e3)
+            ),
+            format!(
+                "make the moving face the complement of the fixed one: {} = {{ mates = \"{}\" }} under [moving.faces]",
+                self.names[1], self.names[0]
+            ),
+        )
+    }
+
+    /// That the target faces overlap by so much (m), and what is made of it.
+    pub fn overlapping(&self, overlap: f64, made: &str) -> DesignError {
+        self.moving.source.doubt(
+            self.moving.span(),
+            format!(
+                "the target faces overlap by {} where they coincide, less than a cutter resolves",
+                micrometres(overlap)
+            ),
+            made,
+        )
     }
 }
 

@@ -1,12 +1,14 @@
 //! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
 
+use super::DesignError;
 use super::base::{self, Base};
 use super::error::Result;
 use super::face::{FaceContent, FaceEntry, find_face};
 use super::magnet::MagnetKeys;
-use super::quantity::{self, four_digits};
+use super::quantity;
 use super::reader::{Entry, Section, all};
 use super::shield::ShieldKeys;
+use super::tolerance::{Lengths, nearly_equal, told_apart};
 use physics::potential::shielding::Shield;
 
 /// The two tiles' names, in the order in which they are stored.
@@ -71,7 +73,12 @@ fn mass<'a>(section: &Section<'a>) -> Result<(Entry<'a>, f64)> {
     Ok((entry, entry.number(quantity::MASS)?))
 }
 
-impl TileEntry<'_> {
+impl<'a> TileEntry<'a> {
+    /// What a face says that it mates, if it does.
+    pub fn mates_of(&self, face: usize) -> Option<Entry<'a>> {
+        self.faces[face].mates()
+    }
+
     /// The shield of each face, where `lower` is what the file says of all tiles.
     pub fn shields(&self, lower: ShieldKeys) -> Result<Vec<Option<Shield>>> {
         let keys = self.shield_keys(lower)?;
@@ -151,25 +158,46 @@ fn resolve_face(
     }
     let partner_length = tiles[other].base.faces[partner].length();
     tiles[tile].section.source.faults.check_guesses()?;
-    if !same_length(base.length(), partner_length) {
+    let lengths = Lengths::of(base.length(), partner_length);
+    if lengths == Lengths::Unequal {
+        let [own, others] = told_apart(base.length(), partner_length);
         return Err(mates.error(
-            format!(
-                "a face of {} m cannot mate a face of {} m",
-                four_digits(base.length()),
-                four_digits(partner_length)
-            ),
+            format!("a face of {own} cannot mate a face of {others}"),
             "mates need faces of equal length",
         ));
     }
     let partner = resolve_face(tiles, keys, (other, partner), on_the_way)?;
-    entry.mate_of(&partner, &mates)
+    let mut content = entry.mate_of(&partner, &mates)?;
+    if lengths == Lengths::Near {
+        // The line of a longer face ends where this one does.
+        let end = base.length() / 2.0;
+        for [s, _] in &mut content.polyline {
+            *s = s.clamp(-end, end);
+        }
+    }
+    Ok(content)
+}
+
+/// Mates that are a little longer or shorter than what they mate.
+pub(super) fn nearly_mates(tiles: &[TileEntry; 2]) -> Vec<DesignError> {
+    let mut doubts = Vec::new();
+    for (tile, entry) in tiles.iter().enumerate() {
+        let other = 1 - tile;
+        for (face, base) in entry.faces.iter().zip(&entry.base.faces) {
+            let Some(mates) = face.mates() else { continue };
+            let Ok(partner) = find_face(&tiles[other].base.names, &mates, TILES[other]) else {
+                continue;
+            };
+            let lengths = [base, &tiles[other].base.faces[partner]].map(|face| face.length());
+            let [own, others] = lengths;
+            if Lengths::of(own, others) == Lengths::Near {
+                doubts.push(nearly_equal(&mates, "the mates measure", own, others));
+            }
+        }
+    }
+    doubts
 }
 
 fn name(tiles: &[TileEntry; 2], (tile, face): (usize, usize)) -> String {
     format!("{}.{}", TILES[tile], tiles[tile].base.faces[face].name)
-}
-
-/// Whether two lengths are the same but for rounding.
-pub(super) fn same_length(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-9 * a.max(b)
 }

@@ -12,6 +12,9 @@ pub(super) const LENGTH: Units = &[
     ("um", 1e6),
     ("µm", 1e6),
     ("in", 1.0 / 0.0254),
+    ("inch", 1.0 / 0.0254),
+    ("inches", 1.0 / 0.0254),
+    ("ft", 1.0 / 0.3048),
 ];
 pub(super) const ANGLE: Units = &[
     ("rad", 1.0),
@@ -20,8 +23,46 @@ pub(super) const ANGLE: Units = &[
     ("degrees", DEGREES),
     ("°", DEGREES),
 ];
-pub(super) const FIELD: Units = &[("T", 1.0), ("mT", 1e3), ("G", 1e4), ("kG", 10.0)];
-pub(super) const MASS: Units = &[("kg", 1.0), ("g", 1e3), ("mg", 1e6)];
+pub(super) const FIELD: Units = &[
+    ("T", 1.0),
+    ("mT", 1e3),
+    ("G", 1e4),
+    ("kG", 10.0),
+    ("gauss", 1e4),
+    ("Gauss", 1e4),
+    ("Gs", 1e4),
+];
+/// Pounds and ounces in a kilogram (avoirdupois, by definition).
+const POUNDS: f64 = 1.0 / 0.453_592_37;
+pub(super) const MASS: Units = &[
+    ("kg", 1.0),
+    ("g", 1e3),
+    ("mg", 1e6),
+    ("gram", 1e3),
+    ("grams", 1e3),
+    ("lb", POUNDS),
+    ("lbs", POUNDS),
+    ("oz", 16.0 * POUNDS),
+];
+/// Kilograms that weigh a newton, by the standard gravity of 9.80665 m/s^2.
+const WEIGHT: f64 = 1.0 / 9.806_65;
+/// Forces, weights among them: shops state pulls in kilograms and pounds.
+pub(super) const FORCE: Units = &[
+    ("N", 1.0),
+    ("kN", 1e-3),
+    ("mN", 1e3),
+    ("kg", WEIGHT),
+    ("kgf", WEIGHT),
+    ("kp", WEIGHT),
+    ("g", 1e3 * WEIGHT),
+    ("gf", 1e3 * WEIGHT),
+    ("gram", 1e3 * WEIGHT),
+    ("grams", 1e3 * WEIGHT),
+    ("lb", POUNDS * WEIGHT),
+    ("lbs", POUNDS * WEIGHT),
+    ("lbf", POUNDS * WEIGHT),
+    ("oz", 16.0 * POUNDS * WEIGHT),
+];
 pub(super) const MOMENT: Units = &[
     ("A m^2", 1.0),
     ("A·m²", 1.0),
@@ -36,22 +77,37 @@ pub(super) const SHARE: Units = &[("%", 1e2)];
 /// A finite number and one of `units` behind it, with or without a space, in the file's own unit.
 pub(super) fn read(text: &str, units: Units) -> Option<f64> {
     units.iter().find_map(|(name, factor)| {
-        let number = text.trim().strip_suffix(name)?.trim_end();
-        // Not `inf` and `nan`, which are numbers to Rust; and `12 m` is none of `12 mm`.
-        let plain = number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-        let value: f64 = number.parse().ok().filter(|_| plain)?;
+        let value = number(text.trim().strip_suffix(name)?.trim_end())?;
         Some(value / factor)
     })
 }
 
+/// A decimal number, or one with a fraction as inches have them: `1/2`, `1 3/8`.
+fn number(text: &str) -> Option<f64> {
+    let plain = |text: &str| {
+        // Not `inf` and `nan`, which are numbers to Rust; and `12 m` is none of `12 mm`.
+        let plain = text.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+        text.parse::<f64>().ok().filter(|_| plain)
+    };
+    let whole = |text: &str| text.parse::<u16>().ok().map(f64::from);
+    let Some((above, below)) = text.split_once('/') else {
+        return plain(text);
+    };
+    let (units, above) = above.rsplit_once(' ').unwrap_or(("0", above));
+    let below = whole(below).filter(|below| *below > 0.0)?;
+    Some(whole(units.trim_end())? + whole(above)? / below)
+}
+
 /// A number and a unit of any kind at the beginning of a value, such as `12cm` or `12 cm`: the number
-/// in the file's own unit, and both as they are written.
-pub(super) fn beginning(text: &str) -> Option<(f64, &str)> {
+/// in the file's own unit, where only one kind of quantity has such a unit, and both as they are
+/// written.
+pub(super) fn beginning(text: &str) -> Option<(Option<f64>, &str)> {
     let end = text.find(['\n', '\r', ',', ']', '}', '#']);
     let written = text[..end.unwrap_or(text.len())].trim_end();
-    let kinds = [LENGTH, ANGLE, FIELD, MASS, MOMENT, SHARE];
-    let value = kinds.iter().find_map(|units| read(written, units))?;
-    Some((value, written))
+    let kinds = [LENGTH, ANGLE, FIELD, MASS, FORCE, MOMENT, SHARE];
+    let mut values = kinds.iter().filter_map(|units| read(written, units));
+    let value = values.next()?;
+    Some((values.next().is_none().then_some(value), written))
 }
 
 /// A length (m): a plain number, or one with a unit behind it.
@@ -87,6 +143,14 @@ mod tests {
             (" -0.3 mm ", LENGTH, -3e-4),
             ("1e1 cm", LENGTH, 0.1),
             ("2 in", LENGTH, 0.0508),
+            ("0.5 inch", LENGTH, 0.0127),
+            ("1/2 in", LENGTH, 0.0127),
+            ("1 1/2inches", LENGTH, 0.0381),
+            ("12000 gauss", FIELD, 1.2),
+            ("100 gram", MASS, 0.1),
+            ("1 lb", MASS, 0.453_592_37),
+            ("2 kg", FORCE, 2.0 * 9.806_65),
+            ("18 N", FORCE, 18.0),
             ("0.3 T", FIELD, 0.3),
             ("12000 G", FIELD, 1.2),
             ("100 g", MASS, 0.1),
@@ -102,11 +166,16 @@ mod tests {
             ("cm", LENGTH),
             ("inf m", LENGTH),
             ("12 m m", LENGTH),
+            ("1/0 in", LENGTH),
+            ("1/ in", LENGTH),
+            ("0.5/2 in", LENGTH),
+            ("1 kg", LENGTH),
             ("0.3 T", LENGTH),
         ] {
             assert_eq!(read(text, units), None, "{text}");
         }
-        assert_eq!(beginning("12cm # wide"), Some((0.12, "12cm")));
+        assert_eq!(beginning("12cm # wide"), Some((Some(0.12), "12cm")));
+        assert_eq!(beginning("12 kg"), Some((None, "12 kg")));
         assert_eq!(beginning("12 # wide"), None);
     }
 }

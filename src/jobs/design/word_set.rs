@@ -7,7 +7,7 @@
 //! [tile]
 //! side = 0.43                    # of the square tiles; as long as a word if it is not given
 //! [potential]
-//! model = "cuboid"
+//! model = "cuboid"               # dipoles where not given
 //! [faces]                        # in place of `words`: names with codes; mates (A*) are left out
 //! A = { code = "NNSN" }          # or magnets anywhere: { magnets = [{ at = 0.02, pole = "N" }] }
 //! ```
@@ -108,7 +108,7 @@ impl WordSet {
             section.allow(&["side"]);
             section.number("side", quantity::TILE_SIDE)
         });
-        let told = potential::read(&root);
+        let told = potential::read(&root, MagnetModel::Dipole);
         let faces = faces(&root);
         let words = root.get("words").map(|entry| entry.array());
         let (magnet, side, faces) = (magnet.transpose()?, side.transpose()?.flatten(), faces?);

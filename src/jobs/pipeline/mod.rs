@@ -6,7 +6,7 @@ mod request;
 mod settings;
 
 pub use analysis::{Analysis, Counts, Stage};
-pub use request::{Certify, Request, Thoroughness};
+pub use request::{Certify, Check, Request, Survey};
 pub use settings::Settings;
 
 pub(crate) use clock::Clock;

@@ -1,6 +1,7 @@
 //! What the main job is asked for.
 
 use clap::Args;
+use serde::{Deserialize, Serialize};
 
 use super::Settings;
 use crate::design::Design;
@@ -13,7 +14,11 @@ use physics::landscape::CompletenessSettings;
 pub struct Request {
     /// How thoroughly the landscape is surveyed.
     #[command(flatten)]
-    pub survey: Thoroughness,
+    pub survey: Survey,
+
+    /// Whether moving tiles check the barriers.
+    #[command(flatten)]
+    pub check: Check,
 
     /// Runs, each with the next seed; every barrier's spread over them is reported
     #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
@@ -78,15 +83,10 @@ impl Request {
     pub fn settings(&self, design: &Design) -> Settings {
         let default = Settings::of([design]);
         let complete = default.completeness;
-        Settings {
+        self.survey.settings(Settings {
             seed: self.seed,
-            milestones: self.survey.milestones.unwrap_or(default.milestones),
-            neighbours: self.survey.neighbours,
             boltzmann: self.boltzmann,
             thermal_energy: self.thermal_energy,
-            settled: self.survey.settled,
-            far_starts: self.survey.far_starts.unwrap_or(default.far_starts),
-            most_kinds: self.survey.kinds.or(default.most_kinds),
             repeats: self.repeats,
             tolerance: self.tolerance,
             certify: self.certify.allowed(default.certify),
@@ -101,15 +101,15 @@ impl Request {
                     Settings::default().completeness.allowed,
                 ),
             },
-            dynamics_runs: self.survey.dynamics_runs(),
+            dynamics_runs: self.check.dynamics_runs,
             ..default
-        }
+        })
     }
 }
 
 /// How thoroughly the landscape is surveyed.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct Thoroughness {
+#[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
+pub struct Survey {
     /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub milestones: Option<usize>,
@@ -123,26 +123,74 @@ pub struct Thoroughness {
           value_parser = request::fraction)]
     pub settled: f64,
 
-    /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
-    /// fewer]
-    #[arg(long, value_name = "N", value_parser = request::count)]
-    pub kinds: Option<usize>,
-
     /// Far starts from which capture shares are counted [default: 1000; of very many magnets fewer]
     #[arg(long, value_name = "N", value_parser = request::runs_or_none)]
     pub far_starts: Option<usize>,
 
-    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
-    #[arg(long, alias = "dynamics-runs", value_name = "RUNS", num_args = 0..=1, require_equals = true,
-          default_missing_value = "1000", value_parser = request::runs_or_none)]
-    dynamics: Option<usize>,
+    /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
+    /// fewer]
+    #[arg(long, value_name = "N", value_parser = request::count)]
+    #[serde(
+        default,
+        rename = "most_kinds",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub kinds: Option<usize>,
 }
 
-impl Thoroughness {
-    /// Trajectories below each barrier; 0 for no check.
-    pub fn dynamics_runs(&self) -> usize {
-        self.dynamics.unwrap_or(0)
+impl Default for Survey {
+    fn default() -> Self {
+        Self {
+            milestones: None,
+            neighbours: None,
+            settled: Settings::default().settled,
+            far_starts: None,
+            kinds: None,
+        }
     }
+}
+
+impl Survey {
+    /// With what is usual in place of what was not asked for.
+    #[must_use]
+    pub fn of(&self, usual: &Settings) -> Self {
+        Self {
+            milestones: self.milestones.or(Some(usual.milestones)),
+            far_starts: self.far_starts.or(Some(usual.far_starts)),
+            kinds: self.kinds.or(usual.most_kinds),
+            ..self.clone()
+        }
+    }
+
+    /// Settings with this survey.
+    pub(crate) fn settings(&self, others: Settings) -> Settings {
+        Settings {
+            milestones: self.milestones.unwrap_or(others.milestones),
+            neighbours: self.neighbours,
+            settled: self.settled,
+            far_starts: self.far_starts.unwrap_or(others.far_starts),
+            most_kinds: self.kinds.or(others.most_kinds),
+            ..others
+        }
+    }
+}
+
+/// Whether moving tiles check the barriers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
+pub struct Check {
+    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
+    #[arg(long = "dynamics", id = "dynamics", alias = "dynamics-runs", value_name = "RUNS",
+          num_args = 0..=1, require_equals = true, default_missing_value = "1000", default_value = "0",
+          hide_default_value = true, value_parser = request::runs_or_none)]
+    // Settings of sweeps without the check read as they always did.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub dynamics_runs: usize,
+}
+
+// As serde calls it.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(runs: &usize) -> bool {
+    *runs == 0
 }
 
 /// What the certificate is worth.

@@ -171,7 +171,7 @@ impl Settings {
                     absolute: 1e-5 * depth,
                 },
                 thermal_energy: self.thermal_energy.unwrap_or(0.01 * depth),
-                probability_step: 5e-3,
+                probability_step: problem.scaled(5e-3),
             },
         }
     }

@@ -1,9 +1,52 @@
-//! Poses from a CSV file.
+//! Poses from a CSV file, and what is felt at a pose.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::design::{angle, length};
 use physics::configuration::Configuration;
+use physics::problem::Problem;
+
+/// What is known of a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Felt {
+    /// Of the moving tile.
+    pub pose: Configuration,
+    /// U (J).
+    pub energy: f64,
+    /// On the moving tile (N).
+    pub force: [f64; 2],
+    /// On the moving tile, about its reference point (N m).
+    pub torque: f64,
+    /// Between the outlines (m), see [`clearance`].
+    pub clearance: f64,
+    /// Whether the tiles do not overlap.
+    pub is_free: bool,
+}
+
+impl Felt {
+    /// At a pose.
+    pub fn new(problem: &Problem, pose: &Configuration) -> Self {
+        let (energy, gradient) = problem.energy_and_gradient(pose);
+        Self {
+            pose: *pose,
+            energy,
+            force: [-gradient.x, -gradient.y],
+            torque: -gradient.z,
+            clearance: clearance(problem, pose),
+            is_free: problem.is_clear(pose),
+        }
+    }
+}
+
+/// The distance between the outlines (m), negative where they overlap.
+pub fn clearance(problem: &Problem, pose: &Configuration) -> f64 {
+    let clearance = problem.clearance(pose);
+    // Tiles that touch may overlap by a rounding error.
+    match problem.is_clear(pose) {
+        true => clearance.max(0.0),
+        false => clearance,
+    }
+}
 
 /// Names of the columns, each with those that other files of this program give it.
 const COLUMNS: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["theta", "theta_rad"]];

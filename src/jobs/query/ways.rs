@@ -98,7 +98,7 @@ impl<'a> Search<'a> {
         let proved = pathway::of_configurations(self.problem, proved, BEND * depth);
         let highest = highest_point(&proved).map_or(f64::INFINITY, |point| point.energy);
         let proved: Vec<Configuration> = proved.iter().map(|p| p.configuration).collect();
-        let limits = Limits::below(highest + 1e-9 * depth, depth);
+        let limits = Limits::below(highest + 1e-9 * depth, self.problem);
         let proved = pathway::shortened(self.problem, &proved, &limits);
         let proved = pathway::of_configurations(self.problem, &proved, BEND * depth);
         let points: Vec<Point> = proved

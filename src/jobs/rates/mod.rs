@@ -5,15 +5,14 @@ mod over_kt;
 mod states;
 mod table;
 
-pub use over_kt::AtKt;
 pub use states::RatedState;
-pub use table::StateRates;
+pub use table::{AtKt, StateRates};
 
 use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::Analysis;
-use crate::request;
+use crate::request::{self, Unanswered};
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
@@ -60,6 +59,109 @@ pub struct Question {
     pub prove: bool,
 }
 
+/// What is asked of rates between states, or of a pose that is left.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct Request {
+    /// At which shaking, between which ends and how closely.
+    #[command(flatten)]
+    pub question: Question,
+
+    /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
+    #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
+    pub start: Option<Configuration>,
+
+    /// Kinds of traps with rates, the deepest first
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
+          conflicts_with = "start")]
+    pub traps: usize,
+
+    /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
+    /// that of overdamped motion
+    #[arg(long, value_name = "N", requires = "start", value_parser = request::runs_of_a_mean)]
+    pub check: Option<usize>,
+
+    /// Share of the approach velocity that a knock gives back, in --check
+    #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
+          value_parser = request::share)]
+    pub restitution: f64,
+
+    /// Seed of all random numbers: the same seed gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
+    pub seed: u64,
+}
+
+/// Why there are no rates.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RateFault {
+    /// A proof is asked for that there is not.
+    #[error("{0}")]
+    Unprovable(String),
+    /// Of a pose that is left.
+    #[error(transparent)]
+    Exit(#[from] ExitError),
+    /// Of rates between states.
+    #[error(transparent)]
+    Rates(#[from] RatesError),
+    /// No body moves so.
+    #[error(transparent)]
+    Motion(#[from] SettingsError),
+}
+
+impl Unanswered for RateFault {
+    fn is_of_the_question(&self) -> bool {
+        match self {
+            Self::Unprovable(_) => true,
+            Self::Exit(error) => error.is_of_the_question(),
+            Self::Rates(error) => error.is_of_the_question(),
+            Self::Motion(error) => error.is_of_the_question(),
+        }
+    }
+}
+
+impl Request {
+    /// Refuses a proof that there is not.
+    ///
+    /// # Errors
+    /// See [`RateFault`].
+    pub fn check(&self, design: &Design, problem: &Problem) -> Result<(), RateFault> {
+        let why = || why_unprovable(problem, design.interaction.model);
+        let why = self.question.prove.then(why).flatten();
+        why.map_or(Ok(()), |why| Err(RateFault::Unprovable(why)))
+    }
+
+    /// The mean exit time of a tile that is let go at a pose, where it comes first, and what rigid bodies
+    /// do, if they are asked.
+    ///
+    /// # Errors
+    /// See [`RateFault`].
+    pub fn exit(
+        &self,
+        posed: (&Design, &Problem),
+        start: Configuration,
+    ) -> Result<(PoseExit, Option<ExitRuns>), RateFault> {
+        self.check(posed.0, posed.1)?;
+        let found = self.question.exit(posed, start)?;
+        let checked = |runs| found.checked(posed, runs, self.restitution, self.seed);
+        let check = self.check.map(checked).transpose()?;
+        Ok((found, check))
+    }
+
+    /// Rates between the bond, the deepest traps and free tiles; more where they are to be pictured.
+    ///
+    /// # Errors
+    /// See [`RateFault`].
+    pub fn rates(
+        &self,
+        design: &Design,
+        analysis: &Analysis,
+        is_pictured: bool,
+    ) -> Result<StateRates, RateFault> {
+        self.check(design, &analysis.problem)?;
+        let question = &self.question;
+        Ok(question.rates(design, analysis, self.traps, is_pictured)?)
+    }
+}
+
 /// How soon a pose is left, and whereto.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseExit {
@@ -79,17 +181,11 @@ pub fn diffusion(design: &Design, kt: f64, drag: f64) -> f64 {
 }
 
 impl Question {
-    /// Why it has no answer, if that is known beforehand.
-    pub fn refused(&self, design: &Design, problem: &Problem) -> Option<String> {
-        let why = || why_unprovable(problem, design.interaction.model);
-        self.prove.then(why).flatten()
-    }
-
     /// The mean exit time of a tile that is let go at a pose, and where it comes first.
     ///
     /// # Errors
     /// See [`ExitError`].
-    pub fn exit(
+    fn exit(
         &self,
         (design, problem): (&Design, &Problem),
         start: Configuration,
@@ -114,7 +210,7 @@ impl Question {
     ///
     /// # Errors
     /// See [`RatesError`].
-    pub fn rates(
+    fn rates(
         &self,
         design: &Design,
         analysis: &Analysis,
@@ -187,7 +283,7 @@ impl PoseExit {
     ///
     /// # Errors
     /// Where no body moves so.
-    pub fn checked(
+    fn checked(
         &self,
         (design, problem): (&Design, &Problem),
         runs: usize,

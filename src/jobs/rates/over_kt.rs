@@ -1,6 +1,7 @@
 //! Rates out of states over kT, and what corner wells in closed form say of them.
 
-use super::{StateRates, diffusion};
+use super::diffusion;
+use super::table::{AtKt, StateRates};
 use crate::design::Design;
 use physics::kinetics::corner;
 use physics::kinetics::rates::{RateSettings, Rates, rates};
@@ -11,18 +12,6 @@ use physics::problem::Problem;
 const SHAKINGS: [f64; 5] = [0.6, 0.8, 1.0, 1.3, 1.7];
 /// Meshes of pictures: the committors' relative error, and unknowns at most.
 const ROUGH: (f64, usize) = (0.04, 12_000);
-
-/// Rates out of states at one kT.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AtKt {
-    /// kT (J).
-    pub kt: f64,
-    /// Out of each state (1/s), on a rough mesh; `None` where the states are none at this kT.
-    pub leaving: Vec<Option<f64>>,
-    /// The same capacities over the closed form of corner wells, see [`corner`]; `None` where contact
-    /// holds the tile in no such way. Ways to free have no pass, whose closed form it could take.
-    pub corner: Vec<Option<f64>>,
-}
 
 impl StateRates {
     /// The rates out of states at some kT about the one asked for.

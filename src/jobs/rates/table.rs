@@ -2,11 +2,23 @@
 
 use nalgebra::DMatrix;
 
-use super::{AtKt, RatedState};
+use super::states::RatedState;
 use physics::kinetics::Way;
 use physics::kinetics::chain::Chain;
 use physics::kinetics::map::Map;
 use physics::kinetics::rates::{Leaving, RateSettings, Rates};
+
+/// Rates out of states at one kT.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtKt {
+    /// kT (J).
+    pub kt: f64,
+    /// Out of each state (1/s), on a rough mesh; `None` where the states are none at this kT.
+    pub leaving: Vec<Option<f64>>,
+    /// The same capacities over the closed form of corner wells, see [`physics::kinetics::corner`]; `None` where contact
+    /// holds the tile in no such way. Ways to free have no pass, whose closed form it could take.
+    pub corner: Vec<Option<f64>>,
+}
 
 /// Rates between places: the states in their order, and last `free`.
 #[derive(Clone, Debug, PartialEq)]

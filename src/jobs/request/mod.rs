@@ -5,10 +5,12 @@
 //! declared once, and what one of them refuses, so does the other.
 
 mod keywords;
+mod unanswered;
 mod values;
 mod word;
 
 pub use keywords::{Misused, of_keywords, options};
+pub use unanswered::Unanswered;
 pub use values::{
     count, count_or_none, fraction, length, length_or_none, negative, not_negative, numbers, pose,
     positive, runs, runs_of_a_mean, runs_or_none, seed, shaking, share, whole,

@@ -1,7 +1,9 @@
 //! Why there is no such sweep.
 
-use super::plan::MOST_POINTS;
 use crate::design::DesignError;
+
+/// Most points of a sweep.
+pub(super) const MOST_POINTS: usize = 1_000_000;
 
 /// Why there is no such sweep.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,6 +23,12 @@ pub enum PlanError {
     /// No point is called so.
     #[error("no point is `{0}`: name a design, or values that are varied, such as `{1}`")]
     NoBaseline(String, String),
+    /// There is no curve to add points to.
+    #[error(
+        "--refine adds points to one varied number of three values or more\n  help: vary one number, \
+         such as --vary fixed.faces.east.profile.depth=0:0.04:5"
+    )]
+    NoCurve,
     /// A key cannot be varied.
     #[error("`{path}` cannot be varied: {reason}")]
     Unknown {

@@ -6,7 +6,8 @@
 //! after it: the name is a hash of the design as it is assessed, with its drawings, of the settings
 //! and of the version of tilebind; the seed of its random numbers comes from the name. So a point's
 //! result depends neither on the other points nor on when, where and beside which others it is
-//! worked on. [`refined`] adds points where the figures bend.
+//! worked on. [`Request::refined`] adds points where the
+//! figures bend.
 //!
 //! Points hand nothing on to each other, though neighbours are much alike: in the study in
 //! `results/README.md` the bounds of barriers take a twentieth of the time, even without the proof of
@@ -58,6 +59,7 @@ mod error;
 mod plan;
 mod point;
 mod refine;
+mod request;
 mod run;
 mod source;
 mod store;
@@ -66,7 +68,7 @@ mod vary;
 pub use error::PlanError;
 pub use plan::Plan;
 pub use point::{Point, Shard};
-pub use refine::refined;
+pub use request::Request;
 pub use run::run;
 pub use source::Source;
 pub use store::{Outcome, Progress, Store};

@@ -1,23 +1,20 @@
 //! The manifest of a sweep: everything that decides it, and the points that come of it.
 
 use std::collections::HashSet;
-use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sha2::{Digest, Sha256};
 use toml::Table;
 
-use super::error::PlanError;
+use super::error::{MOST_POINTS, PlanError};
 use super::point::Point;
 use super::source::Source;
 use super::vary::{Axis, Value, number};
 use super::{document, drawings};
-use crate::comparison::AssessmentSettings;
+use crate::comparison::Request;
 use crate::design::Design;
 
-/// Most points of a sweep.
-pub(super) const MOST_POINTS: usize = 1_000_000;
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
 /// Characters of the name that make the seed: 48 bits, exact in every reader of JSON.
@@ -33,7 +30,7 @@ pub struct Plan {
     /// The first one varies slowest.
     pub axes: Vec<Axis>,
     /// How every point is assessed.
-    pub settings: AssessmentSettings,
+    pub settings: Request,
     /// Goes into every point's name, and so into its seed.
     pub seed: u64,
     /// The point that all are set against, see [`Plan::against`].
@@ -42,33 +39,16 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A sweep over design files.
-    ///
-    /// # Errors
-    /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
-    /// are too many points or none is possible. A key that the design does not hold is taken for a mistake if no value
-    /// of it gives a possible design.
-    pub fn new(
-        files: &[impl AsRef<Path>],
-        axes: Vec<Axis>,
-        settings: AssessmentSettings,
-        seed: u64,
-    ) -> Result<Self, PlanError> {
-        let mut designs: Vec<Source> = Vec::new();
-        for file in files {
-            designs.push(Source::read(file.as_ref()).map_err(Box::new)?.0);
-        }
-        Self::of(designs, axes, settings, seed)
-    }
-
     /// A sweep over designs that have been read.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
+    /// are too many points or none is possible. A key that the design does not hold is taken for a
+    /// mistake if no value of it gives a possible design.
     pub fn of(
         mut designs: Vec<Source>,
         axes: Vec<Axis>,
-        settings: AssessmentSettings,
+        settings: Request,
         seed: u64,
     ) -> Result<Self, PlanError> {
         for design in &mut designs {

@@ -26,7 +26,7 @@ const FINEST: f64 = 1.0 / 512.0;
 /// The plan with at most `more` values added to its only axis of numbers, between those at which the
 /// figures of the points bend most: each of them lies midway between two. `None` where nothing
 /// bends, or there is no one such axis.
-pub fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
+pub(super) fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let varied = |k: &usize| plan.axes[*k].numbers().is_some_and(|all| all.len() > 1);
     let mut varied = (0..plan.axes.len()).filter(varied);
     let (Some(which), None) = (varied.next(), varied.next()) else {
@@ -130,7 +130,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comparison::{AssessmentSettings, Bond, Way};
+    use crate::comparison::{Bond, Request, Way};
 
     /// A sweep over depth in which the bond's depth is a function of it.
     fn plan(values: &str, depth: impl Fn(f64) -> f64) -> (Plan, Vec<Outcome>) {
@@ -138,7 +138,7 @@ mod tests {
             tilebind: String::new(),
             designs: Vec::new(),
             axes: vec![format!("a.depth={values}").parse().unwrap()],
-            settings: AssessmentSettings::default(),
+            settings: Request::default(),
             seed: 1,
             baseline: None,
         };

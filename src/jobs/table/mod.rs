@@ -12,6 +12,7 @@ pub use statistics::{Interval, Lifetime, Moment, Statistics, Verdict};
 
 use std::time::Instant;
 
+use crate::request::Unanswered;
 use physics::observer::Observer;
 use physics::parallel;
 use physics::table::run::{Run, RunError, Start, run};
@@ -46,6 +47,9 @@ pub struct TableError {
     /// Why.
     pub error: RunError,
 }
+
+/// What tiles start with and how long steps are is asked for.
+impl Unanswered for TableError {}
 
 /// Makes all runs. The same request gives the same result on any number of threads.
 ///

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use physics::potential::MagnetModel;
 use physics::units::MU0;
 use physics::words::continuous::SpacedWord;
 use physics::words::set::name;
@@ -55,9 +54,7 @@ fn text(
         let _ = writeln!(text, "inset = {:?}", bar.inset);
     }
     let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
-    if bar.model == MagnetModel::Cuboid {
-        text += "\n[potential]\nmodel = \"cuboid\"\n";
-    }
+    let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
     text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
              face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
     for (k, [word, mate]) in faces.enumerate() {

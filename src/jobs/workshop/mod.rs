@@ -8,14 +8,120 @@ pub mod grade;
 pub mod order;
 mod part;
 
+use clap::Args;
+
+use crate::design::Design;
+use crate::request;
 pub use part::{Part, PartError, Pocket};
+use physics::tile::{Magnet, Tile};
+
+/// Density of neodymium magnets (kg/m^3).
+const DENSITY: f64 = 7500.0;
+/// Standard gravity (m/s^2).
+const GRAVITY: f64 = 9.806_65;
+/// Lengths above this are meant in millimetres (m).
+const LONGEST: f64 = 0.01;
 
 /// What the workshop needs to know.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Making {
-    /// Width of the cut (m): outlines are drawn half of it outside, pockets half of it inside, so
-    /// that the parts come out to size.
+    /// Width of the cut (m), or with a unit: lines run half of it outside the parts
+    #[arg(long, value_name = "M", default_value = "0", value_parser = small)]
     pub kerf: f64,
-    /// By how much a pocket is larger than its magnet on every side (m).
+
+    /// By how much pockets are larger than their magnets on every side (m)
+    #[arg(long, value_name = "M", default_value = "0.1 mm", value_parser = small)]
     pub clearance: f64,
+}
+
+/// A length of a few millimetres at most.
+fn small(text: &str) -> Result<f64, String> {
+    match request::length_or_none(text)? {
+        length if length > LONGEST => Err(format!(
+            "lengths are in m; in millimetres write \"{length} mm\""
+        )),
+        length => Ok(length),
+    }
+}
+
+/// What it takes to make a design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Made {
+    /// What was asked.
+    pub making: Making,
+    /// Kinds of magnets, and how many of each.
+    pub magnets: Vec<(Magnet, usize)>,
+    /// The fixed tile and the moving one.
+    pub tiles: [MadeTile; 2],
+}
+
+/// What it takes to make a tile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MadeTile {
+    /// Its lines.
+    pub part: Part,
+    /// Its magnets in the order in which they go in.
+    pub steps: Vec<Filled>,
+}
+
+/// A pocket that gets its magnet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filled {
+    /// Which pocket of the part.
+    pub pocket: usize,
+    /// The largest force (N) that pushes the magnet out on the way in; 0 where it is drawn in.
+    pub push: f64,
+    /// Whether that is more than its weight.
+    pub is_to_be_held: bool,
+}
+
+impl Made {
+    /// What it takes to make a design.
+    ///
+    /// # Errors
+    /// Where the cut is too wide for it.
+    pub fn new(design: &Design, making: &Making) -> Result<Self, PartError> {
+        let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
+        let mut magnets: Vec<(Magnet, usize)> = Vec::new();
+        for magnet in fixed.magnets.iter().chain(&moving.magnets) {
+            let same = |known: &&mut (Magnet, usize)| {
+                known.0.size == magnet.size && (known.0.moment - magnet.moment).abs() < 1e-12
+            };
+            match magnets.iter_mut().find(same) {
+                Some(kind) => kind.1 += 1,
+                None => magnets.push((magnet.clone(), 1)),
+            }
+        }
+        Ok(Self {
+            making: *making,
+            magnets,
+            tiles: [
+                MadeTile::new(fixed, making)?,
+                MadeTile::new(moving, making)?,
+            ],
+        })
+    }
+}
+
+impl MadeTile {
+    fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
+        let mut steps = Vec::new();
+        for face in 0..tile.faces.len() {
+            let own = |i: &usize| tile.magnets[*i].face == face;
+            let places: Vec<usize> = (0..tile.magnets.len()).filter(own).collect();
+            let magnets: Vec<&Magnet> = places.iter().map(|&i| &tile.magnets[i]).collect();
+            steps.extend(order::order(&magnets).into_iter().map(|step| {
+                let weight = DENSITY * GRAVITY * magnets[step.magnet].size.iter().product::<f64>();
+                Filled {
+                    pocket: places[step.magnet],
+                    push: step.push,
+                    is_to_be_held: step.push > weight,
+                }
+            }));
+        }
+        Ok(Self {
+            part: Part::new(tile, making)?,
+            steps,
+        })
+    }
 }

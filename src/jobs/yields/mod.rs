@@ -8,28 +8,24 @@
 
 pub mod attachment;
 mod outcome;
+mod schedule;
 
 use clap::Args;
 
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
-use crate::request;
+use crate::request::{self, Unanswered};
 use attachment::Effort;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
 use physics::dynamics::docking::DockingError;
 use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
-use physics::kinetics::mixture::{self, Mixture};
+use physics::kinetics::mixture::Mixture;
 use physics::kinetics::population::Crowd;
 use physics::kinetics::rates::RatesError;
 use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::si;
-
-/// Slots of a schedule of settings.
-const SLOTS: usize = 8;
-/// Pairs for which schedules are sought: ten states.
-const MIXED_PAIRS: usize = 3;
 
 /// Most settings.
 const MOST_SETTINGS: usize = 20;
@@ -117,16 +113,17 @@ pub enum YieldError {
     Lost,
 }
 
-impl YieldError {
-    /// Whether it is what was asked for that has no answer.
-    pub fn is_of_the_question(&self) -> bool {
+impl Unanswered for YieldError {
+    fn is_of_the_question(&self) -> bool {
         match self {
             Self::Many(_) | Self::Docking(_) | Self::Hot(..) | Self::Cold(_) | Self::Lost => true,
-            Self::Rates(error) => !matches!(error, RatesError::Unsolved(_)),
+            Self::Rates(error) => error.is_of_the_question(),
             Self::Bond(_) | Self::NoPlay => false,
         }
     }
+}
 
+impl YieldError {
     /// Whether another kT may have an answer.
     fn is_of_one_kt(&self) -> bool {
         match self {
@@ -233,7 +230,8 @@ pub fn yields(
     if let (true, Some((_, error))) = (outcomes.is_empty(), without.first()) {
         return Err(error.clone());
     }
-    let mixture = (outcomes.len() > 1).then(|| mixed(&outcomes, question, tile_area));
+    let mixture =
+        (outcomes.len() > 1).then(|| schedule::best(&outcomes, &holds, question, tile_area));
     Ok(Yields {
         tile_area,
         crowd,
@@ -241,30 +239,4 @@ pub fn yields(
         without,
         mixture,
     })
-}
-
-/// The best schedule of the settings, for as many tiles as asked for but at most six.
-fn mixed(outcomes: &[Outcome], question: &Question, tile_area: f64) -> (usize, Mixture) {
-    let tiles = question.tiles.min(2 * MIXED_PAIRS);
-    let crowd = Crowd::new(tiles, question.coverage, tile_area);
-    // The same states for all: every setting has a kind of trapped pairs, if a fleeting one.
-    let chains: Vec<_> = outcomes
-        .iter()
-        .map(|outcome| outcome.rates.with_traps())
-        .collect();
-    let chains: Vec<_> = chains
-        .iter()
-        .map(|rates| rates.crowd_chain(&crowd))
-        .collect();
-    let pairs = crowd.pairs() as f64;
-    let values: Vec<f64> = chains[0]
-        .0
-        .iter()
-        .map(|state| state[0] as f64 / pairs)
-        .collect();
-    let chains: Vec<_> = chains.into_iter().map(|(_, chain)| chain).collect();
-    (
-        tiles,
-        mixture::schedule(&chains, &values, question.time, SLOTS),
-    )
 }

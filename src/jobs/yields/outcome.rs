@@ -5,7 +5,7 @@ use super::attachment::Attachments;
 use physics::dynamics::docking::stream;
 use physics::dynamics::exits::mean_and_error;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
-use physics::kinetics::population::{Crowd, MOST_PAIRS, PairRates};
+use physics::kinetics::population::{Crowd, MOST_STATES, PairRates, Shares};
 use physics::order::Order;
 use physics::parallel;
 
@@ -16,6 +16,10 @@ const COVERAGES: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.5];
 const TIMES: usize = 40;
 /// ... over so many powers of ten before the end.
 const DECADES: f64 = 3.0;
+/// Most states of a crowd of the table of yields for which all probabilities are computed; those
+/// asked for may have more, [`MOST_STATES`].
+const MOST_IN_TABLE: usize = 600;
+
 /// One kind of state at one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateRates {
@@ -50,13 +54,20 @@ pub struct Outcome {
     pub attached: Attachments,
     /// Share of all possible pairs that are in the bond at the end.
     pub bound: f64,
-    /// The same for the ends of the interval of the bond's attachment rate.
+    /// The same for the ends of the interval of the bond's attachment rate, and wider by what mean
+    /// numbers are off by.
     pub interval: [f64; 2],
+    /// Whether all probabilities were computed; else mean numbers.
+    pub exact: bool,
+    /// By how much the share in the bond of mean numbers differs from that of the simulation, with
+    /// twice the standard error of the latter; `None` where all probabilities were computed, and
+    /// without simulation.
+    pub off: Option<f64>,
     /// Share that are in traps at the end.
     pub trapped: f64,
-    /// Share in the bond by the difference equations; `None` where they take too many steps.
+    /// Share in the bond by the equations for mean numbers; `None` where they cannot be solved.
     pub smooth: Option<f64>,
-    /// Share in the bond in equilibrium, where the forward equation tells.
+    /// Share in the bond in equilibrium; `None` where the bond is never found.
     pub equilibrium: Option<f64>,
     /// Share in the bond in the exact simulation, over all runs and pairs, with the standard error.
     pub simulated: Option<[f64; 2]>,
@@ -64,8 +75,8 @@ pub struct Outcome {
     pub mean_times: [f64; 2],
     /// Time (s), share in the bond, share in traps.
     pub course: Vec<[f64; 3]>,
-    /// Tiles, coverage, share in the bond at the end.
-    pub table: Vec<(usize, f64, f64)>,
+    /// Tiles, coverage, share in the bond at the end, and whether all probabilities were computed.
+    pub table: Vec<(usize, f64, f64, bool)>,
 }
 
 /// The rates of one kind of state; `None` for a trap that caught nothing, and for a state without
@@ -108,45 +119,76 @@ pub(super) fn outcome(
     tile_area: f64,
     question: &Question,
 ) -> Outcome {
-    let on = states.iter().map(|state| state.on).collect();
-    let rates = PairRates::through_free(on, states.iter().map(|state| state.off).collect());
+    let rates = PairRates {
+        on: states.iter().map(|state| state.on).collect(),
+        off: states.iter().map(|state| state.off).collect(),
+    };
     let time = question.time;
     let pairs = crowd.pairs() as f64;
-    let share = |time: f64| shares(&rates, crowd, time);
-    let [bound, trapped] = share(time);
     let bond = &states[0];
+    let power = |k: usize| DECADES * (k as f64 / (TIMES - 1) as f64 - 1.0);
+    let times: Vec<f64> = (0..TIMES)
+        .map(|k| time * libm::pow(10f64, power(k)))
+        .collect();
     // Where none attached, the rate may still be above 0.
-    let at_end = |on: f64| {
+    let with_bond = |on: f64| {
         let mut other = rates.clone();
         (other.on[0], other.off[0]) = (on, on / bond.constant);
-        shares(&other, crowd, time)[0]
+        other
     };
-    let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
-    let course = (0..TIMES).map(|k| {
-        let power = DECADES * (k as f64 / (TIMES - 1) as f64 - 1.0);
-        let now = time * libm::pow(10f64, power);
-        let [bound, trapped] = share(now);
-        [now, bound, trapped]
+    let [low, high] = bond.on_interval.map(with_bond);
+    let asked = [
+        (&rates, &times[..]),
+        (&low, &[time][..]),
+        (&high, &[time][..]),
+    ];
+    let found = parallel::map(0..asked.len(), |k| {
+        let (rates, times) = asked[k];
+        shares(rates, crowd, times, MOST_STATES)
     });
+    let at_end = |k: usize| *found[k].bound.last().expect("the end is a time asked for");
+    let simulated = simulated(&rates, crowd, question);
+    let bound = at_end(0);
+    let exact = found[0].exact;
+    let apart = |[mean, error]: [f64; 2]| (bound - mean).abs() + 2.0 * error;
+    let off = simulated.map(apart).filter(|_| !exact);
+    let wider = off.unwrap_or_default();
+    let ends = [at_end(1), at_end(2)];
+    let interval = [
+        ends[0].min(bound - wider).max(0.0),
+        ends[1].max(bound + wider).min(1.0),
+    ];
+    let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
+    let course = times.iter().zip(&found[0].bound).zip(&found[0].trapped);
+    let course = course.map(|((time, bound), trapped)| [*time, *bound, *trapped]);
     let rows = with(&TILES, question.tiles).into_iter();
     let coverages = with(&COVERAGES, question.coverage);
     let rows = rows.flat_map(|tiles| coverages.iter().map(move |&coverage| (tiles, coverage)));
-    let table = rows.map(|(tiles, coverage)| {
+    let rows: Vec<(usize, f64)> = rows.collect();
+    let table = parallel::map(0..rows.len(), |k| {
+        let (tiles, coverage) = rows[k];
+        // The row that was asked for is the answer above.
+        if (tiles, coverage) == (question.tiles, question.coverage) {
+            return (tiles, coverage, bound, exact);
+        }
         let crowd = Crowd::new(tiles, coverage, tile_area);
-        (tiles, coverage, shares(&rates, &crowd, time)[0])
+        let found = shares(&rates, &crowd, &[time], MOST_IN_TABLE);
+        (tiles, coverage, found.bound[0], found.exact)
     });
-    let smooth = rates.difference_equations(crowd, time);
+    let smooth = rates.mean_numbers(crowd, &[time]);
     Outcome {
         kt,
         bound,
-        trapped,
-        interval: bond.on_interval.map(at_end),
-        smooth: smooth.map(|numbers| numbers[0] / pairs),
+        trapped: *found[0].trapped.last().expect("as above"),
+        interval,
+        exact,
+        off,
+        smooth: smooth.map(|course| course.values[0][0] / pairs),
         equilibrium: rates.equilibrium(crowd),
-        simulated: simulated(&rates, crowd, question),
+        simulated,
         mean_times: [chain.mean_times(&[1])[0], chain.mean_times(&[0])[1]],
         course: course.collect(),
-        table: table.collect(),
+        table,
         rates,
         attached,
         states,
@@ -165,20 +207,14 @@ fn with<T: Copy + PartialOrd>(list: &[T], more: T) -> Vec<T> {
     all
 }
 
-/// Shares of all possible pairs in the bond and in traps: by the forward equation, or for more tiles
-/// by the difference equations.
-fn shares(rates: &PairRates, crowd: &Crowd, time: f64) -> [f64; 2] {
-    let pairs = crowd.pairs() as f64;
-    if crowd.pairs() <= MOST_PAIRS
-        && let Some((bound, trapped)) = rates.forward_equation(crowd, time)
-    {
-        let mean: f64 = bound.iter().enumerate().map(|(k, p)| k as f64 * p).sum();
-        return [mean / pairs, trapped / pairs];
-    }
-    match rates.difference_equations(crowd, time) {
-        Some(numbers) => [numbers[0] / pairs, numbers[1..].iter().sum::<f64>() / pairs],
-        None => [f64::NAN; 2],
-    }
+/// Shares of all possible pairs; not numbers where no solver has an answer.
+fn shares(rates: &PairRates, crowd: &Crowd, times: &[f64], most: usize) -> Shares {
+    rates.shares(crowd, times, most).unwrap_or_else(|| Shares {
+        bound: vec![f64::NAN; times.len()],
+        trapped: vec![f64::NAN; times.len()],
+        error: f64::NAN,
+        exact: false,
+    })
 }
 
 /// Mean share in the bond over runs of the exact simulation, and its standard error.

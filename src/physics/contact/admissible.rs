@@ -8,12 +8,13 @@ use super::Constraint;
 
 /// The point closest to `wanted` in the metric `(v - w)^T metric (v - w)` with
 /// `gradient . v >= -gap` for every constraint, and the constraints' multipliers (>= 0, zero where
-/// the constraint does not bind). `None` where the constraints contradict each other.
+/// the constraint does not bind). `None` where the constraints contradict each other. `unit` is what
+/// vectors are large or small by, 1 of directions: a 1e-13 of it may be missing of a gap.
 ///
 /// A working set of binding constraints grows by the most violated one; the small problem on the
 /// working set is solved by trying its subsets of at most three.
 pub fn closest_admissible(
-    wanted: Vector3<f64>,
+    (wanted, unit): (Vector3<f64>, f64),
     metric: &Matrix3<f64>,
     constraints: &[Constraint],
 ) -> Option<(Vector3<f64>, Vec<f64>)> {
@@ -21,6 +22,8 @@ pub fn closest_admissible(
         return Some((wanted, Vec::new()));
     }
     let inverse = metric.try_inverse()?;
+    let length = |v: &Vector3<f64>| v.dot(&(metric * v)).max(0.0).sqrt();
+    let small = 1e-11 * (unit + length(&wanted));
     let norms: Vec<f64> = constraints.iter().map(|c| norm(c, &inverse)).collect();
     let mut best = Optimum {
         point: wanted,
@@ -30,7 +33,7 @@ pub fn closest_admissible(
         let violated = (0..constraints.len())
             .map(|k| (k, slack(&constraints[k], &best.point) / norms[k]))
             .min_by_key(|(_, slack)| OrderedFloat(*slack));
-        let scale = 1e-13 * (1.0 + best.point.norm());
+        let scale = 1e-13 * (unit + length(&best.point));
         let mut working: ArrayVec<usize, 4> = best.binding.iter().map(|(k, _)| *k).collect();
         match violated {
             Some((k, slack)) if slack < -scale && !working.contains(&k) => working.push(k),
@@ -42,7 +45,7 @@ pub fn closest_admissible(
                 return Some((best.point, multipliers));
             }
         }
-        best = best_subset(wanted, &inverse, constraints, &working)?;
+        best = best_subset((wanted, small), &inverse, constraints, &working)?;
     }
     None
 }
@@ -64,7 +67,7 @@ struct Optimum {
 /// The optimum over the working set: the subset of at most three constraints, taken as equalities,
 /// whose multipliers are not negative and that leaves the others satisfied.
 fn best_subset(
-    wanted: Vector3<f64>,
+    (wanted, tolerance): (Vector3<f64>, f64),
     inverse: &Matrix3<f64>,
     constraints: &[Constraint],
     working: &[usize],
@@ -74,7 +77,7 @@ fn best_subset(
         inverse,
         constraints,
         working,
-        tolerance: 1e-11 * (1.0 + wanted.norm()),
+        tolerance,
         best: None,
     };
     let n = working.len();

@@ -6,6 +6,7 @@ use ordered_float::OrderedFloat;
 
 use super::{Contact, Placement, TOUCH};
 use crate::configuration::Configuration;
+use crate::scale::Scale;
 use crate::tile::Outline;
 
 /// Vertices closer than this (m) count as coinciding.
@@ -49,6 +50,7 @@ struct Meeting<'a> {
     b: &'a Outline,
     /// Where `a` lies in `b`'s frame.
     pose: Placement,
+    scale: Scale,
 }
 
 impl Meeting<'_> {
@@ -90,6 +92,7 @@ impl Meeting<'_> {
 
     fn facing(&self, i: usize, p: Vector2<f64>, edge: usize, margin: f64) -> Front {
         let b = self.b;
+        let coincident = self.scale.length(COINCIDENT);
         let (start, end) = b.edge(edge);
         let normal = b.normals()[edge];
         let gap = normal.dot(&(p - start));
@@ -97,10 +100,10 @@ impl Meeting<'_> {
             return Front::Nothing;
         }
         let n = b.vertices().len();
-        if b.convex_vertices()[edge] && (p - start).norm() <= COINCIDENT {
+        if b.convex_vertices()[edge] && (p - start).norm() <= coincident {
             return Front::Start;
         }
-        if b.convex_vertices()[(edge + 1) % n] && (p - end).norm() <= COINCIDENT {
+        if b.convex_vertices()[(edge + 1) % n] && (p - end).norm() <= coincident {
             return Front::End;
         }
         let length = (end - start).norm();
@@ -114,7 +117,7 @@ impl Meeting<'_> {
             (length - t, b.convex_vertices()[next], next),
         ];
         let is_beyond = |&(rest, convex, other): &(f64, bool, usize)| {
-            rest < -COINCIDENT && (convex || !self.is_in_front(p, other))
+            rest < -coincident && (convex || !self.is_in_front(p, other))
         };
         if ends.iter().any(is_beyond) {
             return Front::Nothing;
@@ -123,12 +126,12 @@ impl Meeting<'_> {
         // squarely against the edge.
         let at_corner = ends
             .iter()
-            .any(|(rest, convex, _)| *rest < COINCIDENT && *convex);
+            .any(|(rest, convex, _)| *rest < coincident && *convex);
         if at_corner && !self.wedge_is_beyond(i, normal) {
             return Front::Nothing;
         }
         // Behind the edge's line, but outside: in front of another edge, past a corner.
-        if gap < -TOUCH && !b.contains(p) {
+        if gap < -self.scale.length(TOUCH) && !b.contains(p) {
             return Front::Nothing;
         }
         Front::Edge
@@ -236,11 +239,13 @@ impl Contact {
                 a: self.moving(),
                 b: self.fixed(),
                 pose: *pose,
+                scale: self.scale,
             },
             Meeting {
                 a: self.fixed(),
                 b: self.moving(),
                 pose: pose.inverse(),
+                scale: self.scale,
             },
         ]
     }

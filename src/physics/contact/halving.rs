@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::motion::{Known, Motion, Step};
-use super::{Contact, Placement, TOUCH, separated};
+use super::{Contact, Placement, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
@@ -65,7 +65,7 @@ impl Contact {
     /// two convex parts apart; otherwise it is halved, and the motion refused at the first
     /// configuration that overlaps.
     pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
-        self.motion_overlaps_at_most(a, b, TOUCH)
+        self.motion_overlaps_at_most(a, b, self.touch())
     }
 
     /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
@@ -100,7 +100,7 @@ impl Contact {
         // one's surroundings into the other's.
         let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
         around[0] + around[1] >= reach
-            || reach <= SHORTEST
+            || reach <= self.scaled(SHORTEST)
             || self.stretches_overlap_at_most([a.placement, b.placement], step, allowed, left)
     }
 
@@ -117,7 +117,7 @@ impl Contact {
         left.clear();
         let mut reach = step.reach(self);
         left.stretches.push(Stretch { ends, pairs: None });
-        while !left.stretches.is_empty() && reach > SHORTEST {
+        while !left.stretches.is_empty() && reach > self.scaled(SHORTEST) {
             let stretches = std::mem::take(&mut left.stretches);
             let are_free = stretches.iter().all(|Stretch { ends, pairs }| {
                 let motion = Motion::new(ends, &step, allowed);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{Contact, TOUCH};
+use super::Contact;
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::tile::outline::cross;
@@ -24,7 +24,7 @@ impl Contact {
         let mut touching = self.touching_translations(q, direction);
         touching.retain(|t| *t > 0.0);
         touching.order_by(f64::total_cmp);
-        touching.dedup_by(|a, b| *a - *b < TOUCH);
+        touching.dedup_by(|a, b| *a - *b < self.touch());
         let at = |t: f64| Configuration::new(q.x + direction.x * t, q.y + direction.y * t, q.theta);
         let pocket = touching.iter().take(TRIED).find(|t| self.is_free(&at(**t)));
         pocket.or(touching.last()).copied().unwrap_or(0.0)
@@ -51,7 +51,7 @@ impl Contact {
         ends.retain(|t| range[0] < *t && *t < range[1]);
         ends.extend(range);
         ends.order_by(f64::total_cmp);
-        ends.dedup_by(|a, b| *a - *b < TOUCH);
+        ends.dedup_by(|a, b| *a - *b < self.touch());
         let mut free: Vec<[f64; 2]> = Vec::new();
         let mut blocked_down_to = f64::INFINITY;
         // From far away inwards.
@@ -66,7 +66,7 @@ impl Contact {
             let y = q.y + direction.y * middle;
             let there = Configuration::new(x, y, q.theta);
             if !self.is_free(&there) {
-                blocked_down_to = middle - self.overlap_depth(&there) + 2.0 * TOUCH;
+                blocked_down_to = middle - self.overlap_depth(&there) + 2.0 * self.touch();
                 continue;
             }
             match free.last_mut() {

@@ -3,7 +3,7 @@
 //!
 //! A configuration is *free* where the interiors of the two outlines are disjoint. Flush mates
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
-//! [`TOUCH`] counts as touching.
+//! [`Contact::touch`] counts as touching.
 
 mod admissible;
 pub mod cells;
@@ -29,11 +29,13 @@ use nalgebra::{Rotation2, Vector2};
 
 use self::shape::Shape;
 use crate::configuration::Configuration;
+use crate::scale::Scale;
 use crate::tile::Outline;
 use crate::tile::outline::ConvexPart;
 
-/// Overlaps up to this depth (m) count as touching: far above rounding (1e-15 m), far below
-/// anything that matters to an energy (1e-9 m times 100 N is 1e-7 J).
+/// Overlaps up to this depth (m, told for the paper's tile; of others [`Contact::touch`]) count as
+/// touching: far above rounding (1e-15 m), far below anything that matters to an energy (1e-9 m times
+/// 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
 /// The two outlines of a pair of tiles.
@@ -41,6 +43,7 @@ pub const TOUCH: f64 = 1e-9;
 pub struct Contact {
     fixed: Shape,
     moving: Shape,
+    scale: Scale,
 }
 
 impl Contact {
@@ -49,7 +52,23 @@ impl Contact {
         Self {
             fixed: Shape::new(fixed),
             moving: Shape::new(moving),
+            scale: Scale::of([fixed.circumradius(), moving.circumradius()]),
         }
+    }
+
+    /// How large the tiles are.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// What a length (m) is for these tiles that is told for the paper's ([`Scale`]).
+    pub fn scaled(&self, told: f64) -> f64 {
+        self.scale.length(told)
+    }
+
+    /// Overlaps up to this depth (m) count as touching.
+    pub fn touch(&self) -> f64 {
+        self.scaled(TOUCH)
     }
 
     /// The outline of the fixed tile.
@@ -88,9 +107,9 @@ impl Contact {
         }
     }
 
-    /// Whether the tiles overlap nowhere deeper than [`TOUCH`].
+    /// Whether the tiles overlap nowhere deeper than [`Contact::touch`].
     pub fn is_free(&self, q: &Configuration) -> bool {
-        self.overlaps_at_most(q, TOUCH)
+        self.overlaps_at_most(q, self.touch())
     }
 
     /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
@@ -123,7 +142,7 @@ impl Contact {
         })
     }
 
-    /// Whether the tiles overlap nowhere deeper than [`TOUCH`] where the moving one is turned and
+    /// Whether the tiles overlap nowhere deeper than [`Contact::touch`] where the moving one is turned and
     /// placed like this, and how far (m) it may be moved, not turned, with the same answer: 0 where
     /// neither the convex hulls nor the largest parts tell.
     pub(crate) fn is_free_turned(
@@ -136,11 +155,11 @@ impl Contact {
         if apart >= 0.0 {
             return (true, apart);
         }
-        let deep = -TOUCH - separation(&self.fixed.core, &self.moving.core, &at);
+        let deep = -self.touch() - separation(&self.fixed.core, &self.moving.core, &at);
         if deep > 0.0 {
             return (false, deep);
         }
-        (self.parts_overlap_at_most(&at, TOUCH), 0.0)
+        (self.parts_overlap_at_most(&at, self.touch()), 0.0)
     }
 
     /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.

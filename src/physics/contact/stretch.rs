@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{Contact, Placement, TOUCH, support};
+use super::{Contact, Placement, support};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::tile::outline::ConvexPart;
@@ -13,14 +13,16 @@ struct Shift {
     direction: Vector2<f64>,
     /// How far it goes (m).
     length: f64,
+    /// Overlaps that count as touching (m).
+    touch: f64,
 }
 
 impl Contact {
     /// The intervals of t from 0 to `length` (m) in which `q` moved by t along the unit vector
     /// `direction` is free as [`Contact::is_free`] has it, ascending.
     ///
-    /// Two convex polygons overlap deeper than [`TOUCH`] where the normals of all their edges
-    /// separate them by less than -[`TOUCH`] (separating axis theorem). What a normal separates them
+    /// Two convex polygons overlap deeper than [`Contact::touch`] where the normals of all their edges
+    /// separate them by less than minus that (separating axis theorem). What a normal separates them
     /// by is linear in t, so that every two parts overlap in one interval of t: no thin part is
     /// stepped over, and no narrow room between two.
     pub fn free_stretches(
@@ -30,7 +32,11 @@ impl Contact {
         length: f64,
     ) -> Vec<[f64; 2]> {
         let at = Placement::of(q);
-        let shift = Shift { direction, length };
+        let shift = Shift {
+            direction,
+            length,
+            touch: self.touch(),
+        };
         let mut part = ConvexPart::default();
         part.place(&self.moving.hull, &at.rotation, &at.position);
         if shift.overlap(&self.fixed.hull, &part).is_none() {
@@ -61,12 +67,12 @@ impl Contact {
 
 impl Shift {
     /// The interval of t in which a placed part that is shifted overlaps with one that is not, deeper
-    /// than [`TOUCH`].
+    /// than what counts as touching.
     fn overlap(&self, fixed: &ConvexPart, moving: &ConvexPart) -> Option<[f64; 2]> {
         let mut within = [0.0, self.length];
-        // Where `level + slope t < -TOUCH`.
+        // Where `level + slope t < -touch`.
         let mut narrow = |level: f64, slope: f64| {
-            let room = -TOUCH - level;
+            let room = -self.touch - level;
             if slope > 0.0 {
                 within[1] = within[1].min(room / slope);
             } else if slope < 0.0 {

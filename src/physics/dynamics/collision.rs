@@ -28,9 +28,10 @@ use nalgebra::{Vector2, Vector3};
 use super::body::{Body, Phase};
 use super::settings::MotionSettings;
 use crate::contact::ContactPoint;
+use crate::scale::Scale;
 use crate::tile::outline::cross;
 
-/// Velocities (m/s) are found with this error.
+/// Velocities (m/s) are found with this error, far below those of tiles of any size.
 const ERROR: f64 = 1e-10;
 /// Points are touched at gaps below this (m).
 const TOUCHED: f64 = 1e-9;
@@ -131,7 +132,7 @@ impl Stride {
 /// One step from a phase, held back at points of contact.
 pub(super) fn step(
     body: &Body,
-    settings: &MotionSettings,
+    (settings, scale): (&MotionSettings, Scale),
     phase: &Phase,
     stride: &Stride,
     points: &[ContactPoint],
@@ -140,13 +141,13 @@ pub(super) fn step(
     let h = stride.h;
     let free = phase.velocity + stride.push();
     let hold = |point: &ContactPoint| Hold {
-        least: (-point.gap / h).min(PUSHED_OUT / h),
+        least: (-point.gap / h).min(scale.length(PUSHED_OUT) / h),
         ..Hold::new(point, phase.place.xy())
     };
     let mut holds: Vec<Hold> = points.iter().map(hold).collect();
     let way = held(&masses, &free, &holds, settings.friction);
     holds.retain_mut(|hold| {
-        let touched = hold.gap + hold.normal.dot(&way) * h <= TOUCHED;
+        let touched = hold.gap + hold.normal.dot(&way) * h <= scale.length(TOUCHED);
         hold.least = 0.0;
         touched
     });

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::body::Phase;
 use super::force::Forces;
+use crate::scale::Scale;
 
 /// Coefficients of Dormand and Prince (1980, doi:10.1016/0771-050X(80)90013-3), order 5 with an
 /// error estimate of order 4. The last row of `A` gives the step itself, and its stage is the
@@ -56,7 +57,7 @@ pub(super) struct Trial {
     pub error: f64,
 }
 
-/// The time (s) that turns an error of a velocity into one of a place.
+/// The time (s, of the paper's tile) that turns an error of a velocity into one of a place.
 const VELOCITY_TIME: f64 = 0.1;
 
 /// One step of length `h` (s) from `phase` at time `t`, where the acceleration is given.
@@ -64,9 +65,8 @@ pub(super) fn attempt(
     forces: &Forces,
     phase: &Phase,
     acceleration: Vector3<f64>,
-    t: f64,
-    h: f64,
-    rho: f64,
+    (t, h): (f64, f64),
+    (rho, scale): (f64, Scale),
 ) -> Trial {
     let mut rates = [(Vector3::zeros(), Vector3::zeros()); 7];
     rates[0] = (phase.velocity, acceleration);
@@ -88,7 +88,7 @@ pub(super) fn attempt(
     Trial {
         phase: next,
         acceleration: rates[6].1,
-        error: size(&wrong.0).max(VELOCITY_TIME * size(&wrong.1)),
+        error: size(&wrong.0).max(scale.time(VELOCITY_TIME) * size(&wrong.1)),
     }
 }
 

@@ -1,8 +1,10 @@
 //! What decides a trajectory besides the tiles and the start.
 
 use super::force::Fan;
+use crate::scale::Scale;
 
-/// The air table and the numerics.
+/// The air table and the numerics. The lengths and times of the numerics are told for the paper's tile
+/// and grow with the tiles ([`MotionSettings::of_size`]): speeds do not depend on the size.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MotionSettings {
     /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the turning
@@ -69,6 +71,18 @@ pub enum SettingsError {
 }
 
 impl MotionSettings {
+    /// With the numerics for tiles of another size than the paper's.
+    pub fn of_size(&self, scale: Scale) -> Self {
+        Self {
+            tolerance: scale.length(self.tolerance),
+            longest_step: scale.time(self.longest_step),
+            contact_range: scale.length(self.contact_range),
+            contact_step: scale.time(self.contact_step),
+            contact_travel: scale.length(self.contact_travel),
+            ..self.clone()
+        }
+    }
+
     /// # Errors
     /// Where a number is out of its range, or the tile is shaken without drag.
     pub fn check(&self) -> Result<(), SettingsError> {

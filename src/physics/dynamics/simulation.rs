@@ -89,7 +89,7 @@ impl<'a> Simulation<'a> {
         Self {
             problem,
             body,
-            settings,
+            settings: settings.of_size(problem.scale()),
             reach: circumradius + body.centre.norm(),
         }
     }
@@ -104,12 +104,13 @@ impl<'a> Simulation<'a> {
     pub(super) fn clearance(&self, phase: &Phase) -> f64 {
         /// Above this a bound is good enough (m).
         const LARGE: f64 = 0.05;
+        let large = self.problem.scaled(LARGE);
         let q = self.body.configuration(&phase.place);
         let contact = self.problem.contact.as_ref();
         let bound = contact.map_or(f64::INFINITY, |contact| contact.clearance_bound(&q));
         let tile = match contact {
-            Some(contact) if bound <= LARGE => {
-                contact.distance(&q, [self.settings.contact_range, LARGE])
+            Some(contact) if bound <= large => {
+                contact.distance(&q, [self.settings.contact_range, large])
             }
             _ => bound,
         };

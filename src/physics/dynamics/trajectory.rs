@@ -13,7 +13,8 @@ use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
 use super::vicinity::{Ahead, Vicinity};
 
-/// A tile in contact rests when no point of it moves faster than this (m/s) ...
+/// A tile in contact rests when no point of it moves faster than this (m/s), which is a ten-thousandth of
+/// how fast magnets bring tiles of any size together, ...
 const REST_SPEED: f64 = 1e-5;
 /// ... for this long (s).
 const REST_TIME: f64 = 0.02;
@@ -25,6 +26,8 @@ const KICK_INTERVAL: f64 = 5e-3;
 const DRAG_A_KICK: f64 = 0.25;
 /// Free steps are at least this long (s): no force of magnets bends a path faster.
 const SHORTEST_STEP: f64 = 1e-7;
+/// The first free step (s).
+const FIRST_STEP: f64 = 1e-3;
 
 impl Simulation<'_> {
     /// The snapshot of a motion at time 0.
@@ -85,7 +88,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             lag: 0.0,
             room: 0.0,
             vicinity: Vicinity::new(),
-            free_step: 1e-3,
+            free_step: simulation.problem.scale().time(FIRST_STEP),
             free_steps: 0,
             contact_steps: 0,
         }
@@ -119,7 +122,12 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     ) -> Stop {
         self.sense_contact();
         let shaken = self.simulation.settings.shaking;
-        let interval = KICK_INTERVAL.min(DRAG_A_KICK / self.simulation.settings.drag);
+        let interval = self
+            .simulation
+            .problem
+            .scale()
+            .time(KICK_INTERVAL)
+            .min(DRAG_A_KICK / self.simulation.settings.drag);
         let mut stop = None;
         while stop.is_none() && self.time < duration {
             let until = match shaken {
@@ -145,7 +153,9 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     /// Free flight until contact is near or the time is over.
     fn fly(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let settings = &self.simulation.settings;
+        let scale = self.simulation.problem.scale();
         let rho = self.simulation.problem.space.rho;
+        let shortest = scale.time(SHORTEST_STEP);
         let mut acceleration = self.forces.acceleration(&self.phase, self.time);
         while self.time < until {
             let left = until - self.time;
@@ -153,11 +163,17 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                 .free_step
                 .min(settings.longest_step)
                 .min(self.time_to_travel(&acceleration, self.room.max(0.0)))
-                .max(SHORTEST_STEP)
+                .max(shortest)
                 .min(left);
-            let trial = flight::attempt(&self.forces, &self.phase, acceleration, self.time, h, rho);
+            let trial = flight::attempt(
+                &self.forces,
+                &self.phase,
+                acceleration,
+                (self.time, h),
+                (rho, scale),
+            );
             let factor = flight::step_factor(trial.error / settings.tolerance);
-            if trial.error > settings.tolerance && h > SHORTEST_STEP {
+            if trial.error > settings.tolerance && h > shortest {
                 self.free_step = h * factor;
                 continue;
             }
@@ -246,7 +262,13 @@ impl<'a, 'b> Trajectory<'a, 'b> {
                 }
                 Ahead::Contact(points) => {
                     let (body, phase) = (&simulation.body, &self.phase);
-                    self.phase = collision::step(body, settings, phase, &stride, &points);
+                    self.phase = collision::step(
+                        body,
+                        (settings, simulation.problem.scale()),
+                        phase,
+                        &stride,
+                        &points,
+                    );
                     self.room = 0.0;
                 }
             }
@@ -264,7 +286,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             }
             let fast = simulation.fastest(&self.phase.velocity) > REST_SPEED;
             rested = if fast { 0.0 } else { rested + h };
-            if rested >= REST_TIME && simulation.rest_lasts() {
+            if rested >= simulation.problem.scale().time(REST_TIME) && simulation.rest_lasts() {
                 return Some(Stop::Rest);
             }
             if self.time >= until {

@@ -44,7 +44,7 @@ impl Vicinity {
     pub fn ahead(&mut self, simulation: &Simulation, phase: &Phase, way: f64) -> Ahead {
         let least =
             |points: &[ContactPoint], seen| points.iter().map(|p| p.gap).fold(seen, f64::min);
-        let margin = (simulation.gathering() * way).max(LEAST_MARGIN);
+        let margin = (simulation.gathering() * way).max(simulation.problem.scaled(LEAST_MARGIN));
         let points = self.points(simulation, phase, margin);
         if least(&points, margin) <= way {
             return Ahead::Contact(points);

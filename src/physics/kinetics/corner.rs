@@ -38,7 +38,7 @@ pub fn volume(problem: &Problem, q: &Configuration, kt: f64) -> Option<f64> {
     let flat = |covector: Vector3<f64>| lower.solve_lower_triangular(&covector);
     let slope = flat(minimum.point.gradient)?;
     let mut walls: Vec<Vector3<f64>> = Vec::new();
-    for constraint in constraints(problem, &q, CLOSED) {
+    for constraint in constraints(problem, &q, problem.scaled(CLOSED)) {
         let wall = flat(constraint.gradient)?.normalize();
         if walls.iter().all(|known| (known - wall).norm() > SAME) {
             walls.push(wall);

@@ -8,7 +8,7 @@ use super::field::Field;
 use super::sets::{best_way, flood};
 use crate::configuration::Configuration;
 
-/// Cells of this size (m) are not divided for it any more.
+/// Cells of this size (m, told for the paper's tile) are not divided for it any more.
 pub const NARROW: f64 = 1e-4;
 /// So many divisions are made for one way at most.
 const MOST_DIVIDED: usize = 20_000;
@@ -40,8 +40,9 @@ impl Way {
             Self::Open => "a way leads to free tiles".to_owned(),
             Self::Blocked => "contact blocks every way to free tiles".to_owned(),
             Self::Lost => format!(
-                "no way to free tiles was found; ways narrower than {} mm are not excluded",
-                1e3 * NARROW
+                "no way to free tiles was found; ways narrower than {} of a tile's circumradius are \
+                 not excluded",
+                "a 3000th"
             ),
         }
     }
@@ -92,7 +93,7 @@ impl Field<'_> {
     /// if there is a way. Some cells are too small to be asked: then nothing is excluded.
     fn closed_on_way(&self, from: &Configuration, is_excluded: &mut bool) -> Option<Vec<usize>> {
         let mesh = &self.mesh;
-        let is_small = |level: u8| mesh.chart.depth(level, from) < NARROW;
+        let is_small = |level: u8| mesh.chart.depth(level, from) < self.problem.scaled(NARROW);
         let beside = mesh.joined(&|leaf| !leaf.blocked);
         let cost = |id: usize| match mesh.leaves[id].element {
             Some(_) => 0,

@@ -99,7 +99,7 @@ impl<'a> Field<'a> {
                 let lowest = held.iter().map(|&id| field.mesh.lowest(id));
                 let met = lowest.fold(f64::INFINITY, f64::min);
                 let is_met = met < problem.energy(q) + NEAR * kt;
-                let least = if is_met { SEED } else { LEAST_SEED };
+                let least = problem.scaled(if is_met { SEED } else { LEAST_SEED });
                 large.extend(held.into_iter().filter(|id| size(id, q) > least));
             }
             if large.is_empty() {

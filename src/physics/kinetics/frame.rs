@@ -87,7 +87,7 @@ fn touching(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     let Some(contact) = &problem.contact else {
         return Vec::new();
     };
-    constraints(problem, q, TOUCHING)
+    constraints(problem, q, problem.scaled(TOUCHING))
         .iter()
         .map(|constraint| match constraint.touch.edge_of {
             EdgeOf::Fixed => q.transform(contact.moving().vertices()[constraint.touch.vertex]),

@@ -9,15 +9,16 @@
 //! `sum_k y_jk = p_j,   p_(j+1) = sum_k y_jk P_k,   y >= 0;   greatest p_m . value`.
 //!
 //! It lets every state choose its setting, as a table that sees its tiles could; a blind one, whose
-//! shares are the same for all states, does no better.
+//! shares are the same for all states, does no better. The program is solved from its end on, state by
+//! state (Bellman's dynamic programming, its dual), which is exact.
 //!
 //! A design is no such setting: tiles keep their shapes and magnets. A table that has some runs with
 //! one design and some with another yields the mean of both, never more than the better one.
 
-use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use nalgebra::{DMatrix, RowDVector};
 
 use super::chain::Chain;
+use crate::matrix::product;
 
 /// A schedule, what it yields, and what no schedule can exceed.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +27,8 @@ pub struct Mixture {
     pub schedule: Vec<usize>,
     /// Its mean value at the end.
     pub value: f64,
-    /// No schedule has a greater one, up to rounding; `None` where the solver fails.
-    pub bound: Option<f64>,
+    /// No schedule has a greater one, up to rounding.
+    pub bound: f64,
 }
 
 /// The best schedule found of `slots` equal slots over `time` (s), from the first state of all
@@ -40,7 +41,7 @@ pub fn schedule(settings: &[Chain], values: &[f64], time: f64, slots: usize) -> 
     let value = |schedule: &[usize]| {
         let mut p = RowDVector::zeros(values.len());
         p[0] = 1.0;
-        let end = schedule.iter().fold(p, |p, &k| p * &steps[k]);
+        let end = schedule.iter().fold(p, |p, &k| product(&p, &steps[k]));
         end.iter()
             .zip(values)
             .map(|(p, value)| p * value)
@@ -85,52 +86,24 @@ pub fn schedule(settings: &[Chain], values: &[f64], time: f64, slots: usize) -> 
     }
 }
 
-/// Probabilities below this are left out of the linear program.
-const LEAST: f64 = 1e-12;
-
-/// The optimum of the linear program. Probability may be lost in it, which never pays where no value
-/// is negative, so that it starts from a program that nothing is wrong with.
-fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
-    let n = values.len();
-    let mut problem = Problem::new(OptimizationDirection::Maximize);
-    let mut variables = Vec::new();
-    for slot in 0..slots {
-        for step in steps {
-            for state in 0..n {
-                let worth = match slot + 1 == slots {
-                    true => (0..n).map(|to| step[(state, to)] * values[to]).sum(),
-                    false => 0.0,
-                };
-                variables.push(problem.add_var(worth, (0.0, f64::INFINITY)));
-            }
-        }
+/// The greatest value that any choice of settings by slot and state leads to: what a state is worth,
+/// from the last slot to the first, is the most of what any setting makes of it.
+fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> f64 {
+    let mut worth = DMatrix::from_column_slice(values.len(), 1, values);
+    for _ in 0..slots {
+        let by_setting: Vec<_> = steps.iter().map(|step| product(step, &worth)).collect();
+        worth = DMatrix::from_fn(values.len(), 1, |state, _| {
+            let each = by_setting.iter().map(|worth| worth[state]);
+            each.fold(f64::NEG_INFINITY, f64::max)
+        });
     }
-    let at = |slot: usize, k: usize, state: usize| variables[(slot * steps.len() + k) * n + state];
-    for state in 0..n {
-        let here: Vec<_> = (0..steps.len()).map(|k| (at(0, k, state), 1.0)).collect();
-        let start = if state == 0 { 1.0 } else { 0.0 };
-        problem.add_constraint(here.as_slice(), ComparisonOp::Le, start);
-    }
-    for slot in 1..slots {
-        for to in 0..n {
-            let mut terms: Vec<_> = (0..steps.len()).map(|k| (at(slot, k, to), 1.0)).collect();
-            for (k, step) in steps.iter().enumerate() {
-                for from in 0..n {
-                    let p = step[(from, to)];
-                    if p > LEAST {
-                        terms.push((at(slot - 1, k, from), -p));
-                    }
-                }
-            }
-            problem.add_constraint(terms.as_slice(), ComparisonOp::Le, 0.0);
-        }
-    }
-    let solution = problem.solve().ok()?.into_solution().ok()?;
-    Some(solution.objective())
+    worth[0]
 }
 
 #[cfg(test)]
 mod tests {
+    use microlp::{ComparisonOp, OptimizationDirection, Problem};
+
     use super::*;
 
     fn chain(on: [f64; 2], off: [f64; 2]) -> Chain {
@@ -151,9 +124,74 @@ mod tests {
             let alone = alone(one);
             assert!(both.value > alone.value);
             // With one setting there is nothing to choose.
-            assert!((alone.bound.unwrap() - alone.value).abs() < 1e-9);
+            assert!((alone.bound - alone.value).abs() < 1e-9);
         }
-        assert!(both.bound.unwrap() >= both.value - 1e-9, "{both:?}");
-        assert!(both.bound.unwrap() <= 1.0 + 1e-9);
+        assert!(both.bound >= both.value - 1e-9, "{both:?}");
+        assert!(both.bound <= 1.0 + 1e-9);
+    }
+
+    /// Dynamic programming has the optimum of the linear program.
+    #[test]
+    fn the_bound_is_that_of_the_linear_program() {
+        let all = [
+            chain([1.0, 0.3], [2.0, 50.0]),
+            chain([0.1, 1.0], [1e-3, 1e-2]),
+            chain([0.4, 0.2], [0.03, 0.5]),
+        ];
+        let values = [0.0, 1.0, 0.2];
+        for slots in [1, 4, 8] {
+            let steps = all
+                .iter()
+                .map(|chain| chain.transitions(12.0 / slots as f64));
+            let steps: Vec<_> = steps.collect();
+            let program = linear_program(&steps, &values, slots).unwrap();
+            let found = bound(&steps, &values, slots);
+            assert!((program - found).abs() < 1e-8, "{program} {found}");
+        }
+    }
+
+    /// Probabilities below this are left out of the linear program.
+    const LEAST: f64 = 1e-12;
+
+    /// The optimum of the linear program itself. Probability may be lost in it, which never pays where no value
+    /// is negative, so that it starts from a program that nothing is wrong with.
+    fn linear_program(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
+        let n = values.len();
+        let mut problem = Problem::new(OptimizationDirection::Maximize);
+        let mut variables = Vec::new();
+        for slot in 0..slots {
+            for step in steps {
+                for state in 0..n {
+                    let worth = match slot + 1 == slots {
+                        true => (0..n).map(|to| step[(state, to)] * values[to]).sum(),
+                        false => 0.0,
+                    };
+                    variables.push(problem.add_var(worth, (0.0, f64::INFINITY)));
+                }
+            }
+        }
+        let at =
+            |slot: usize, k: usize, state: usize| variables[(slot * steps.len() + k) * n + state];
+        for state in 0..n {
+            let here: Vec<_> = (0..steps.len()).map(|k| (at(0, k, state), 1.0)).collect();
+            let start = if state == 0 { 1.0 } else { 0.0 };
+            problem.add_constraint(here.as_slice(), ComparisonOp::Le, start);
+        }
+        for slot in 1..slots {
+            for to in 0..n {
+                let mut terms: Vec<_> = (0..steps.len()).map(|k| (at(slot, k, to), 1.0)).collect();
+                for (k, step) in steps.iter().enumerate() {
+                    for from in 0..n {
+                        let p = step[(from, to)];
+                        if p > LEAST {
+                            terms.push((at(slot - 1, k, from), -p));
+                        }
+                    }
+                }
+                problem.add_constraint(terms.as_slice(), ComparisonOp::Le, 0.0);
+            }
+        }
+        let solution = problem.solve().ok()?.into_solution().ok()?;
+        Some(solution.objective())
     }
 }

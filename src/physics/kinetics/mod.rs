@@ -74,6 +74,7 @@ pub mod map;
 mod mesh;
 pub mod mixture;
 mod narrow;
+pub mod numbers;
 mod places;
 pub mod population;
 mod proof;
@@ -82,6 +83,7 @@ mod results;
 mod rim;
 mod root;
 mod sets;
+pub mod stiff;
 pub mod volume;
 pub mod well;
 

@@ -2,30 +2,40 @@
 //!
 //! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds one
 //! partner at most (pairs are the product; no larger assembly is looked at), every tile of the one
-//! kind meets every free one of the other equally often (a well stirred table), and a pair goes from
-//! state to state by constant rates. With a and b free tiles of the two kinds, n_i pairs in state i
-//! and a table of the area S,
+//! kind meets every free one of the other equally often (a well stirred table), and pairs come and go
+//! by constant rates, from state to state through free tiles only. With a and b free tiles of the two
+//! kinds, n_i pairs in state i and a table of the area S,
 //!
-//! `a + b -> i at kappa_i a b / S,   i -> a + b at k_i n_i,   i -> j at k_ij n_i.`
+//! `a + b -> i at kappa_i a b / S,   i -> a + b at k_i n_i.`
 //!
-//! Three views of the same: difference equations for the mean numbers, an event at a time (Hosokawa,
-//! Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413), the forward equation of Kolmogorov for
-//! all probabilities, where traps are taken together as one kind, and exact stochastic simulation
-//! (Gillespie 1977, doi:10.1021/j100540a008).
+//! Three views of the same:
+//!
+//! - the forward equation of Kolmogorov for the probabilities of all numbers of pairs in the bond and
+//!   in *each* kind of trap ([`Numbers`]), up to [`MOST_STATES`] of them. Traps of unlike lifetimes
+//!   must not be taken together: one that lets go at once and one that never does hold, as a single
+//!   trap with their mean rates, neither few pairs for long nor many for a moment;
+//! - beyond, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413, whose
+//!   difference equations these are in the limit of short steps): `dn_i/dt = kappa_i a b / S - k_i
+//!   n_i` with a and b their means. They take <ab> for `<a><b>`, which is off by the variance of the
+//!   number of free tiles: by parts of 1/N, and most where tiles are few;
+//! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
 use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::chain::Chain;
+use super::numbers::{self, Numbers};
+use super::stiff;
 use crate::interruption;
 
-/// Most pairs for which all probabilities are computed: 406 states.
-pub const MOST_PAIRS: usize = 27;
-/// A step of the difference equations is at most this share of the fastest state's lifetime.
-const SHARE: f64 = 0.1;
-/// Most steps of the difference equations, and most events of a simulation.
-const MOST_STEPS: usize = 20_000_000;
+/// Most states of a crowd for which all probabilities are computed: ten tiles with ten kinds of
+/// states, or six with twenty-six.
+pub const MOST_STATES: usize = 4000;
+/// Error of the mean numbers that is allowed a step, a pair.
+const TOLERANCE: f64 = 1e-8;
+/// Most events of a simulation.
+const MOST_EVENTS: usize = 20_000_000;
 
 /// The rates of a pair of tiles: state 0 is the bond, the others are traps.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,8 +44,20 @@ pub struct PairRates {
     pub on: Vec<f64>,
     /// Detachments a second (1/s).
     pub off: Vec<f64>,
-    /// From state to state without coming free (1/s), row: from.
-    pub turns: DMatrix<f64>,
+}
+
+/// Mean shares of all possible pairs over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shares {
+    /// In the bond.
+    pub bound: Vec<f64>,
+    /// In traps.
+    pub trapped: Vec<f64>,
+    /// The error of either, of the steps in time.
+    pub error: f64,
+    /// Whether they follow from all probabilities; those of mean numbers have another error besides,
+    /// which simulations tell.
+    pub exact: bool,
 }
 
 /// A table and the tiles on it.
@@ -63,16 +85,6 @@ impl Crowd {
 }
 
 impl PairRates {
-    /// Rates without ways from state to state but through free tiles.
-    pub fn through_free(on: Vec<f64>, off: Vec<f64>) -> Self {
-        let n = on.len();
-        Self {
-            on,
-            off,
-            turns: DMatrix::zeros(n, n),
-        }
-    }
-
     /// The chain of a single pair on a table: state 0 is free, then come the bond and the traps.
     pub fn pair_chain(&self, area: f64) -> Chain {
         let n = self.on.len();
@@ -80,157 +92,121 @@ impl PairRates {
         for i in 0..n {
             rates[(0, i + 1)] = self.on[i] / area;
             rates[(i + 1, 0)] = self.off[i];
-            for j in (0..n).filter(|j| *j != i) {
-                rates[(i + 1, j + 1)] = self.turns[(i, j)];
-            }
         }
         Chain::new(rates)
     }
 
-    /// The bond, and all traps as one state that holds and lets go as they do together in
-    /// equilibrium.
-    pub fn lumped(&self) -> Self {
-        if self.on.len() <= 2 {
-            return self.clone();
-        }
-        let traps = 1..self.on.len();
-        let on: f64 = self.on[traps.clone()].iter().sum();
-        // Occupation against free tiles, kappa / k.
-        let held: f64 = traps.clone().map(|i| self.on[i] / self.off[i]).sum();
-        if on <= 0.0 || held <= 0.0 {
-            return Self::through_free(vec![self.on[0]], vec![self.off[0]]);
-        }
-        let share = |i: usize| self.on[i] / self.off[i] / held;
-        let mut turns = DMatrix::zeros(2, 2);
-        turns[(0, 1)] = traps.clone().map(|i| self.turns[(0, i)]).sum();
-        turns[(1, 0)] = traps.clone().map(|i| share(i) * self.turns[(i, 0)]).sum();
-        let off = traps.map(|i| share(i) * self.off[i]).sum();
-        Self {
-            on: vec![self.on[0], on],
-            off: vec![self.off[0], off],
-            turns,
-        }
-    }
-
-    /// The same as [`Self::lumped`], with a kind of trap that never catches anything where there is
-    /// none.
-    pub fn with_traps(&self) -> Self {
-        let lumped = self.lumped();
-        match lumped.on.len() {
-            1 => Self::through_free(vec![lumped.on[0], 0.0], vec![lumped.off[0], 1.0]),
-            _ => lumped,
-        }
-    }
-
-    /// The share of all possible pairs that are in the bond in equilibrium; `None` for more than
-    /// [`MOST_PAIRS`], and where nothing ever attaches.
+    /// The share of all possible pairs that are in the bond in equilibrium; `None` where the bond is
+    /// never found or left.
+    ///
+    /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, numbers of pairs have the
+    /// weights `A! B! / ((A - H)! (B - H)!) prod z_i^n_i / n_i!` (detailed balance); of T trapped pairs
+    /// the sum over kinds is that of one kind with the sum of their z.
     pub fn equilibrium(&self, crowd: &Crowd) -> Option<f64> {
-        if crowd.pairs() > MOST_PAIRS {
+        let each = self.on.iter().zip(&self.off);
+        let z: Vec<f64> = each.map(|(on, off)| on / off / crowd.area).collect();
+        let traps: f64 = z[1..].iter().filter(|z| z.is_finite()).sum();
+        if !(z[0] > 0.0 && z[0].is_finite()) {
             return None;
         }
-        let (states, chain) = self.crowd_chain(crowd);
-        let found = chain.stationary()?;
-        let bound = states
-            .iter()
-            .zip(found)
-            .map(|(state, p)| state[0] as f64 * p);
-        Some(bound.sum::<f64>() / crowd.pairs() as f64)
+        let pairs = crowd.pairs();
+        let mut logs = vec![0.0; crowd.tiles[0].max(crowd.tiles[1]) + 1];
+        for k in 1..logs.len() {
+            logs[k] = logs[k - 1] + libm::log(k as f64);
+        }
+        let power = |z: f64, n: usize| match n {
+            0 => 0.0,
+            n => n as f64 * libm::log(z) - logs[n],
+        };
+        // Trapped pairs summed first, for each number in the bond: logarithms of the sums.
+        let weight = |bound: usize| {
+            let terms = (0..=pairs - bound).map(|trapped| {
+                let left = crowd.tiles.map(|tiles| logs[tiles - bound - trapped]);
+                power(traps, trapped) - left[0] - left[1]
+            });
+            power(z[0], bound) + sum_of_logs(&terms.collect::<Vec<f64>>())
+        };
+        let weights: Vec<f64> = (0..=pairs).map(weight).collect();
+        let all = sum_of_logs(&weights);
+        let mean = |(bound, weight): (usize, &f64)| bound as f64 * libm::exp(weight - all);
+        Some(weights.iter().enumerate().map(mean).sum::<f64>() / pairs as f64)
     }
 
-    /// Mean numbers of pairs in the bond and in each trap at `time` (s) by Hosokawa's difference equations: at each step as much happens as
-    /// one event, or a tenth of the shortest lifetime passes. `None` where that takes too many steps.
-    pub fn difference_equations(&self, crowd: &Crowd, time: f64) -> Option<Vec<f64>> {
-        let n = self.on.len();
-        let leaving = |i: usize| self.off[i] + self.turns.row(i).sum();
-        let fastest = (0..n).map(leaving).fold(0.0, f64::max);
-        let most_on = self.on.iter().sum::<f64>() / crowd.area;
-        let fastest = fastest + most_on * (crowd.tiles[0] + crowd.tiles[1]) as f64;
-        let mut numbers = vec![0.0; n];
-        let mut now = 0.0;
-        for step in 0..MOST_STEPS {
-            if step % 1024 == 0 {
-                interruption::check();
-            }
+    /// Mean numbers of pairs in the bond and in each kind of trap at ascending `times` (s), of the
+    /// equations for mean numbers; `None` where they cannot be solved.
+    pub fn mean_numbers(&self, crowd: &Crowd, times: &[f64]) -> Option<stiff::Course> {
+        // The linearly implicit step (1 - h J) dn = h f with J = -diag(k) - kappa s^T, where s is by
+        // how much a pair more lessens meetings: Sherman and Morrison's formula.
+        let euler = |numbers: &[f64], h: f64| {
             let held: f64 = numbers.iter().sum();
             let [a, b] = crowd.tiles.map(|tiles| tiles as f64 - held);
-            let meeting = a * b / crowd.area;
-            let all = most_on * a * b + (0..n).map(|i| leaving(i) * numbers[i]).sum::<f64>();
-            let step = (1.0 / all).min(SHARE / fastest).min(time - now);
-            let change = |i: usize| {
-                let turned = (0..n).map(|j| self.turns[(j, i)] * numbers[j]).sum::<f64>();
-                self.on[i] * meeting + turned - leaving(i) * numbers[i]
+            let (meeting, less) = (a * b / crowd.area, (a + b) / crowd.area);
+            let kinds = 0..numbers.len();
+            let plain = |i: usize| {
+                let change = self.on[i] * meeting - self.off[i] * numbers[i];
+                h * change / (1.0 + h * self.off[i])
             };
-            let changes: Vec<f64> = (0..n).map(change).collect();
-            for (number, change) in numbers.iter_mut().zip(changes) {
-                *number += step * change;
-            }
-            now += step;
-            if now >= time {
-                return Some(numbers);
-            }
-        }
-        None
+            let plain: Vec<f64> = kinds.clone().map(plain).collect();
+            let along = |i: usize| h * self.on[i] * less / (1.0 + h * self.off[i]);
+            let along: Vec<f64> = kinds.clone().map(along).collect();
+            let share = plain.iter().sum::<f64>() / (1.0 + along.iter().sum::<f64>());
+            Some(
+                kinds
+                    .map(|i| numbers[i] + plain[i] - along[i] * share)
+                    .collect(),
+            )
+        };
+        let start = vec![0.0; self.on.len()];
+        let meetings = (crowd.tiles[0] * crowd.tiles[1]) as f64 / crowd.area;
+        let fastest =
+            self.on.iter().sum::<f64>() * meetings + self.off.iter().copied().fold(0.0, f64::max);
+        let first = match fastest > 0.0 {
+            true => 0.1 / fastest,
+            false => f64::MAX,
+        };
+        let tolerance = TOLERANCE * crowd.pairs() as f64;
+        stiff::integrate(start, times, first, tolerance, euler)
     }
 
-    /// All numbers of pairs in the bond and in traps (taken together, see [`Self::lumped`]) that a
-    /// crowd can have, and the chain among them.
-    pub fn crowd_chain(&self, crowd: &Crowd) -> (Vec<[usize; 2]>, Chain) {
-        let rates = self.lumped();
-        let kinds = rates.on.len();
-        let pairs = crowd.pairs();
-        let most_trapped = |bound: usize| if kinds > 1 { pairs - bound } else { 0 };
-        let states: Vec<[usize; 2]> = (0..=pairs)
-            .flat_map(|bound| (0..=most_trapped(bound)).map(move |trapped| [bound, trapped]))
-            .collect();
-        let index = |state: [usize; 2]| states.binary_search(&state).ok();
-        let mut chain = DMatrix::zeros(states.len(), states.len());
-        for (k, state) in states.iter().enumerate() {
-            let free = crowd
-                .tiles
-                .map(|tiles| (tiles - state[0] - state[1]) as f64);
-            let meeting = free[0] * free[1] / crowd.area;
-            let mut add = |to: Option<usize>, rate: f64| {
-                if let Some(to) = to {
-                    chain[(k, to)] += rate;
-                }
-            };
-            for i in 0..kinds {
-                let mut more = *state;
-                more[i] += 1;
-                add(index(more), rates.on[i] * meeting);
-                if state[i] == 0 {
-                    continue;
-                }
-                let mut fewer = *state;
-                fewer[i] -= 1;
-                add(index(fewer), rates.off[i] * state[i] as f64);
-                for j in (0..kinds).filter(|j| *j != i) {
-                    let mut turned = fewer;
-                    turned[j] += 1;
-                    add(index(turned), rates.turns[(i, j)] * state[i] as f64);
-                }
-            }
-        }
-        (states, Chain::new(chain))
+    /// Mean shares of all possible pairs at ascending `times` (s) by the forward equation for all
+    /// kinds of states; `None` where a crowd has more than `most` states, and where it cannot be
+    /// solved.
+    pub fn forward_equation(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
+        let count = numbers::count(self.on.len(), crowd.pairs());
+        count.filter(|count| *count <= most)?;
+        let numbers = Numbers::new(self, crowd);
+        let course = numbers.course(times)?;
+        let pairs = crowd.pairs() as f64;
+        let mean = |p: &Vec<f64>, of: fn(&[u32]) -> u32| {
+            let each = p.iter().enumerate();
+            let sum: f64 = each.map(|(k, p)| p * f64::from(of(numbers.of(k)))).sum();
+            (sum / pairs).max(0.0)
+        };
+        let bound = |p| mean(p, |state| state[0]);
+        let trapped = |p| mean(p, |state| state[1..].iter().sum());
+        Some(Shares {
+            bound: course.values.iter().map(bound).collect(),
+            trapped: course.values.iter().map(trapped).collect(),
+            error: course.error,
+            exact: true,
+        })
     }
 
-    /// The probability of each number of pairs in the bond at `time` (s), from 0 on, and the mean
-    /// number in traps, by Kolmogorov's forward equation. `None` for more than [`MOST_PAIRS`].
-    pub fn forward_equation(&self, crowd: &Crowd, time: f64) -> Option<(Vec<f64>, f64)> {
-        if crowd.pairs() > MOST_PAIRS {
-            return None;
-        }
-        let (states, chain) = self.crowd_chain(crowd);
-        let mut start = vec![0.0; states.len()];
-        start[0] = 1.0;
-        let found = chain.occupation(&start, time);
-        let mut bound = vec![0.0; crowd.pairs() + 1];
-        let mut trapped = 0.0;
-        for (state, p) in states.iter().zip(found) {
-            bound[state[0]] += p;
-            trapped += p * state[1] as f64;
-        }
-        Some((bound, trapped))
+    /// The same by the forward equation where a crowd has at most `most` states, and of mean numbers
+    /// beyond; `None` where neither can be solved.
+    pub fn shares(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
+        self.forward_equation(crowd, times, most).or_else(|| {
+            let course = self.mean_numbers(crowd, times)?;
+            let pairs = crowd.pairs() as f64;
+            let bound = |row: &Vec<f64>| (row[0] / pairs).max(0.0);
+            let trapped = |row: &Vec<f64>| (row[1..].iter().sum::<f64>() / pairs).max(0.0);
+            Some(Shares {
+                bound: course.values.iter().map(bound).collect(),
+                trapped: course.values.iter().map(trapped).collect(),
+                error: course.error / pairs,
+                exact: false,
+            })
+        })
     }
 
     /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` where
@@ -238,9 +214,9 @@ impl PairRates {
     pub fn simulate(&self, crowd: &Crowd, time: f64, rng: &mut ChaCha8Rng) -> Option<Vec<usize>> {
         let n = self.on.len();
         let mut numbers = vec![0usize; n];
-        let mut rates = vec![0.0; n * (n + 2)];
+        let mut rates = vec![0.0; 2 * n];
         let mut now = 0.0;
-        for event in 0..MOST_STEPS {
+        for event in 0..MOST_EVENTS {
             if event % 1024 == 0 {
                 interruption::check();
             }
@@ -251,9 +227,6 @@ impl PairRates {
                 let here = numbers[i] as f64;
                 rates[i] = self.on[i] * meeting;
                 rates[n + i] = self.off[i] * here;
-                for j in 0..n {
-                    rates[(2 + i) * n + j] = self.turns[(i, j)] * here;
-                }
             }
             let all: f64 = rates.iter().sum();
             now += -libm::log(1.0 - rng.random::<f64>()) / all;
@@ -270,95 +243,176 @@ impl PairRates {
                 }
                 rest -= rate;
             }
-            match (chosen / n, chosen % n) {
-                (0, i) => numbers[i] += 1,
-                (1, i) => numbers[i] = numbers[i].saturating_sub(1),
-                (row, j) => {
-                    numbers[row - 2] = numbers[row - 2].saturating_sub(1);
-                    numbers[j] += 1;
-                }
+            match chosen.checked_sub(n) {
+                None => numbers[chosen] += 1,
+                Some(i) => numbers[i] = numbers[i].saturating_sub(1),
             }
         }
         None
     }
 }
 
+/// The logarithm of a sum of numbers of which the logarithms are given.
+fn sum_of_logs(logs: &[f64]) -> f64 {
+    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    most + libm::log(logs.iter().map(|log| libm::exp(log - most)).sum::<f64>())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::dynamics::docking::stream;
+    use crate::dynamics::exits::mean_and_error;
+    use crate::kinetics::mixture;
 
+    /// A bond and traps whose lifetimes differ by six powers of ten.
     fn rates() -> PairRates {
-        PairRates::through_free(vec![0.02, 0.03], vec![2e-3, 0.2])
+        PairRates {
+            on: vec![0.008, 0.03, 0.01, 0.004],
+            off: vec![2e-4, 27.0, 0.02, 1e-5],
+        }
     }
 
-    fn mean(bound: &[f64]) -> f64 {
-        bound.iter().enumerate().map(|(k, p)| k as f64 * p).sum()
+    fn crowd(pairs: usize) -> Crowd {
+        Crowd {
+            tiles: [pairs; 2],
+            area: 0.4 * pairs as f64,
+        }
     }
 
     /// One pair: the crowd's chain is the pair's.
     #[test]
     fn two_tiles_are_a_pair() {
-        let crowd = Crowd {
-            tiles: [1, 1],
-            area: 3.0,
-        };
-        let (bound, trapped) = rates().forward_equation(&crowd, 40.0).unwrap();
-        let alone = rates().pair_chain(3.0).occupation(&[1.0, 0.0, 0.0], 40.0);
-        assert!((bound[1] - alone[1]).abs() < 1e-12 && (trapped - alone[2]).abs() < 1e-12);
+        let found = rates().forward_equation(&crowd(1), &[40.0], 100).unwrap();
+        let alone = rates()
+            .pair_chain(0.4)
+            .occupation(&[1.0, 0.0, 0.0, 0.0, 0.0], 40.0);
+        assert!((found.bound[0] - alone[1]).abs() < 1e-7, "{found:?}");
+        let trapped: f64 = alone[2..].iter().sum();
+        assert!((found.trapped[0] - trapped).abs() < 1e-7, "{found:?}");
     }
 
-    /// The forward equation within the simulation's error, for few tiles; difference equations for
-    /// many.
+    /// Every view of the same crowd within its stated error of every other one: the forward equation,
+    /// the simulation, mean numbers (whose error the simulation tells), schedules of one setting, the
+    /// greatest value of any schedule.
     #[test]
-    fn three_views_agree() {
-        let crowd = Crowd {
-            tiles: [5, 5],
-            area: 12.0,
+    fn all_views_agree_within_their_errors() {
+        let slower = PairRates {
+            off: rates().off.iter().map(|off| off / 30.0).collect(),
+            ..rates()
         };
-        let (bound, trapped) = rates().forward_equation(&crowd, 60.0).unwrap();
-        let count = 4000;
-        let (mut sums, mut squares) = ([0.0; 2], [0.0; 2]);
-        for k in 0..count {
-            let run = rates().simulate(&crowd, 60.0, &mut stream(5, k)).unwrap();
-            for i in 0..2 {
-                sums[i] += run[i] as f64;
-                squares[i] += (run[i] * run[i]) as f64;
+        for rates in [rates(), slower] {
+            for (pairs, time) in [(3, 3.0), (3, 600.0), (5, 60.0)] {
+                let crowd = crowd(pairs);
+                let exact = rates
+                    .forward_equation(&crowd, &[time], MOST_STATES)
+                    .unwrap();
+                let run = |k| rates.simulate(&crowd, time, &mut stream(5, k)).unwrap();
+                let runs: Vec<Vec<usize>> = (0..3000).map(run).collect();
+                let of = |share: fn(&Vec<usize>) -> usize| {
+                    let shares = runs.iter().map(|run| share(run) as f64 / pairs as f64);
+                    mean_and_error(&shares.collect::<Vec<f64>>())
+                };
+                let simulated = [of(|run| run[0]), of(|run| run[1..].iter().sum())];
+                for ([mean, error], exact_share) in simulated
+                    .into_iter()
+                    .zip([exact.bound[0], exact.trapped[0]])
+                {
+                    let far = (mean - exact_share).abs();
+                    assert!(
+                        far < 4.0 * error + exact.error,
+                        "{pairs}, {time}: {far} {error}"
+                    );
+                }
+                let smooth = rates.shares(&crowd, &[time], 0).unwrap();
+                let [mean, error] = simulated[0];
+                let stated = (smooth.bound[0] - mean).abs() + 2.0 * error;
+                let far = (smooth.bound[0] - exact.bound[0]).abs();
+                assert!(
+                    !smooth.exact && far <= stated + 2.0 * error,
+                    "{far} {stated}"
+                );
+                let values: Vec<f64> = {
+                    let numbers = Numbers::new(&rates, &crowd);
+                    let states = 0..numbers.len();
+                    states
+                        .map(|k| f64::from(numbers.of(k)[0]) / pairs as f64)
+                        .collect()
+                };
+                let chain = Numbers::new(&rates, &crowd).chain();
+                let alone = mixture::schedule(&[chain], &values, time, 4);
+                for share in [alone.value, alone.bound] {
+                    assert!((share - exact.bound[0]).abs() < 1e-6, "{share} {exact:?}");
+                }
             }
         }
-        for (i, exact) in [mean(&bound), trapped].into_iter().enumerate() {
-            let n = count as f64;
-            let found = sums[i] / n;
-            let error = ((squares[i] / n - found * found) / n).sqrt();
-            assert!(
-                (found - exact).abs() < 4.0 * error,
-                "{i}: {found} {exact} {error}"
-            );
-        }
-        let crowded = |pairs: usize| {
+    }
+
+    /// Traps of unlike lifetimes are no single trap with their mean lifetime: what that would say is
+    /// off by more than a third.
+    #[test]
+    fn unlike_traps_are_not_one() {
+        let rates = PairRates {
+            on: vec![0.008, 0.03, 0.02],
+            off: vec![2e-6, 20.0, 1e-5],
+        };
+        let held: f64 = (1..3).map(|i| rates.on[i] / rates.off[i]).sum();
+        let on = rates.on[1] + rates.on[2];
+        let as_one = PairRates {
+            on: vec![rates.on[0], on],
+            off: vec![rates.off[0], on / held],
+        };
+        let share = |rates: &PairRates| {
+            let found = rates.forward_equation(&crowd(3), &[3000.0], MOST_STATES);
+            found.unwrap().bound[0]
+        };
+        assert!(share(&rates) > 1.3 * share(&as_one), "{}", share(&rates));
+    }
+
+    /// Mean numbers are right for many tiles.
+    #[test]
+    fn mean_numbers_are_those_of_many_tiles() {
+        let rates = PairRates {
+            on: vec![0.02, 0.03],
+            off: vec![2e-3, 0.2],
+        };
+        let far = |pairs: usize| {
             let crowd = Crowd {
                 tiles: [pairs; 2],
                 area: 2.4 * pairs as f64,
             };
-            let (bound, _) = rates().forward_equation(&crowd, 60.0).unwrap();
-            let smooth = rates().difference_equations(&crowd, 60.0).unwrap()[0];
-            (mean(&bound) - smooth).abs() / pairs as f64
+            let of = |most: usize| rates.shares(&crowd, &[60.0], most).unwrap().bound[0];
+            (of(MOST_STATES) - of(0)).abs()
         };
-        let [few, many] = [crowded(3), crowded(24)];
-        assert!(many < 0.01 && many < 0.3 * few, "{few} {many}");
+        let [few, many] = [far(3), far(40)];
+        assert!(many < 0.01 && many < 0.2 * few, "{few} {many}");
     }
 
-    /// In the long run numbers are those of the law of mass action for one pair.
+    /// In the long run numbers are those of the law of mass action, for one pair and for several.
     #[test]
     fn equilibrium_is_that_of_the_constants() {
-        let crowd = Crowd {
+        let rates = PairRates {
+            on: vec![0.02, 0.03, 0.01],
+            off: vec![2e-3, 0.2, 0.01],
+        };
+        let weights = [1.0, 0.02 / 2.0 / 2e-3, 0.03 / 2.0 / 0.2, 0.01 / 2.0 / 0.01];
+        let one = Crowd {
             tiles: [1, 1],
             area: 2.0,
         };
-        let (bound, trapped) = rates().forward_equation(&crowd, 1e7).unwrap();
-        let weights = [1.0, 0.02 / 2.0 / 2e-3, 0.03 / 2.0 / 0.2];
-        let total: f64 = weights.iter().sum();
-        assert!((bound[1] - weights[1] / total).abs() < 1e-10);
-        assert!((trapped - weights[2] / total).abs() < 1e-10);
+        let share = weights[1] / weights.iter().sum::<f64>();
+        assert!((rates.equilibrium(&one).unwrap() - share).abs() < 1e-12);
+        for pairs in [1, 4] {
+            let crowd = crowd(pairs);
+            let later = rates.forward_equation(&crowd, &[1e6], MOST_STATES).unwrap();
+            let equilibrium = rates.equilibrium(&crowd).unwrap();
+            assert!(
+                (later.bound[0] - equilibrium).abs() < 1e-6,
+                "{later:?} {equilibrium}"
+            );
+        }
+        let many = rates.equilibrium(&crowd(3000)).unwrap();
+        let later = rates.mean_numbers(&crowd(3000), &[1e6]).unwrap();
+        assert!((later.values[0][0] / 3000.0 - many).abs() < 1e-3, "{many}");
     }
 }

@@ -9,6 +9,7 @@ use crate::contact::Contact;
 use crate::contact::cells::{ContactCells, Cuts};
 use crate::potential::CellBounds;
 use crate::potential::bounds::Enclosure;
+use crate::scale::Scale;
 
 /// Units of work that a cell takes, each edge that it may touch, and each cut in a bound.
 const A_CELL: u64 = 100;
@@ -41,6 +42,11 @@ impl<'a> Bounded<'a> {
             lever: contact.map_or(space.rho, |contact| contact.moving().circumradius()),
             unpaid: AtomicU64::new(0),
         }
+    }
+
+    /// How large the tiles are.
+    pub fn scale(&self) -> Scale {
+        self.contact.map_or(Scale::NONE, Contact::scale)
     }
 
     /// Encloses the energy over the free configurations of a cell.

@@ -14,6 +14,9 @@ const RESIDUAL: f64 = 1e-12;
 /// Contacts are looked for this far (m) beyond what a step needs.
 const MARGIN: f64 = 1e-6;
 
+/// Contacts are closed to this gap (m) if rounding lets them, to the second in any case.
+const CLOSED: [f64; 2] = [1e-13, 1e-10];
+
 /// At rest where contact leaves less than this fraction of the force.
 const EQUILIBRIUM: f64 = 1e-9;
 
@@ -67,7 +70,7 @@ impl Projected {
             constraint.gap = 0.0;
         }
         let free = free / size;
-        let (held, multipliers) = closest_admissible(free, &metric, &touching)?;
+        let (held, multipliers) = closest_admissible((free, 1.0), &metric, &touching)?;
         Some(Self {
             free,
             held,
@@ -79,7 +82,11 @@ impl Projected {
 
     fn at(problem: &Problem, point: &Point) -> Option<Self> {
         let metric = problem.mass_metric(point.q.theta);
-        Self::new(point, metric, constraints(problem, &point.q, MARGIN))
+        Self::new(
+            point,
+            metric,
+            constraints(problem, &point.q, problem.scaled(MARGIN)),
+        )
     }
 
     /// The contacts pressed on.
@@ -144,7 +151,7 @@ pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
 /// step; contacts in the way shorten the step or turn it aside.
 pub fn step_along(problem: &Problem, point: &Point, heading: &Heading, size: f64) -> Option<Point> {
     let wanted = heading.direction * size;
-    let margin = reach(problem, &wanted) + MARGIN;
+    let margin = reach(problem, &wanted) + problem.scaled(MARGIN);
     let (straight, settled) = if problem.has_room(&point.q, margin) {
         (wanted, point.q.moved(wanted))
     } else {
@@ -168,7 +175,7 @@ fn slid(
     let near = constraints(problem, &point.q, margin);
     // All of the force: contacts that the step meets may take from those it starts with.
     let force = heading.direction + heading.held;
-    let pushed = |by: f64| closest_admissible(force * by, &metric, &near);
+    let pushed = |by: f64| closest_admissible((force * by, problem.scaled(1.0)), &metric, &near);
     let (mut straight, mut multipliers) = pushed(size)?;
     let longer = length(&straight, &metric) / size;
     if longer > 1.0 {
@@ -184,7 +191,7 @@ fn slid(
     }
     let closed = close(problem, &still, &moved).unwrap_or(moved);
     let settled = settle(problem, &closed, size)?;
-    let is_free = problem.motion_overlaps_at_most(&point.q, &settled, GRAZE);
+    let is_free = problem.motion_overlaps_at_most(&point.q, &settled, problem.scaled(GRAZE));
     is_free.then_some((straight, settled))
 }
 
@@ -221,7 +228,7 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
     for _ in 0..12 {
         let rows = contact.constraints_of(touches, &q);
         let widest = rows.iter().map(|c| c.gap.abs()).fold(0.0, f64::max);
-        if widest <= 1e-13 {
+        if widest <= problem.scaled(CLOSED[0]) {
             return Some(q);
         }
         let inverse = problem.mass_metric(q.theta).try_inverse()?;
@@ -235,7 +242,9 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
         q = q.moved(inverse * push);
     }
     let rows = contact.constraints_of(touches, &q);
-    rows.iter().all(|row| row.gap.abs() <= 1e-10).then_some(q)
+    rows.iter()
+        .all(|row| row.gap.abs() <= problem.scaled(CLOSED[1]))
+        .then_some(q)
 }
 
 /// The sum of multiples of the gradients that closes these gaps, to first order.
@@ -267,13 +276,14 @@ pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configu
     }
     let mut q = *q;
     for _ in 0..12 {
-        let near = constraints(problem, &q, size + MARGIN);
+        let near = constraints(problem, &q, size + problem.scaled(MARGIN));
         let deepest = near.iter().map(|c| c.gap).fold(0.0, f64::min);
-        if deepest >= -RESIDUAL {
+        if deepest >= -problem.scaled(RESIDUAL) {
             break;
         }
         let metric = problem.mass_metric(q.theta);
-        let (push, _) = closest_admissible(Vector3::zeros(), &metric, &near)?;
+        let (push, _) =
+            closest_admissible((Vector3::zeros(), problem.scaled(1.0)), &metric, &near)?;
         if length(&push, &metric) > 2.0 * size {
             return None;
         }

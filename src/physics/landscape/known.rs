@@ -53,7 +53,7 @@ impl Stretch {
     fn holds(&self, problem: &Problem, q: &Configuration, heading: &Heading) -> bool {
         let [a, b] = &self.ends;
         let distance = |a, b| problem.space.distance(a, b);
-        let length = distance(a, b) + ROUNDING;
+        let length = distance(a, b) + problem.scaled(ROUNDING);
         let onwards = || {
             let metric = problem.mass_metric(q.theta);
             heading.direction.dot(&(metric * a.step_to(b))) > 0.0
@@ -113,7 +113,8 @@ impl Known {
 
     /// Whether a configuration is one of the minima.
     pub(super) fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
-        let is_same = |known: &Configuration| problem.space.distance(known, q) <= SAME;
+        let is_same =
+            |known: &Configuration| problem.space.distance(known, q) <= problem.scaled(SAME);
         self.minima.iter().any(is_same)
     }
 }

@@ -23,7 +23,7 @@ pub fn touching_faces(
     q: &Configuration,
 ) -> Vec<(usize, usize)> {
     let mut faces: Vec<(usize, usize)> = contact
-        .constraints(q, TOUCHING)
+        .constraints(q, contact.scaled(TOUCHING))
         .iter()
         .map(|constraint| {
             let Touch {

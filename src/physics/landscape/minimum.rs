@@ -79,7 +79,9 @@ pub fn descend_among(problem: &Problem, start: &Configuration, known: &Known) ->
 /// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim, where
 /// something is known.
 pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
-    follow(problem, start, known, ASIDE, |q| !problem.space.contains(q))
+    follow(problem, start, known, problem.scaled(ASIDE), |q| {
+        !problem.space.contains(q)
+    })
 }
 
 /// Where overdamped motions from several starts lead; how they slid there is known from now on. The same
@@ -124,14 +126,14 @@ fn trace(
     (known, aside): (&Known, f64),
     is_free: impl Fn(&Configuration) -> bool,
 ) -> Outcome {
-    let mut size = LONGEST_STEP;
-    let mut newton_below = TRY_NEWTON;
+    let mut size = problem.scaled(LONGEST_STEP);
+    let mut newton_below = problem.scaled(TRY_NEWTON);
     let mut motion = None;
     let mut past = Past::default();
     let longest = if aside.is_finite() {
-        LONGEST_FORESEEN
+        problem.scaled(LONGEST_FORESEEN)
     } else {
-        LONGEST_STEP
+        problem.scaled(LONGEST_STEP)
     };
     for _ in 0..MOST_STEPS {
         let here = *way.last().expect("a way has a start");
@@ -155,7 +157,7 @@ fn trace(
         });
         match next {
             Some((next, after, strays, fitting)) => {
-                if strays <= aside || size <= SHORT {
+                if strays <= aside || size <= problem.scaled(SHORT) {
                     way.push(next);
                     let ends = [along.as_ref(), after.as_ref()];
                     stretches.extend(Stretch::between([here.q, next.q], ends));
@@ -169,7 +171,7 @@ fn trace(
                     size = fitting.min(longest);
                 } else {
                     motion = along;
-                    size = fitting.max(SHORT);
+                    size = fitting.max(problem.scaled(SHORT));
                 }
             }
             None => {
@@ -187,14 +189,14 @@ fn trace(
             motion = None;
             past.forget();
         }
-        if size < SHORTEST_STEP {
+        if size < problem.scaled(SHORTEST_STEP) {
             // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
             match lower_neighbour(problem, &here) {
                 Some(lower) => way.push(lower),
                 None => return Outcome::Stuck(here.q),
             }
-            size = LONGEST_STEP;
-            newton_below = TRY_NEWTON;
+            size = problem.scaled(LONGEST_STEP);
+            newton_below = problem.scaled(TRY_NEWTON);
             motion = None;
             past.forget();
         }
@@ -226,7 +228,7 @@ fn lower_neighbour(problem: &Problem, point: &Point) -> Option<Point> {
     let clearly = problem.potential().noise().max(CLEARLY);
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     for k in 0..PROBES {
-        let distance = libm::pow(10f64, -6.0 + 3.0 * k as f64 / PROBES as f64);
+        let distance = problem.scaled(libm::pow(10f64, -6.0 + 3.0 * k as f64 / PROBES as f64));
         let mut draw = || rng.random_range(-1.0..1.0);
         let direction = Vector3::new(draw(), draw(), draw() / problem.space.rho);
         let aim = point.q.moved(direction * distance);

@@ -7,7 +7,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::grid::{Sample, with_energies};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::{Contact, TOUCH};
+use crate::contact::Contact;
 use crate::interruption;
 use crate::order::Order;
 use crate::problem::Problem;
@@ -59,7 +59,7 @@ impl<'a> Search<'a> {
         let inner = pair.map_or(0.0, |pair| {
             let (a, b) = (depth(&pair.fixed.outline), depth(&pair.moving.outline));
             if a > 0.0 && b > 0.0 {
-                a + b - 2.0 * TOUCH
+                a + b - 2.0 * problem.contact.as_ref().map_or(0.0, Contact::touch)
             } else {
                 0.0
             }
@@ -252,7 +252,7 @@ impl Known {
         let all = self.free.iter_mut().zip(rotations);
         let look = |((free, around), rotation): (&mut (bool, f64), &Rotation2<f64>)| {
             *around -= step;
-            if *around <= TOUCH {
+            if *around <= contact.touch() {
                 (*free, *around) = contact.is_free_turned(*rotation, place);
             }
             *free

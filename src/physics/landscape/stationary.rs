@@ -25,6 +25,12 @@ const LONGEST: f64 = 4e-3;
 const CONVERGED: f64 = 1e-10;
 /// Contacts with a gap below this (m) are closed.
 const CLOSED: f64 = 1e-8;
+/// Contacts are looked for this far (m) beyond what a step needs, and those that a step would overlap by
+/// more than the other (m) end it.
+const MARGIN: f64 = 1e-6;
+const CLOSING: f64 = 1e-11;
+/// Modes of less than this share of the greatest curvature count as curved by that much.
+const FLATTEST: f64 = 1e-12;
 const MOST_STEPS: usize = 80;
 /// A minimum farther from the start than this (m, metric of the space) is another one.
 const NEAR: f64 = 0.02;
@@ -62,7 +68,7 @@ impl Stationary {
 
 /// The minimum near `q`, if Newton's method finds one without leaving what is near.
 pub fn minimum(problem: &Problem, q: &Configuration) -> Option<Stationary> {
-    search(problem, q, None, NEAR)
+    search(problem, q, None, problem.scaled(NEAR))
         .filter(|found| found.index() == 0 && is_at_rest(problem, &found.point))
 }
 
@@ -91,7 +97,7 @@ fn search(
 ) -> Option<Stationary> {
     let mut surface = Surface::pressing(problem, &Point::new(problem, *start));
     let mut point = Point::new(problem, surface.retract(start)?);
-    let mut longest = LONGEST;
+    let mut longest = problem.scaled(LONGEST);
     let mut last_slope = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         if surface.release(&point) {
@@ -102,15 +108,17 @@ fn search(
         let followed = along.and_then(|along| most_alike(problem, &point, &modes, &along));
         let mut step = Vector3::zeros();
         let mut slope_size: f64 = 0.0;
+        let steepest = modes.iter().map(|mode| mode.0.abs()).fold(0.0, f64::max);
+        let flattest = (FLATTEST * steepest).max(f64::MIN_POSITIVE);
         for (k, (curvature, direction)) in modes.iter().enumerate() {
             let slope = point.gradient.dot(direction);
             slope_size += slope * slope;
             let uphill = if followed == Some(k) { 1.0 } else { -1.0 };
-            step += direction * (uphill * slope / curvature.abs().max(1e-9));
+            step += direction * (uphill * slope / curvature.abs().max(flattest));
         }
         let metric = problem.mass_metric(point.q.theta);
         let size = length(&step, &metric);
-        if size <= CONVERGED {
+        if size <= problem.scaled(CONVERGED) {
             return Some(Stationary { point, modes });
         }
         // Steps that overshoot make the slope grow: shorten them, until they are shorter than the
@@ -118,10 +126,10 @@ fn search(
         longest = if slope_size > last_slope {
             longest / 2.0
         } else {
-            (longest * 1.5).min(LONGEST)
+            (longest * 1.5).min(problem.scaled(LONGEST))
         };
         last_slope = slope_size;
-        if longest < DIFFERENCE && longest < size {
+        if longest < problem.scaled(DIFFERENCE) && longest < size {
             return None;
         }
         step *= (longest / size).min(1.0);
@@ -165,7 +173,7 @@ impl<'a> Surface<'a> {
     /// The contacts that the energy presses on at a point.
     fn pressing(problem: &'a Problem, point: &Point) -> Self {
         let metric = problem.mass_metric(point.q.theta);
-        let touching = constrained::constraints(problem, &point.q, CLOSED);
+        let touching = constrained::constraints(problem, &point.q, problem.scaled(CLOSED));
         let mut surface = Self {
             problem,
             closed: Vec::new(),
@@ -255,12 +263,12 @@ impl<'a> Surface<'a> {
         let mut closing = None;
         for _ in 0..20 {
             let next = self.retract(&q.moved(step * fraction))?;
-            let margin = constrained::reach(self.problem, step) + 1e-6;
+            let margin = constrained::reach(self.problem, step) + self.problem.scaled(MARGIN);
             let worst = constrained::constraints(self.problem, &next, margin)
                 .into_iter()
                 .filter(|c| !self.closed.contains(&c.touch))
                 .min_by_key(|c| OrderedFloat(c.gap))
-                .filter(|c| c.gap < -1e-11);
+                .filter(|c| c.gap < -self.problem.scaled(CLOSING));
             let Some(worst) = worst else {
                 let closing = closing.filter(|touch| self.is_independent(&next, *touch));
                 return Some((next, closing));
@@ -303,7 +311,7 @@ impl<'a> Surface<'a> {
         if n == 0 {
             return Some(Vec::new());
         }
-        let h = DIFFERENCE;
+        let h = self.problem.scaled(DIFFERENCE);
         let mut steps = Vec::new();
         for i in 0..n {
             steps.extend([tangent[i] * h, tangent[i] * -h]);

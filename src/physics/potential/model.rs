@@ -4,9 +4,9 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MagnetModel {
     /// Point dipoles at the blocks' centres.
-    #[default]
     Dipole,
-    /// Uniformly magnetised blocks.
+    /// Uniformly magnetised blocks: what magnets are, and what is taken where nothing is said.
+    #[default]
     Cuboid,
 }
 
@@ -14,6 +14,14 @@ impl MagnetModel {
     /// What design files call each model.
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
+
+    /// What a reader calls magnets of this model: `dipoles`, `blocks`.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Dipole => "dipoles",
+            Self::Cuboid => "blocks",
+        }
+    }
 
     /// What design files call this model.
     pub fn name(self) -> &'static str {

@@ -11,12 +11,13 @@ use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::matching::matches;
-use crate::contact::{Contact, Halves, Known, TOUCH};
+use crate::contact::{Contact, Halves, Known};
 use crate::interruption;
 use crate::parallel;
 use crate::potential::{
     BoxedBounds, CellBounds, Energy, Interaction, LazyBounds, Potential, Unbounded,
 };
+use crate::scale::Scale;
 use crate::tile::{Face, Pair, face_to_face};
 
 pub use rivals::Meeting;
@@ -152,6 +153,16 @@ impl Problem {
             let depths = self.flush_meetings().iter().map(|q| self.energy(q).abs());
             depths.fold(f64::MIN_POSITIVE, f64::max)
         })
+    }
+
+    /// How large the tiles are.
+    pub fn scale(&self) -> Scale {
+        self.contact.as_ref().map_or(Scale::NONE, Contact::scale)
+    }
+
+    /// What a length (m) is for these tiles that is told for the paper's ([`Scale`]).
+    pub fn scaled(&self, told: f64) -> f64 {
+        self.scale().length(told)
     }
 
     /// Whether an energy takes so long, of very many magnets, that as few as possible are to be asked.
@@ -319,7 +330,7 @@ impl Problem {
         let (Some(contact), Some(a), Some(b)) = (&self.contact, a, b) else {
             return true;
         };
-        contact.known_motion_overlaps_at_most([a, b], TOUCH, left)
+        contact.known_motion_overlaps_at_most([a, b], contact.touch(), left)
     }
 
     /// Whether the tiles overlap by at most `allowed` (m) all along the straight motion between two

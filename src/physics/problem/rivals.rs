@@ -54,7 +54,7 @@ impl Problem {
         });
         let is_wanted = |meeting: &Meeting| {
             let distance = |q: &Configuration| self.space.distance(q, &meeting.configuration);
-            meeting.faces == pair.target || wanted.iter().any(|q| distance(q) < SAME)
+            meeting.faces == pair.target || wanted.iter().any(|q| distance(q) < self.scaled(SAME))
         };
         let is_strong = |meeting: &Meeting| {
             meeting.energy <= AS_STRONG * bond && self.is_free(&meeting.configuration)

@@ -128,7 +128,7 @@ fn around_contact(problem: &Problem, rng: &mut impl Rng) -> Configuration {
     let reach = (fixed.length() + moving.length()) / 2.0;
     let slide = rng.random_range(-reach..=reach);
     let gap = if rng.random_bool(0.5) {
-        log_uniform(1e-5, 0.1, rng)
+        problem.scaled(log_uniform(1e-5, 0.1, rng))
     } else {
         0.0
     };

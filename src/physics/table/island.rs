@@ -28,6 +28,10 @@ use crate::contact::{ContactPoint, NearPairs};
 
 /// Points are touched at gaps below this (m).
 const TOUCHED: f64 = 1e-9;
+/// Outlines are kept apart by this (m). The force of two blocks turns round where their pole faces pass
+/// through each other, so that tiles must not overlap by the least; an energy is off by a force times
+/// this.
+pub const SKIN: f64 = 1e-7;
 /// What overlaps is pushed out by no more in a step (m).
 const PUSHED_OUT: f64 = 1e-6;
 /// Points of contact are looked for at least this far (m).
@@ -265,7 +269,8 @@ impl Island<'_> {
             for point in near.points(crowd, &relative(&a, &b), kinds, margin) {
                 let at = a.transform(point.on_moving);
                 let axis = a.rotation() * point.normal;
-                holds.push(Hold::new(tiles.map(Some), at, axis, point.gap, centre));
+                let gap = point.gap - SKIN;
+                holds.push(Hold::new(tiles.map(Some), at, axis, gap, centre));
             }
         }
         if self.settings.walls {

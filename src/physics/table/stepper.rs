@@ -108,6 +108,11 @@ impl<'a> Stepper<'a> {
         self.riders.iter().map(|it| it.mover).collect()
     }
 
+    /// Kinetic energy that is still to be put right (J).
+    pub fn debt(&self) -> f64 {
+        self.riders.iter().map(|it| it.debt).sum()
+    }
+
     /// Kinetic energy (J).
     pub fn kinetic(&self) -> f64 {
         let each = self.riders.iter().map(|it| it.mover);

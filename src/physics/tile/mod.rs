@@ -4,6 +4,7 @@ pub mod assembly;
 pub mod barcode;
 mod convex;
 pub mod edge_grid;
+pub mod grade;
 pub mod magnet;
 pub mod outline;
 mod pair;

@@ -5,21 +5,30 @@
 //! depth < 0 cuts in.
 //!
 //! An outline is a polygon, so a curve (arc, sine) is drawn as chords between points *on* the
-//! curve, close enough that no chord is farther than [`CHORD_ERROR`] from it. This polygon *is*
-//! the outline: contact, areas and clearances are exact for it. The [`complement`] is taken point
-//! by point, so a mate's polygon coincides with its partner's in the bound configuration, whatever
-//! the chords leave of the curve.
+//! curve, close enough that no chord is farther from it than [`CHORD_SHARE`] of the profile's depth,
+//! nor of an arc's radius than [`CHORD_SHARE_OF_RADIUS`]: a shape has the same chords at every size.
+//! This polygon *is* the outline: contact, areas and clearances are exact for it. The [`complement`]
+//! is taken point by point, so a mate's polygon coincides with its partner's in the bound
+//! configuration, whatever the chords leave of the curve.
 
 use std::f64::consts::PI;
 
-/// Largest distance (m) of a chord from the curve that it stands for: about what is cut or printed
-/// to, and few enough points for contact to stay cheap.
-pub const CHORD_ERROR: f64 = 2e-4;
+/// Largest distance of a chord from the curve that it stands for, as a share of the profile's depth:
+/// 0.2 mm of a bulge of 20 mm, about what is cut or printed to, and few enough points for contact to
+/// stay cheap (it takes the twelvefold time with ten times as many).
+pub const CHORD_SHARE: f64 = 0.01;
 
-/// A profile no deeper than this (m) is flat: a two-hundredth of the chord error, far below what is
-/// cut or printed to, and as far as drawings resolve. What is shallower comes of rounding, as in
+/// The same as a share of an arc's radius, which is what counts where an arc is a half circle or more:
+/// chords turn by 10 degrees at most.
+pub const CHORD_SHARE_OF_RADIUS: f64 = 0.0038;
+
+/// Chords of a quarter of a sine wave: they leave it by `1 - cos(pi / 16)`, 0.0193 of the amplitude at
+/// most, and so by [`CHORD_SHARE`] of the depth, twice the amplitude.
+const CHORDS_PER_QUARTER_WAVE: i64 = 4;
+
+/// A profile no deeper than this share of its width is flat. What is shallower comes of rounding, as in
 /// -0.01 + 0.01, and the circle through an arc of 1e-15 m would be wider than the solar system.
-pub const SHALLOWEST: f64 = 1e-6;
+pub const SHALLOWEST: f64 = 2e-6;
 
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;
@@ -102,15 +111,19 @@ pub enum ProfileError {
 
 impl Profile {
     /// The profile's points (s, h), from its beginning to its end, both at h = 0; none for a
-    /// profile that is no more than the base line, or no deeper than [`SHALLOWEST`].
+    /// profile that is no more than the base line, or no deeper than [`SHALLOWEST`] of its width.
     ///
     /// # Errors
     /// Where the parameters leave no profile to draw.
     pub fn polyline(&self) -> Result<Polyline, ProfileError> {
         match self {
             Self::Flat => Ok(Vec::new()),
-            Self::Tab { depth, .. } | Self::Teeth { depth, .. } | Self::Arc { depth, .. }
-                if depth.abs() < SHALLOWEST =>
+            Self::Tab { width, depth, .. }
+            | Self::Teeth {
+                span: width, depth, ..
+            }
+            | Self::Arc { width, depth, .. }
+                if depth.abs() < SHALLOWEST * width =>
             {
                 Ok(Vec::new())
             }
@@ -164,7 +177,7 @@ fn teeth(form: Waveform, count: u32, depth: f64, span: f64) -> Polyline {
     let s = |k: i64, pieces: i64| span / 2.0 * (2 * k - pieces) as f64 / pieces as f64;
     match form {
         Waveform::Sine => {
-            let quarter = chords_per_quarter_wave(amplitude.abs());
+            let quarter = CHORDS_PER_QUARTER_WAVE;
             let pieces = 2 * halves * quarter;
             let half = pieces / 2;
             (0..=pieces)
@@ -208,20 +221,16 @@ fn sign(k: i64, count: u32) -> f64 {
     }
 }
 
-/// A chord over the phase step d of `A sin(phase)` leaves the curve by at most `A d^2 / 8`.
-fn chords_per_quarter_wave(amplitude: f64) -> i64 {
-    let step = (8.0 * CHORD_ERROR / amplitude).sqrt();
-    (PI / 2.0 / step).ceil().max(1.0) as i64
-}
-
 fn arc(width: f64, depth: f64, offset: f64) -> Polyline {
     let sagitta = depth.abs();
     // Half the angle that the segment spans, and the circle's radius.
     let half_angle = 2.0 * libm::atan(2.0 * sagitta / width);
     let radius = (width * width / 4.0 + sagitta * sagitta) / (2.0 * sagitta);
     // A chord over the angle 2 a leaves its circle by radius (1 - cos a).
-    let largest = libm::acos(1.0 - (CHORD_ERROR / radius).min(1.0));
-    let half = (half_angle / (2.0 * largest)).ceil().max(1.0) as i64;
+    let error = (CHORD_SHARE * sagitta / radius).min(CHORD_SHARE_OF_RADIUS);
+    let largest = libm::acos(1.0 - error);
+    // Whatever rounding makes of the angles of a shape at other sizes, not one chord more.
+    let half = (half_angle / (2.0 * largest) - 1e-9).ceil().max(1.0) as i64;
     (-half..=half)
         .map(|k| {
             if k.abs() == half {
@@ -252,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_depth_of_rounding_is_flat() {
-        for depth in [0.0, 1e-15, -1e-18, 5e-324, 0.9 * SHALLOWEST] {
+        for depth in [0.0, 1e-15, -1e-18, 5e-324, 0.18 * SHALLOWEST] {
             let (width, offset, span) = (0.2, 0.0, 0.4);
             let tab = Profile::Tab {
                 width,
@@ -276,6 +285,6 @@ mod tests {
                 assert_eq!(profile.polyline(), Ok(Vec::new()), "{profile:?}");
             }
         }
-        assert!(arc(10.0, SHALLOWEST, 0.0).len() >= 3);
+        assert!(arc(10.0, 10.0 * SHALLOWEST, 0.0).len() >= 3);
     }
 }

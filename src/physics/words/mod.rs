@@ -10,6 +10,7 @@
 //! - [`rules`] - which meetings are wrong; [`fault`] - badly made faces; [`constraint`] - what else
 //!   is asked of words;
 //! - [`candidates`], [`graph`] - words that will do, and which go together;
+//! - [`codes`] - known sets to set out from;
 //! - [`clique`], [`local`], [`bound`] - largest sets, with proof; large sets; bounds without search;
 //! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
 //! - [`answer`](mod@answer) - a question answered;
@@ -20,6 +21,7 @@ pub mod answer;
 pub mod bound;
 pub mod candidates;
 pub mod clique;
+pub mod codes;
 pub mod constraint;
 pub mod continuous;
 pub mod crosstalk;
@@ -127,22 +129,41 @@ impl Task {
         self.lags.rest(self.magnets as u32, self.magnets as u32)
     }
 
+    /// In how many places two words differ at least that attract by at most `limit` (J) where they
+    /// lie aligned and only facing magnets count; `None` of words with empty places, and where any two
+    /// will do.
+    fn distance(&self, limit: f64) -> Option<usize> {
+        let contacts = (limit / self.lags.contact() + 1e-9).floor().max(-1.0);
+        // Equal less unequal poles are as even or odd as their number.
+        let differ = (self.places as f64 - contacts) / 2.0;
+        (self.magnets == self.places && differ > 0.0).then(|| differ.ceil() as usize)
+    }
+
+    /// Known codes whose words differ enough for a limit (J), largest first.
+    fn codes(&self, limit: f64) -> Vec<Vec<Word>> {
+        let Some(distance) = self.distance(limit) else {
+            return Vec::new();
+        };
+        let codes = codes::of(self.places, distance).into_iter();
+        let word = |bits: u64| {
+            let word = Word::new(bits, !bits, self.places);
+            match self.exchangeable() {
+                true => word.min(word.mate()),
+                false => word,
+            }
+        };
+        codes
+            .map(|code| code.into_iter().map(word).collect())
+            .collect()
+    }
+
     /// An upper bound of the number of words with wrong attractions up to `limit` (J), from codes;
     /// the largest number there is where codes say nothing.
     fn code_bound(&self, limit: f64) -> usize {
-        if self.magnets < self.places {
+        let Some(distance) = self.distance(limit + self.rest()) else {
             return usize::MAX;
-        }
-        let rest = self.rest();
-        let contacts = ((limit + rest) / self.lags.contact() + 1e-9)
-            .floor()
-            .max(-1.0);
-        // Equal less unequal poles are as even or odd as their number.
-        let differ = (self.places as f64 - contacts) / 2.0;
-        if differ <= 0.0 {
-            return usize::MAX;
-        }
-        let code = bound::binary_code(self.places, differ.ceil() as usize);
+        };
+        let code = bound::binary_code(self.places, distance);
         match self.rules.words_meet() {
             true => code / 2,
             false => code,

@@ -176,7 +176,16 @@ impl Rules {
 
     /// Whether no wrong meeting of two words and their mates attracts by more than `limit` (J).
     pub fn within(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
-        let same = u == v;
+        self.within_but(lags, [u, v], u == v, limit)
+    }
+
+    /// The same where the aligned meeting of the one with the mate of the other is wanted as well.
+    pub fn within_but_aligned(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
+        self.within_but(lags, [u, v], true, limit)
+    }
+
+    /// The same where aligned a word and the other one's mate are bound, or not.
+    fn within_but(&self, lags: &Lags, [u, v]: [Word; 2], same: bool, limit: f64) -> bool {
         let (places, magnets) = (u.places() as i32, u.magnets().min(v.magnets()));
         let others = u.magnets().max(v.magnets());
         let full = magnets as i32 == places;

@@ -83,7 +83,7 @@ pub fn assemble<'py>(
     let design = design.as_ref().map(|content| &content.design);
     let files = job::run(py, progress, |told| {
         told.tell(0.0, "assembly".to_owned());
-        let assembly = asked.build(&tiles, words, design)?;
+        let assembly = asked.build(&tiles, words, design, told)?;
         Ok(document(&assembly).files(&Sheet::SCREEN, "tilebind assemble"))
     })?;
     convert::files(py, files.map_err(refused)?.map_err(fault::value)?)

@@ -1,29 +1,15 @@
 //! Designs side by side.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{self, Assessment, AssessmentSettings, Quantity, Request};
-use tilebind::observer::Observer;
+use tilebind::comparison::{Assessment, Quantity, Question, assess_all};
 use tilebind::report::comparison::Comparison as Compared;
-use tilebind::report::plots::{Sheet, ranking};
 
 use crate::design::Design;
-use crate::job::Told;
 use crate::request::request;
-use crate::table;
-use crate::{convert, fault, job, pickle};
-
-/// How designs are assessed, and the seed.
-pub fn settings<'a>(
-    given: Option<&Bound<'_, PyDict>>,
-    designs: impl IntoIterator<Item = &'a tilebind::Design>,
-) -> PyResult<(AssessmentSettings, u64)> {
-    let request = request::<Request>(given)?;
-    let settings = request.settings(designs);
-    job::check_memory(settings.milestones, settings.neighbours)?;
-    Ok((settings, request.seed))
-}
+use crate::shown::{self, Reduced};
+use crate::{fault, job, pickle, table};
 
 fn quantity(key: &str) -> PyResult<&'static Quantity> {
     let known = || QUANTITIES.iter().map(|one| one.key).collect::<Vec<_>>();
@@ -62,37 +48,17 @@ pub fn compare(
     if designs.is_empty() {
         return Err(fault::value("there is no design to compare"));
     }
-    let contents: Vec<_> = designs
-        .iter()
-        .map(|one| one.get().content.clone())
-        .collect();
-    let of_designs = contents.iter().map(|content| &content.design);
-    let (settings, seed) = self::settings(settings, of_designs)?;
-    let count = contents.len();
-    let assessments = job::run(py, progress, |told| {
-        let parts = contents.iter().enumerate();
-        let assessed = parts.map(|(done, content)| {
-            let part = Part { told, done, count };
-            comparison::assess(&content.design, &settings, seed, &part)
-        });
-        assessed.collect::<Vec<_>>()
-    })?;
-    Ok(Comparison(Compared::new(&assessments, by, settings)))
-}
-
-/// The progress of one design among several.
-struct Part<'a> {
-    told: &'a Told,
-    done: usize,
-    count: usize,
-}
-
-impl Observer for Part<'_> {
-    fn stage(&self, name: &'static str, share: f64) {
-        let share = (self.done as f64 + share) / self.count as f64;
-        let text = format!("design {} of {}: {name}", self.done + 1, self.count);
-        self.told.tell(share, text);
-    }
+    let contents: Vec<_> = designs.iter().map(|one| &one.get().content).collect();
+    let designs = || contents.iter().map(|content| &content.design);
+    let asked = request::<Question>(settings)?;
+    let question = Question {
+        request: asked.request.of(designs()),
+        ..asked
+    };
+    let survey = &question.request.survey;
+    job::check_memory(survey.milestones.unwrap_or(0), survey.neighbours)?;
+    let found = job::run(py, progress, |told| assess_all(designs(), &question, told))?;
+    Ok(Comparison(Compared::new(&found, by, question.request)))
 }
 
 /// Designs side by side, best first. It never changes.
@@ -105,13 +71,13 @@ impl Comparison {
     /// figure with its bounds, units in the names.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_table(&self.0.table()))
+        table::array(py, &self.0.table())
     }
 
     /// dict : Everything, with what reproduces it, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.0.document().report())
+        shown::report(py, &self.0.document())
     }
 
     /// The tables and the proved orders as text.
@@ -137,9 +103,8 @@ impl Comparison {
     /// Returns
     /// -------
     /// str
-    fn svg(&self) -> PyResult<String> {
-        let drawn = ranking::draw(&self.0, &Sheet::SCREEN).map_err(fault::run)?;
-        Ok(drawn.svg().to_owned())
+    fn svg(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(shown::pictures(py, &self.0.document())?.concat())
     }
 
     /// The page of the comparison.
@@ -147,13 +112,12 @@ impl Comparison {
     /// Returns
     /// -------
     /// str
-    fn report_html(&self) -> PyResult<String> {
-        self.0.document().html("").map_err(fault::run)
+    fn report_html(&self, py: Python<'_>) -> PyResult<String> {
+        shown::page(py, &self.0.document(), "")
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(), vec![self.svg()?]))
+        shown::notebook(py, self.summary(), vec![self.svg(py)?])
     }
 
     fn __len__(&self) -> usize {
@@ -165,19 +129,13 @@ impl Comparison {
         format!("<tilebind.Comparison of {count} designs by {by}>")
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let restore = slf.get_type().getattr("_restore")?;
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let Compared {
             designs,
             by,
             settings,
         } = &slf.get().0;
-        Ok((
-            restore,
-            (pickle::dump(slf.py(), &(designs, by.key, settings))?,),
-        ))
+        shown::reduced(slf, &(designs, by.key, settings))
     }
 
     #[staticmethod]

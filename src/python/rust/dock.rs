@@ -1,28 +1,20 @@
 //! Docking: what becomes of tiles that are sent towards each other.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
-use tilebind::docking::Request;
-use tilebind::dynamics::docking::{
-    self, Docking as Found, DockingError, DockingMap, DockingSettings, Trap,
-};
+use pyo3::types::PyDict;
+use tilebind::docking::{Request, docked};
+use tilebind::dynamics::docking::{Docking as Found, DockingMap, trajectory};
 use tilebind::landscape::Proportion;
 use tilebind::report::docking as report;
-use tilebind::report::document::Document;
-use tilebind::report::plots::{Sheet, dock as picture};
-use tilebind::report::release;
+use tilebind::report::document::{Document, rows};
+use tilebind::report::plots::Sheet;
 
 use crate::design::{Content, Design};
 use crate::request::request;
-use crate::table::{self, Named, Values};
-use crate::{convert, fault, job, pickle};
-
-fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<DockingSettings> {
-    Ok(request::<Request>(given)?.settings())
-}
+use crate::shown::{self, Reduced};
+use crate::{convert, fault, job, pickle, table};
 
 /// Send the moving tile towards the fixed one many times and count how it ends.
 ///
@@ -63,62 +55,12 @@ pub fn dock(
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Docking> {
-    docked(py, design, settings, progress)
-}
-
-/// The same of a design's method.
-pub fn docked(
-    py: Python<'_>,
-    design: Py<Design>,
-    given: Option<&Bound<'_, PyDict>>,
-    progress: Option<bool>,
-) -> PyResult<Docking> {
-    let settings = settings(given)?;
+    let settings = request::<Request>(settings)?.settings();
     let content = design.get().content.clone();
-    let found = run(py, progress, settings.runs, |step| {
-        docking::dock(content.problem(None), &settings, step)
+    let found = job::answer(py, progress, |told| {
+        docked(content.problem(None), &settings, told)
     })?;
     Ok(Docking { found, content })
-}
-
-/// Trajectories that start bound, and when they part.
-pub fn released<'py>(
-    py: Python<'py>,
-    content: &Content,
-    shaking: f64,
-    given: Option<&Bound<'_, PyDict>>,
-    progress: Option<bool>,
-) -> PyResult<Bound<'py, PyAny>> {
-    fault::positive("shaking", Some(shaking))?;
-    let given = given.cloned().unwrap_or_else(|| PyDict::new(py));
-    given.set_item("shaking", shaking)?;
-    let settings = settings(Some(&given))?;
-    let found = run(py, progress, settings.runs, |step| {
-        docking::releases(content.problem(None), &settings, step)
-    })?;
-    convert::json(
-        py,
-        &release::document(&content.design, &settings, &found, None).report(),
-    )
-}
-
-/// Many trajectories, with word of how many have ended.
-fn run<T: Send>(
-    py: Python<'_>,
-    progress: Option<bool>,
-    runs: usize,
-    work: impl FnOnce(&(dyn Fn() + Sync)) -> Result<T, DockingError> + Send,
-) -> PyResult<T> {
-    let found = job::run(py, progress, |told| {
-        let ended = AtomicUsize::new(0);
-        let step = || {
-            let ended = 1 + ended.fetch_add(1, Ordering::Relaxed);
-            let text = format!("{ended} of {runs} trajectories");
-            told.tell(ended as f64 / runs as f64, text);
-        };
-        work(&step)
-    })?;
-    found.map_err(fault::value)
 }
 
 /// How tiles ended that were sent towards each other. It never changes.
@@ -129,10 +71,6 @@ pub struct Docking {
 }
 
 impl Docking {
-    fn map(&self) -> DockingMap {
-        DockingMap::new(&self.found, report::CELLS)
-    }
-
     fn document(&self) -> Document<'_> {
         let problem = self.content.problem(None);
         report::document((&self.content.design, problem), &self.found, None)
@@ -174,36 +112,27 @@ impl Docking {
     /// number of the trap, time to bind.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_table(&report::runs(&self.found)))
+        table::array(py, &report::runs(&self.found))
     }
 
     /// numpy.ndarray : The traps, structured, the one with most trajectories first: pose,
     /// `energy_J`, `share` with its 95 % interval.
     #[getter]
     fn traps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let traps = &self.found.traps;
-        let real = |name: &str, of: fn(&Trap) -> f64| -> Named {
-            (
-                name.to_owned(),
-                Values::Real(traps.iter().map(of).collect()),
-            )
-        };
-        let columns = vec![
-            real("x_m", |trap| trap.configuration.x),
-            real("y_m", |trap| trap.configuration.y),
-            real("theta_rad", |trap| trap.configuration.theta),
-            real("energy_J", |trap| trap.energy),
-            real("share", |trap| trap.caught.share()),
-            real("share_low", |trap| trap.caught.low),
-            real("share_high", |trap| trap.caught.high),
-        ];
-        table::structured(py, columns)
+        let traps = rows(&self.found.traps)
+            .column("pose", "", "", |trap| trap.configuration)
+            .column("energy_J", "", "", |trap| trap.energy)
+            .column("share", "", "", |trap| trap.caught.share())
+            .column("share_low", "", "", |trap| trap.caught.low)
+            .column("share_high", "", "", |trap| trap.caught.high);
+        table::array(py, &traps.table("traps"))
     }
 
     /// numpy.ndarray : The chance of a match over orientation and speed at the start, structured.
     #[getter]
     fn chances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_table(&report::chances(&self.map())))
+        let map = DockingMap::new(&self.found, report::CELLS);
+        table::array(py, &report::chances(&map))
     }
 
     /// One trajectory, point by point.
@@ -233,18 +162,17 @@ impl Docking {
             )));
         }
         fault::positive("interval", Some(interval))?;
-        let snapshots = job::quietly(py, || {
+        let snapshots = job::answer(py, Some(false), |_| {
             let problem = self.content.problem(None);
-            docking::trajectory(problem, &self.found.settings, index, interval)
+            trajectory(problem, &self.found.settings, index, interval)
         })?;
-        let snapshots = snapshots.map_err(fault::value)?;
-        table::structured(py, table::of_table(&report::trajectory(&snapshots)))
+        table::array(py, &report::trajectory(&snapshots))
     }
 
     /// dict : Everything, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.document().report())
+        shown::report(py, &self.document())
     }
 
     /// What came of it, in a few lines.
@@ -262,16 +190,15 @@ impl Docking {
     /// -------
     /// str
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
-        let drawn = job::quietly(py, || {
-            let map = DockingMap::new(&self.found, picture::cells(self.found.runs.len()));
-            picture::chances(&self.content.design, &map, &Sheet::SCREEN)
+        let drawn = shown::svg(py, || {
+            let design = &self.content.design;
+            Ok(vec![report::picture(design, &self.found, &Sheet::SCREEN)?])
         })?;
-        Ok(drawn.map_err(fault::run)?.svg().to_owned())
+        Ok(drawn.concat())
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(), vec![self.svg(py)?]))
+        shown::notebook(py, self.summary(), vec![self.svg(py)?])
     }
 
     fn __len__(&self) -> usize {
@@ -286,13 +213,9 @@ impl Docking {
         )
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let restore = slf.get_type().getattr("_restore")?;
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let Self { content, found } = slf.get();
-        let bytes = pickle::dump(slf.py(), &(&content.source, found))?;
-        Ok((restore, (bytes,)))
+        shown::reduced(slf, &(&content.source, found))
     }
 
     #[staticmethod]

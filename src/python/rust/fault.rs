@@ -5,6 +5,7 @@ use std::fmt::Display;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use tilebind::request::Unanswered;
 use tilebind::{Refused, design};
 
 /// The exception `tilebind.DesignError` of a fault, with its place and its mend.
@@ -40,6 +41,14 @@ fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Boun
     class.call((fault.to_string(),), Some(&more))
 }
 
+/// Why there is no answer: a `ValueError` where what was asked for has none.
+pub fn of(error: impl Unanswered) -> PyErr {
+    match error.is_of_the_question() {
+        true => value(error.to_string().replace("--", "")),
+        false => run(error),
+    }
+}
+
 /// A `ValueError`.
 pub fn value(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
@@ -58,14 +67,4 @@ pub fn positive(name: &str, number: Option<f64>) -> PyResult<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// A `ValueError` unless a share is above 0 and below 1.
-pub fn fraction(name: &str, number: f64) -> PyResult<()> {
-    if number > 0.0 && number < 1.0 {
-        return Ok(());
-    }
-    Err(value(format!(
-        "{name} must be between 0 and 1, not {number}"
-    )))
 }

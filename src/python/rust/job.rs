@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 use tilebind::interruption::{Interrupted, Interruption};
+use tilebind::memory;
 use tilebind::observer::Observer;
+use tilebind::request::Unanswered;
 
 use crate::fault;
 
@@ -73,6 +75,15 @@ pub fn run<T: Send>(
         bar.call_method0(py, "close")?;
     }
     done
+}
+
+/// Long work that may have no answer, with a bar as [`run`] has it.
+pub fn answer<T: Send, E: Unanswered + Send>(
+    py: Python<'_>,
+    progress: Option<bool>,
+    work: impl FnOnce(&Told) -> Result<T, E> + Send,
+) -> PyResult<T> {
+    run(py, progress, work)?.map_err(fault::of)
 }
 
 /// The same without a word.
@@ -139,21 +150,6 @@ fn broken(payload: &(dyn Any + Send)) -> PyErr {
 
 /// Refuses a roadmap for which the machine has not the memory.
 pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()> {
-    const SUPPOSED: f64 = 8e9;
-    let needed = tilebind::roadmap::memory(milestones, neighbours);
-    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = told
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-    let free = kibibytes.map_or(SUPPOSED, |kibibytes| 1024.0 * kibibytes);
-    if needed <= free {
-        return Ok(());
-    }
-    Err(fault::value(format!(
-        "the roadmap takes about {:.3e} GB of memory, and {:.1} GB are free: ask for fewer \
-         milestones or neighbours",
-        needed / 1e9,
-        free / 1e9
-    )))
+    let told = memory::check(milestones, neighbours, 1);
+    told.map(drop).map_err(fault::of)
 }

@@ -1,30 +1,28 @@
 //! tilebind for Python: the classes and functions of the package, each a thin view of the library.
 //!
-//! - [`design`] - a pair of tiles; [`poses`] - energies of many configurations;
-//! - [`analysis`], [`barrier`], [`comparison`], [`sweep`], [`dock`], [`words`],
-//!   [`assembly`], [`kinetics`], [`workshop`] - the jobs;
-//! - [`job`] - long work: progress, ctrl-C, faults;
-//! - [`table`] - structured arrays; [`convert`] - values of Python as values of a design file;
+//! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
+//!   configurations;
+//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`] - what comes of jobs;
+//! - [`request`] - what is asked, by keywords; [`job`] - long work: progress, ctrl-C, faults;
+//! - [`shown`] - results as people look at them; [`table`] - structured arrays; [`convert`] - values of
+//!   Python as values of a design file;
 //! - [`fault`] - exceptions; [`pickle`] - results as bytes.
 
 mod analysis;
 mod assembly;
-mod barrier;
 mod comparison;
 mod convert;
-mod crowd;
 mod design;
 mod dock;
 mod fault;
 mod job;
-mod kinetics;
 mod pickle;
 mod poses;
 mod request;
+mod shown;
 mod sweep;
 mod table;
 mod words;
-mod workshop;
 
 use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;

@@ -1,6 +1,8 @@
 //! What is known of many configurations at once: arrays in, arrays out.
 
-use numpy::{AllowTypeChange, PyArray1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{
+    AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use tilebind::potential::Potential;
@@ -151,4 +153,20 @@ pub fn kernel_seconds(
         parts.for_each(|(out, qs)| potential.energies(qs, out));
         start.elapsed().as_secs_f64()
     })
+}
+
+/// One pose.
+pub fn pose(value: &Bound<'_, PyAny>) -> PyResult<Configuration> {
+    let numbers: PyArrayLike1<'_, f64, AllowTypeChange> = value
+        .extract()
+        .map_err(|_| fault::value("a pose is three numbers: x (m), y (m) and theta (rad)"))?;
+    let numbers = numbers.as_array().to_vec();
+    match numbers[..] {
+        [x, y, theta] if numbers.iter().all(|number| number.is_finite()) => {
+            Ok(Configuration::from([x, y, theta]))
+        }
+        _ => Err(fault::value(format!(
+            "a pose is three finite numbers, x (m), y (m) and theta (rad), not {numbers:?}"
+        ))),
+    }
 }

@@ -18,6 +18,18 @@ pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
     })
 }
 
+/// The same with an argument that has a place of its own.
+pub fn request_with<'py, R: Args>(
+    py: Python<'py>,
+    given: Option<&Bound<'py, PyDict>>,
+    key: &str,
+    value: impl IntoPyObject<'py>,
+) -> PyResult<R> {
+    let all = given.map_or_else(|| Ok(PyDict::new(py)), |given| given.copy())?;
+    all.set_item(key, value)?;
+    request(Some(&all))
+}
+
 /// The values of an argument as a command line has them: the items of a list with commas between them,
 /// a list of lists one by one.
 fn values(value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {

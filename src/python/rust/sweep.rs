@@ -1,17 +1,18 @@
 //! Designs made from one by varying its keys.
 
+use std::collections::HashMap;
 use std::convert::Infallible;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyMapping};
-use tilebind::report::plots::Sheet;
+use pyo3::types::{PyDict, PyMapping};
 use tilebind::report::sweep::Sweep as Swept;
-use tilebind::sweep::{Axis, Outcome, Plan, Value, run as work_on};
+use tilebind::sweep::{Axis, Outcome, Plan, Request, Value, run as work_on};
 
-use crate::comparison;
 use crate::design::Design;
 use crate::job::Told;
+use crate::request::request;
+use crate::shown::{self, Reduced};
 use crate::{convert, fault, job, pickle, table};
 
 /// A key's values.
@@ -39,6 +40,10 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
 /// vary : Mapping
 ///     Dotted path of a key to its values, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``; several
 ///     keys make a grid, of which the first varies slowest.
+/// baseline : str, optional
+///     The point that all are set against: values that are varied, such as ``"depth=0"``.
+/// refine : int, optional
+///     Add so many points between those at which the figures bend most, one number being varied.
 /// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
 /// complete_cells, dynamics_runs, seed
 ///     As for :func:`compare`.
@@ -59,43 +64,59 @@ pub fn sweep(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Sweep> {
     let content = &design.get().content;
-    let (settings, seed) = comparison::settings(settings, [&content.design])?;
     let items = vary.items()?;
     let axes = items.iter().map(|item| axis(item.extract()?));
     let axes = axes.collect::<PyResult<Vec<_>>>()?;
-    let source = content.source.clone();
-    let plan = Plan::of(vec![source], axes, settings, seed).map_err(fault::value)?;
-    let outcomes = job::run(py, progress, |told| worked(&plan, told))?;
+    let asked = request::<Request>(settings)?;
+    let designs = vec![(content.source.clone(), content.design.clone())];
+    let plan = asked.plan(designs, axes).map_err(fault::of)?;
+    let survey = &plan.settings.survey;
+    job::check_memory(survey.milestones.unwrap_or(0), survey.neighbours)?;
+    let (plan, outcomes) = job::run(py, progress, |told| {
+        let known = Known::default();
+        known.work(&plan, told);
+        let work = |plan: &Plan| {
+            known.work(plan, told);
+            Ok::<(), Infallible>(())
+        };
+        let Ok((plan, _)) = asked.refined(plan, |plan| Some(known.outcomes(plan)), work);
+        let outcomes = known.outcomes(&plan);
+        (plan, outcomes)
+    })?;
     Ok(Sweep { plan, outcomes })
 }
 
-/// What comes of each point.
-fn worked(plan: &Plan, told: &Told) -> Vec<Outcome> {
-    let points = plan.points();
-    let found = std::sync::Mutex::new(std::collections::HashMap::new());
-    let done = AtomicUsize::new(0);
-    told.tell(0.0, format!("{} points", points.len()));
-    let kept: Result<(), Infallible> = work_on(plan, &points, job::threads(), |point, outcome| {
-        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-        let text = format!("{done} of {} points", points.len());
-        told.tell(done as f64 / points.len() as f64, text);
-        let mut found = found
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        found.insert(point.name.clone(), outcome.clone());
-        Ok(())
-    });
-    let Ok(()) = kept;
-    let found = found
-        .into_inner()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
-    let missing = || Outcome::Failed {
-        reason: "it was not worked on".to_owned(),
-    };
-    let outcomes = points.iter().map(|point| found.get(&point.name).cloned());
-    outcomes
-        .map(|outcome| outcome.unwrap_or_else(missing))
-        .collect()
+/// What came of points, by their names.
+#[derive(Default)]
+struct Known(Mutex<HashMap<String, Outcome>>);
+
+impl Known {
+    /// Works on the points of which nothing is known.
+    fn work(&self, plan: &Plan, told: &Told) {
+        let all = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut points = plan.points();
+        let count = points.len();
+        points.retain(|point| !all().contains_key(&point.name));
+        told.tell(0.0, format!("{count} points"));
+        let Ok(()) = work_on(plan, &points, job::threads(), |point, outcome| {
+            all().insert(point.name.clone(), outcome.clone());
+            let done = all().len();
+            let text = format!("{done} of {count} points");
+            told.tell(done as f64 / count as f64, text);
+            Ok::<(), Infallible>(())
+        });
+    }
+
+    fn outcomes(&self, plan: &Plan) -> Vec<Outcome> {
+        let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let missing = || Outcome::Failed {
+            reason: "it was not worked on".to_owned(),
+        };
+        let points = plan.points().into_iter();
+        points
+            .map(|point| all.get(&point.name).cloned().unwrap_or_else(missing))
+            .collect()
+    }
 }
 
 /// Many designs made from one. It never changes.
@@ -121,13 +142,13 @@ impl Sweep {
     /// `status` ("done", "impossible" or "failed"), `reason`, every figure with its bounds.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        table::structured(py, table::of_table(&self.swept().numbers()))
+        table::array(py, &self.swept().numbers())
     }
 
     /// dict : Everything, with what reproduces it, as ``report.json`` has it.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        convert::json(py, &self.swept().document().report())
+        shown::report(py, &self.swept().document())
     }
 
     /// What came of it.
@@ -168,14 +189,7 @@ impl Sweep {
     /// -------
     /// list of str
     fn svg(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let swept = self.swept();
-        let drawn = job::quietly(py, || swept.document().figures(&Sheet::SCREEN))?;
-        let drawn = drawn.map_err(fault::run)?;
-        Ok(drawn
-            .iter()
-            .flatten()
-            .map(|figure| figure.svg().to_owned())
-            .collect())
+        shown::pictures(py, &self.swept().document())
     }
 
     /// The page of the sweep.
@@ -184,14 +198,11 @@ impl Sweep {
     /// -------
     /// str
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
-        let swept = self.swept();
-        let html = job::quietly(py, || swept.document().html(""))?;
-        html.map_err(fault::run)
+        shown::page(py, &self.swept().document(), "")
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(), self.svg(py)?))
+        shown::notebook(py, self.summary(), self.svg(py)?)
     }
 
     fn __len__(&self) -> usize {
@@ -199,25 +210,14 @@ impl Sweep {
     }
 
     fn __repr__(&self) -> String {
-        let keys: Vec<_> = self
-            .plan
-            .axes
-            .iter()
-            .map(|axis| axis.key.as_str())
-            .collect();
-        let count = self.outcomes.len();
-        format!(
-            "<tilebind.Sweep of {count} points over {}>",
-            keys.join(", ")
-        )
+        let keys: Vec<&str> = self.plan.axes.iter().map(|axis| &axis.key[..]).collect();
+        let (count, keys) = (self.outcomes.len(), keys.join(", "));
+        format!("<tilebind.Sweep of {count} points over {keys}>")
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let restore = slf.get_type().getattr("_restore")?;
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let Self { plan, outcomes } = slf.get();
-        Ok((restore, (pickle::dump(slf.py(), &(plan, outcomes))?,)))
+        shown::reduced(slf, &(plan, outcomes))
     }
 
     #[staticmethod]

@@ -20,6 +20,27 @@ _Floats = NDArray[np.float64]
 _Table = NDArray[np.void]
 _Value = float | str | bool | Sequence[Any] | Mapping[str, Any]
 
+class AirTable(tuple[float, float]):
+    def __call__(
+        self,
+        time: float,
+        *,
+        count: Sequence[int] | None = None,
+        start: str | PathLike[str] | None = None,
+        runs: int = 1,
+        shaking: float | None = None,
+        correlation: float | None = None,
+        orbital: tuple[float, float] | None = None,
+        fan: Sequence[Sequence[float]] | None = None,
+        drag: float = 0.005,
+        friction: float = 0.3,
+        restitution: float = 0.01,
+        step: float | None = None,
+        frames: float | None = None,
+        seed: int = 1,
+        progress: bool | None = None,
+    ) -> dict[str, Any]: ...
+
 @final
 class Design:
     @staticmethod
@@ -28,6 +49,15 @@ class Design:
     def loads(text: str, *, file: str = "design.toml") -> Design: ...
     @staticmethod
     def from_dict(tables: Mapping[str, Any]) -> Design: ...
+    @staticmethod
+    def start(
+        name: str = "starter",
+        *,
+        sides: int | None = None,
+        side: float | str | None = None,
+        magnets: int | None = None,
+        shape: Literal["flat", "tab", "arc", "sine", "triangle"] | None = None,
+    ) -> Design: ...
     def replace(self, key: str, value: _Value) -> Design: ...
     def to_dict(self) -> dict[str, Any]: ...
     @property
@@ -45,7 +75,7 @@ class Design:
     @property
     def bound(self) -> _Floats: ...
     @property
-    def table(self) -> tuple[float, float]: ...
+    def table(self) -> AirTable: ...
     def outline(self, tile: _TileName) -> _Floats: ...
     def magnets(self, tile: _TileName) -> _Table: ...
     def energy(self, poses: ArrayLike, *, model: _Model | None = None) -> Any: ...
@@ -120,6 +150,9 @@ class Design:
         free_at: float | None = None,
         certify: float | None = None,
         prove: bool = False,
+        check: int | None = None,
+        restitution: float = 1.0,
+        seed: int = 1,
     ) -> dict[str, Any]: ...
     def yields(
         self,
@@ -137,31 +170,20 @@ class Design:
         seed: int = 1,
         progress: bool | None = None,
     ) -> dict[str, Any]: ...
-    def table(
-        self,
-        time: float,
-        *,
-        count: Sequence[int] | None = None,
-        start: str | PathLike[str] | None = None,
-        runs: int = 1,
-        shaking: float | None = None,
-        correlation: float | None = None,
-        orbital: tuple[float, float] | None = None,
-        fan: Sequence[Sequence[float]] | None = None,
-        drag: float = 0.005,
-        friction: float = 0.3,
-        restitution: float = 0.01,
-        step: float | None = None,
-        frames: float | None = None,
-        seed: int = 1,
-        progress: bool | None = None,
-    ) -> dict[str, Any]: ...
     def make(self, *, kerf: float = 0.0, clearance: float = 1e-4) -> dict[str, bytes]: ...
     def calibrate(
-        self, table: Any, *, hold_out: int = 5
+        self, table: Any, *, hold_out: int | None = None
     ) -> dict[str, Any]: ...
     def calibrate_bonds(
         self, table: Any, *, area: float | None = None, within: float | None = None
+    ) -> dict[str, Any]: ...
+    def releases(
+        self,
+        *,
+        shaking: float,
+        overdamped: bool = False,
+        progress: bool | None = None,
+        **settings: Any,
     ) -> dict[str, Any]: ...
     def summary(self) -> str: ...
     def show(self) -> dict[str, Any]: ...
@@ -283,6 +305,8 @@ def sweep(
     design: Design,
     vary: Mapping[str, Iterable[float | str | bool]],
     *,
+    baseline: str | None = None,
+    refine: int | None = None,
     milestones: int = 8000,
     neighbours: int | None = None,
     settled: float = 0.005,

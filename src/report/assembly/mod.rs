@@ -10,7 +10,9 @@ use serde_json::{Map, Value, json};
 use super::document::{Document, Drawing, Entries, Table, rows};
 use super::files::Files;
 use super::values::positive_zero;
+use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::wiring::Bond;
 use jobs::assembly::{Assembly, Axis, SIDES, TileType, designs, rgrow, xgrow};
@@ -49,7 +51,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         faces.map(|face| matrix.code(face).to_string()).collect()
     };
     let n = matrix.words.len();
-    let wrong = matrix.strongest_wrong();
+    let wrong = built.strongest_wrong();
     let mismatch = wrong.map(|(i, j, energy)| {
         json!({"first": assembly.face(i), "second": assembly.face(j), "energy_J": energy})
     });
@@ -81,8 +83,15 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         .data("docking_cost_kT", built.docking_cost)
         .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("below tau it grows")
         .data("window_kt_J", built.window().map(|ends| json!(ends)))
-        .fact("errors_at_standstill", "errors a tile", built.errors_at_standstill())
-            .viewed(format!("{:.1e}", built.errors_at_standstill())).noted("just above standstill")
+        .data("errors_at_standstill", built.errors_at_standstill())
+        .fact("errors_a_tile", "errors a tile", assembly.growth.errors_a_tile)
+            .viewed(format!("{:.1e}", assembly.growth.errors_a_tile)).noted("as grown, wrong tiles that stay")
+        .fact("grown_right", "grown right", json!([assembly.growth.right, assembly.growth.runs]))
+            .viewed(format!("{} of {}", assembly.growth.right, assembly.growth.runs)).in_view()
+        .data("proposed_kt_J", assembly.proposal().map(|it| it.0))
+        .data("verdict", verdict(assembly))
+        .data("passed_over", json!(set.passed_over))
+        .table(growths(assembly))
         .data("words", codes(0..n))
         .data("mates", codes(n..2 * n))
         .table(bonds(assembly))
@@ -113,6 +122,36 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         .table(pairs(assembly).in_file("pairs").in_data())
         .data("faces_tried", assembly.tried.iter().map(tried).collect::<Value>())
         .data("seed", request.seed)
+}
+
+/// The verdict, for programs.
+fn verdict(assembly: &Assembly) -> &'static str {
+    match assembly.verdict() {
+        Growth::TooHard => "nothing holds",
+        Growth::FewerHold => "fewer bonds than tau hold",
+        Growth::MismatchHolds => "a mismatch holds",
+        Growth::TauHolds | Growth::OneHolds => "right",
+        Growth::ErrorsStay => "errors stay",
+        Growth::Slow => "too slow",
+    }
+}
+
+/// What grows at which shaking, errors included.
+#[rustfmt::skip]
+fn growths(assembly: &Assembly) -> Table {
+    let asked = [(assembly.built.shaking.kt, assembly.growth)];
+    let mut all: Vec<(f64, Kinetic)> = asked.into_iter().chain(assembly.others.iter().copied()).collect();
+    all.order_by(|a, b| a.0.total_cmp(&b.0));
+    rows(all)
+        .column("kT_J", "kT", "effective energy of shaking", |it| it.0).digits(3)
+        .column("runs", "growths", "that were followed tile by tile", |it| it.1.runs)
+        .column("right", "right", "of them, with every tile where it belongs", |it| it.1.right)
+        .column("wrong", "wrong", "of them, with wrong tiles that stay", |it| it.1.wrong)
+        .column("errors_a_tile", "errors a tile", "wrong tiles that stay", |it| it.1.errors_a_tile).digits(2)
+        .column("waits", "waits", "until it is done; in one a tile of each kind comes to every place", |it| it.1.waits).digits(2)
+        .table("growths")
+        .titled("Growth over kT", "")
+        .listing(2 * LISTED)
 }
 
 fn kt(energy: f64) -> String {

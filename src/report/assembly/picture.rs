@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use plotters::style::RGBColor;
 
 use crate::document::rows;
-use crate::plots::chart::{Look, names_of_series};
 use crate::plots::composition::{Composition, Panel};
-use crate::plots::marks::polygon;
+use crate::plots::key::{Sign, key as explained};
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::assembly::{Assembly, TileSet};
 
@@ -99,18 +98,18 @@ pub(super) fn grown(
         most.min((width - 2.0 * SPACE) / columns)
     };
     let height = move |width| cell(width) * lines + SPACE;
-    let panel = Panel::new("", 0.0, height, |root, _, [left, top, right, _]| {
+    let panel = Panel::alone(height, |canvas, [left, top, right, _]| {
         let side = cell(right - left);
-        grown.tiles.iter().try_for_each(|((x, y), tile)| {
+        for ((x, y), tile) in &grown.tiles {
             let left = left + SPACE + f64::from(x - low.0) * side;
             let top = top + f64::from(high.1 - y) * side;
-            let (right, bottom) = (left + 0.94 * side, top + 0.94 * side);
-            let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
-            polygon(root, &corners, colour(&kinds[of_tile[*tile]].1), None)
-        })
+            let place = [left, top, left + 0.94 * side, top + 0.94 * side];
+            canvas.block(place, colour(&kinds[of_tile[*tile]].1));
+        }
     });
     let names = key(&kinds).into_iter();
-    let names = names.map(|(hex, name)| (name, colour(&hex), Look::Bars));
+    let names = names.map(|(hex, name)| (Sign::Block(colour(&hex)), name));
+    let names = names.filter(|_| kinds.len() > 1);
     let numbers = rows(&grown.tiles)
         .column("x", "", "", |it| it.0.0)
         .column("y", "", "", |it| it.0.1)
@@ -118,10 +117,10 @@ pub(super) fn grown(
     let composition = Composition {
         name: "grown".to_owned(),
         title: title.to_owned(),
-        note: None,
         width: SIDE + 2.0 * SPACE,
         panels: vec![panel],
-        key: Some(names_of_series(names.collect())),
+        keys: vec![explained(names)],
+        ..Composition::default()
     };
     Figure::new(&composition, sheet, numbers.table("grown").csv())
 }

@@ -2,6 +2,7 @@
 
 use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};
+use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::{Assembly, lattice};
 use physics::units::{plain, si, si_range};
@@ -10,7 +11,8 @@ use physics::units::{plain, si, si_range};
 pub(super) fn headline(assembly: &Assembly) -> String {
     let built = &assembly.built;
     let (set, gse) = (&built.set, built.gse());
-    let verdict = match built.verdict() {
+    let told;
+    let verdict = match assembly.verdict() {
         Growth::TooHard => "too hard: nothing holds, so nothing grows",
         Growth::FewerHold => "too softly: fewer bonds than tau hold as well, so anything grows",
         Growth::MismatchHolds => {
@@ -18,6 +20,14 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         }
         Growth::TauHolds => "right: bonds of tau hold a tile and weaker ones do not",
         Growth::OneHolds => "right: one bond holds a tile",
+        Growth::ErrorsStay => {
+            told = format!(
+                "too softly: {} of {} growths end with wrong tiles that stay",
+                assembly.growth.wrong, assembly.growth.runs
+            );
+            &told
+        }
+        Growth::Slow => "too hard: growth comes to no end",
     };
     format!(
         "{}: {} with {} words of {} places; shaken at {} with {:.1} % covered Gse (a bond) is {} \
@@ -40,7 +50,7 @@ pub(super) fn headline(assembly: &Assembly) -> String {
 }
 
 /// What files of engines say above the set.
-pub(super) fn for_engines(assembly: &Assembly) -> [String; 4] {
+pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
     let built = &assembly.built;
     let (name, version) = (&built.set.name, env!("CARGO_PKG_VERSION"));
     let (kt, coverage) = (built.shaking.kt, built.shaking.coverage);
@@ -49,6 +59,12 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 4] {
         format!("kT {kt:e} J, coverage {coverage}; energies are Gse times a strength, in kT"),
         "X is a word on east or north faces, X* its mate on west or south faces;".to_owned(),
         "wrong meetings have their own energies, below 0 where they repel (for xgrow 0)".to_owned(),
+        "letters as in words.toml, matrix.csv and sheet.md".to_owned(),
+        "rgrow: import rgrow; system, state = \
+         rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
+            .to_owned(),
+        "       system.evolve(state, for_events=100000); print(state.canvas_view)".to_owned(),
+        "xgrow: xgrow assembly.tiles (with -nw: without a window)".to_owned(),
     ]
 }
 
@@ -69,7 +85,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
             "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
         )
     });
-    let mismatch = match built.matrix.strongest_wrong() {
+    let mismatch = match built.strongest_wrong() {
         Some((i, j, energy)) => format!(
             "strongest aligned mismatch: {} on {}, {} ({:.0} % of a bond)",
             assembly.face(i),
@@ -79,10 +95,6 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
         ),
         None => "no aligned mismatch attracts".to_owned(),
     };
-    let errors = format!(
-        "errors a tile, grown just above standstill: {:.2e}; faster growth makes more of them",
-        built.errors_at_standstill()
-    );
     let slid = slides::summary(built, slides).map(|slid| {
         format!(
             "outside of the model: slid by whole places faces hold with up to {} ({:.1} kT, Gmc \
@@ -110,12 +122,91 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     let before = [window, lattice, found(assembly), Some(mismatch)];
     let after = [
         built.deeper().map(whole),
-        Some(errors),
+        Some(grown_at(built.shaking.kt, &assembly.growth, true)),
+        Some(proposal(assembly)),
+        strengths(assembly),
+        passed_over(assembly),
+        canvas(assembly),
         slid,
         Some(ends),
         choices,
     ];
     before.into_iter().chain(after).flatten().collect()
+}
+
+/// What came of growths at a kT (J).
+fn grown_at(kt: f64, growth: &Kinetic, in_full: bool) -> String {
+    let Kinetic {
+        runs, right, wrong, ..
+    } = growth;
+    let at = si(kt, "J", 3);
+    let rest = runs - right - wrong;
+    let rest = match rest {
+        0 => String::new(),
+        rest => format!(", {rest} were not done"),
+    };
+    let what = match in_full {
+        true => "grown tile by tile (kTAM, wrong meetings with their energies)",
+        false => "grown",
+    };
+    format!(
+        "{what} at kT = {at}: {right} of {runs} end right, {wrong} with wrong tiles that stay{rest}; \
+         errors a tile {:.2e}",
+        growth.errors_a_tile
+    )
+}
+
+/// Which shaking grows right.
+fn proposal(assembly: &Assembly) -> String {
+    match assembly.proposal() {
+        Some((kt, growth)) => format!("to take: --kt {kt:.2e}; {}", grown_at(kt, &growth, false)),
+        None => {
+            let others = assembly.others.iter();
+            let kts: Vec<String> = others.map(|it| si(it.0, "J", 2)).collect();
+            format!(
+                "no shaking that was tried grows right more often than not ({}): a wider gap (longer \
+                 words), a lower coverage or --proofread 2 makes fewer errors",
+                kts.join(", ")
+            )
+        }
+    }
+}
+
+/// That strengths are not quite those asked for.
+fn strengths(assembly: &Assembly) -> Option<String> {
+    let built = &assembly.built;
+    let (bond, asked, has) = built
+        .unlike()
+        .filter(|it| (it.2 / it.1 - 1.0).abs() > 0.01)?;
+    let glue = built.wiring.bonds[bond].glues[0][0];
+    Some(format!(
+        "strengths are not quite those of the file, in units of its weakest bond: `{}` (word {}) is \
+         asked {asked} and has {has:.3}; more magnets (--length) come nearer",
+        built.set.glues[glue].name,
+        assembly.face(bond),
+    ))
+}
+
+/// What the file says and is not followed.
+fn passed_over(assembly: &Assembly) -> Option<String> {
+    let keys = &assembly.built.set.passed_over;
+    let list = keys.join(", ");
+    (!keys.is_empty())
+        .then(|| format!("of the file passed over, as it only steers an engine: {list}"))
+}
+
+/// That a canvas is another one than the file's.
+fn canvas(assembly: &Assembly) -> Option<String> {
+    let built = &assembly.built;
+    let [rows, columns] = built.set.size?;
+    let engine = built.engine().size?;
+    (engine != [rows, columns]).then(|| {
+        format!(
+            "a table has room: for the file's canvas of {rows} x {columns} the engines get one of {} x \
+             {}, into which what grows fits",
+            engine[0], engine[1]
+        )
+    })
 }
 
 /// What the search for words says, if there was one.

@@ -4,22 +4,25 @@
 //! pictures ([`super::plots`]) are made from it. A new figure or column is one entry of the document
 //! and appears in all of them; `.in_data()` and `.in_view()` keep one to programs or to people.
 
-mod cell;
 mod data;
 mod page;
+mod rows;
 mod table;
 mod text;
+mod unit;
 
-pub use cell::{Cell, Unit, told};
-pub use table::{Head, Link, Rows, Table, rows};
+pub use crate::plots::Drawing;
+pub use rows::{Rows, rows};
+pub use table::{Cell, Head, Link, Table};
+pub use unit::{Unit, told};
 
 use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
+use crate::braille::Braille;
 use crate::files::Files;
 use crate::page::{Charts, Landscape, Meetings};
-use crate::plots::{Figure, PictureError, Sheet};
 use jobs::design::Design;
 
 /// What there is to know of a result.
@@ -31,6 +34,8 @@ pub struct Document<'a> {
     pub answer: String,
     /// What to know before reading on.
     pub remarks: Vec<String>,
+    /// Drawn with characters, for a terminal.
+    pub sketch: Option<Braille>,
     /// All that was found, in the order of the report.
     pub entries: Entries,
     /// The table that is printed alone where JSON is asked for; the whole report otherwise.
@@ -82,19 +87,6 @@ pub enum Part {
     Meetings(Meetings),
 }
 
-/// What draws pictures.
-type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a;
-
-/// A picture yet to be drawn.
-pub struct Drawing<'a> {
-    /// What it shows.
-    pub title: String,
-    /// Whether the page has it; where a part of the page shows the same, it does not.
-    pub is_shown: bool,
-    /// Draws it.
-    pub draw: Box<Draw<'a>>,
-}
-
 /// Entries one after another.
 #[derive(Default)]
 pub struct Entries(Vec<Entry>);
@@ -106,37 +98,6 @@ pub fn entries(design: &Design) -> Entries {
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity)
         .data("model", design.interaction.model.name())
-}
-
-impl<'a> Drawing<'a> {
-    /// A picture of what its title says.
-    pub fn new(
-        title: impl Into<String>,
-        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
-    ) -> Self {
-        Self::several(title, move |sheet| Ok(vec![draw(sheet)?]))
-    }
-
-    /// Pictures that are drawn together.
-    pub fn several(
-        title: impl Into<String>,
-        draw: impl Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a,
-    ) -> Self {
-        Self {
-            title: title.into(),
-            is_shown: true,
-            draw: Box::new(draw),
-        }
-    }
-
-    /// In a file only: a part of the page shows the same.
-    #[must_use]
-    pub fn off_page(self) -> Self {
-        Self {
-            is_shown: false,
-            ..self
-        }
-    }
 }
 
 impl Entries {
@@ -207,6 +168,20 @@ impl Entries {
     pub fn table(mut self, table: Table) -> Self {
         self.0.push(Entry::Table(table));
         self
+    }
+
+    /// The figures of a table's first row.
+    #[must_use]
+    pub fn row(self, mut table: Table) -> Self {
+        let row = table.rows.drain(..).next().unwrap_or_default();
+        let fact = |(head, (cell, view))| Fact {
+            head,
+            cell,
+            view,
+            note: String::new(),
+        };
+        let facts = table.heads.into_iter().zip(row).map(fact);
+        self.more(facts.map(Entry::Fact))
     }
 
     /// Entries that there may be.

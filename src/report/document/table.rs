@@ -1,8 +1,141 @@
-//! Tables: their columns are declared once, each with its key, name, meaning and value.
+//! Tables and their cells: what is known, and how people and programs read it.
 
 use std::borrow::Cow;
 
-use super::{Cell, Unit};
+use serde_json::{Value, json};
+
+use super::Unit;
+use super::unit::told;
+use crate::figures::percent;
+use crate::names::{place, place_name};
+use crate::values::{pose, positive_zero, proportion};
+use physics::configuration::Configuration;
+use physics::landscape::{Place, Proportion};
+use physics::units::si_range;
+
+/// A value of a table or a fact.
+#[derive(Clone, Debug)]
+pub enum Cell {
+    /// Not known, or there is none.
+    Missing,
+    /// A quantity; what is not finite is not known, or never.
+    Number(f64),
+    /// A count or a number by which something is called.
+    Whole(i128),
+    /// Whether something holds.
+    Truth(bool),
+    /// A name.
+    Text(String),
+    /// The ends between which a quantity lies; in tables of numbers two columns, `low` and `high` in
+    /// place of `interval` or `bounds`.
+    Interval([Option<f64>; 2]),
+    /// A configuration (m, m, rad); in tables of numbers three columns.
+    Pose(Configuration),
+    /// A state or `free`.
+    Place(Place),
+    /// A sampled share with its 95 % interval.
+    Sampled(Proportion),
+    /// Rows of their own; a table of numbers repeats the first column of the row that they belong to.
+    Rows(Table),
+    /// What programs alone read.
+    Data(Value),
+}
+
+impl Cell {
+    /// As people read it.
+    pub fn told(&self, unit: Unit, digits: usize) -> String {
+        match self {
+            Self::Missing => "-".to_owned(),
+            Self::Number(value) => told(*value, unit, digits),
+            Self::Whole(value) => value.to_string(),
+            Self::Truth(value) => if *value { "yes" } else { "no" }.to_owned(),
+            Self::Text(text) => text.clone(),
+            Self::Interval([Some(low), Some(high)]) => match unit {
+                Unit::Of(symbol @ ("J" | "m" | "N")) => si_range(*low, *high, symbol, digits),
+                _ => {
+                    let [low, high] = [*low, *high].map(|end| told(end, unit, digits));
+                    format!("{low} to {high}")
+                }
+            },
+            Self::Interval([Some(low), None]) => format!("{} or more", told(*low, unit, digits)),
+            Self::Interval([None, Some(high)]) => format!("at most {}", told(*high, unit, digits)),
+            Self::Interval([None, None]) => "-".to_owned(),
+            Self::Pose(q) => {
+                let parts = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()];
+                // To a tenth, and none of them -0.
+                let [x, y, theta] = parts.map(|part| (10.0 * part).round() / 10.0 + 0.0);
+                format!("{x:.1}, {y:.1}, {theta:.1}\u{b0}")
+            }
+            Self::Place(place) => place_name(*place),
+            Self::Sampled(sampled) => percent(sampled),
+            Self::Rows(_) | Self::Data(_) => String::new(),
+        }
+    }
+
+    /// What a table sorts by: a number, or the text itself.
+    pub fn key(&self) -> Value {
+        match self {
+            Self::Number(value) if value.is_finite() => json!(value),
+            Self::Whole(value) => json!(value),
+            Self::Text(text) => json!(text),
+            Self::Interval([low, high]) => json!(low.or(*high)),
+            Self::Sampled(sampled) => json!(sampled.share()),
+            Self::Truth(value) => json!(value.to_string()),
+            _ => Value::Null,
+        }
+    }
+
+    /// As JSON has it; what is not finite is null.
+    pub fn json(&self) -> Value {
+        match self {
+            Self::Missing => Value::Null,
+            Self::Number(value) => json!(positive_zero(*value)),
+            Self::Whole(value) => json!(value),
+            Self::Truth(value) => json!(value),
+            Self::Text(text) => json!(text),
+            Self::Interval([None, None]) => Value::Null,
+            Self::Interval(ends) => json!(ends.map(|end| end.map(positive_zero))),
+            Self::Pose(q) => json!(pose(q)),
+            Self::Place(at) => place(*at),
+            Self::Sampled(sampled) => proportion(*sampled),
+            Self::Rows(table) => table.json(),
+            Self::Data(value) => value.clone(),
+        }
+    }
+}
+
+macro_rules! cell_from {
+    ($($from:ty => |$value:ident| $cell:expr;)*) => {
+        $(impl From<$from> for Cell {
+            fn from($value: $from) -> Self {
+                $cell
+            }
+        })*
+    };
+}
+
+cell_from! {
+    f64 => |value| Self::Number(value);
+    u64 => |value| Self::Whole(value.into());
+    i32 => |value| Self::Whole(value.into());
+    usize => |value| Self::Whole(value as i128);
+    bool => |value| Self::Truth(value);
+    &str => |value| Self::Text(value.to_owned());
+    String => |value| Self::Text(value);
+    [f64; 2] => |value| Self::Interval(value.map(|end| end.is_finite().then_some(end)));
+    [Option<f64>; 2] => |value| Self::Interval(value);
+    Configuration => |value| Self::Pose(value);
+    Place => |value| Self::Place(value);
+    Proportion => |value| Self::Sampled(value);
+    Table => |value| Self::Rows(value);
+    Value => |value| Self::Data(value);
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Missing, Into::into)
+    }
+}
 
 /// What a figure or a column is.
 #[derive(Clone, Debug)]
@@ -78,156 +211,6 @@ impl Head {
     /// A value as people read it.
     pub fn told(&self, cell: &Cell) -> String {
         cell.told(self.unit, self.digits)
-    }
-}
-
-/// Rows of which a table is made, column by column.
-///
-/// ```
-/// use tilebind_report::document::rows;
-///
-/// let table = rows([(1e-3, 0.25), (2e-3, 0.5)])
-///     .column("kT_J", "kT", "energy of shaking", |row| row.0)
-///     .column("yield", "bound", "share of all pairs", |row| row.1).share()
-///     .table("settings");
-/// assert_eq!(table.text(1, 0), "2.00 mJ");
-/// assert_eq!(table.text(1, 1), "50 %");
-/// ```
-pub struct Rows<'a, Row> {
-    rows: Vec<Row>,
-    columns: Vec<Column<'a, Row>>,
-}
-
-/// What makes something of a row.
-type Of<'a, Row, T> = dyn Fn(&Row) -> T + 'a;
-
-/// A column whose cells are made from `Row`s.
-struct Column<'a, Row> {
-    head: Head,
-    get: Box<Of<'a, Row, Cell>>,
-    view: Option<Box<Of<'a, Row, String>>>,
-}
-
-/// Rows for some things.
-pub fn rows<'a, Row>(rows: impl IntoIterator<Item = Row>) -> Rows<'a, Row> {
-    Rows {
-        rows: rows.into_iter().collect(),
-        columns: Vec::new(),
-    }
-}
-
-impl<'a, Row> Rows<'a, Row> {
-    /// A column more: its key in files, which ends in its unit, what people call it, what it means,
-    /// and its value in a row.
-    #[must_use]
-    pub fn column<C: Into<Cell>>(
-        mut self,
-        key: impl Into<Cow<'static, str>>,
-        name: impl Into<Cow<'static, str>>,
-        meaning: &'static str,
-        get: impl Fn(&Row) -> C + 'a,
-    ) -> Self {
-        self.columns.push(Column {
-            head: Head::new(key, name, meaning),
-            get: Box::new(move |row| get(row).into()),
-            view: None,
-        });
-        self
-    }
-
-    /// The last column as people read it, where that is more than the value.
-    #[must_use]
-    pub fn viewed(mut self, view: impl Fn(&Row) -> String + 'a) -> Self {
-        if let Some(column) = self.columns.last_mut() {
-            column.view = Some(Box::new(view));
-        }
-        self
-    }
-
-    fn last(mut self, change: impl Fn(&mut Head)) -> Self {
-        if let Some(column) = self.columns.last_mut() {
-            change(&mut column.head);
-        }
-        self
-    }
-
-    /// The last column has shares of all.
-    #[must_use]
-    pub fn share(self) -> Self {
-        self.last(|head| head.unit = Unit::Share)
-    }
-
-    /// People see so many digits of the last column.
-    #[must_use]
-    pub fn digits(self, digits: usize) -> Self {
-        self.last(|head| head.digits = digits)
-    }
-
-    /// The last column has sampled shares of all.
-    #[must_use]
-    pub fn sampled(self) -> Self {
-        self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))
-    }
-
-    /// The last column is for programs only.
-    #[must_use]
-    pub fn in_data(self) -> Self {
-        self.last(|head| head.is_viewed = false)
-    }
-
-    /// The last column is in JSON only.
-    #[must_use]
-    pub fn in_json(self) -> Self {
-        self.in_data().without_csv()
-    }
-
-    /// The last column is no number, and in no table of them.
-    #[must_use]
-    pub fn without_csv(self) -> Self {
-        self.last(|head| head.is_csv = false)
-    }
-
-    /// The last column is in tables of numbers only.
-    #[must_use]
-    pub fn in_csv(self) -> Self {
-        self.in_data().last(|head| head.is_data = false)
-    }
-
-    /// The last column is for people only.
-    #[must_use]
-    pub fn in_view(self) -> Self {
-        self.last(|head| (head.is_data, head.is_csv, head.is_viewed) = (false, false, true))
-    }
-
-    /// The last column is for people only, and not for the terminal.
-    #[must_use]
-    pub fn on_page(self) -> Self {
-        self.in_view().last(|head| head.is_printed = false)
-    }
-
-    /// The table, by what JSON calls it.
-    pub fn table(self, key: &'static str) -> Table {
-        let cells = |row: &Row| -> Vec<_> {
-            let cell = |column: &Column<Row>| {
-                let view = column.view.as_ref().map(|view| view(row));
-                ((column.get)(row), view)
-            };
-            self.columns.iter().map(cell).collect()
-        };
-        Table {
-            key,
-            file: None,
-            title: String::new(),
-            note: String::new(),
-            is_data: true,
-            is_viewed: true,
-            is_printed: true,
-            is_paged: true,
-            links: Vec::new(),
-            listed: usize::MAX,
-            rows: self.rows.iter().map(cells).collect(),
-            heads: self.columns.into_iter().map(|it| it.head).collect(),
-        }
     }
 }
 
@@ -353,5 +336,42 @@ impl Table {
         let (cell, view) = &self.rows[row][column];
         view.clone()
             .unwrap_or_else(|| self.heads[column].told(cell))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_says_the_unit() {
+        for (key, unit) in [
+            ("energy_J", "J"),
+            ("off_per_s", "/s"),
+            ("on_interval_m2_per_s", "m²/s"),
+            ("depth_kT", "kT"),
+            ("theta_rad", "rad"),
+            ("ln_K", ""),
+            ("copies", ""),
+        ] {
+            assert_eq!(Unit::of_key(key).symbol(), unit, "{key}");
+        }
+    }
+
+    #[test]
+    fn people_read_units_with_prefixes_and_words_for_what_is_none() {
+        let read = |cell: Cell, key| cell.told(Unit::of_key(key), 3);
+        assert_eq!(read((-0.065_47).into(), "energy_J"), "-65.5 mJ");
+        assert_eq!(read(f64::INFINITY.into(), "time_s"), "never");
+        assert_eq!(read(f64::NAN.into(), "energy_J"), "-");
+        assert_eq!(
+            read([0.014_54, 0.015_19].into(), "escape_J"),
+            "14.5 to 15.2 mJ"
+        );
+        assert_eq!(
+            read([Some(2.0), None].into(), "rate_per_s"),
+            "2.00 /s or more"
+        );
+        assert_eq!(Cell::from(0.004).told(Unit::Share, 3), "0.40 %");
     }
 }

@@ -41,6 +41,8 @@ impl Document<'_> {
         for remark in &self.remarks {
             text += &wrapped(remark, width);
         }
+        let sketch = self.sketch.as_ref();
+        text += &sketch.map_or(String::new(), |it| it.text(width.clamp(20, 72)));
         let printed = |table: &&Table| table.is_shown() && table.is_printed;
         for table in self.tables().into_iter().filter(printed) {
             let title = match &table.title[..] {

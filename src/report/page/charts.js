@@ -1,11 +1,9 @@
-// A sweep: its points as curves over one varied number or maps over two, linked with the table.
+// A sweep: a figure of its points over a number or another figure.
 
 const charts = page.charts;
 /** Okabe and Ito's colours, those of the pictures; the last one is the ink's. */
 const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 const seriesColour = (k) => SERIES[k] ?? theme.ink;
-/** Colours of a map from nothing to the most. */
-const RAMP = ["#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725"];
 /** The point under the pointer, the one that was clicked, and the one that all are set against, by
     their places in the sweep. */
 let hovered = null, pinned = null, baseline = null;
@@ -47,18 +45,6 @@ function figureTicks(range, unit, count) {
   }
   const { ticks, decimals } = roundTicks(...range, count);
   return { ticks: ticks.map((t) => [t, minus(t.toFixed(decimals))]), name: "" };
-}
-
-function blended(colour, other, share) {
-  const parts = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
-  const [a, b] = [parts(colour), parts(other)];
-  return `rgb(${a.map((value, k) => Math.round(value + (b[k] - value) * share)).join(" ")})`;
-}
-
-function rampColour(share) {
-  const at = Math.max(0, Math.min(1, share)) * (RAMP.length - 1);
-  const below = Math.min(Math.floor(at), RAMP.length - 2);
-  return blended(RAMP[below], RAMP[below + 1], at - below);
 }
 
 /** A canvas with a heading and what belongs to it, in a grid of them. */

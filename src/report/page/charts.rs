@@ -5,13 +5,12 @@ use serde::Serialize;
 use super::finite;
 use super::thumbnail::Thumbnail;
 use crate::figures::cell;
-use crate::plots::curve_data::{Content, Variable, contents, variables};
-use crate::plots::curve_names::series_name;
 use crate::sweep::Sweep;
-use jobs::comparison::quantity::{Measure, NO_TRAPS, Place, QUANTITIES, placed};
+use crate::sweep::points::Variable;
+use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES};
 use jobs::comparison::{Assessment, Quantity};
 
-/// What a page needs to draw curves and maps.
+/// What a page needs to tell of points and to draw a figure of them against another.
 #[derive(Clone, Debug, Serialize)]
 pub struct Charts {
     /// The varied numbers, with their units.
@@ -23,9 +22,6 @@ pub struct Charts {
     points: Vec<ChartPoint>,
     /// The point that all are set against at first.
     baseline: Option<usize>,
-    panels: Vec<ChartPanel>,
-    curves: Vec<ChartCurves>,
-    maps: Vec<ChartMap>,
 }
 
 /// A figure that can be chosen.
@@ -58,118 +54,35 @@ struct ChartPoint {
     figures: Vec<Option<[Option<f64>; 3]>>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct ChartPanel {
-    heading: &'static str,
-    /// SI unit, or `%` for a share.
-    unit: &'static str,
-    /// Which of a point's figures.
-    figures: Vec<usize>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct ChartCurves {
-    title: String,
-    /// The axis' name with its unit.
-    axis: String,
-    series: Vec<ChartSeries>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct ChartSeries {
-    name: String,
-    /// Place on the axis, and number of the point.
-    points: Vec<(f64, usize)>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct ChartMap {
-    title: String,
-    axes: [String; 2],
-    x: Vec<f64>,
-    y: Vec<f64>,
-    /// Numbers of points row by row from the lowest.
-    cells: Vec<Option<usize>>,
-}
-
 impl Charts {
     /// The charts of a finished sweep.
     pub fn new(sweep: &Sweep) -> Self {
-        let panels = placed(|quantity| quantity.panel).into_iter();
-        let variables = variables(sweep);
+        let variables = sweep.variables();
         let mut tiles = Vec::new();
         let points = 0..sweep.points.len();
         let points = points.map(|k| point(sweep, k, &variables, &mut tiles));
-        let mut charts = Self {
+        Self {
             points: points.collect(),
             axes: variables.iter().map(|axis| axis.shown().1).collect(),
             figures: QUANTITIES
                 .iter()
                 .map(|quantity| ChartFigure {
                     label: quantity.label,
-                    unit: unit(quantity),
+                    unit: match quantity.measure {
+                        Measure::Share => "%",
+                        measure => measure.unit(),
+                    },
                 })
                 .collect(),
             tiles,
             baseline: sweep.baseline(),
-            panels: panels.map(|(place, shown)| panel(place, &shown)).collect(),
-            curves: Vec::new(),
-            maps: Vec::new(),
-        };
-        for (_, content) in contents(sweep) {
-            match content {
-                Content::Curves(variable, group) => charts.curves.push(ChartCurves {
-                    title: group.title,
-                    axis: variable.shown().1,
-                    series: group
-                        .series
-                        .into_iter()
-                        .map(|series| ChartSeries {
-                            name: series.name,
-                            points: series.points.iter().map(|p| (tidy(p.x), p.index)).collect(),
-                        })
-                        .collect(),
-                }),
-                Content::Map(map) => {
-                    let [x, y] = [&map.x, &map.y].map(|variable| {
-                        let factor = variable.shown().0;
-                        variable.values.iter().map(|v| tidy(factor * v)).collect()
-                    });
-                    charts.maps.push(ChartMap {
-                        title: map.title,
-                        axes: [map.x.shown().1, map.y.shown().1],
-                        x,
-                        y,
-                        cells: map.cells,
-                    });
-                }
-            }
         }
-        charts
     }
 }
 
 /// Without the dust of a change of unit.
 fn tidy(value: f64) -> f64 {
     super::rounded(value, 9)
-}
-
-fn panel(place: Place, shown: &[&Quantity]) -> ChartPanel {
-    let shows = |known: &Quantity| shown.iter().any(|quantity| quantity.key == known.key);
-    ChartPanel {
-        heading: place.heading,
-        unit: unit(shown[0]),
-        figures: (0..QUANTITIES.len())
-            .filter(|&k| shows(&QUANTITIES[k]))
-            .collect(),
-    }
-}
-
-fn unit(quantity: &Quantity) -> &'static str {
-    match quantity.measure {
-        Measure::Share => "%",
-        measure => measure.unit(),
-    }
 }
 
 fn point(
@@ -181,8 +94,10 @@ fn point(
     let point = &sweep.points[index];
     let name = sweep.called(point);
     let place = |axis: &Variable| Some(tidy(axis.shown().0 * axis.value(point)?));
+    let words = sweep.common(point, variables).into_iter();
+    let words: Vec<String> = words.map(|(_, value)| value).collect();
     let plain = ChartPoint {
-        series: series_name(sweep, point),
+        series: words.join(", "),
         places: variables.iter().map(place).collect(),
         tiles: None,
         design: sweep.design_file(point),

@@ -7,11 +7,10 @@ use serde::Serialize;
 
 use super::packed::Packed;
 use super::pathways::Played;
-use super::tree::{DrawnTree, trees};
 use super::{fixed, rounded};
 use crate::names::kind;
-use crate::plots::Scene;
 use crate::plots::scale::{EnergyScale, VIK};
+use crate::plots::{Scene, disconnectivity};
 use jobs::design::Design;
 use physics::configuration::Configuration;
 use physics::landscape::approach::Approach;
@@ -49,7 +48,9 @@ pub struct Landscape {
     landing: Vec<Option<f64>>,
     states: Vec<DrawnState>,
     pathways: Vec<Played>,
-    tree: Vec<DrawnTree>,
+    /// The disconnectivity graph on that scale and on a linear one, SVG documents; empty without
+    /// barriers.
+    tree: Vec<String>,
 }
 
 /// A tile to draw.
@@ -125,10 +126,12 @@ impl Landscape {
                 .map(|state| DrawnState::new(scene, state))
                 .collect(),
             pathways,
-            tree: if scene.barriers().next().is_none() {
-                Vec::new()
-            } else {
-                trees(scene, &scale)
+            tree: match scene.barriers().next() {
+                None => Vec::new(),
+                Some(_) => [scale, scale.linear_throughout()]
+                    .into_iter()
+                    .filter_map(|scale| disconnectivity::on_page(scene, scale))
+                    .collect(),
             },
         }
     }

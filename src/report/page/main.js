@@ -18,10 +18,7 @@ function showPage() {
     element("facts").append(box);
   }
   for (const { title, is_titled: isTitled, svg: source } of page.pictures) {
-    const image = make("img");
-    image.alt = title;
-    image.src = URL.createObjectURL(new Blob([source], { type: "image/svg+xml" }));
-    element("pictures").append(...(isTitled ? [] : [make("h2", title)]), image);
+    element("pictures").append(...(isTitled ? [] : [make("h2", title)]), drawnOf(source, title));
   }
   for (const table of page.tables) buildTable(table, choose, choosePath);
   element("notes").append(...page.notes.map((note) => make("p", note)));
@@ -30,6 +27,15 @@ function showPage() {
   element("command").hidden = !page.command;
   element("command").textContent = page.command;
   element("citation").textContent = page.citation;
+}
+
+/** A picture, told under the pointer what its places are. */
+function drawnOf(source, title) {
+  const parsed = new DOMParser().parseFromString(source, "image/svg+xml");
+  const picture = document.importNode(parsed.documentElement, true);
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", title);
+  return picture;
 }
 
 /** Links to the files beside the page, those of one stem together. */

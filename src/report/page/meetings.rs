@@ -4,7 +4,8 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{finite, fixed};
-use crate::document::{Drawing, rows};
+use crate::document::rows;
+use crate::plots::Drawing;
 use crate::plots::matrix::Matrix;
 use physics::configuration::Configuration;
 use physics::tile::Magnet;

@@ -12,7 +12,6 @@ pub(super) mod meetings;
 mod packed;
 pub(crate) mod pathways;
 mod thumbnail;
-mod tree;
 
 use serde::Serialize;
 use serde_json::Value;
@@ -27,7 +26,7 @@ pub use pathways::Played;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -36,7 +35,6 @@ const SCRIPTS: [&str; 12] = [
     include_str!("tree.js"),
     include_str!("tables.js"),
     include_str!("charts.js"),
-    include_str!("chart_maps.js"),
     include_str!("sweep.js"),
     include_str!("meetings.js"),
     include_str!("main.js"),
@@ -53,7 +51,7 @@ pub struct Page {
     pub facts: Vec<Fact>,
     /// The energy over configurations, with pathways; `None` where there is no one landscape.
     pub landscape: Option<Landscape>,
-    /// Curves and maps of a sweep; `None` elsewhere.
+    /// The points of a sweep; `None` elsewhere.
     pub charts: Option<Charts>,
     /// All faces of a set of words against all; `None` elsewhere.
     pub meetings: Option<Meetings>,

@@ -2,8 +2,6 @@
 
 const SIGNS = "bands: certified bounds, 95 % for shares; \u25cb no trap; ^ caged, proved; \u00d7 impossible";
 
-const MAP_SIGNS = "\u25cb no trap; \u2013 not known; \u221e caged, proved; \u00d7 impossible";
-
 function legend(series) {
   const key = make("p", "", "legend");
   if (series.length > 1) {
@@ -101,7 +99,11 @@ function showCharts() {
       for (const panel of panels) panel.draw();
     });
   };
-  const mark = () => rows.forEach((row, point) => row.classList.toggle("chosen", point === hovered || point === pinned));
+  const mark = () => {
+    const isHere = (point) => point === hovered || point === pinned;
+    rows.forEach((row, point) => row.classList.toggle("chosen", isHere(point)));
+    for (const spot of spots) spot.classList.toggle("chosen", isHere(Number(spot.dataset.point)));
+  };
   const hover = (point) => {
     if (point === hovered) return;
     hovered = point;
@@ -123,14 +125,14 @@ function showCharts() {
     panel.canvas.addEventListener("click", (event) => pin(under(event)));
     panel.canvas.addEventListener("pointerleave", () => hover(null));
   };
-  const add = (title, parts, made) => {
-    const grid = make("div", "", "panels");
-    section.append(make("h2", title), ...parts, grid);
-    made(grid).forEach(watch);
-  };
+  const spots = [...document.querySelectorAll("#pictures [data-point]")];
+  for (const spot of spots) {
+    const point = Number(spot.dataset.point);
+    spot.addEventListener("pointerenter", () => hover(point));
+    spot.addEventListener("pointerleave", () => hover(null));
+    spot.addEventListener("click", () => pin(point));
+  }
 
-  const controls = make("div");
-  controls.id = "controls";
   const names = charts.points.map(({ name }) => name);
   const [against, baselines] = chooser("baseline", "set against", ["nothing", ...names]);
   baseline = charts.baseline;
@@ -139,21 +141,12 @@ function showCharts() {
     baseline = Number(baselines.value) ? Number(baselines.value) - 1 : null;
     drawAll();
   });
-  controls.append(against);
   const card = make("div");
   card.id = "point";
   card.append(make("canvas"), make("p"));
-  section.append(controls, card);
-
-  for (const group of charts.curves) {
-    add(group.title, [legend(group.series)],
-      (grid) => charts.panels.map((panel) => new CurvePanel(grid, group, panel)));
-  }
-  for (const map of charts.maps) {
-    const plain = charts.panels.filter(({ figures }) => figures.length === 1);
-    add(map.title, [make("p", MAP_SIGNS, "legend")], (grid) => plain.map((panel) => new MapPanel(grid, map, panel)));
-  }
-  addChosen(section, panels, watch, drawAll);
+  // The pictures above what is chosen, with the point that is looked at.
+  section.append(card, element("pictures"));
+  addChosen(section, against, panels, watch, drawAll);
   rows.forEach((row, point) => {
     row.addEventListener("pointerenter", () => hover(point));
     row.addEventListener("pointerleave", () => hover(null));
@@ -177,12 +170,13 @@ function showCharts() {
 }
 
 /** The panel of whatever is chosen. */
-function addChosen(section, panels, watch, drawAll) {
+function addChosen(section, against, panels, watch, drawAll) {
   const figures = charts.figures.map(({ label }) => label);
   const [across, xs] = chooser("across", "to the right", [...charts.axes, ...figures]);
   const [upwards, ys] = chooser("upwards", "upwards", figures);
   const choices = make("p", "", "legend");
-  choices.append(across, upwards);
+  choices.id = "controls";
+  choices.append(across, upwards, against);
   const key = make("div");
   const grid = make("div", "", "panels");
   section.append(make("h2", "One figure against another"), choices, key, grid);

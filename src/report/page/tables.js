@@ -29,10 +29,10 @@ function hintScroll(box, what) {
   for (const inner of box.children) new ResizeObserver(look).observe(inner);
 }
 
-/** Lets a row be chosen by a click, or by Enter or the space bar. */
+/** Lets a row or a part of a picture be chosen by a click, or by Enter or the space bar. */
 function choosable(row, chosen) {
-  row.className = "shows";
-  row.tabIndex = 0;
+  row.classList.add("shows");
+  row.setAttribute("tabindex", 0);
   row.addEventListener("click", chosen);
   row.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;

@@ -1,23 +1,20 @@
 //! The approach slices: energy in front of the target face, gap against tilt, and slide against
 //! tilt in contact.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Composition, Panel, part};
-use super::heat::{Interpolated, Range, frame, legend};
-use super::key::{Key, STATE_KEYS};
-use super::marks::{Box4, Mark, marker, outline};
-use super::picture::{Area, PictureError, Underlay};
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas};
+use super::composition::{Composition, Panel};
+use super::heat::{Interpolated, Range};
+use super::key::{self, Sign, key};
+use super::marks::{Mark, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, INK, LABEL, Text, chart, pixel, units};
 use super::{energy, length};
 use crate::csv::table;
 use crate::names::face;
 use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};
 use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
-use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
 /// The least width (pixels) of a panel beside the other.
@@ -78,28 +75,25 @@ pub fn composed<'a>(
         .flat_map(|panel| panel.grid.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let mut entries = STATE_KEYS.to_vec();
-    if panels.iter().any(ApproachPanel::has_blocked) {
-        entries.push((Key::Blocked, "no contact"));
-    }
+    let is_blocked = |panel: &ApproachPanel| panel.grid.values.iter().any(Option::is_none);
+    let blocked = panels.iter().any(is_blocked);
+    let blocked = blocked.then_some((Sign::Blocked, "no contact"));
+    let meanings = key::STATES.into_iter().chain(blocked);
     let fixed = face(&scene.pair.target_face().name);
     let moving = face(&scene.pair.moving.faces[scene.pair.target.1].name);
     let height = |width: f64| MARGIN[0] + 0.95 * (width - MARGIN[1] - MARGIN[3]) + MARGIN[2];
     let panels = panels.map(|panel| {
-        Panel::new(
-            panel.quantity,
-            LEAST,
-            height,
-            move |root, underlays, place| panel.draw(root, place, underlays, scale, &range),
-        )
+        Panel::new(panel.quantity, LEAST, height, move |canvas, place| {
+            panel.draw(canvas, place, scale, &range);
+        })
     });
     Composition {
         name: "approach".to_owned(),
         title: format!("{}: {moving} in front of the fixed {fixed}", scene.name),
-        note: None,
         width: WIDTH,
         panels: panels.into(),
-        key: Some(legend(scale, range, entries)),
+        keys: vec![range.bar(scale), key(meanings)],
+        ..Composition::default()
     }
 }
 
@@ -135,53 +129,27 @@ fn states_in_front(scene: &Scene, approach: &Approach) -> Vec<(f64, f64, Mark)> 
 }
 
 impl ApproachPanel<'_> {
-    fn has_blocked(&self) -> bool {
-        self.grid.values.iter().any(Option::is_none)
-    }
-
-    fn draw(
-        &self,
-        root: &Area,
-        place: Box4,
-        underlays: &mut Vec<Underlay>,
-        scale: &EnergyScale,
-        range: &Range,
-    ) -> Result<(), PictureError> {
-        let (x, y) = (&self.grid.x, &self.grid.y);
-        let (tilts, heights) = (x[0]..x[x.len() - 1], y[0]..y[y.len() - 1]);
-        // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
-        let (unit, prefix) = prefix_of(0.999 * heights.end);
-        let tilt_range = tilts.start.to_degrees()..tilts.end.to_degrees();
-        let x_axis = Axis::linear(tilt_range, 7, "tilt (°)");
-        let name = format!("{} ({prefix}m)", self.quantity);
-        let y_axis = Axis::linear(heights.start / unit..heights.end / unit, 9, name);
-        let area = part(root, place);
-        let chart = chart(&area, MARGIN, &x_axis, &y_axis, false)?;
-        let ends = [x_axis.range.start, x_axis.range.end];
-        let frame = frame(&chart, &ends, &[y_axis.range.start, y_axis.range.end]);
+    fn draw(&self, canvas: &mut Canvas, place: Box4, scale: &EnergyScale, range: &Range) {
+        let ends = |along: &[f64]| [along[0], along[along.len() - 1]];
+        let (tilts, heights) = (ends(&self.grid.x), ends(&self.grid.y));
+        let axes = [
+            Axis::even(tilts, 1f64.to_radians(), 7, "tilt (\u{b0})"),
+            Axis::quantity(heights, "m", 9, self.quantity),
+        ];
+        let plot = Plot::new(canvas, place, MARGIN, axes, false);
         let interpolated = Interpolated::new(self.grid, scale);
-        underlays.push(Underlay {
-            bitmap: range.bitmap((IMAGE, IMAGE), |u, v| {
-                interpolated
-                    .position(u, v)
-                    .filter(|(_, weight)| *weight >= 0.5)
-                    .map(|(position, _)| position)
-            }),
-            rectangle: frame.map(units),
+        range.fill(canvas, &plot, [IMAGE; 2], |u, v| {
+            let known = interpolated.position(u, v);
+            let (position, _) = known.filter(|(_, weight)| *weight >= 0.5)?;
+            Some(position)
         });
-        outline(root, frame, INK)?;
-        Text::new(LABEL).bold().write(
-            root,
-            &format!("{} against tilt, {}", self.quantity, self.condition),
-            (frame[0], frame[1] - 10.0),
-            (HPos::Left, VPos::Bottom),
-        )?;
+        let heading = format!("{} against tilt, {}", self.quantity, self.condition);
+        plot.heading(canvas, &heading);
+        let within = |[low, high]: [f64; 2], value| low <= value && value < high;
         for (tilt, height, mark) in &self.states {
-            if tilts.contains(tilt) && heights.contains(height) {
-                let at = pixel(&chart, tilt.to_degrees(), height / unit);
-                marker(root, *mark, at, 6.0)?;
+            if within(tilts, *tilt) && within(heights, *height) {
+                marker(canvas, *mark, plot.at(*tilt, *height), 6.0);
             }
         }
-        Ok(())
     }
 }

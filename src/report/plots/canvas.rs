@@ -1,168 +1,212 @@
-//! A plotters backend that draws the same picture several times: as SVG text, as pixels, as PDF.
-//!
-//! plotters' own bitmap backend has no text without system fonts and little smoothing; here each
-//! drawing call goes to plotters' SVG backend and, as paths, to each [`Painter`].
+//! What pictures are drawn on, in pixels: a drawing area of plotters, with what plotters has not.
 
-use std::io::Error;
+use std::cell::{Ref, RefCell};
+use std::fmt::Display;
+use std::rc::Rc;
 
-use plotters::prelude::SVGBackend;
-use plotters_backend::{
-    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
-    FontStyle,
+use plotters::coord::Shift;
+use plotters::element::{CoordMapper, DashedPathElement, Drawable, PointCollection};
+use plotters::prelude::{
+    Circle, Cross, DrawingArea, PathElement, Polygon, Rectangle, Text as Words,
 };
-use tiny_skia::{Path, PathBuilder, Transform};
+use plotters::style::{Color, WHITE};
+use plotters_backend::BackendCoord;
 
-use super::shapes::{Lettering, PLOTTERS_FONT_SCALE, Painter, polyline, text_width};
+use super::recorder::{Recorder, Shape};
+use super::style::{Anchor, INK, SMALL, Text, stroke, unit, units};
 
-type Outcome = Result<(), DrawingErrorKind<Error>>;
+/// A point (pixels).
+pub type Pixel = (f64, f64);
+/// A rectangle (pixels): left, top, right, bottom.
+pub type Box4 = [f64; 4];
 
-pub struct Canvas<'a> {
-    svg: SVGBackend<'a>,
-    painters: Vec<&'a mut dyn Painter>,
-    lettering: Lettering,
+/// What an SVG document tells of a place under the pointer, and what a page knows that place by.
+#[derive(Clone, Debug)]
+pub struct Spot {
+    pub title: String,
+    /// Of what it is, such as `state`.
+    pub kind: &'static str,
+    pub value: String,
 }
 
-impl<'a> Canvas<'a> {
-    /// A canvas of `size` drawing units that appends to `svg`.
-    pub fn new(
-        svg: &'a mut String,
-        painters: Vec<&'a mut dyn Painter>,
-        lettering: Lettering,
-        size: (u32, u32),
-    ) -> Self {
+/// An image with a palette, its first row at the top.
+#[derive(Clone, Debug)]
+pub struct Bitmap {
+    pub width: usize,
+    pub palette: Vec<[u8; 3]>,
+    /// One palette index a pixel.
+    pub pixels: Vec<u8>,
+}
+
+/// A picture in the making.
+pub struct Canvas {
+    recorder: Rc<RefCell<Recorder>>,
+    /// All of it.
+    pub root: DrawingArea<Recorder, Shift>,
+    /// Images beneath the drawing (units: left, top, right, bottom).
+    pub images: Vec<(Bitmap, [i32; 4])>,
+    /// Places over it.
+    pub spots: Vec<(Vec<BackendCoord>, Spot)>,
+    /// Why the first thing that could not be drawn was not.
+    failure: Option<String>,
+}
+
+/// Length of a dash, radii of a disc and of its rim (pixels).
+pub const DASH: f64 = 6.0;
+pub const DISC: f64 = 3.2;
+pub const RIM: f64 = 4.2;
+
+/// The corners of a rectangle.
+pub fn corners([left, top, right, bottom]: Box4) -> [Pixel; 4] {
+    [(left, top), (right, top), (right, bottom), (left, bottom)]
+}
+
+/// The middle of a rectangle.
+pub fn middle([left, top, right, bottom]: Box4) -> Pixel {
+    ((left + right) / 2.0, (top + bottom) / 2.0)
+}
+
+/// So many points around a place, the first one above it, at radii (pixels) that repeat.
+pub fn around((x, y): Pixel, count: usize, radii: &[f64]) -> Vec<Pixel> {
+    let point = |(k, radius): (usize, &f64)| {
+        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / count as f64);
+        (x + radius * sin, y - radius * cos)
+    };
+    (0..count).zip(radii.iter().cycle()).map(point).collect()
+}
+
+impl Canvas {
+    /// An empty picture of this width and height (pixels).
+    pub fn new(size: [f64; 2]) -> Self {
+        let [width, height] = size.map(|side| unit(side).max(0) as u32);
+        let recorder = Rc::new(RefCell::new(Recorder {
+            size: (width, height),
+            shapes: Vec::new(),
+        }));
         Self {
-            svg: SVGBackend::with_string(svg, size),
-            painters,
-            lettering,
+            root: (&recorder).into(),
+            recorder,
+            images: Vec::new(),
+            spots: Vec::new(),
+            failure: None,
         }
     }
 
-    fn fill(&mut self, path: Option<Path>, colour: BackendColor) {
-        if let Some(path) = path {
-            for painter in &mut self.painters {
-                painter.fill(&path, colour, Transform::identity());
-            }
+    /// What was drawn, or why it could not be.
+    pub fn shapes(&self) -> Result<Ref<'_, [Shape]>, String> {
+        match &self.failure {
+            Some(why) => Err(why.clone()),
+            None => Ok(Ref::map(self.recorder.borrow(), |it| &it.shapes[..])),
         }
     }
 
-    /// Along the path, `width` units wide, or all of its inside.
-    fn paint(&mut self, path: Option<Path>, colour: BackendColor, width: Option<u32>) {
-        match (path, width) {
-            (Some(path), Some(width)) => {
-                for painter in &mut self.painters {
-                    painter.stroke(&path, colour, width);
-                }
-            }
-            (path, _) => self.fill(path, colour),
+    /// Draws an element of plotters, in units.
+    pub fn draw<'a, E, B: CoordMapper>(&mut self, element: &'a E)
+    where
+        &'a E: PointCollection<'a, BackendCoord, B>,
+        E: Drawable<Recorder, B>,
+    {
+        let drawn = self.root.draw(element);
+        self.done(drawn);
+    }
+
+    /// Remembers why something could not be drawn.
+    pub fn done<E: Display>(&mut self, drawn: Result<(), E>) {
+        if let Err(why) = drawn {
+            self.failure.get_or_insert(why.to_string());
         }
     }
-}
 
-/// The corners of a rectangle, the first one twice.
-fn corners((x0, y0): BackendCoord, (x1, y1): BackendCoord) -> [BackendCoord; 5] {
-    [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]
-}
-
-impl DrawingBackend for Canvas<'_> {
-    type ErrorType = Error;
-
-    fn get_size(&self) -> (u32, u32) {
-        self.svg.get_size()
+    /// A line of this width (pixels) through points.
+    pub fn line(&mut self, points: &[Pixel], colour: impl Color, width: f64) {
+        self.draw(&PathElement::new(units(points), stroke(colour, width)));
     }
 
-    fn ensure_prepared(&mut self) -> Outcome {
-        self.svg.ensure_prepared()
+    /// A line with a white seam that sets it off from any ground.
+    pub fn seamed(&mut self, points: &[Pixel], colour: impl Color, width: f64) {
+        self.line(points, WHITE.mix(0.8), width + 2.4);
+        self.line(points, colour, width);
     }
 
-    fn present(&mut self) -> Outcome {
-        self.svg.present()
+    /// A dashed line.
+    pub fn dashed(&mut self, points: &[Pixel], colour: impl Color) {
+        let dash = unit(DASH);
+        let style = stroke(colour, 2.0);
+        self.draw(&DashedPathElement::new(units(points), dash, dash, style));
     }
 
-    fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Outcome {
-        let square = corners(point, (point.0 + 1, point.1 + 1));
-        self.fill(polyline(&square, true), color);
-        self.svg.draw_pixel(point, color)
+    /// A closed line.
+    pub fn ring(&mut self, corners: &[Pixel], colour: impl Color, width: f64) {
+        let closed: Vec<Pixel> = corners.iter().chain(corners.first()).copied().collect();
+        self.line(&closed, colour, width);
     }
 
-    fn draw_line<S: BackendStyle>(
-        &mut self,
-        from: BackendCoord,
-        to: BackendCoord,
-        style: &S,
-    ) -> Outcome {
-        let path = polyline(&[from, to], false);
-        self.paint(path, style.color(), Some(style.stroke_width()));
-        self.svg.draw_line(from, to, style)
+    /// A filled polygon.
+    pub fn area(&mut self, corners: &[Pixel], fill: impl Color) {
+        self.draw(&Polygon::new(units(corners), fill.filled()));
     }
 
-    fn draw_rect<S: BackendStyle>(
-        &mut self,
-        upper_left: BackendCoord,
-        bottom_right: BackendCoord,
-        style: &S,
-        fill: bool,
-    ) -> Outcome {
-        let path = polyline(&corners(upper_left, bottom_right), fill);
-        let width = (!fill).then(|| style.stroke_width());
-        self.paint(path, style.color(), width);
-        self.svg.draw_rect(upper_left, bottom_right, style, fill)
+    /// A filled polygon with a dark outline.
+    pub fn outlined(&mut self, corners: &[Pixel], fill: impl Color) {
+        self.area(corners, fill);
+        self.ring(corners, INK, 1.2);
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        path: I,
-        style: &S,
-    ) -> Outcome {
-        let points: Vec<_> = path.into_iter().collect();
-        let path = polyline(&points, false);
-        self.paint(path, style.color(), Some(style.stroke_width()));
-        self.svg.draw_path(points, style)
+    /// A filled rectangle.
+    pub fn block(&mut self, [left, top, right, bottom]: Box4, fill: impl Color) {
+        let corners = [(left, top), (right, bottom)].map(|(x, y)| (unit(x), unit(y)));
+        self.draw(&Rectangle::new(corners, fill.filled()));
     }
 
-    fn draw_circle<S: BackendStyle>(
-        &mut self,
-        center: BackendCoord,
-        radius: u32,
-        style: &S,
-        fill: bool,
-    ) -> Outcome {
-        let path = PathBuilder::from_circle(center.0 as f32, center.1 as f32, radius as f32);
-        let width = (!fill).then(|| style.stroke_width());
-        self.paint(path, style.color(), width);
-        self.svg.draw_circle(center, radius, style, fill)
+    /// The outline of a rectangle.
+    pub fn frame(&mut self, place: Box4, colour: impl Color) {
+        self.ring(&corners(place), colour, 1.0);
     }
 
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        path: I,
-        style: &S,
-    ) -> Outcome {
-        let points: Vec<_> = path.into_iter().collect();
-        self.fill(polyline(&points, true), style.color());
-        self.svg.fill_polygon(points, style)
+    /// A small disc with a white rim.
+    pub fn disc(&mut self, (x, y): Pixel, colour: impl Color) {
+        let at = (unit(x), unit(y));
+        self.draw(&Circle::new(at, unit(RIM), WHITE.filled()));
+        self.draw(&Circle::new(at, unit(DISC), colour.filled()));
     }
 
-    fn draw_text<S: BackendTextStyle>(
-        &mut self,
-        text: &str,
-        style: &S,
-        pos: BackendCoord,
-    ) -> Outcome {
-        if let Some((path, transform)) = self.lettering.outline(text, style, pos) {
-            for painter in &mut self.painters {
-                painter.fill(&path, style.color(), transform);
-            }
+    /// A small circle, for what is none.
+    pub fn circle(&mut self, (x, y): Pixel, colour: impl Color) {
+        self.draw(&Circle::new(
+            (unit(x), unit(y)),
+            unit(RIM),
+            stroke(colour, 1.8),
+        ));
+    }
+
+    /// A cross of half the width `r` (pixels) in lines of a width.
+    pub fn cross(&mut self, (x, y): Pixel, r: f64, colour: impl Color, width: f64) {
+        self.draw(&Cross::new(
+            (unit(x), unit(y)),
+            unit(r),
+            stroke(colour, width),
+        ));
+    }
+
+    /// A text; `anchor` tells which of its points is at `at`.
+    pub fn write(&mut self, font: Text, text: &str, (x, y): Pixel, anchor: Anchor) {
+        if !text.is_empty() {
+            self.draw(&Words::new(text, (unit(x), unit(y)), font.style(anchor)));
         }
-        self.svg.draw_text(text, style, pos)
     }
 
-    fn estimate_text_size<S: BackendTextStyle>(
-        &self,
-        text: &str,
-        style: &S,
-    ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
-        let em = style.size() / PLOTTERS_FONT_SCALE;
-        let bold = matches!(style.style(), FontStyle::Bold);
-        Ok(((em * text_width(text, bold)) as u32, em as u32))
+    /// A small text in ink.
+    pub fn note(&mut self, text: &str, at: Pixel, anchor: Anchor) {
+        self.write(SMALL, text, at, anchor);
+    }
+
+    /// A place under the pointer, of which nothing is seen.
+    pub fn spot(&mut self, corners: &[Pixel], spot: Spot) {
+        self.spots.push((units(corners), spot));
+    }
+
+    /// An image stretched over a rectangle, beneath all that is drawn.
+    pub fn image(&mut self, bitmap: Bitmap, place: Box4) {
+        self.images.push((bitmap, place.map(unit)));
     }
 }

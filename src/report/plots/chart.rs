@@ -1,20 +1,22 @@
 //! A chart: series of points over an axis, with what they may be off by.
 
-use std::ops::Range;
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::types::RangedCoordi32;
+use plotters::prelude::{Circle, EmptyElement, LineSeries, PathElement, PointSeries, Polygon};
+use plotters::series::DashedLineSeries;
+use plotters::style::{Color, RGBColor, WHITE};
 
-use plotters::prelude::{Color, RGBColor};
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Composition, Panel, part, remark, stacked};
-use super::curve::{Placed, piece};
-use super::marks::{Box4, Pixel, polygon, polyline};
-use super::picture::{Area, PictureError};
-use super::ranking::disc;
-use super::style::{Axis, BLUE, GREEN, INK, LABEL, Text, VERMILLION, chart, pixel};
-use super::{Figure, Sheet};
+use super::axes::{Axis, Plot, Spacing};
+use super::canvas::{Box4, Canvas, DASH, DISC, Pixel, RIM};
+use super::composition::{Composition, Panel, remark};
+use super::key::{Meanings, Sign, key};
+use super::picture::PictureError;
+use super::sheet::Sheet;
+use super::style::{COLOURS, INK, stroke, unit};
+use super::{Drawing, Figure};
 use crate::csv::{number, table};
-use crate::document::{Drawing, Unit, told};
-use physics::units::{prefix_of, si};
+use crate::document::{Unit, told};
+use physics::units::si;
 
 const WIDTH: f64 = 860.0;
 /// Height over width of the plot.
@@ -23,17 +25,6 @@ const FLATNESS: f64 = 0.5;
 const MARGIN: [f64; 4] = [14.0, 30.0, 62.0, 92.0];
 /// Most marked powers of ten along an axis.
 const MOST_POWERS: usize = 8;
-
-/// Okabe and Ito's colours, told apart by colour-blind readers.
-pub const COLOURS: [RGBColor; 7] = [
-    BLUE,
-    VERMILLION,
-    GREEN,
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    INK,
-];
 
 /// What is told along an axis.
 #[derive(Clone, Debug)]
@@ -115,72 +106,74 @@ impl Dimension {
         value.is_finite() && !(self.is_logarithmic && value + self.offset <= 0.0)
     }
 
-    /// The axis for values up to the greatest of these, and where a value stands on it.
-    fn axis(&self, values: impl Iterator<Item = f64>) -> (Axis, impl Fn(f64) -> f64) {
+    /// The axis for values up to the greatest of these.
+    fn axis(&self, values: impl Iterator<Item = f64>, count: usize) -> Axis {
         let values = values.filter(|value| self.holds(*value));
         let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
             let [low, high] = ends.unwrap_or([value; 2]);
             Some([low.min(value), high.max(value)])
         });
-        let [low, high] = self.range.or(ends).unwrap_or([0.0, 1.0]);
-        let (is_logarithmic, offset) = (self.is_logarithmic, self.offset);
-        let (scale, name) = match self.unit {
-            _ if is_logarithmic => (1.0, self.name.clone()),
-            Unit::Share => (0.01, format!("{} (%)", self.name)),
-            Unit::None => (1.0, self.name.clone()),
-            Unit::Of(symbol) => {
-                let (scale, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
-                (scale, format!("{} ({prefix}{symbol})", self.name))
-            }
-        };
-        let place = move |value: f64| match is_logarithmic {
-            true => libm::log10(value + offset),
-            false => value / scale,
-        };
-        let range = self.room(place(low), place(high));
+        let ends = self.range.or(ends).unwrap_or([0.0, 1.0]);
         let mut axis = match self.is_logarithmic {
-            true => Axis {
-                ticks: self.powers(&range),
-                range,
-                name,
-            },
-            false => Axis::linear(range, 7, name),
+            true => {
+                let ends = self.room(ends.map(|end| libm::log10(end + self.offset)));
+                Axis {
+                    spacing: Spacing::Logarithms(self.offset),
+                    marks: self.powers(ends),
+                    ends,
+                    name: self.name.clone(),
+                }
+            }
+            false => {
+                let (ends, name) = (self.room(ends), &self.name);
+                match self.unit {
+                    Unit::None => Axis::even(ends, 1.0, count, name),
+                    Unit::Share => Axis::even(ends, 0.01, count, format!("{name} (%)")),
+                    Unit::Of("rad") => {
+                        Axis::even(ends, 1f64.to_radians(), count, format!("{name} (\u{b0})"))
+                    }
+                    Unit::Of(symbol) => Axis::quantity(ends, symbol, count, name),
+                }
+            }
         };
         if !self.marks.is_empty() {
             let text = |value: f64| match self.unit {
                 Unit::None if value.fract() == 0.0 => value.to_string(),
                 unit => told(value, unit, 2),
             };
-            let mark = |value: &f64| (place(*value), text(*value));
-            axis.ticks = self.marks.iter().map(mark).collect();
+            let mark = |value: &f64| (axis.spacing.of(*value), text(*value));
+            axis.marks = self.marks.iter().map(mark).collect();
             if !self.is_logarithmic && self.unit != Unit::None {
                 axis.name.clone_from(&self.name);
             }
         }
-        (axis, place)
+        axis
     }
 
     /// A range with a little room at its ends, unless they are given.
-    fn room(&self, low: f64, high: f64) -> Range<f64> {
+    fn room(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         let margin = match high > low {
             true => 0.03 * (high - low),
             false => 0.5 * high.abs().max(1e-3),
         };
         match self.range {
-            Some(_) => low..high,
-            None if self.is_logarithmic || low < 0.0 => low - margin..high + margin,
+            Some(_) => [low, high],
+            None if self.is_logarithmic || low < 0.0 => [low - margin, high + margin],
             // What counts from zero begins there.
-            None => 0.0f64.min(low)..high + margin,
+            None => [0.0, high + margin],
         }
     }
 
     /// Marks at powers of ten, or at 1, 2 and 5 times these where there are few.
-    fn powers(&self, range: &Range<f64>) -> Vec<(f64, String)> {
-        let powers = range.start.floor() as i32..=range.end.ceil() as i32;
-        let count = (range.end - range.start) as usize;
-        let multiples: &[f64] = if count < 2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    fn powers(&self, [low, high]: [f64; 2]) -> Vec<(f64, String)> {
+        let powers = RangedCoordi32::from(low.floor() as i32..high.ceil() as i32);
+        let multiples: &[f64] = match high - low < 2.0 {
+            true => &[1.0, 2.0, 5.0],
+            false => &[1.0],
+        };
         let all = powers
-            .step_by(count / MOST_POWERS + 1)
+            .key_points(BoldPoints(MOST_POWERS))
+            .into_iter()
             .flat_map(|power| multiples.iter().map(move |m| m * 10f64.powi(power)))
             .filter(|value| *value >= self.offset);
         let none = (self.offset > 0.0).then_some(0.0);
@@ -191,10 +184,8 @@ impl Dimension {
             unit => told(value, unit, 1),
         };
         let mark = |value: f64| (libm::log10(value + self.offset), text(value));
-        none.into_iter()
-            .chain(all)
-            .map(mark)
-            .filter(|(place, _)| range.contains(place))
+        let all = none.into_iter().chain(all).map(mark);
+        all.filter(|(place, _)| (low..high).contains(place))
             .collect()
     }
 }
@@ -241,10 +232,40 @@ pub struct Series {
     pub name: String,
     /// How they look.
     pub look: Look,
-    /// Which of the [`COLOURS`].
+    /// Which of the colours of series.
     pub colour: usize,
     /// The points, from left to right.
     pub points: Vec<Point>,
+}
+
+impl Series {
+    /// Points in a colour by its number.
+    pub fn new<P: Into<Point>>(
+        name: impl Into<String>,
+        look: Look,
+        colour: usize,
+        points: impl IntoIterator<Item = P>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            look,
+            colour: colour % COLOURS.len(),
+            points: points.into_iter().map(Into::into).collect(),
+        }
+    }
+
+    /// What a key says of it.
+    pub fn meaning(&self) -> (Sign, String) {
+        let colour = COLOURS[self.colour];
+        let sign = match self.look {
+            Look::Line | Look::Steps => Sign::Line(colour),
+            Look::Dashed => Sign::Dashed(colour),
+            Look::Dots => Sign::Dot(colour),
+            Look::Rings => Sign::Circle(colour),
+            Look::Bars => Sign::Block(colour),
+        };
+        (sign, self.name.clone())
+    }
 }
 
 /// A chart.
@@ -273,12 +294,8 @@ impl Chart {
         look: Look,
         points: impl IntoIterator<Item = P>,
     ) -> Self {
-        self.series.push(Series {
-            name: name.into(),
-            look,
-            colour: self.series.len() % COLOURS.len(),
-            points: points.into_iter().map(Into::into).collect(),
-        });
+        let colour = self.series.len();
+        self.series.push(Series::new(name, look, colour, points));
         self
     }
 
@@ -297,21 +314,16 @@ impl Chart {
     /// See [`PictureError`].
     pub fn draw(&self, sheet: &Sheet) -> Result<Figure, PictureError> {
         let height = |width| FLATNESS * width + MARGIN[0] + MARGIN[2];
-        let panel = Panel::new("", 0.0, height, |root, _, place| self.plot(root, place));
-        let shown = |series: &&Series| !series.points.is_empty();
-        let names = self.series.iter().filter(shown);
-        let names = names.map(|series| (series.name.clone(), COLOURS[series.colour], series.look));
-        let mut key = names_of_series(names.collect());
-        if !self.remark.is_empty() {
-            key = stacked(key, remark(self.remark.clone()));
-        }
+        let panel = Panel::alone(height, |canvas, place| {
+            plotted(canvas, place, MARGIN, [&self.x, &self.y], &self.series);
+        });
         let composition = Composition {
             name: self.name.to_owned(),
             title: self.title.clone(),
-            note: None,
             width: WIDTH,
             panels: vec![panel],
-            key: Some(key),
+            keys: vec![key(meanings(&self.series)), remark(self.remark.clone())],
+            ..Composition::default()
         };
         Figure::new(&composition, sheet, self.numbers())
     }
@@ -333,46 +345,6 @@ impl Chart {
         });
         table(["series", self.x.key, self.y.key, "low", "high"], rows)
     }
-
-    fn plot(&self, root: &Area, place: Box4) -> Result<(), PictureError> {
-        let points = || self.series.iter().flat_map(|series| &series.points);
-        let ends = |point: &Point| point.ends.unwrap_or([point.y; 2]);
-        let (x_axis, x_at) = self.x.axis(points().map(|point| point.x));
-        let up = points().flat_map(|point| [&[point.y][..], &ends(point)].concat());
-        let (y_axis, y_at) = self.y.axis(up);
-        let area = part(root, place);
-        let floor = y_axis.range.start;
-        let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
-        let at = |x: f64, y: f64| pixel(&chart, x_at(x), y_at(y).max(floor));
-        for series in &self.series {
-            let colour = COLOURS[series.colour];
-            let known = |point: &Point| self.x.holds(point.x) && self.y.holds(point.y);
-            let placed = |point: &Point| Placed {
-                at: at(point.x, point.y),
-                ends: point.ends.map(|ends| ends.map(|end| at(point.x, end))),
-            };
-            for run in series.points.split(|point| !known(point)) {
-                let run: Vec<Placed> = run.iter().map(placed).collect();
-                match series.look {
-                    Look::Line => piece(root, &run, colour, 2.0)?,
-                    Look::Steps | Look::Dashed => {
-                        let line: Vec<Pixel> = run.iter().map(|placed| placed.at).collect();
-                        match series.look {
-                            Look::Steps => polyline(root, &line, colour, 2.0)?,
-                            _ => dashed(root, &line, colour)?,
-                        }
-                    }
-                    Look::Dots | Look::Rings => {
-                        for placed in &run {
-                            dot(root, placed, colour, series.look)?;
-                        }
-                    }
-                    Look::Bars => bars(root, &run, at(0.0, 0.0).1, colour)?,
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 impl From<Chart> for Drawing<'_> {
@@ -381,109 +353,136 @@ impl From<Chart> for Drawing<'_> {
     }
 }
 
-/// A dot or a ring with lines to its ends.
-fn dot(root: &Area, placed: &Placed, colour: RGBColor, look: Look) -> Result<(), PictureError> {
-    if let Some(ends) = placed.ends {
-        polyline(root, &ends, colour, 2.0)?;
-    }
-    match look {
-        Look::Rings => super::curve::ring(root, placed.at, colour),
-        _ => disc(root, placed.at, colour),
+/// Which sign is which series; nothing for a single one.
+pub fn meanings(series: &[Series]) -> Meanings {
+    let shown = series.iter().filter(|series| !series.points.is_empty());
+    let meanings: Meanings = shown.map(Series::meaning).collect();
+    if meanings.len() > 1 {
+        meanings
+    } else {
+        Vec::new()
     }
 }
 
-/// Bars from a height (pixels) to their points, as wide as these are apart.
-fn bars(root: &Area, run: &[Placed], zero: f64, colour: RGBColor) -> Result<(), PictureError> {
-    let step = run.windows(2).map(|pair| pair[1].at.0 - pair[0].at.0);
+/// Draws series between axes that hold them all.
+pub fn plotted(
+    canvas: &mut Canvas,
+    place: Box4,
+    margin: [f64; 4],
+    [x, y]: [&Dimension; 2],
+    series: &[Series],
+) -> Plot {
+    let points = || series.iter().flat_map(|series| &series.points);
+    let ends = |point: &Point| point.ends.unwrap_or([point.y; 2]);
+    let up = points().flat_map(|point| [&[point.y][..], &ends(point)].concat());
+    let [width, height] = [place[2] - place[0], place[3] - place[1]];
+    let axes = [
+        x.axis(
+            points().map(|point| point.x),
+            if width < 420.0 { 5 } else { 7 },
+        ),
+        y.axis(up, if height < 320.0 { 5 } else { 7 }),
+    ];
+    let is_crossed = !y.is_logarithmic && axes[1].ends[0] < 0.0 && axes[1].ends[1] > 0.0;
+    let mut plot = Plot::new(canvas, place, margin, axes, true);
+    if is_crossed {
+        canvas.line(&plot.level(0.0), INK, 1.2);
+    }
+    for (number, series_drawn) in series.iter().enumerate() {
+        let known = |point: &Point| x.holds(point.x) && point.y.is_finite();
+        for run in series_drawn.points.split(|point| !known(point)) {
+            // Later curves are thinner, so that an earlier one can be seen beneath.
+            let later = (series.len() - 1 - number) as f64 / series.len() as f64;
+            drawn(canvas, &mut plot, series_drawn, run, 2.0 + 2.0 * later);
+        }
+        // What is more than any number.
+        let beyond = series_drawn.points.iter();
+        for point in beyond.filter(|point| point.y == f64::INFINITY) {
+            let (x, top) = (plot.at(point.x, 0.0).0, plot.frame[1]);
+            let arrow = [(x - 5.0, top + 10.0), (x, top + 2.0), (x + 5.0, top + 10.0)];
+            canvas.line(&arrow, COLOURS[series_drawn.colour], 2.0);
+        }
+    }
+    plot
+}
+
+/// Draws a series' points without a break, a line through them so wide (pixels).
+fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[Point], width: f64) {
+    let colour = COLOURS[series.colour];
+    let line: Vec<_> = run.iter().map(|one| plot.place(one.x, one.y)).collect();
+    match series.look {
+        Look::Line => {
+            bands(canvas, plot, run, colour);
+            plot.series(canvas, LineSeries::new(line.clone(), stroke(colour, width)));
+            discs(canvas, plot, line, colour);
+        }
+        Look::Steps => plot.series(canvas, LineSeries::new(line, stroke(colour, 2.0))),
+        Look::Dashed => {
+            let (dash, style) = (unit(DASH), stroke(colour, 2.0));
+            plot.series(canvas, DashedLineSeries::new(line, dash, dash, style));
+        }
+        Look::Dots | Look::Rings => {
+            let ends = run.iter().filter_map(|one| Some((one.x, one.ends?)));
+            let ends = ends.map(|(x, ends)| ends.map(|end| plot.place(x, end)));
+            let ends = ends.map(|ends| PathElement::new(ends, stroke(colour, 2.0)));
+            let ends: Vec<_> = ends.collect();
+            plot.series(canvas, ends);
+            match series.look {
+                Look::Rings => {
+                    let style = stroke(colour, 1.8);
+                    let rings = PointSeries::<_, _, Circle<_, _>, _>::new(line, unit(RIM), style);
+                    plot.series(canvas, rings);
+                }
+                _ => discs(canvas, plot, line, colour),
+            }
+        }
+        Look::Bars => {
+            let tops: Vec<Pixel> = run.iter().map(|one| plot.at(one.x, one.y)).collect();
+            bars(canvas, &tops, plot.at(0.0, 0.0).1, colour);
+        }
+    }
+}
+
+/// Discs with white rims.
+fn discs(canvas: &mut Canvas, plot: &mut Plot, at: Vec<(f64, f64)>, colour: RGBColor) {
+    let disc = |at, radius, style| {
+        EmptyElement::at(at)
+            + Circle::new((0, 0), unit(RIM), WHITE.filled())
+            + Circle::new((0, 0), radius, style)
+    };
+    plot.series(
+        canvas,
+        PointSeries::of_element(at, unit(DISC), colour.filled(), &disc),
+    );
+}
+
+/// The bands between the ends of points.
+fn bands(canvas: &mut Canvas, plot: &mut Plot, run: &[Point], colour: RGBColor) {
+    for bounded in run.split(|point| point.ends.is_none()) {
+        let end = |k: usize| {
+            let ends = bounded
+                .iter()
+                .filter_map(move |one| Some((one.x, one.ends?[k])));
+            ends.map(|(x, end)| plot.place(x, end)).collect::<Vec<_>>()
+        };
+        let (low, high) = (end(0), end(1));
+        let corners: Vec<_> = low.into_iter().chain(high.into_iter().rev()).collect();
+        match corners.len() {
+            0 => {}
+            2 => plot.series(
+                canvas,
+                LineSeries::new(corners, stroke(colour.mix(0.5), 4.0)),
+            ),
+            _ => plot.series(canvas, [Polygon::new(corners, colour.mix(0.25).filled())]),
+        }
+    }
+}
+
+/// Bars from a height (pixels) to points, as wide as these are apart.
+fn bars(canvas: &mut Canvas, tops: &[Pixel], zero: f64, colour: RGBColor) {
+    let step = tops.windows(2).map(|pair| pair[1].0 - pair[0].0);
     let half = 0.46 * step.fold(f64::INFINITY, f64::min).min(40.0);
-    run.iter().try_for_each(|Placed { at: (x, y), .. }| {
-        let corners = [
-            (x - half, zero),
-            (x + half, zero),
-            (x + half, *y),
-            (x - half, *y),
-        ];
-        polygon(root, &corners, colour, None)
-    })
-}
-
-/// A dashed line.
-fn dashed(root: &Area, line: &[Pixel], colour: impl Color + Copy) -> Result<(), PictureError> {
-    const DASH: f64 = 6.0;
-    let mut behind = 0.0;
-    for pair in line.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        let length = libm::hypot(b.0 - a.0, b.1 - a.1);
-        let along = |s: f64| {
-            let t = (s - behind) / length;
-            (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1))
-        };
-        // Dashes go on around corners: every other stretch of the whole line is drawn.
-        for k in (behind / DASH) as usize..=((behind + length) / DASH) as usize {
-            let from = (k as f64 * DASH).max(behind);
-            let to = ((k + 1) as f64 * DASH).min(behind + length);
-            if k % 2 == 0 && to > from {
-                polyline(root, &[along(from), along(to)], colour, 2.0)?;
-            }
-        }
-        behind += length;
+    for (x, y) in tops {
+        canvas.block([x - half, *y, x + half, zero], colour);
     }
-    Ok(())
-}
-
-/// Which colour is which series, in as many lines as it takes; nothing for a single one.
-pub fn names_of_series<'a>(series: Vec<(String, RGBColor, Look)>) -> Panel<'a> {
-    const LINE: f64 = 24.0;
-    let font = Text::new(LABEL);
-    let series = std::sync::Arc::new(match series.len() {
-        0 | 1 => Vec::new(),
-        _ => series,
-    });
-    let all = series.clone();
-    let places = move |width: f64| -> Vec<Pixel> {
-        let (mut x, mut y) = (22.0, 14.0);
-        let mut place = |(name, ..): &(String, RGBColor, Look)| {
-            let wide = 31.0 + 1.08 * font.width(name) + 22.0;
-            if x > 22.0 && x + wide > width {
-                (x, y) = (22.0, y + LINE);
-            }
-            let at = (x, y);
-            x += wide;
-            at
-        };
-        all.iter().map(&mut place).collect()
-    };
-    let height = {
-        let places = places.clone();
-        move |width| places(width).last().map_or(0.0, |(_, y)| y + 14.0)
-    };
-    Panel::new("", 0.0, height, move |root, _, [left, top, right, _]| {
-        for ((name, colour, look), (x, y)) in series.iter().zip(places(right - left)) {
-            let (x, y) = (left + x, top + y);
-            let line = [(x, y), (x + 24.0, y)];
-            match look {
-                Look::Dashed => dashed(root, &line, *colour)?,
-                Look::Dots | Look::Rings => {
-                    let placed = Placed {
-                        at: (x + 12.0, y),
-                        ends: None,
-                    };
-                    dot(root, &placed, *colour, *look)?;
-                }
-                Look::Bars => {
-                    let (right, [above, below]) = (x + 20.0, [y - 8.0, y + 8.0]);
-                    let corners = [
-                        (x + 4.0, above),
-                        (right, above),
-                        (right, below),
-                        (x + 4.0, below),
-                    ];
-                    polygon(root, &corners, *colour, None)?;
-                }
-                Look::Line | Look::Steps => polyline(root, &line, *colour, 2.4)?,
-            }
-            font.write(root, name, (x + 31.0, y), (HPos::Left, VPos::Center))?;
-        }
-        Ok(())
-    })
 }

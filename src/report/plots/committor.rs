@@ -1,14 +1,14 @@
 //! A committor as a map of colours, with its reactive flux.
 
-use plotters::prelude::WHITE;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::WHITE;
 
-use super::composition::{Composition, Panel, part, remark, stacked};
-use super::heat::frame;
-use super::marks::{Box4, Pixel, outline, polygon, polyline};
-use super::picture::{Area, Bitmap, PictureError, Underlay};
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas, Pixel};
+use super::composition::{Composition, Panel, remark};
+use super::heat::{Marked, bar, cells};
+use super::picture::PictureError;
 use super::scale::colour;
-use super::style::{Axis, FIXED_FILL, INK, SMALL, Text, chart, pixel, units};
+use super::style::{FIXED_FILL, INK};
 use super::{Figure, Sheet};
 use jobs::design::Design;
 use physics::kinetics::map::Map;
@@ -16,9 +16,6 @@ use physics::kinetics::map::Map;
 const WIDTH: f64 = 640.0;
 /// Space around the map (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
-const COLOURS: usize = 200;
-/// Pixels of the embedded image across a square, so that squares keep their edges.
-const SHARP: usize = 8;
 /// Squares that an arrow stands for, along x and y.
 const ARROW: usize = 5;
 /// Arrows are left out that are this share of the longest.
@@ -35,81 +32,47 @@ pub fn committor(
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
     let square = |width| width - MARGIN[1] - MARGIN[3] + MARGIN[0] + MARGIN[2];
-    let panel = Panel::new("", 0.0, square, |root, underlays, place| {
-        draw(root, underlays, place, design, map)
-    });
+    let panel = Panel::alone(square, |canvas, place| draw(canvas, place, design, map));
     let said = "arrows: the flux of tiles on their way from free to the bond, lengths by its root";
+    let quarters = (0..=4).map(|quarter| Marked {
+        at: f64::from(quarter) / 4.0,
+        text: format!("{} %", 25 * quarter),
+        is_crossed: false,
+    });
     let composition = Composition {
         name: "committor".to_owned(),
         title: format!("{}: committor", design.name),
-        note: None,
         width: WIDTH,
         panels: vec![panel],
-        key: Some(stacked(
-            Panel::new("", 0.0, |_| 78.0, bar),
+        keys: vec![
+            bar("how often the bond comes before free", colour, quarters),
             remark(said.to_owned()),
-        )),
+        ],
+        ..Composition::default()
     };
     Figure::new(&composition, sheet, numbers)
 }
 
-/// Colours from none to all, and white for where nothing is free.
-fn palette() -> Vec<[u8; 3]> {
-    let shade = |k: usize| colour(k as f64 / (COLOURS - 1) as f64);
-    (0..COLOURS).map(shade).chain([[255; 3]]).collect()
-}
-
-fn shaded(share: f64) -> u8 {
-    match share.is_finite() {
-        true => (share * (COLOURS - 1) as f64).round() as u8,
-        false => COLOURS as u8,
-    }
-}
-
-fn draw(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    place: Box4,
-    design: &Design,
-    map: &Map,
-) -> Result<(), PictureError> {
-    let ends = [-map.radius, map.radius];
-    let axis = |name| Axis::linear(ends[0]..ends[1], 7, name);
-    let (x_axis, y_axis) = (
-        axis("x of the moving tile (m)"),
-        axis("y of the moving tile (m)"),
-    );
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, false)?;
-    let frame = frame(&chart, &ends, &ends);
-    let side = map.side * SHARP;
-    let shade = |k: usize| {
-        let (i, j) = (k % side / SHARP, map.side - 1 - k / side / SHARP);
-        shaded(map.committor[j * map.side + i])
-    };
-    underlays.push(Underlay {
-        bitmap: Bitmap {
-            width: side,
-            palette: palette(),
-            pixels: (0..side * side).map(shade).collect(),
-        },
-        rectangle: frame.map(units),
+fn draw(canvas: &mut Canvas, place: Box4, design: &Design, map: &Map) {
+    let axes = ["x of the moving tile (m)", "y of the moving tile (m)"]
+        .map(|name| Axis::even([-map.radius, map.radius], 1.0, 7, name));
+    let plot = Plot::new(canvas, place, MARGIN, axes, false);
+    cells(canvas, &plot, [map.side; 2], colour, |i, j| {
+        Some(map.committor[j * map.side + i]).filter(|share| share.is_finite())
     });
-    let at = |[x, y]: [f64; 2]| pixel(&chart, x, y);
     let corners = design.pair.fixed.outline.vertices().iter();
-    let corners: Vec<Pixel> = corners.map(|v| at([v.x, v.y])).collect();
-    polygon(root, &corners, FIXED_FILL, Some((INK, 1.2)))?;
-    let arrows = arrows(map).into_iter();
-    let arrows: Vec<Vec<Pixel>> = arrows
-        .map(|line| line.into_iter().map(at).collect())
-        .collect();
+    let corners: Vec<Pixel> = corners.map(|v| plot.at(v.x, v.y)).collect();
+    canvas.outlined(&corners, FIXED_FILL);
+    let at = |line: Vec<[f64; 2]>| -> Vec<Pixel> {
+        line.into_iter().map(|[x, y]| plot.at(x, y)).collect()
+    };
+    let arrows: Vec<Vec<Pixel>> = arrows(map).into_iter().map(at).collect();
     // All seams first: none is to hide a part of an arrow.
     for (colour, width) in [(WHITE, 3.0), (INK, 1.3)] {
         for line in &arrows {
-            polyline(root, line, colour, width)?;
+            canvas.line(line, colour, width);
         }
     }
-    outline(root, frame, INK)
 }
 
 /// Arrows of the mean flux of some squares each, as lines (m): the shaft, then the head.
@@ -148,32 +111,4 @@ fn arrows(map: &Map) -> Vec<Vec<[f64; 2]>> {
         ]
     };
     strong.flat_map(arrow).collect()
-}
-
-/// What the colours say.
-fn bar(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    [left, top, right, _]: Box4,
-) -> Result<(), PictureError> {
-    let [left, top, right, bottom] = [left + MARGIN[3], top + 26.0, right - MARGIN[1], top + 44.0];
-    underlays.push(Underlay {
-        bitmap: Bitmap {
-            width: COLOURS,
-            palette: palette(),
-            pixels: (0..COLOURS).map(|k| k as u8).collect(),
-        },
-        rectangle: [left, top, right, bottom].map(units),
-    });
-    outline(root, [left, top, right, bottom], INK)?;
-    let small = Text::new(SMALL);
-    let name = "how often the bond comes before free";
-    small.write(root, name, (left, top - 6.0), (HPos::Left, VPos::Bottom))?;
-    for quarter in 0..=4 {
-        let x = left + (right - left) * f64::from(quarter) / 4.0;
-        polyline(root, &[(x, top), (x, bottom + 6.0)], INK, 1.2)?;
-        let text = format!("{} %", 25 * quarter);
-        small.write(root, &text, (x, bottom + 10.0), (HPos::Center, VPos::Top))?;
-    }
-    Ok(())
 }

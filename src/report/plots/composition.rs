@@ -1,24 +1,17 @@
 //! Pictures of several panels: laid out side by side as the width allows, or each on its own.
 
-use std::sync::Arc;
-
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::marks::Box4;
-use super::picture::{Area, Picture, PictureError, Underlay};
+use super::canvas::{Box4, Canvas};
+use super::picture::{Picture, PictureError};
 use super::sheet::Sheet;
-use super::style::{SMALL, SOFT, TITLE, Text, units};
+use super::style::{Anchor, SMALL, SOFT, TITLE, Text};
 
 /// Space above the panels (pixels): with a title, with a note alone, with neither.
 const HEADS: [f64; 3] = [50.0, 28.0, 6.0];
 /// Space at the sides of a title (pixels).
 const SIDE: f64 = 20.0;
 
-/// What tells a panel's height at a width (pixels).
-type Height<'a> = Box<dyn Fn(f64) -> f64 + Send + Sync + 'a>;
 /// What draws a panel into a rectangle (pixels).
-type Drawing<'a> =
-    Box<dyn Fn(&Area, &mut Vec<Underlay>, Box4) -> Result<(), PictureError> + Send + Sync + 'a>;
+type Draw<'a> = dyn Fn(&mut Canvas, Box4) + Send + Sync + 'a;
 
 /// A part of a picture that can stand alone.
 pub struct Panel<'a> {
@@ -29,9 +22,9 @@ pub struct Panel<'a> {
     /// The least width (pixels) at which it stands beside another.
     pub least: f64,
     /// Its height at a width (pixels).
-    pub height: Height<'a>,
+    pub height: Box<dyn Fn(f64) -> f64 + Send + Sync + 'a>,
     /// Draws it.
-    pub draw: Drawing<'a>,
+    pub draw: Box<Draw<'a>>,
 }
 
 impl<'a> Panel<'a> {
@@ -41,7 +34,7 @@ impl<'a> Panel<'a> {
         name: impl Into<String>,
         least: f64,
         height: impl Fn(f64) -> f64 + Send + Sync + 'a,
-        draw: impl Fn(&Area, &mut Vec<Underlay>, Box4) -> Result<(), PictureError> + Send + Sync + 'a,
+        draw: impl Fn(&mut Canvas, Box4) + Send + Sync + 'a,
     ) -> Self {
         Self {
             name: name.into(),
@@ -52,6 +45,14 @@ impl<'a> Panel<'a> {
         }
     }
 
+    /// A panel without neighbours.
+    pub fn alone(
+        height: impl Fn(f64) -> f64 + Send + Sync + 'a,
+        draw: impl Fn(&mut Canvas, Box4) + Send + Sync + 'a,
+    ) -> Self {
+        Self::new("", 0.0, height, draw)
+    }
+
     /// The same with another share of the width.
     pub fn weighing(self, weight: f64) -> Self {
         Self { weight, ..self }
@@ -59,19 +60,20 @@ impl<'a> Panel<'a> {
 }
 
 /// A picture of panels.
+#[derive(Default)]
 pub struct Composition<'a> {
     /// The stem of its files.
     pub name: String,
     /// What it shows.
     pub title: String,
-    /// What it leaves out, if anything.
-    pub note: Option<String>,
+    /// What it leaves out; may be empty.
+    pub note: String,
     /// Width on a screen (pixels).
     pub width: f64,
     /// From left to right, row by row.
     pub panels: Vec<Panel<'a>>,
     /// What explains them all: below them, or below each that stands alone.
-    pub key: Option<Panel<'a>>,
+    pub keys: Vec<Panel<'a>>,
 }
 
 impl Composition<'_> {
@@ -94,11 +96,10 @@ impl Composition<'_> {
 
     fn draw_of(&self, sheet: &Sheet, panels: &[&Panel]) -> Result<Picture, PictureError> {
         let width = sheet.width(self.width);
-        let mut top = match (sheet.is_titled(), &self.note) {
-            (true, _) => HEADS[0],
-            (false, Some(_)) => HEADS[1],
-            (false, None) => HEADS[2],
-        };
+        let mut top = HEADS[match sheet.is_titled() && !self.title.is_empty() {
+            true => 0,
+            false => 1 + usize::from(self.note.is_empty()),
+        }];
         let mut places: Vec<(&Panel, Box4)> = Vec::new();
         for row in rows(panels, width) {
             let height = |(panel, wide): &(&Panel, f64)| (panel.height)(*wide);
@@ -110,32 +111,33 @@ impl Composition<'_> {
             }
             top += tallest;
         }
-        if let Some(key) = &self.key {
+        for key in &self.keys {
             let height = (key.height)(width);
             places.push((key, [0.0, top, width, top + height]));
             top += height;
         }
-        let size = (width.ceil() as u32, top.ceil() as u32);
-        Picture::draw(sheet, &self.title, size, |root, underlays| {
-            self.head(root, sheet, width)?;
-            places
-                .iter()
-                .try_for_each(|(panel, place)| (panel.draw)(root, underlays, *place))
-        })
+        let mut canvas = Canvas::new([width, top].map(f64::ceil));
+        self.head(&mut canvas, sheet, width);
+        for (panel, place) in places {
+            (panel.draw)(&mut canvas, place);
+        }
+        Picture::new(sheet, &self.title, &canvas)
     }
 
-    fn head(&self, root: &Area, sheet: &Sheet, width: f64) -> Result<(), PictureError> {
-        let font = Text::new(SMALL).colour(SOFT);
-        let note = self.note.as_deref().unwrap_or_default();
-        if !sheet.is_titled() {
-            return font.write(root, note, (SIDE, 8.0), (HPos::Left, VPos::Top));
+    fn head(&self, canvas: &mut Canvas, sheet: &Sheet, width: f64) {
+        let mut font = SMALL.colour(SOFT);
+        if !sheet.is_titled() || self.title.is_empty() {
+            // Smaller where there is no room.
+            let wide = font.room(&self.note).max(1.0);
+            font.size *= ((width - 2.0 * SIDE) / wide).min(1.0);
+            return canvas.write(font, &self.note, (SIDE, 8.0), Anchor::TopLeft);
         }
-        let room = width - 2.0 * SIDE - 1.1 * font.width(note);
-        let mut large = Text::new(TITLE).bold();
+        let room = width - 2.0 * SIDE - 1.1 * font.width(&self.note);
+        let mut large = TITLE.bold();
         // Smaller where there is no room; a browser's bold letters may be a sixth wider.
         large.size *= (room / (1.17 * large.width(&self.title)).max(1.0)).min(1.0);
-        large.write(root, &self.title, (SIDE, 16.0), (HPos::Left, VPos::Top))?;
-        font.write(root, note, (width - SIDE, 22.0), (HPos::Right, VPos::Top))
+        canvas.write(large, &self.title, (SIDE, 16.0), Anchor::TopLeft);
+        canvas.write(font, &self.note, (width - SIDE, 22.0), Anchor::TopRight);
     }
 }
 
@@ -166,73 +168,30 @@ fn rows<'a>(panels: &[&'a Panel<'a>], width: f64) -> Vec<Vec<(&'a Panel<'a>, f64
 }
 
 /// What is said where a picture has room for the `most` lowest of so many kinds of states.
-pub fn left_out(kinds: usize, most: usize, how: &str) -> Option<String> {
+pub fn left_out(kinds: usize, most: usize, how: &str) -> String {
     match kinds.saturating_sub(most) {
-        0 => None,
-        1 => Some(format!("1 shallower kind of state {how}")),
-        more => Some(format!("{more} shallower kinds of state {how}")),
+        0 => String::new(),
+        1 => format!("1 shallower kind of state {how}"),
+        more => format!("{more} shallower kinds of state {how}"),
     }
-}
-
-/// Lines of a text that fit a width (pixels).
-fn lines(font: Text, text: &str, width: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if 1.08 * font.width(&format!("{line} {word}")) <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
-/// Two panels, one below the other, as one.
-pub fn stacked<'a>(upper: Panel<'a>, lower: Panel<'a>) -> Panel<'a> {
-    let (first, second) = (upper.height, lower.height);
-    let first = Arc::new(first);
-    let whole = {
-        let first = Arc::clone(&first);
-        move |width| first(width) + second(width)
-    };
-    let (name, least) = (upper.name, upper.least);
-    Panel::new(
-        name,
-        least,
-        whole,
-        move |root, underlays, [left, top, right, bottom]| {
-            let middle = top + first(right - left);
-            (upper.draw)(root, underlays, [left, top, right, middle])?;
-            (lower.draw)(root, underlays, [left, middle, right, bottom])
-        },
-    )
 }
 
 /// What is said below a picture, in as many lines as it takes.
 pub fn remark<'a>(text: String) -> Panel<'a> {
-    const FONT: Text = Text::new(SMALL).colour(SOFT);
+    const FONT: Text = SMALL.colour(SOFT);
     const LINE: f64 = 18.0;
-    let broken = move |width: f64| lines(FONT, &text, width - 2.0 * SIDE);
-    let height = {
-        let broken = broken.clone();
-        move |width| LINE * broken(width).len() as f64 + 14.0
+    let lines = move |width: f64| FONT.lines(&text, width - 2.0 * SIDE);
+    let broken = lines.clone();
+    let height = move |width| match broken(width).len() {
+        0 => 0.0,
+        count => LINE * count as f64 + 14.0,
     };
-    Panel::new("", 0.0, height, move |root, _, [left, top, right, _]| {
-        for (k, line) in broken(right - left).iter().enumerate() {
+    Panel::alone(height, move |canvas, [left, top, right, _]| {
+        for (k, line) in lines(right - left).iter().enumerate() {
             let at = (left + SIDE, top + 4.0 + LINE * k as f64);
-            FONT.write(root, line, at, (HPos::Left, VPos::Top))?;
+            canvas.write(FONT, line, at, Anchor::TopLeft);
         }
-        Ok(())
     })
-}
-
-/// The part of a picture within a rectangle (pixels).
-pub fn part<'a>(root: &Area<'a>, [left, top, right, bottom]: Box4) -> Area<'a> {
-    let corner = (units(left), units(top));
-    root.clone()
-        .shrink(corner, (units(right) - corner.0, units(bottom) - corner.1))
 }
 
 #[cfg(test)]
@@ -240,7 +199,7 @@ mod tests {
     use super::*;
 
     fn panel(least: f64) -> Panel<'static> {
-        Panel::new("", least, |width| width, |_, _, _| Ok(()))
+        Panel::new("", least, |width| width, |_, _| {})
     }
 
     #[test]

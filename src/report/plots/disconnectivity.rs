@@ -4,19 +4,17 @@
 //! state is a line from its minimum up to the lowest saddle over which another can be reached,
 //! where their lines join. Copies of a state under a symmetry are one line.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Composition, Panel, left_out, part, remark};
+use super::axes::{Axis, Plot, Spacing};
+use super::canvas::{Box4, Canvas, Pixel, Spot, corners};
+use super::composition::{Composition, Panel, left_out, remark};
 use super::energy;
 use super::labels::Labels;
-use super::marks::{Box4, polyline};
+use super::marks::{Mark, marker};
 use super::merge_tree::{Join, Tree, merge};
-use super::picture::{Area, PictureError};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::sheet::Sheet;
-use super::style::{Axis, INK, SMALL, SOFT, Text, chart, pixel};
-use super::tree_lines::Drawing;
+use super::style::{Anchor, GREEN, INK, SMALL, SOFT};
 use crate::csv::table;
 use physics::landscape::{Kind, Place, State};
 
@@ -29,11 +27,12 @@ const MARGIN: [f64; 4] = [6.0, 20.0, 14.0, 100.0];
 const LEAF: f64 = 62.0;
 /// Height of a state's label with the marker above it (pixels).
 const LABEL: f64 = 84.0;
-/// Classes shown at most.
+/// Classes shown at most, and on a page.
 const MOST: usize = 11;
+const MOST_ON_PAGE: usize = 24;
 
 /// The merge tree of the classes, with free tiles at U = 0.
-pub fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tree> {
+fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tree> {
     let leaf = |state: &State| (Some(state.class), state.energy);
     let mut leaves: Vec<_> = kinds.iter().map(|kind| leaf(kind.first())).collect();
     leaves.push((None, 0.0));
@@ -59,7 +58,7 @@ pub fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tre
 }
 
 /// Why no way leads from a tree to `free`; `None` for the tree that holds `free`.
-pub fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
+fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
     let mut kinds = scene.catalogue.kinds();
     let is_caged = |kind: Kind| {
         let first = kind.first();
@@ -80,45 +79,60 @@ fn room(sheet: &Sheet) -> usize {
     ((plot / LEAF) as usize - 1).min(MOST)
 }
 
-/// The graph of the lowest classes of states; `None` where there is no state.
+/// The graph of the lowest classes of states, as many as have room, with its numbers; `None` where
+/// there is no state.
 pub fn composed<'a>(
     scene: &'a Scene,
     sheet: &Sheet,
     scale: EnergyScale,
     name: &str,
-) -> Option<Composition<'a>> {
+) -> Option<(Composition<'a>, String)> {
     let all = scene.kinds();
-    if all.is_empty() {
+    let kinds = all[..all.len().min(room(sheet))].to_vec();
+    if kinds.is_empty() {
         return None;
     }
-    let kinds = all[..all.len().min(room(sheet))].to_vec();
-    let trees = merge_tree(scene, &kinds, &scale);
     let mut key = "each line a kind of state: its letter, its energy, \u{d7} the copies of it \
         that symmetry makes"
         .to_owned();
     if scene.barriers().any(|b| b.bounds.both().is_some()) {
         key.push_str("; green: certified bounds");
     }
-    let height = |width: f64| HEIGHTS[usize::from(width < 0.7 * WIDTH)];
-    Some(Composition {
+    let data = lines(scene, &kinds, &scale);
+    let graph = Composition {
         name: name.to_owned(),
         title: format!("{}: which states merge at which energy", scene.name),
         note: left_out(all.len(), kinds.len(), "not shown"),
         width: WIDTH,
-        panels: vec![Panel::new("", 0.0, height, move |root, _, place| {
-            graph(root, place, scene, &kinds, &trees, &scale)
-        })],
-        key: Some(remark(key)),
+        panels: vec![panel(scene, kinds, scale)],
+        keys: vec![remark(key)],
+    };
+    Some((graph, data))
+}
+
+fn panel<'a>(scene: &'a Scene, kinds: Vec<Kind<'a>>, scale: EnergyScale) -> Panel<'a> {
+    let height = |width: f64| HEIGHTS[usize::from(width < 0.7 * WIDTH)];
+    Panel::alone(height, move |canvas, place| {
+        Graph::draw(canvas, place, scene, &kinds, &scale);
     })
 }
 
-/// The numbers of the picture: each line with its foot, and where it joins which other.
-pub fn data(scene: &Scene, sheet: &Sheet, scale: &EnergyScale) -> String {
-    let kinds = scene.kinds();
-    lines(scene, &kinds[..kinds.len().min(room(sheet))], scale)
+/// The graph for a page, by itself, of as many classes of states as a page has: an SVG document.
+pub fn on_page(scene: &Scene, scale: EnergyScale) -> Option<String> {
+    let mut kinds = scene.kinds();
+    kinds.truncate(MOST_ON_PAGE);
+    // A browser's letters may be wider.
+    let width = MARGIN[1] + MARGIN[3] + 1.15 * LEAF * (kinds.len() + 1) as f64;
+    let graph = Composition {
+        width: width.max(560.0),
+        panels: vec![panel(scene, kinds, scale)],
+        ..Composition::default()
+    };
+    let drawn = graph.draw(&Sheet::SCREEN.without_bitmaps()).ok()?;
+    drawn.into_iter().next().map(|(_, picture)| picture.svg)
 }
 
-/// The same of some kinds of states.
+/// Each line of the graph of some kinds of states with its foot, and where it joins which other.
 pub fn lines(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> String {
     let mut rows = Vec::new();
     for tree in merge_tree(scene, kinds, scale) {
@@ -184,78 +198,6 @@ fn branch(
     ]
 }
 
-fn graph(
-    root: &Area,
-    place: Box4,
-    scene: &Scene,
-    kinds: &[Kind],
-    trees: &[Tree],
-    scale: &EnergyScale,
-) -> Result<(), PictureError> {
-    let leaves: usize = trees.iter().map(Tree::leaves).sum();
-    let height = place[3] - place[1] - MARGIN[0] - MARGIN[2];
-    let (low, high) = extent(trees, scale, LABEL / height);
-    let x_axis = Axis {
-        range: 0.0..leaves as f64,
-        ticks: Vec::new(),
-        name: String::new(),
-    };
-    let label = |energy: f64| match energy {
-        0.0 => "0".into(),
-        _ => scale.tick(energy),
-    };
-    let ticks = scale.ticks(low, high).into_iter();
-    let y_axis = Axis {
-        range: low..high,
-        ticks: ticks.map(|u| (scale.position(u), label(u))).collect(),
-        name: scale.axis(),
-    };
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
-    let at = |x: f64, energy: f64| pixel(&chart, x, scale.position(energy));
-    let (left, right) = (at(0.0, 0.0), at(leaves as f64, 0.0));
-    polyline(root, &[left, right], INK, 1.6)?;
-    let frame = [
-        left.0,
-        pixel(&chart, 0.0, high).1,
-        right.0,
-        pixel(&chart, 0.0, low).1,
-    ];
-    let mut drawing = Drawing {
-        root,
-        scale,
-        scene,
-        kinds,
-        at: &at,
-        labels: Labels::new(frame),
-        next_leaf: 0,
-        merges: Vec::new(),
-        feet: Vec::new(),
-    };
-    drawing.labels.keep_off_line(&[left, right]);
-    for tree in trees {
-        let x = drawing.tree(tree)?;
-        let top = tree.energy();
-        let end = (at(x, top).0, frame[1]);
-        polyline(root, &[at(x, top), end], INK, 1.8)?;
-        drawing.labels.keep_off_line(&[at(x, top), end]);
-        if let Some(why) = why_apart(scene, tree) {
-            let font = Text::new(SMALL).colour(SOFT);
-            let wide = font.width(why);
-            // To the left of its line where there is no room to the right.
-            let beside = match end.0 + 6.0 + wide <= right.0 {
-                true => (end.0 + 6.0, end.1 + 8.0),
-                false => (end.0 - 6.0 - wide, end.1 + 8.0),
-            };
-            font.write(root, why, beside, (HPos::Left, VPos::Center))?;
-            drawing
-                .labels
-                .keep_off_line(&[beside, (beside.0 + wide, beside.1)]);
-        }
-    }
-    drawing.finish()
-}
-
 /// Positions from below the lowest state's label, which takes that share of the height, to above the
 /// highest saddle.
 fn extent(trees: &[Tree], scale: &EnergyScale, label: f64) -> (f64, f64) {
@@ -273,4 +215,174 @@ fn extent(trees: &[Tree], scale: &EnergyScale, label: f64) -> (f64, f64) {
     let span = (high - low).max(0.2);
     let whole = 1.14 * span / (1.0 - label);
     (low - label * whole, high + 0.14 * span)
+}
+
+/// A graph in the making.
+struct Graph<'a> {
+    scene: &'a Scene<'a>,
+    scale: &'a EnergyScale,
+    kinds: &'a [Kind<'a>],
+    plot: Plot,
+    labels: Labels,
+    /// How many states were drawn.
+    next_leaf: usize,
+    /// Where two lines join, and the saddle energy there.
+    merges: Vec<(Pixel, f64)>,
+    /// The states' markers and where they stand.
+    feet: Vec<(Mark, Pixel)>,
+}
+
+impl<'a> Graph<'a> {
+    fn draw(
+        canvas: &mut Canvas,
+        place: Box4,
+        scene: &'a Scene<'a>,
+        kinds: &'a [Kind<'a>],
+        scale: &'a EnergyScale,
+    ) {
+        let trees = merge_tree(scene, kinds, scale);
+        let height = place[3] - place[1] - MARGIN[0] - MARGIN[2];
+        let (low, high) = extent(&trees, scale, LABEL / height);
+        let label = |energy: f64| match energy {
+            0.0 => "0".into(),
+            _ => scale.tick(energy),
+        };
+        let marks = scale.ticks(low, high).into_iter();
+        let y = Axis {
+            spacing: Spacing::Energies(*scale),
+            ends: [low, high],
+            marks: marks.map(|u| (scale.position(u), label(u))).collect(),
+            name: scale.axis(),
+        };
+        let leaves = trees.iter().map(Tree::leaves).sum();
+        let plot = Plot::new(canvas, place, MARGIN, [Axis::places(leaves), y], true);
+        let [_, top, right, _] = plot.frame;
+        let mut graph = Graph {
+            scene,
+            scale,
+            kinds,
+            labels: Labels::new(plot.frame),
+            plot,
+            next_leaf: 0,
+            merges: Vec::new(),
+            feet: Vec::new(),
+        };
+        let zero = graph.plot.level(0.0);
+        graph.line(canvas, &zero, 1.6);
+        for tree in &trees {
+            let x = graph.tree(canvas, tree);
+            let at = graph.plot.at(x, tree.energy());
+            graph.line(canvas, &[at, (at.0, top)], 1.8);
+            if let Some(why) = why_apart(scene, tree) {
+                let font = SMALL.colour(SOFT);
+                let wide = font.width(why);
+                // To the left of its line where there is no room to the right.
+                let left = match at.0 + 6.0 + wide <= right {
+                    true => at.0 + 6.0,
+                    false => at.0 - 6.0 - wide,
+                };
+                let beside = (left, top + 8.0);
+                canvas.write(font, why, beside, Anchor::Left);
+                graph
+                    .labels
+                    .keep_off_line(&[beside, (left + wide, beside.1)]);
+            }
+        }
+        graph.finish(canvas);
+    }
+
+    /// A line that labels keep off.
+    fn line(&mut self, canvas: &mut Canvas, points: &[Pixel], width: f64) {
+        canvas.line(points, INK, width);
+        self.labels.keep_off_line(points);
+    }
+
+    /// Draws a tree up to its own energy and gives the x it stands at.
+    fn tree(&mut self, canvas: &mut Canvas, tree: &Tree) -> f64 {
+        let (energy, bounds, children) = match tree {
+            Tree::Leaf { class, energy } => return self.leaf(canvas, *class, *energy),
+            Tree::Merge {
+                energy,
+                bounds,
+                children,
+            } => (*energy, bounds, children),
+        };
+        let mut ends = Vec::new();
+        for child in children {
+            let x = self.tree(canvas, child);
+            let line = [child.energy(), energy].map(|energy| self.plot.at(x, energy));
+            self.line(canvas, &line, 1.8);
+            ends.push(x);
+        }
+        let (first, last) = (ends[0], ends[ends.len() - 1]);
+        let bar = [first, last].map(|x| self.plot.at(x, energy));
+        self.line(canvas, &bar, 1.8);
+        let x = (first + last) / 2.0;
+        if let Some((lower, upper)) = *bounds {
+            let ends = [lower, upper].map(|energy| self.plot.at(x, energy));
+            canvas.line(&ends, GREEN, 3.0);
+            self.labels.keep_off_line(&ends);
+            for (x, y) in ends {
+                canvas.line(&[(x - 8.0, y), (x + 8.0, y)], GREEN, 3.0);
+            }
+        }
+        self.merges.push((self.plot.at(x, energy), energy));
+        x
+    }
+
+    fn leaf(&mut self, canvas: &mut Canvas, class: Option<usize>, energy: f64) -> f64 {
+        let x = self.next_leaf as f64 + 0.5;
+        self.next_leaf += 1;
+        let foot = self.plot.at(x, energy);
+        let kind = class.and_then(|class| {
+            let mut kinds = self.kinds.iter();
+            kinds.find(|kind| kind.first().class == class)
+        });
+        let (mark, id, lines) = match kind {
+            None => (
+                Mark::Free,
+                "free".to_owned(),
+                vec!["free".to_owned(), "0 J".to_owned()],
+            ),
+            Some(kind) => {
+                let first = kind.first();
+                let name = self.scene.name_of(Place::State(first.id));
+                let mut lines = vec![name, self.scale.label(energy, 3)];
+                if kind.copies() > 1 {
+                    lines.push(format!("\u{d7}{}", kind.copies()));
+                }
+                (first.kind.into(), first.id.to_string(), lines)
+            }
+        };
+        self.feet.push((mark, foot));
+        self.labels.keep_off(foot, 8.0);
+        for (k, text) in lines.iter().enumerate() {
+            let y = foot.1 + 13.0 + 17.0 * k as f64;
+            canvas.note(text, (foot.0, y), Anchor::Top);
+            self.labels.keep_off((foot.0, y + 8.0), 32.0);
+        }
+        let half = LEAF / 2.0;
+        let below = foot.1 + 13.0 + 17.0 * lines.len() as f64;
+        let place = [foot.0 - half, foot.1 - 12.0, foot.0 + half, below];
+        let spot = Spot {
+            title: lines.join(" "),
+            kind: "state",
+            value: id,
+        };
+        canvas.spot(&corners(place), spot);
+        x
+    }
+
+    /// What lies on top of the lines, and the energies at which they join, clear of all of them.
+    fn finish(mut self, canvas: &mut Canvas) {
+        for (mark, foot) in self.feet {
+            marker(canvas, mark, foot, 7.0);
+        }
+        for (place, energy) in self.merges {
+            let text = self.scale.label(energy, 3);
+            let above = nalgebra::Vector2::new(0.3, -1.0);
+            self.labels
+                .place(canvas, &text, SMALL.colour(SOFT), place, above);
+        }
+    }
 }

@@ -1,14 +1,13 @@
 //! Docking: the chance of a match over orientation and speed.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Composition, Panel, part, remark, stacked};
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas};
+use super::composition::{Composition, Panel, remark};
 use super::contour::contour;
-use super::heat::frame;
-use super::marks::{Box4, outline, polyline, seamed_line};
-use super::picture::{Area, Bitmap, PictureError, Underlay};
+use super::heat::{Marked, bar, cells as fill};
+use super::picture::PictureError;
 use super::scale::colour;
-use super::style::{Axis, INK, SMALL, Text, chart, pixel, units};
+use super::style::INK;
 use super::{Figure, Sheet};
 use jobs::design::Design;
 use physics::dynamics::docking::DockingMap;
@@ -18,9 +17,6 @@ const WIDTH: f64 = 860.0;
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
 /// Chances with contours.
 const LEVELS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.24];
-const COLOURS: usize = 200;
-/// Pixels of the embedded image across a cell, so that cells keep their edges.
-const SHARP: usize = 48;
 /// Runs a cell at least, as far as cells can be made larger: the 95 % interval of a chance of a tenth
 /// is then 0.04 to 0.24.
 const RUNS_A_CELL: usize = 32;
@@ -35,11 +31,16 @@ pub fn cells(runs: usize) -> [usize; 2] {
 }
 
 /// The chance of a match over relative orientation and speed, with contours of the chances
-/// averaged over neighbouring cells.
+/// averaged over neighbouring cells; `numbers` are the same as CSV.
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn chances(design: &Design, map: &DockingMap, sheet: &Sheet) -> Result<Figure, PictureError> {
+pub fn chances(
+    design: &Design,
+    map: &DockingMap,
+    numbers: String,
+    sheet: &Sheet,
+) -> Result<Figure, PictureError> {
     let most = map
         .cells
         .iter()
@@ -47,135 +48,64 @@ pub fn chances(design: &Design, map: &DockingMap, sheet: &Sheet) -> Result<Figur
         .fold(0.05, f64::max);
     let runs = map.cells.iter().map(|c| c.matched.of);
     let (fewest, many) = (runs.clone().min().unwrap_or(0), runs.max().unwrap_or(0));
-    let bar = Panel::new(
-        "",
-        0.0,
-        |_| 82.0,
-        move |root, underlays, place| bar(root, underlays, most, place),
-    );
+    // The ends first; then the levels, as far as their numbers keep clear of others.
+    let levels = LEVELS.into_iter().rev().filter(|level| *level < most);
+    let marks = [most, 0.0].into_iter().chain(levels).map(|level| Marked {
+        at: level / most,
+        text: format!("{:.0} %", 100.0 * level),
+        is_crossed: true,
+    });
     let said = format!(
         "cells: {fewest} to {many} runs each; lines: chances averaged over neighbouring cells, the \
          thick one at {:.0} %",
         100.0 * LEVELS[0]
     );
-    let panel = Panel::new(
-        "",
-        0.0,
+    let panel = Panel::alone(
         |width| 0.68 * width,
-        |root, underlays, place| map_panel(root, underlays, place, map, most),
+        |canvas, place| map_panel(canvas, place, map, most),
     );
     let composition = Composition {
         name: "chances".to_owned(),
         title: format!("{}: chance of a match", design.name),
-        note: None,
         width: WIDTH,
         panels: vec![panel],
-        key: Some(stacked(bar, remark(said))),
+        keys: vec![bar("chance", shade, marks), remark(said)],
+        ..Composition::default()
     };
-    Figure::new(&composition, sheet, crate::docking::chances(map).csv())
+    Figure::new(&composition, sheet, numbers)
 }
 
 /// Colour of a share of the greatest chance.
-fn shaded(share: f64) -> u8 {
-    (share * (COLOURS - 1) as f64).round() as u8
+fn shade(share: f64) -> [u8; 3] {
+    colour(-share)
 }
 
-fn palette() -> Vec<[u8; 3]> {
-    let shade = |k: usize| colour(-(k as f64) / (COLOURS - 1) as f64);
-    (0..COLOURS).map(shade).collect()
-}
-
-fn map_panel(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    place: Box4,
-    map: &DockingMap,
-    most: f64,
-) -> Result<(), PictureError> {
+fn map_panel(canvas: &mut Canvas, place: Box4, map: &DockingMap, most: f64) {
     let [columns, rows] = map.size;
-    let share = |i: usize, j: usize| map.cells[j * columns + i].matched.share();
     let (first, last) = (&map.cells[0], &map.cells[map.cells.len() - 1]);
     let (across, up) = (
         [first.orientation[0], last.orientation[1]],
         [first.speed[0], last.speed[1]],
     );
-    let x_axis = Axis::linear(
-        across[0]..across[1],
-        7,
-        "orientation relative to the bond (rad)",
-    );
-    let y_axis = Axis::linear(up[0]..up[1], 8, "speed (m/s)");
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, false)?;
-    let frame = frame(&chart, &across, &up);
-    underlays.push(Underlay {
-        bitmap: Bitmap {
-            width: columns * SHARP,
-            palette: palette(),
-            pixels: (0..rows * columns * SHARP * SHARP)
-                .map(|k| {
-                    let (i, j) = (k % (columns * SHARP), k / (columns * SHARP));
-                    shaded(share(i / SHARP, rows - 1 - j / SHARP) / most)
-                })
-                .collect(),
-        },
-        rectangle: frame.map(units),
+    let axes = [
+        Axis::even(across, 1.0, 7, "orientation relative to the bond (rad)"),
+        Axis::even(up, 1.0, 8, "speed (m/s)"),
+    ];
+    let plot = Plot::new(canvas, place, MARGIN, axes, false);
+    fill(canvas, &plot, map.size, shade, |i, j| {
+        Some(map.cells[j * columns + i].matched.share() / most)
     });
-    outline(root, frame, INK)?;
     let smooth = smoothed(map);
-    let at = |u: f64, v: f64| {
-        pixel(
-            &chart,
-            across[0] + (u + 0.5) / columns as f64 * (across[1] - across[0]),
-            up[0] + (v + 0.5) / rows as f64 * (up[1] - up[0]),
-        )
+    let along = |[low, high]: [f64; 2], place: f64, of: usize| {
+        low + (place + 0.5) / of as f64 * (high - low)
     };
+    let at = |(u, v): (f64, f64)| plot.at(along(across, u, columns), along(up, v, rows));
     for level in LEVELS {
-        for [a, b] in contour(&smooth, map.size, level) {
-            let width = if level == LEVELS[0] { 2.4 } else { 1.2 };
-            seamed_line(root, &[at(a.0, a.1), at(b.0, b.1)], INK, width)?;
+        let width = if level == LEVELS[0] { 2.4 } else { 1.2 };
+        for piece in contour(&smooth, map.size, level) {
+            canvas.seamed(&piece.map(at), INK, width);
         }
     }
-    Ok(())
-}
-
-/// The colours with their chances, up to the greatest, and the contours' levels.
-fn bar(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    most: f64,
-    [left, top, right, _]: Box4,
-) -> Result<(), PictureError> {
-    let [left, top, right, bottom] = [left + MARGIN[3], top + 26.0, right - MARGIN[1], top + 44.0];
-    underlays.push(Underlay {
-        bitmap: Bitmap {
-            width: COLOURS,
-            palette: palette(),
-            pixels: (0..COLOURS).map(|k| k as u8).collect(),
-        },
-        rectangle: [left, top, right, bottom].map(units),
-    });
-    outline(root, [left, top, right, bottom], INK)?;
-    let small = Text::new(SMALL);
-    small.write(
-        root,
-        "chance",
-        (left, top - 6.0),
-        (HPos::Left, VPos::Bottom),
-    )?;
-    let mut last = f64::INFINITY;
-    // The ends first; then the levels, as far as their numbers keep clear of those to their right.
-    let levels = LEVELS.iter().rev().copied().filter(|level| *level < most);
-    for level in [most].into_iter().chain(levels).chain([0.0]) {
-        let x = left + (right - left) * level / most;
-        polyline(root, &[(x, top), (x, bottom + 6.0)], INK, 1.2)?;
-        if last - x > 42.0 || level == 0.0 {
-            last = x;
-            let text = format!("{:.0} %", 100.0 * level);
-            small.write(root, &text, (x, bottom + 10.0), (HPos::Center, VPos::Top))?;
-        }
-    }
-    Ok(())
 }
 
 /// Chances averaged over the cells around, with weights 1, 2, 1 along each direction.

@@ -2,18 +2,18 @@
 //! and the pathways on it, and an enlargement of what lies in front of the target face.
 
 use nalgebra::Vector2;
-use plotters::style::text_anchor::{HPos, VPos};
 
-use super::composition::{Composition, Panel, left_out, part};
-use super::heat::{Interpolated, Range, frame, legend};
-use super::key::{Key, POLE_KEYS, STATE_KEYS};
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas};
+use super::composition::{Composition, Panel, left_out};
+use super::heat::{Interpolated, Range};
+use super::key::{self, Sign, key};
 use super::map_marks::{NAMED, name_around, name_in_front, ways_and_states};
-use super::marks::{Box4, Mark, View, outline, tile};
-use super::picture::{Area, Bitmap, PictureError, Underlay};
+use super::marks::{Mark, ORIGIN, View};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::sheet::Sheet;
-use super::style::{Axis, FIXED_FILL, INK, LABEL, Text, chart, units};
+use super::style::FIXED_FILL;
 use super::{energy, length};
 use crate::csv::table;
 use physics::configuration::Configuration;
@@ -131,7 +131,7 @@ pub fn composed<'a>(
         .flat_map(|map| map.lowest.values.iter().flatten())
         .map(|sample| sample.energy);
     let range = Range::of(scale, energies);
-    let plot = |map, heading, axes| Plot {
+    let plot = |map, heading, axes| MapPlot {
         map,
         heading,
         axes,
@@ -145,33 +145,33 @@ pub fn composed<'a>(
     let height = move |_| MARGIN[0] + height + MARGIN[2];
     let named = move |state: &Configuration| target.shows(state);
     let panels = vec![
-        Panel::new("around", LEAST[0], height, move |root, underlays, place| {
-            let view = whole.draw(root, underlays, place)?;
-            let origin = Configuration::new(0.0, 0.0, 0.0);
-            tile(root, &view.0, &scene.pair.fixed, &origin, FIXED_FILL)?;
-            ways_and_states(root, view, scene)?;
-            name_around(root, scene, scale, view, named)
+        Panel::new("around", LEAST[0], height, move |canvas, place| {
+            let view = whole.draw(canvas, place);
+            view.0.tile(canvas, &scene.pair.fixed, &ORIGIN, FIXED_FILL);
+            ways_and_states(canvas, view, scene);
+            name_around(canvas, scene, scale, view, named);
         })
         .weighing(WEIGHTS[0]),
-        Panel::new("target", LEAST[1], height, move |root, underlays, place| {
-            let view = target.draw(root, underlays, place)?;
-            ways_and_states(root, view, scene)?;
-            name_in_front(root, scene, scale, view, named)
+        Panel::new("target", LEAST[1], height, move |canvas, place| {
+            let view = target.draw(canvas, place);
+            ways_and_states(canvas, view, scene);
+            name_in_front(canvas, scene, scale, view, named);
         })
         .weighing(WEIGHTS[1]),
     ];
-    let mut entries = STATE_KEYS.to_vec();
-    entries.push((Key::Mark(Mark::Saddle), "saddle"));
-    entries.push((Key::Pathway, "pathway out"));
-    entries.extend(POLE_KEYS);
-    entries.push((Key::Blocked, "tiles would overlap"));
+    let more = [
+        (Sign::Mark(Mark::Saddle), "saddle"),
+        (Sign::Pathway, "pathway out"),
+        (Sign::Blocked, "tiles would overlap"),
+    ];
+    let meanings = key::STATES.into_iter().chain(more).chain(key::POLES);
     Composition {
         name: "map".to_owned(),
         title: format!("{}: lowest energy over \u{3b8}", scene.name),
         note: left_out(scene.kinds().len(), NAMED, "not named"),
         width: WIDTH,
         panels,
-        key: Some(legend(scale, range, entries)),
+        keys: vec![range.bar(scale), key(meanings)],
     }
 }
 
@@ -194,7 +194,7 @@ pub fn data(maps: &Maps) -> String {
 
 /// A map as it is plotted.
 #[derive(Clone, Copy)]
-struct Plot<'a> {
+struct MapPlot<'a> {
     map: &'a EnergyMap,
     heading: &'a str,
     axes: [&'a str; 2],
@@ -202,7 +202,7 @@ struct Plot<'a> {
     range: Range,
 }
 
-impl Plot<'_> {
+impl MapPlot<'_> {
     /// Whether a configuration lies within the plot.
     fn shows(&self, q: &Configuration) -> bool {
         let window = &self.map.window;
@@ -211,64 +211,38 @@ impl Plot<'_> {
     }
 
     /// Draws the map with its axes; tells how the plane became pixels and the plot's frame.
-    fn draw(
-        &self,
-        root: &Area,
-        underlays: &mut Vec<Underlay>,
-        place: Box4,
-    ) -> Result<(View, Box4), PictureError> {
+    fn draw(&self, canvas: &mut Canvas, place: Box4) -> (View, Box4) {
         let window = &self.map.window;
         let longer = (0..2)
             .flat_map(|k| [window.low[k].abs(), window.high[k].abs()])
             .fold(0.0, f64::max);
         // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
         let (unit, prefix) = prefix_of(0.999 * longer);
-        let plot = place[2] - place[0] - MARGIN[1] - MARGIN[3];
-        let [x, y] = [0, 1].map(|k| {
-            let range = window.low[k] / unit..window.high[k] / unit;
-            let count = if k == 0 && plot < 400.0 { 5 } else { 9 };
-            Axis::linear(range, count, format!("{} ({prefix}m)", self.axes[k]))
+        let width = place[2] - place[0] - MARGIN[1] - MARGIN[3];
+        let axes = [0, 1].map(|k| {
+            let range = [window.low[k], window.high[k]];
+            let count = if k == 0 && width < 400.0 { 5 } else { 9 };
+            Axis::even(range, unit, count, format!("{} ({prefix}m)", self.axes[k]))
         });
-        let area = part(root, place);
-        let chart = chart(&area, MARGIN, &x, &y, false)?;
-        let [x, y] = [x, y].map(|axis| [axis.range.start, axis.range.end]);
-        let frame = frame(&chart, &x, &y);
-        underlays.push(Underlay {
-            bitmap: self.image(frame),
-            rectangle: frame.map(units),
-        });
-        outline(root, frame, INK)?;
-        Text::new(LABEL).bold().write(
-            root,
-            self.heading,
-            (frame[0], frame[1] - 10.0),
-            (HPos::Left, VPos::Bottom),
-        )?;
-        Ok((self.view(frame), frame))
-    }
-
-    fn image(&self, [left, top, right, bottom]: Box4) -> Bitmap {
+        let plot = Plot::new(canvas, place, MARGIN, axes, false);
+        let [left, top, right, bottom] = plot.frame;
         let size = [right - left, bottom - top].map(|side| (IMAGE * side).round() as usize);
         let interpolated = Interpolated::new(&self.map.lowest, self.scale);
-        self.range.bitmap((size[0], size[1]), |u, v| {
-            let border_distance = interpolated
-                .corners(u, v)
-                .map(|(i, w)| w * self.map.border_distance[i]);
-            if border_distance.iter().sum::<f64>() < 0.0 {
-                return None;
-            }
-            interpolated.position(u, v).map(|(position, _)| position)
-        })
-    }
-
-    fn view(&self, [left, _, right, bottom]: Box4) -> View {
-        let window = &self.map.window;
+        self.range.fill(canvas, &plot, size, |u, v| {
+            let corners = interpolated.corners(u, v).into_iter();
+            let border = corners.map(|(i, weight)| weight * self.map.border_distance[i]);
+            let is_free = border.sum::<f64>() >= 0.0;
+            let (position, _) = interpolated.position(u, v).filter(|_| is_free)?;
+            Some(position)
+        });
+        plot.heading(canvas, self.heading);
         let scale = (right - left) / (window.high[0] - window.low[0]);
-        View {
+        let view = View {
             origin: (left - window.low[0] * scale, bottom + window.low[1] * scale),
             scale,
             centre: window.origin,
             turn: -window.angle,
-        }
+        };
+        (view, plot.frame)
     }
 }

@@ -1,26 +1,22 @@
 //! A design at a glance: both tiles where they bind, and the figures beside them.
 
 use nalgebra::Vector2;
-use plotters::style::text_anchor::{HPos, VPos};
 
-use super::marks::{View, tile};
-use super::picture::{Area, Picture, PictureError};
-use super::scale::minus;
-use super::sheet::Sheet;
+use super::canvas::{Box4, Canvas};
+use super::marks::{ORIGIN, View, extent};
+use super::picture::{Picture, PictureError};
 use super::style::{
-    BLUE, FIXED_FILL, INK, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, Text, VERMILLION,
+    Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
 };
-use crate::inspection::{force, pole, wrong};
+use super::{Figure, Sheet};
+use crate::tiles::{force, letter, magnets, models, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
-use physics::order::Order;
-use physics::potential::MagnetModel;
-use physics::tile::barcode::Pole;
-use physics::tile::{Face, Magnet, Tile};
+use physics::tile::{Magnet, Tile};
 use physics::units::si;
 
-const SIZE: (u32, u32) = (1000, 640);
+const SIZE: [f64; 2] = [1000.0, 640.0];
 /// Space for the title above and the figures below the tiles (pixels).
 const HEAD: f64 = 50.0;
 const FOOT: f64 = 190.0;
@@ -32,7 +28,7 @@ const KEY: &str = "letters: the pole that each magnet turns outwards";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
-/// Draws a design.
+/// Draws a design; for print the tiles alone.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -40,77 +36,74 @@ pub fn draw(
     design: &Design,
     inspection: &Inspection,
     sheet: &Sheet,
-) -> Result<Picture, PictureError> {
-    Picture::draw(sheet, &design.name, SIZE, |root, _| {
-        let middle = (HPos::Center, VPos::Center);
-        let place = (f64::from(SIZE.0) / 2.0, HEAD / 2.0);
-        Text::new(TITLE)
-            .bold()
-            .write(root, &design.name, place, middle)?;
-        let place = (place.0, HEAD + 4.0);
-        Text::new(SMALL)
-            .colour(SOFT)
-            .write(root, KEY, place, middle)?;
-        let poses = [Configuration::new(0.0, 0.0, 0.0), design.pair.bound];
-        let tiles = [&design.pair.fixed, &design.pair.moving];
-        let view = view(tiles, poses);
-        for ((one, q), fill) in tiles.into_iter().zip(poses).zip([FIXED_FILL, MOVING_FILL]) {
-            tile(root, &view, one, &q, fill)?;
+) -> Result<Figure, PictureError> {
+    let canvas = match sheet.is_titled() {
+        true => whole(design, inspection),
+        false => {
+            let width = sheet.width(SIZE[0]);
+            let size = [width, (SIZE[1] - HEAD - FOOT) * width / SIZE[0]].map(f64::ceil);
+            let mut canvas = Canvas::new(size);
+            tiles(&mut canvas, design, [0.0, 0.0, size[0], size[1]]);
+            canvas
         }
-        for ((one, q), name) in tiles.into_iter().zip(poses).zip(["fixed", "moving"]) {
-            let centre = view.pixel(q.transform(one.outline.centroid()));
-            let middle = (HPos::Center, VPos::Center);
-            Text::new(LABEL)
-                .bold()
-                .colour(SOFT)
-                .write(root, name, centre, middle)?;
-            faces(root, &view, one, &q)?;
-        }
-        figures(root, inspection)?;
-        faults(root, design, inspection)
+    };
+    let picture = Picture::new(sheet, &design.name, &canvas)?;
+    Ok(Figure {
+        name: "tiles".to_owned(),
+        pictures: vec![("tiles".to_owned(), picture)],
+        data: models(&inspection.models).csv(),
     })
 }
 
-/// How the two tiles fill the space between title and figures.
-fn view(tiles: [&Tile; 2], poses: [Configuration; 2]) -> View {
-    let corners = tiles
-        .into_iter()
-        .zip(poses)
-        .flat_map(|(tile, q)| tile.outline.vertices().iter().map(move |v| q.transform(*v)));
-    let infinity = Vector2::repeat(f64::INFINITY);
-    let (low, high) = corners.fold((infinity, -infinity), |(low, high), p| {
-        (low.inf(&p), high.sup(&p))
-    });
-    let size = high - low;
-    let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
-    let room = [width - 2.0 * MARGIN, height - HEAD - FOOT - 2.0 * MARGIN];
-    View {
-        centre: (low + high) / 2.0,
-        origin: (width / 2.0, (HEAD + height - FOOT) / 2.0),
-        turn: 0.0,
-        scale: (room[0] / size.x).min(room[1] / size.y),
+/// The tiles with the figures below them.
+fn whole(design: &Design, inspection: &Inspection) -> Canvas {
+    let (mut canvas, middle) = (Canvas::new(SIZE), SIZE[0] / 2.0);
+    for (text, line, height) in [
+        (TITLE.bold(), &*design.name, HEAD / 2.0),
+        (SMALL.colour(SOFT), KEY, HEAD + 4.0),
+    ] {
+        canvas.write(text, line, (middle, height), Anchor::Middle);
+    }
+    tiles(&mut canvas, design, [0.0, HEAD, SIZE[0], SIZE[1] - FOOT]);
+    figures(&mut canvas, inspection);
+    faults(&mut canvas, design, inspection);
+    canvas
+}
+
+/// Both tiles where they bind, in a rectangle.
+fn tiles(canvas: &mut Canvas, design: &Design, [left, top, right, bottom]: Box4) {
+    let pair = &*design.pair;
+    let room = [left + MARGIN, top + MARGIN, right - MARGIN, bottom - MARGIN];
+    let view = View::filling(room, extent(pair, [&pair.bound]));
+    let tiles = [
+        (&pair.fixed, ORIGIN, FIXED_FILL, "fixed"),
+        (&pair.moving, pair.bound, MOVING_FILL, "moving"),
+    ];
+    for (tile, q, fill, _) in tiles {
+        view.tile(canvas, tile, &q, fill);
+    }
+    for (tile, q, _, name) in tiles {
+        let centre = view.pixel(q.transform(tile.outline.centroid()));
+        canvas.write(LABEL.bold().colour(SOFT), name, centre, Anchor::Middle);
+        faces(canvas, &view, tile, &q);
     }
 }
 
 /// Names of the faces, inside of their magnets with the letters of their codes.
-fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(), PictureError> {
-    let middle = (HPos::Center, VPos::Center);
+fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
     for (number, face) in tile.faces.iter().enumerate() {
-        let magnets: Vec<&Magnet> = tile.magnets.iter().filter(|m| m.face == number).collect();
-        let letters: Vec<(f64, &Magnet, &str)> = sorted(face, &magnets)
-            .map(|(s, magnet)| match pole(tile, magnet) {
-                Pole::North => (s, magnet, "N"),
-                Pole::South => (s, magnet, "S"),
-            })
+        let letters: Vec<(f64, &Magnet, char)> = magnets(tile, number)
+            .into_iter()
+            .map(|(s, magnet)| (s, magnet, letter(tile, magnet)))
             .collect();
-        let depths = magnets
+        let depths = letters
             .iter()
-            .map(|m| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
+            .map(|(_, m, _)| (face.middle() - m.position).dot(&face.normal()) + m.size[0]);
         let depth = depths.fold(0.0, f64::max) * view.scale;
         let apart = letters
             .windows(2)
             .map(|two| (two[1].0 - two[0].0) * view.scale);
-        let has_room = apart.fold(f64::INFINITY, f64::min) >= SMALL;
+        let has_room = apart.fold(f64::INFINITY, f64::min) >= SMALL.size;
         let (name, depth) = match letters.is_empty() {
             true => (face.name.clone(), depth + 16.0),
             false if has_room => (face.name.clone(), depth + 30.0),
@@ -123,30 +116,18 @@ fn faces(root: &Area, view: &View, tile: &Tile, q: &Configuration) -> Result<(),
             view.pixel(q.transform(p - face.normal() * (pixels / view.scale)))
         };
         for (_, magnet, letter) in letters.iter().filter(|_| has_room) {
-            let colour = if *letter == "N" { VERMILLION } else { BLUE };
+            let colour = if *letter == 'N' { VERMILLION } else { BLUE };
             let at = inwards(magnet.position, view.scale * magnet.size[0] / 2.0 + 10.0);
-            Text::new(SMALL)
-                .bold()
-                .colour(colour)
-                .write(root, letter, at, middle)?;
+            let text = SMALL.bold().colour(colour);
+            canvas.write(text, &letter.to_string(), at, Anchor::Middle);
         }
-        let text = Text::new(SMALL).colour(INK);
-        text.write(root, &name, inwards(face.middle(), depth), middle)?;
+        canvas.note(&name, inwards(face.middle(), depth), Anchor::Middle);
     }
-    Ok(())
-}
-
-/// Magnets of a face with their places along it (m), counter-clockwise.
-fn sorted<'a>(face: &Face, magnets: &[&'a Magnet]) -> impl Iterator<Item = (f64, &'a Magnet)> {
-    let place = |m: &&'a Magnet| ((m.position - face.middle()).dot(&face.tangent()), *m);
-    let mut placed: Vec<_> = magnets.iter().map(place).collect();
-    placed.order_by(|a, b| a.0.total_cmp(&b.0));
-    placed.into_iter()
 }
 
 /// What holds the tiles, a line for each model.
-fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
-    let top = f64::from(SIZE.1) - FOOT + 10.0;
+fn figures(canvas: &mut Canvas, inspection: &Inspection) {
+    let top = SIZE[1] - FOOT + 10.0;
     let columns = [MARGIN, 200.0, 380.0, 640.0];
     let head = [
         "magnets as",
@@ -154,66 +135,41 @@ fn figures(root: &Area, inspection: &Inspection) -> Result<(), PictureError> {
         "pull at contact",
         "pull-off, straight",
     ];
-    let mut rows = vec![(head.map(str::to_owned), Text::new(SMALL).colour(SOFT))];
+    let mut rows = vec![(head.map(str::to_owned), SMALL.colour(SOFT))];
     for hold in &inspection.models {
-        let name = match hold.model {
-            MagnetModel::Dipole => "dipoles",
-            MagnetModel::Cuboid => "blocks",
-        };
         let row = [
-            name.to_owned(),
+            hold.model.plural().to_owned(),
             minus(&si(hold.energy, "J", 4)),
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),
         ];
-        rows.push((row, Text::new(LABEL)));
+        rows.push((row, LABEL));
     }
     for (k, (row, text)) in rows.iter().enumerate() {
         for (cell, x) in row.iter().zip(columns) {
             let at = (x, top + LINE * k as f64);
-            text.write(root, cell, at, (HPos::Left, VPos::Top))?;
+            canvas.write(*text, cell, at, Anchor::TopLeft);
         }
     }
-    Ok(())
 }
 
 /// What is wrong, below the figures, in the order of importance.
-fn faults(root: &Area, design: &Design, inspection: &Inspection) -> Result<(), PictureError> {
-    let top = f64::from(SIZE.1) - FOOT + 10.0 + 4.0 * LINE;
+fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
+    const STEP: f64 = 19.0;
+    let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;
     let faults = wrong(design, inspection);
     if faults.is_empty() {
-        let text = Text::new(SMALL).colour(SOFT);
         let sound = "nothing wrong at a glance; whether the tiles find each other, analyse tells";
-        return text.write(root, sound, (MARGIN, top), (HPos::Left, VPos::Top));
+        return canvas.write(SMALL.colour(SOFT), sound, (MARGIN, top), Anchor::TopLeft);
     }
-    let text = Text::new(SMALL).colour(VERMILLION);
-    let room = f64::from(SIZE.0) - 2.0 * MARGIN;
+    let room = SIZE[0] - 2.0 * MARGIN;
     let lines = faults
         .iter()
         .take(TOLD)
-        .flat_map(|fault| wrapped(&text, fault, room));
-    let most = ((f64::from(SIZE.1) - top) / (TITLE - 1.0)) as usize;
+        .flat_map(|fault| SMALL.lines(fault, room));
+    let most = ((SIZE[1] - top) / STEP) as usize;
     for (k, line) in lines.take(most).enumerate() {
-        let at = (MARGIN, top + (TITLE - 1.0) * k as f64);
-        text.write(root, &line, at, (HPos::Left, VPos::Top))?;
+        let at = (MARGIN, top + STEP * k as f64);
+        canvas.write(SMALL.colour(VERMILLION), &line, at, Anchor::TopLeft);
     }
-    Ok(())
-}
-
-/// A sentence in lines that fit into so many pixels.
-fn wrapped(text: &Text, sentence: &str, room: f64) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in sentence.split_whitespace() {
-        let longer = match lines.last().map_or("", String::as_str) {
-            "" => word.to_owned(),
-            line => format!("{line} {word}"),
-        };
-        if text.width(&longer) <= room || lines.last().is_some_and(String::is_empty) {
-            lines.pop();
-            lines.push(longer);
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
 }

@@ -1,71 +1,189 @@
-//! What the heat maps share: grids as images, the colour bar, keys.
+//! Maps of colours: images of grids, and the bars that tell what colours mean.
 
+use super::axes::Plot;
+use super::canvas::{Bitmap, Box4, Canvas, middle};
+use super::composition::Panel;
+use super::scale::{EnergyScale, colour};
+use super::style::{Anchor, INK, SMALL};
 use ordered_float::OrderedFloat;
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Panel, stacked};
-use super::key::{BAR_SIDES, Key, key_table};
-use super::marks::{Box4, outline, polyline};
-use super::picture::{Area, Bitmap, PictureError, Underlay};
-use super::scale::{COLOURS, EnergyScale, HATCH, colour};
-use super::style::{Chart, INK, SMALL, Text, pixel, units};
 use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
+use plotters::style::{RGBColor, WHITE};
 
-/// The positions on a scale that colours are given to, and two colours for the hatching of what
-/// is blocked.
+/// Steps of colour.
+const COLOURS: usize = 250;
+/// Colours of the hatching of what is blocked, and of nothing.
+pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
+const BLANK: [[u8; 3]; 2] = [[255; 3]; 2];
+/// Space left and right of a bar of colours, and its height with name and numbers (pixels).
+const SIDES: [f64; 2] = [84.0, 24.0];
+const BAR: f64 = 84.0;
+/// Pixels of an image of cells, so many that cells keep their edges.
+const SHARP: usize = 500;
+
+/// An image of so many pixels, the first row at the top, of colours of shares from 0 to 1: `share`
+/// tells it at the fraction (0 to 1, from the left and from the bottom); `others` are the colours, in
+/// stripes, of where there is none.
+pub fn shaded(
+    [width, height]: [usize; 2],
+    others: [[u8; 3]; 2],
+    colour: impl Fn(f64) -> [u8; 3],
+    share: impl Fn(f64, f64) -> Option<f64>,
+) -> Bitmap {
+    let last = (COLOURS - 1) as f64;
+    let mut palette: Vec<_> = (0..COLOURS).map(|k| colour(k as f64 / last)).collect();
+    palette.extend(others);
+    let pixel = |index: usize| {
+        let (column, row) = (index % width, index / width);
+        let u = (column as f64 + 0.5) / width as f64;
+        let v = 1.0 - (row as f64 + 0.5) / height as f64;
+        match share(u, v) {
+            Some(share) => (share * last).round().clamp(0.0, last) as u8,
+            None => (COLOURS + usize::from((column + row) % 9 < 2)) as u8,
+        }
+    };
+    Bitmap {
+        width,
+        palette,
+        pixels: (0..width * height).map(pixel).collect(),
+    }
+}
+
+/// Fills a plot with cells, each of the colour of its share; rows and columns count from the lower
+/// left.
+pub fn cells(
+    canvas: &mut Canvas,
+    plot: &Plot,
+    [columns, rows]: [usize; 2],
+    colour: impl Fn(f64) -> [u8; 3],
+    share: impl Fn(usize, usize) -> Option<f64>,
+) {
+    let size = [columns, rows].map(|count| count * (SHARP / columns.max(rows)).max(8));
+    let image = shaded(size, BLANK, colour, |u, v| {
+        share((u * columns as f64) as usize, (v * rows as f64) as usize)
+    });
+    canvas.image(image, plot.frame);
+    canvas.frame(plot.frame, INK);
+}
+
+/// A cell of a table in a colour with its text, where there is room.
+pub fn cell(canvas: &mut Canvas, place: Box4, fill: [u8; 3], text: &str) {
+    let [left, top, right, bottom] = place;
+    let [r, g, b] = fill;
+    canvas.block(place, RGBColor(r, g, b));
+    if right - left >= SMALL.width(text) + 2.0 && bottom - top >= 17.0 {
+        let bright = 0.3 * f64::from(r) + 0.59 * f64::from(g) + 0.11 * f64::from(b);
+        let ink = if bright > 130.0 { INK } else { WHITE };
+        canvas.write(SMALL.colour(ink), text, middle(place), Anchor::Middle);
+    }
+}
+
+/// The range of positions on a scale of energies that colours are given to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    pub low: f64,
-    pub high: f64,
+    low: f64,
+    high: f64,
 }
 
 impl Range {
     /// The positions of these energies, with zero and a little on either side of it.
     pub fn of(scale: &EnergyScale, energies: impl Iterator<Item = f64>) -> Self {
-        let margin = 0.15;
-        energies.map(|u| scale.position(u)).fold(
-            Self {
-                low: -margin,
-                high: margin,
-            },
-            |range, p| Self {
+        let (low, high) = (-0.15, 0.15);
+        energies
+            .map(|energy| scale.position(energy))
+            .fold(Self { low, high }, |range, p| Self {
                 low: range.low.min(p),
                 high: range.high.max(p),
-            },
-        )
+            })
     }
 
-    /// An image of `width` by `height` pixels, first row at the top: `position` tells the position
-    /// at the fraction (0 to 1, from the left and from the bottom), `None` where blocked.
-    pub fn bitmap(
-        &self,
-        (width, height): (usize, usize),
-        position: impl Fn(f64, f64) -> Option<f64>,
-    ) -> Bitmap {
-        let last = (COLOURS - 1) as f64;
-        let span = self.high - self.low;
-        let mut palette: Vec<_> = (0..COLOURS)
-            .map(|i| colour(self.low + span * i as f64 / last))
-            .collect();
-        palette.extend(HATCH);
-        let pixels = (0..width * height)
-            .map(|index| {
-                let (column, row) = (index % width, index / width);
-                let u = (column as f64 + 0.5) / width as f64;
-                let v = 1.0 - (row as f64 + 0.5) / height as f64;
-                match position(u, v) {
-                    Some(p) => ((p - self.low) / span * last).round().clamp(0.0, last) as u8,
-                    None => (COLOURS + usize::from((column + row) % 9 < 2)) as u8,
-                }
-            })
-            .collect();
-        Bitmap {
-            width,
-            palette,
-            pixels,
-        }
+    fn share(&self, position: f64) -> f64 {
+        (position - self.low) / (self.high - self.low)
     }
+
+    fn colour(&self, share: f64) -> [u8; 3] {
+        colour(self.low + (self.high - self.low) * share)
+    }
+
+    /// Fills a plot with an image of so many pixels of positions, `None` where blocked.
+    pub fn fill(
+        &self,
+        canvas: &mut Canvas,
+        plot: &Plot,
+        size: [usize; 2],
+        position: impl Fn(f64, f64) -> Option<f64>,
+    ) {
+        let share = |u, v| Some(self.share(position(u, v)?));
+        canvas.image(
+            shaded(size, HATCH, |share| self.colour(share), share),
+            plot.frame,
+        );
+        canvas.frame(plot.frame, INK);
+    }
+
+    /// The colours with their energies, in a bar.
+    pub fn bar<'a>(self, scale: &EnergyScale) -> Panel<'a> {
+        let mut marks = scale.ticks(self.low, self.high);
+        // Zero first, then outwards.
+        marks.order_by_key(|energy| OrderedFloat(energy.abs()));
+        let marks = marks.into_iter().map(|energy| Marked {
+            at: self.share(scale.position(energy)),
+            text: match energy {
+                0.0 => "0".to_owned(),
+                _ => scale.tick(energy),
+            },
+            is_crossed: energy == 0.0,
+        });
+        bar(scale.axis(), move |share| self.colour(share), marks)
+    }
+}
+
+/// What is told at a place of a bar.
+pub struct Marked {
+    /// From 0 to 1.
+    pub at: f64,
+    pub text: String,
+    /// Whether a line goes across the colours there.
+    pub is_crossed: bool,
+}
+
+/// Colours from left to right with what they mean; where texts would collide the later ones are left
+/// out.
+pub fn bar<'a>(
+    name: impl Into<String>,
+    colour: impl Fn(f64) -> [u8; 3] + Send + Sync + 'a,
+    marks: impl IntoIterator<Item = Marked>,
+) -> Panel<'a> {
+    let (name, marks): (String, Vec<Marked>) = (name.into(), marks.into_iter().collect());
+    Panel::alone(
+        |_| BAR,
+        move |canvas, [left, top, right, _]| {
+            let [left, right] = [left + SIDES[0], right - SIDES[1]];
+            let [top, bottom] = [top + 26.0, top + 46.0];
+            let place = [left, top, right, bottom];
+            canvas.image(shaded([COLOURS, 2], HATCH, &colour, |u, _| Some(u)), place);
+            canvas.frame(place, INK);
+            canvas.note(&name, (left, top - 6.0), Anchor::BottomLeft);
+            let mut taken: Vec<[f64; 2]> = Vec::new();
+            for mark in &marks {
+                let x = left + (right - left) * mark.at;
+                let (start, width) = if mark.is_crossed {
+                    (top, 1.6)
+                } else {
+                    (bottom, 1.0)
+                };
+                canvas.line(&[(x, start), (x, bottom + 6.0)], INK, width);
+                let half = 0.5 * SMALL.room(&mark.text) + 4.0;
+                if taken
+                    .iter()
+                    .all(|[from, to]| x + half < *from || *to < x - half)
+                {
+                    taken.push([x - half, x + half]);
+                    canvas.note(&mark.text, (x, bottom + 9.0), Anchor::Top);
+                }
+            }
+        },
+    )
 }
 
 /// A grid's energies as positions on a scale, linear between grid points.
@@ -77,14 +195,11 @@ pub struct Interpolated {
 
 impl Interpolated {
     pub fn new(grid: &Grid<Sample>, scale: &EnergyScale) -> Self {
+        let position = |sample: &Option<Sample>| sample.map(|it| scale.position(it.energy));
         Self {
             columns: grid.x.len(),
             rows: grid.y.len(),
-            positions: grid
-                .values
-                .iter()
-                .map(|v| v.map(|sample| scale.position(sample.energy)))
-                .collect(),
+            positions: grid.values.iter().map(position).collect(),
         }
     }
 
@@ -109,88 +224,11 @@ impl Interpolated {
 
     /// The mean over the free grid points about a place, and their share of the weight.
     pub fn position(&self, u: f64, v: f64) -> Option<(f64, f64)> {
-        let (mut sum, mut weight) = (0.0, 0.0);
-        for (index, w) in self.corners(u, v) {
-            if let Some(position) = self.positions[index] {
-                sum += w * position;
-                weight += w;
-            }
-        }
+        let known = self.corners(u, v).into_iter();
+        let known = known.filter_map(|(index, weight)| Some((self.positions[index]?, weight)));
+        let (sum, weight) = known.fold((0.0, 0.0), |(sum, weight), (position, w)| {
+            (sum + w * position, weight + w)
+        });
         (weight > 0.0).then(|| (sum / weight, weight))
     }
-}
-
-/// Left, top, right, bottom (pixels) of a plot of values over `x` and `y`.
-pub fn frame(chart: &Chart, x: &[f64], y: &[f64]) -> Box4 {
-    let low = pixel(chart, x[0], y[0]);
-    let high = pixel(chart, x[x.len() - 1], y[y.len() - 1]);
-    [low.0, high.1, high.0, low.1]
-}
-
-/// Height of the bar with its name and its numbers (pixels).
-const BAR: f64 = 84.0;
-
-/// The colours with their energies, in a bar from left to right, and what marks mean.
-pub fn legend<'a>(
-    scale: &'a EnergyScale,
-    range: Range,
-    entries: Vec<(Key, &'static str)>,
-) -> Panel<'a> {
-    let bar = Panel::new(
-        "",
-        0.0,
-        |_| BAR,
-        move |root, underlays, place| {
-            let [left, top, right, _] = place;
-            let bar = [
-                left + BAR_SIDES.0,
-                top + 26.0,
-                right - BAR_SIDES.1,
-                top + 46.0,
-            ];
-            colour_bar(root, underlays, scale, &range, bar)
-        },
-    );
-    stacked(bar, key_table(entries))
-}
-
-fn colour_bar(
-    root: &Area,
-    underlays: &mut Vec<Underlay>,
-    scale: &EnergyScale,
-    range: &Range,
-    [left, top, right, bottom]: Box4,
-) -> Result<(), PictureError> {
-    let span = range.high - range.low;
-    underlays.push(Underlay {
-        bitmap: range.bitmap((COLOURS, 2), |u, _| Some(range.low + span * u)),
-        rectangle: [left, top, right, bottom].map(units),
-    });
-    outline(root, [left, top, right, bottom], INK)?;
-    let above = (left, top - 6.0);
-    Text::new(SMALL).write(root, &scale.axis(), above, (HPos::Left, VPos::Bottom))?;
-    let place = |energy: f64| left + (right - left) * (scale.position(energy) - range.low) / span;
-    let mut taken: Vec<(f64, f64)> = Vec::new();
-    let mut ticks = scale.ticks(range.low, range.high);
-    // Zero first, then outwards: where numbers would collide the later ones are left out.
-    ticks.order_by_key(|energy| OrderedFloat(energy.abs()));
-    for energy in ticks {
-        let x = place(energy);
-        let (start, width, text, font) = if energy == 0.0 {
-            (top, 1.6, "0".into(), Text::new(SMALL).bold())
-        } else {
-            let text = scale.tick(energy);
-            (bottom, 1.0, text, Text::new(SMALL))
-        };
-        polyline(root, &[(x, start), (x, bottom + 6.0)], INK, width)?;
-        let half = 0.54 * font.width(&text) + 4.0;
-        if taken
-            .iter()
-            .all(|(from, to)| x + half < *from || *to < x - half)
-        {
-            taken.push((x - half, x + half));
-            font.write(root, &text, (x, bottom + 9.0), (HPos::Center, VPos::Top))?;
-        }
-    }
-    Ok(())
 }

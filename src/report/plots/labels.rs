@@ -3,17 +3,14 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
-use plotters::prelude::{Color, WHITE};
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, WHITE};
 
-use super::marks::{Box4, Pixel, polygon, polyline};
-use super::picture::{Area, PictureError};
-use super::style::{SOFT, Text};
+use super::canvas::{Box4, Canvas, Pixel, middle};
+use super::style::{Anchor, SOFT, Text};
 
-/// Width and height (pixels) of a text with its ground. Fonts other than the measured one may be a
-/// tenth wider.
+/// Width and height (pixels) of a text with its ground.
 fn extent(font: Text, text: &str) -> (f64, f64) {
-    (1.08 * font.width(text) + 6.0, 1.25 * font.size + 2.0)
+    (font.room(text) + 6.0, 1.25 * font.size + 2.0)
 }
 
 /// The point of a rectangle that is nearest to another point.
@@ -22,26 +19,18 @@ fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
 }
 
 /// Joins a label to what it names by a thin line, where it is not beside it.
-fn join(root: &Area, anchor: Pixel, place: Box4) -> Result<(), PictureError> {
+fn join(canvas: &mut Canvas, anchor: Pixel, place: Box4) {
     let nearest = nearest(anchor, place);
     if libm::hypot(nearest.0 - anchor.0, nearest.1 - anchor.1) > 14.0 {
-        polyline(root, &[anchor, nearest], WHITE.mix(0.7), 2.4)?;
-        polyline(root, &[anchor, nearest], SOFT, 1.0)?;
+        canvas.line(&[anchor, nearest], WHITE.mix(0.7), 2.4);
+        canvas.line(&[anchor, nearest], SOFT, 1.0);
     }
-    Ok(())
 }
 
 /// Writes a text on a pale ground.
-fn write(
-    root: &Area,
-    text: &str,
-    font: Text,
-    [left, top, right, bottom]: Box4,
-) -> Result<(), PictureError> {
-    let ground = [(left, top), (right, top), (right, bottom), (left, bottom)];
-    polygon(root, &ground, WHITE.mix(0.85), None)?;
-    let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
-    font.write(root, text, middle, (HPos::Center, VPos::Center))
+fn write(canvas: &mut Canvas, text: &str, font: Text, place: Box4) {
+    canvas.block(place, WHITE.mix(0.85));
+    canvas.write(font, text, middle(place), Anchor::Middle);
 }
 
 /// How far apart labels in a column are if there is room, in their height: lines that lead to what
@@ -51,11 +40,11 @@ const AIR: f64 = 1.4;
 /// Writes labels in a column along the left side of a frame, each as near as may be to the height
 /// of what it names.
 pub fn label_column(
-    root: &Area,
+    canvas: &mut Canvas,
     font: Text,
     [left, top, _, bottom]: Box4,
     mut labels: Vec<(Pixel, String)>,
-) -> Result<(), PictureError> {
+) {
     labels.order_by_key(|(anchor, _)| OrderedFloat(anchor.1));
     let (_, high) = extent(font, "");
     let mut heights: Vec<f64> = labels.iter().map(|(anchor, _)| anchor.1).collect();
@@ -71,11 +60,11 @@ pub fn label_column(
     let placed = placed.map(|((anchor, text), height)| (*anchor, text, place(text, height)));
     let placed: Vec<_> = placed.collect();
     for (anchor, _, place) in &placed {
-        join(root, *anchor, *place)?;
+        join(canvas, *anchor, *place);
     }
-    placed
-        .iter()
-        .try_for_each(|(_, text, place)| write(root, text, font, *place))
+    for (_, text, place) in &placed {
+        write(canvas, text, font, *place);
+    }
 }
 
 /// Moves ascending heights apart until they differ by `step` and lie between `low` and `high`, as
@@ -133,20 +122,19 @@ impl Labels {
     /// it out where there is no room near.
     pub fn place(
         &mut self,
-        root: &Area,
+        canvas: &mut Canvas,
         text: &str,
         font: Text,
         anchor: Pixel,
         outwards: Vector2<f64>,
-    ) -> Result<(), PictureError> {
+    ) {
         let (width, height) = extent(font, text);
-        let Some(place) = self.free_place(anchor, width, height, outwards) else {
-            return Ok(());
-        };
-        self.taken.push(place);
-        self.keep_off_line(&[anchor, nearest(anchor, place)]);
-        join(root, anchor, place)?;
-        write(root, text, font, place)
+        if let Some(place) = self.free_place(anchor, width, height, outwards) {
+            self.taken.push(place);
+            self.keep_off_line(&[anchor, nearest(anchor, place)]);
+            join(canvas, anchor, place);
+            write(canvas, text, font, place);
+        }
     }
 
     /// The nearest free place, those in the direction `outwards` first.

@@ -1,88 +1,16 @@
-//! Marks on pictures: lines, markers, tiles, labels that keep out of each other's way.
+//! Marks on pictures: of states and saddles, tiles.
 
 use nalgebra::{Rotation2, Vector2};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{RGBColor, WHITE};
 
-use super::picture::{Area, PictureError};
-use super::style::{BLUE, INK, Text, VERMILLION, YELLOW, line, point};
+use super::canvas::{Box4, Canvas, Pixel, around, middle};
+use super::style::{Anchor, BLUE, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION, YELLOW};
 use physics::configuration::Configuration;
 use physics::landscape::StateKind;
-use physics::tile::{Magnet, Tile};
+use physics::tile::{Magnet, Pair, Tile};
 
-/// A point (pixels).
-pub type Pixel = (f64, f64);
-/// A rectangle (pixels): left, top, right, bottom.
-pub type Box4 = [f64; 4];
-
-pub fn polyline(
-    root: &Area,
-    points: &[Pixel],
-    colour: impl Color,
-    width: f64,
-) -> Result<(), PictureError> {
-    let Some((last, rest)) = points.split_last() else {
-        return Ok(());
-    };
-    // Points too close together to be seen apart only make the file longer.
-    let mut kept: Vec<Pixel> = Vec::with_capacity(points.len());
-    for p in rest {
-        if kept
-            .last()
-            .is_none_or(|k| libm::hypot(k.0 - p.0, k.1 - p.1) > 0.5)
-        {
-            kept.push(*p);
-        }
-    }
-    kept.push(*last);
-    if kept.len() > 1 {
-        let points: Vec<_> = kept.into_iter().map(point).collect();
-        root.draw(&PathElement::new(points, line(colour, width)))?;
-    }
-    Ok(())
-}
-
-/// A line with a white seam that sets it off from any ground.
-pub fn seamed_line(
-    root: &Area,
-    points: &[Pixel],
-    colour: impl Color,
-    width: f64,
-) -> Result<(), PictureError> {
-    polyline(root, points, WHITE.mix(0.8), width + 2.4)?;
-    polyline(root, points, colour, width)
-}
-
-pub fn polygon(
-    root: &Area,
-    points: &[Pixel],
-    fill: impl Color,
-    outline: Option<(RGBColor, f64)>,
-) -> Result<(), PictureError> {
-    let corners: Vec<_> = points.iter().map(|p| point(*p)).collect();
-    root.draw(&Polygon::new(corners, fill.filled()))?;
-    if let Some((colour, width)) = outline {
-        let closed: Vec<_> = points.iter().chain(points.first()).copied().collect();
-        polyline(root, &closed, colour, width)?;
-    }
-    Ok(())
-}
-
-/// The outline of a rectangle.
-pub fn outline(
-    root: &Area,
-    [left, top, right, bottom]: Box4,
-    colour: RGBColor,
-) -> Result<(), PictureError> {
-    let corners = [
-        (left, top),
-        (right, top),
-        (right, bottom),
-        (left, bottom),
-        (left, top),
-    ];
-    polyline(root, &corners, colour, 1.0)
-}
+/// Where the fixed tile lies.
+pub const ORIGIN: Configuration = Configuration::new(0.0, 0.0, 0.0);
 
 /// What a marker stands for; each has a shape and a colour of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,40 +31,18 @@ impl From<StateKind> for Mark {
 }
 
 /// A marker of this radius (pixels): a star, a disc, a square, a cross.
-pub fn marker(root: &Area, mark: Mark, (x, y): Pixel, radius: f64) -> Result<(), PictureError> {
-    let corners = |angles: &[f64], radii: &[f64]| -> Vec<Pixel> {
-        angles
-            .iter()
-            .zip(radii.iter().cycle())
-            .map(|(a, r)| {
-                (
-                    x + r * radius * libm::sin(*a),
-                    y - r * radius * libm::cos(*a),
-                )
-            })
-            .collect()
-    };
-    let turn = |n: usize| -> Vec<f64> {
-        (0..n)
-            .map(|k| k as f64 * std::f64::consts::TAU / n as f64)
-            .collect()
-    };
-    let edge = Some((INK, 1.2));
+pub fn marker(canvas: &mut Canvas, mark: Mark, at: Pixel, radius: f64) {
     match mark {
-        Mark::Bond => polygon(root, &corners(&turn(10), &[1.35, 0.6]), YELLOW, edge),
-        Mark::Trap => polygon(root, &corners(&turn(20), &[0.85]), WHITE, edge),
+        Mark::Bond => canvas.outlined(&around(at, 10, &[1.35 * radius, 0.6 * radius]), YELLOW),
+        Mark::Trap => canvas.outlined(&around(at, 20, &[0.85 * radius]), WHITE),
         Mark::Free => {
-            let square = [(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]
-                .map(|(a, b)| (x + a * radius, y + b * radius));
-            polygon(root, &square, RGBColor(200, 200, 200), edge)
+            let (r, grey) = (0.8 * radius, RGBColor(200, 200, 200));
+            let corners = [(-r, -r), (r, -r), (r, r), (-r, r)];
+            canvas.outlined(&corners.map(|(x, y)| (at.0 + x, at.1 + y)), grey);
         }
         Mark::Saddle => {
-            let r = 0.8 * radius;
-            for (colour, width) in [(INK, 4.6), (VERMILLION, 2.6)] {
-                polyline(root, &[(x - r, y - r), (x + r, y + r)], colour, width)?;
-                polyline(root, &[(x - r, y + r), (x + r, y - r)], colour, width)?;
-            }
-            Ok(())
+            canvas.cross(at, 0.8 * radius, INK, 4.6);
+            canvas.cross(at, 0.8 * radius, VERMILLION, 2.6);
         }
     }
 }
@@ -154,69 +60,75 @@ pub struct View {
     pub scale: f64,
 }
 
+/// The corners of the least rectangle (m) that holds both tiles in some poses of the moving one.
+pub fn extent<'a>(
+    pair: &Pair,
+    poses: impl IntoIterator<Item = &'a Configuration>,
+) -> [Vector2<f64>; 2] {
+    let moving = poses.into_iter().map(|q| (&pair.moving, *q));
+    let placed = [(&pair.fixed, ORIGIN)].into_iter().chain(moving);
+    let corners = placed.flat_map(|(tile, q)| {
+        let corners = tile.outline.vertices().iter();
+        corners.map(move |corner| q.transform(*corner))
+    });
+    let none = Vector2::repeat(f64::INFINITY);
+    corners.fold([none, -none], |[low, high], p| [low.inf(&p), high.sup(&p)])
+}
+
 impl View {
+    /// A view in which a rectangle (m) fills a place.
+    pub fn filling([left, top, right, bottom]: Box4, [low, high]: [Vector2<f64>; 2]) -> Self {
+        let size = high - low;
+        Self {
+            centre: (low + high) / 2.0,
+            origin: middle([left, top, right, bottom]),
+            turn: 0.0,
+            scale: ((right - left) / size.x).min((bottom - top) / size.y),
+        }
+    }
+
     pub fn pixel(&self, p: Vector2<f64>) -> Pixel {
         let p = Rotation2::new(self.turn) * (p - self.centre) * self.scale;
         (self.origin.0 + p.x, self.origin.1 - p.y)
     }
-}
 
-/// A tile at `q` with its magnets, north poles red and south poles blue.
-pub fn tile(
-    root: &Area,
-    view: &View,
-    tile: &Tile,
-    q: &Configuration,
-    fill: impl Color,
-) -> Result<(), PictureError> {
-    let corners: Vec<_> = tile
-        .outline
-        .vertices()
-        .iter()
-        .map(|v| view.pixel(q.transform(*v)))
-        .collect();
-    polygon(root, &corners, fill, Some((INK, 1.2)))?;
-    tile.magnets
-        .iter()
-        .try_for_each(|magnet| draw_magnet(root, view, magnet, q))
-}
+    /// Draws both tiles, the moving one at `q`.
+    pub fn tiles(&self, canvas: &mut Canvas, pair: &Pair, q: &Configuration) {
+        self.tile(canvas, &pair.fixed, &ORIGIN, FIXED_FILL);
+        self.tile(canvas, &pair.moving, q, MOVING_FILL);
+    }
 
-/// A magnet's block, its two poles in colour, with their letters where there is room. Blocks too
-/// small to see are drawn larger, about the same outer pole.
-fn draw_magnet(
-    root: &Area,
-    view: &View,
-    magnet: &Magnet,
-    q: &Configuration,
-) -> Result<(), PictureError> {
-    let axis = Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle));
-    let across = Vector2::new(-axis.y, axis.x);
-    let least = 5.0 / view.scale;
-    let half_length = magnet.size[0].max(least) / 2.0;
-    let half_width = magnet.size[1].max(least) / 2.0;
-    let corner = |a: f64, b: f64| {
-        let local = magnet.position + axis * (a * half_length) + across * (b * half_width);
-        view.pixel(q.transform(local))
-    };
-    for (pole, colour, letter) in [(1.0, VERMILLION, "N"), (-1.0, BLUE, "S")] {
-        let block = [
-            corner(0.0, -1.0),
-            corner(pole, -1.0),
-            corner(pole, 1.0),
-            corner(0.0, 1.0),
-        ];
-        polygon(root, &block, colour, None)?;
-        let size = (half_length.min(2.0 * half_width) * view.scale * 0.9).min(14.0);
-        if size >= 9.0 {
-            Text::new(size).bold().colour(WHITE).write(
-                root,
-                letter,
-                corner(0.5 * pole, 0.0),
-                (HPos::Center, VPos::Center),
-            )?;
+    /// Draws a tile at `q` with its magnets, north poles red and south poles blue.
+    pub fn tile(&self, canvas: &mut Canvas, tile: &Tile, q: &Configuration, fill: RGBColor) {
+        let corners = tile.outline.vertices().iter();
+        let corners: Vec<_> = corners.map(|v| self.pixel(q.transform(*v))).collect();
+        canvas.outlined(&corners, fill);
+        for magnet in &tile.magnets {
+            self.magnet(canvas, magnet, q);
         }
     }
-    Ok(())
+
+    /// A magnet's block, its two poles in colour, with their letters where there is room. Blocks too
+    /// small to see are drawn larger, about the same outer pole.
+    fn magnet(&self, canvas: &mut Canvas, magnet: &Magnet, q: &Configuration) {
+        let axis = Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle));
+        let across = Vector2::new(-axis.y, axis.x);
+        let least = 5.0 / self.scale;
+        let [half_length, half_width] = [0, 1].map(|k| magnet.size[k].max(least) / 2.0);
+        let corner = |a: f64, b: f64| {
+            let local = magnet.position + axis * (a * half_length) + across * (b * half_width);
+            self.pixel(q.transform(local))
+        };
+        for (pole, colour, letter) in [(1.0, VERMILLION, "N"), (-1.0, BLUE, "S")] {
+            let block = [(0.0, -1.0), (pole, -1.0), (pole, 1.0), (0.0, 1.0)];
+            canvas.area(&block.map(|(a, b)| corner(a, b)), colour);
+            let size = (half_length.min(2.0 * half_width) * self.scale * 0.9).min(14.0);
+            if size >= 9.0 {
+                let font = Text::of(size).bold().colour(WHITE);
+                canvas.write(font, letter, corner(0.5 * pole, 0.0), Anchor::Middle);
+            }
+        }
+    }
 }
 
 /// The pieces of a curve above the height `floor` (pixels grow downwards).

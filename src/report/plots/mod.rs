@@ -8,34 +8,32 @@
 //! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
 //!   linear scale.
 //!
-//! A picture is a composition of panels, laid out for a [`Sheet`]. Charts are drawn by plotters.
-//! Its SVG backend writes the vector form; pixels (by tiny-skia) and PDF (by pdf-writer) are drawn
-//! from the same calls, with a font that is part of the program, so that no form depends on what is
-//! installed.
+//! A picture is a composition of panels, laid out for a [`Sheet`]. Panels are drawn by plotters: its
+//! elements, charts and series, on a backend that keeps the shapes. These are then written as SVG (by
+//! plotters), as pixels (by tiny-skia) and as PDF (by pdf-writer), with a font that is part of the
+//! program, so that no form depends on what is installed.
 
 mod approach;
-mod canvas;
+pub(crate) mod axes;
+pub(crate) mod canvas;
 pub mod chart;
 pub(crate) mod committor;
 pub(crate) mod composition;
 mod contour;
-mod curve;
-pub mod curve_data;
-mod curve_map;
-pub(crate) mod curve_names;
-pub(crate) mod curves;
 pub(crate) mod disconnectivity;
 pub mod dock;
 mod energy_map;
+pub mod figure;
 mod film;
+mod font;
 pub mod glance;
-mod heat;
-mod key;
+pub(crate) mod heat;
+pub(crate) mod key;
 mod labels;
 mod map_marks;
 pub(crate) mod marks;
 pub mod matrix;
-pub(crate) mod merge_tree;
+mod merge_tree;
 mod models;
 pub mod paths;
 mod pdf;
@@ -43,72 +41,22 @@ mod picture;
 pub mod poses;
 mod profiles;
 pub mod ranking;
-mod raster;
+mod recorder;
 pub(crate) mod scale;
 pub(crate) mod scene;
-mod shapes;
 pub mod sheet;
-mod style;
-mod tree_lines;
+pub(crate) mod style;
 
+pub use figure::{Drawing, Figure};
 pub use picture::{Picture, PictureError};
 pub use scene::Scene;
 pub use sheet::Sheet;
 
 use super::csv::{number, rounded};
-use composition::Composition;
 use film::Film;
 use models::Curves;
 use physics::parallel;
 use scale::EnergyScale;
-
-/// Pictures with the numbers that they show.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// The stem of the file of numbers, and of the picture if there is one only.
-    pub name: String,
-    /// By the stems of their files: one, or one for each of its panels.
-    pub pictures: Vec<(String, Picture)>,
-    /// The numbers, as CSV.
-    pub data: String,
-}
-
-impl Figure {
-    pub(crate) fn new(
-        composition: &Composition,
-        sheet: &Sheet,
-        data: String,
-    ) -> Result<Self, PictureError> {
-        Ok(Self {
-            name: composition.name.clone(),
-            pictures: composition.draw(sheet)?,
-            data,
-        })
-    }
-
-    /// The first picture as SVG.
-    pub fn svg(&self) -> &str {
-        self.pictures
-            .first()
-            .map_or("", |(_, picture)| &picture.svg)
-    }
-
-    /// The files by their names: each picture in every form, and the numbers.
-    pub fn files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
-        let numbers = (format!("{}.csv", self.name), self.data.into_bytes());
-        let pictures = self.pictures.into_iter().flat_map(|(stem, picture)| {
-            let forms = [
-                ("svg", Some(picture.svg.into_bytes())),
-                ("png", picture.png),
-                ("pdf", picture.pdf),
-            ];
-            let named =
-                |(ending, bytes): (_, Option<_>)| Some((format!("{stem}.{ending}"), bytes?));
-            forms.into_iter().filter_map(named).collect::<Vec<_>>()
-        });
-        pictures.chain([numbers])
-    }
-}
 
 /// All pictures of an analysis; those that nothing is known for are left out.
 ///
@@ -156,10 +104,7 @@ pub fn draw(
     );
     let film = Film::new(scene, &scale);
     let curves = Curves::new(scene);
-    let graph = |scale: EnergyScale, name| {
-        let graph = disconnectivity::composed(scene, sheet, scale, name);
-        graph.map(|graph| (graph, disconnectivity::data(scene, sheet, &scale)))
-    };
+    let linear = scale.linear_throughout();
     let drawn = [
         Some((
             energy_map::composed(scene, &maps, sheet, &scale),
@@ -175,8 +120,8 @@ pub fn draw(
         curves
             .as_ref()
             .map(|curves| (models::composed(scene, curves), models::data(curves))),
-        graph(scale, "disconnectivity"),
-        graph(scale.linear_throughout(), "disconnectivity-linear"),
+        disconnectivity::composed(scene, sheet, scale, "disconnectivity"),
+        disconnectivity::composed(scene, sheet, linear, "disconnectivity-linear"),
     ];
     let mut drawn: Vec<_> = drawn.into_iter().flatten().collect();
     drawn.retain(|(composition, _)| wanted(&composition.name));

@@ -1,20 +1,17 @@
 //! What the model of the magnets costs: the energy of point dipoles against that of blocks, and
 //! the error of the dipoles, as the bound tiles are drawn apart along the target face's normal.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
-use super::composition::{Composition, Panel, part};
-use super::marks::{Box4, Pixel, polyline};
-use super::picture::{Area, PictureError};
-use super::scale::minus;
+use super::canvas::{Box4, Canvas};
+use super::chart::{Dimension, Look, Series, plotted};
+use super::composition::{Composition, Panel};
 use super::scene::Scene;
-use super::style::{Axis, BLUE, INK, LABEL, SMALL, Text, VERMILLION, chart, pixel};
+use super::style::{Anchor, COLOURS, INK, LABEL, minus};
 use super::{energy, length};
 use crate::csv::table;
 use physics::landscape::StateKind;
 use physics::landscape::approach::Approach;
 use physics::potential::{Interaction, MagnetModel, Potential};
-use physics::units::{prefix_of, si};
+use physics::units::si;
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 390.0;
@@ -22,6 +19,10 @@ const HEIGHT: f64 = 390.0;
 const LEAST: f64 = 380.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [32.0, 24.0, 60.0, 80.0];
+/// Which of the colours of series are whose.
+const BLOCKS: usize = 0;
+const DIPOLES: usize = 1;
+const ERROR: usize = 6;
 const SAMPLES: usize = 101;
 /// Largest gap as a multiple of the largest magnet's length or width.
 const FARTHEST: f64 = 5.0;
@@ -94,11 +95,27 @@ impl Curves {
 /// The picture: energies, and the error.
 pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
     let height = |_| HEIGHT;
-    let energy = Panel::new("energy", LEAST, height, |root, _, place| {
-        energies(root, place, curves)
+    let energy = Panel::new("energy", LEAST, height, |canvas, place| {
+        let line = |energies: &[f64]| -> Vec<[f64; 2]> {
+            let points = curves.gaps.iter().zip(energies);
+            points.map(|(gap, energy)| [*gap, *energy]).collect()
+        };
+        let series = [
+            Series::new("dipoles", Look::Steps, DIPOLES, line(&curves.dipoles)),
+            Series::new("blocks", Look::Steps, BLOCKS, line(&curves.blocks)),
+        ];
+        let y = Dimension::new("energy_J", "energy U");
+        let plot = plotted(canvas, place, MARGIN, [&gap_dimension(), &y], &series);
+        plot.heading(canvas, "energy over the gap");
+        let middle = (plot.frame[1] + plot.frame[3]) / 2.0;
+        for (k, one) in series.iter().enumerate() {
+            let font = LABEL.colour(COLOURS[one.colour]);
+            let at = (plot.frame[2] - 12.0, middle + 22.0 * k as f64);
+            canvas.write(font, &one.name, at, Anchor::Right);
+        }
     });
-    let error = Panel::new("error", LEAST, height, |root, _, place| {
-        errors(root, place, curves)
+    let error = Panel::new("error", LEAST, height, |canvas, place| {
+        errors(canvas, place, curves);
     });
     let note = curves.bond.map(|[dipoles, blocks]| {
         let off = 100.0 * (dipoles - blocks).abs() / blocks.abs();
@@ -108,10 +125,10 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
     Composition {
         name: "models".to_owned(),
         title: format!("{}: magnets as point dipoles and as blocks", scene.name),
-        note,
+        note: note.unwrap_or_default(),
         width: WIDTH,
         panels: vec![energy, error],
-        key: None,
+        ..Composition::default()
     }
 }
 
@@ -124,80 +141,34 @@ pub fn data(curves: &Curves) -> String {
     table(["gap_m", "dipoles_J", "blocks_J"], rows)
 }
 
-fn energies(root: &Area, place: Box4, curves: &Curves) -> Result<(), PictureError> {
-    let all = curves.dipoles.iter().chain(&curves.blocks);
-    let (low, high) = all.fold((0.0f64, 0.0f64), |(low, high), &u| {
-        (low.min(u), high.max(u))
-    });
-    let span = high - low;
-    let (joule, prefix) = prefix_of(0.999 * low.abs().max(high));
-    let (x_axis, metre) = gap_axis(curves);
-    let range = (low - 0.05 * span) / joule..(high + 0.05 * span) / joule;
-    let y_axis = Axis::linear(range, 6, format!("energy U ({prefix}J)"));
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
-    let at = |gap: f64, energy: f64| pixel(&chart, gap / metre, energy / joule);
-    heading(root, at(0.0, high + 0.05 * span), "energy over the gap")?;
-    let named = [
-        ("dipoles", &curves.dipoles, VERMILLION),
-        ("blocks", &curves.blocks, BLUE),
-    ];
-    for (k, (name, energies, colour)) in named.into_iter().enumerate() {
-        let line: Vec<Pixel> = curves
-            .gaps
-            .iter()
-            .zip(energies)
-            .map(|(gap, energy)| at(*gap, *energy))
-            .collect();
-        polyline(root, &line, colour, 2.4)?;
-        let last = at(curves.gaps[SAMPLES - 1], 0.5 * (low + high));
-        let place = (last.0 - 12.0, last.1 + 22.0 * k as f64);
-        Text::new(LABEL)
-            .colour(colour)
-            .write(root, name, place, (HPos::Right, VPos::Center))?;
-    }
-    Ok(())
+fn gap_dimension() -> Dimension {
+    Dimension::new("gap_m", "gap")
 }
 
-fn errors(root: &Area, place: Box4, curves: &Curves) -> Result<(), PictureError> {
+fn errors(canvas: &mut Canvas, place: Box4, curves: &Curves) {
     let errors = curves.errors();
     let most = errors.iter().copied().fold(1.0, f64::max);
-    let (x_axis, metre) = gap_axis(curves);
-    let y_axis = Axis::linear(0.0..1.1 * most, 6, "error of the dipoles' energy (%)");
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
-    let at = |gap: f64, error: f64| pixel(&chart, gap / metre, error);
-    heading(root, at(0.0, 1.1 * most), "relative to the blocks")?;
-    let points = || curves.gaps.iter().zip(&errors);
-    let line: Vec<Pixel> = points().map(|(gap, error)| at(*gap, *error)).collect();
-    polyline(root, &line, INK, 2.4)?;
+    let points: Vec<[f64; 2]> = curves
+        .gaps
+        .iter()
+        .zip(errors)
+        .map(|(gap, e)| [*gap, e])
+        .collect();
+    let series = [Series::new("", Look::Steps, ERROR, points.iter().copied())];
+    let y = Dimension::new("", "error of the dipoles' energy (%)").within([0.0, 1.1 * most]);
+    let plot = plotted(canvas, place, MARGIN, [&gap_dimension(), &y], &series);
+    plot.heading(canvas, "relative to the blocks");
     let unit = curves.gaps[SAMPLES - 1] / FARTHEST;
     for mark in MARKED {
-        let wanted = points().find(|(gap, _)| **gap >= (mark - 1e-9) * unit);
-        if let Some((gap, error)) = wanted {
-            let (x, y) = at(*gap, *error);
-            polyline(root, &[(x, y), (x + 22.0, y)], INK, 0.8)?;
+        if let Some([gap, error]) = points.iter().find(|[gap, _]| *gap >= (mark - 1e-9) * unit) {
+            let (x, y) = plot.at(*gap, *error);
+            canvas.line(&[(x, y), (x + 22.0, y)], INK, 0.8);
             let place = match mark {
                 0.0 => "in contact".to_owned(),
                 _ => format!("at {}", si(*gap, "m", 3)),
             };
             let text = format!("{error:.1} % {place}");
-            Text::new(SMALL).write(root, &text, (x + 26.0, y), (HPos::Left, VPos::Center))?;
+            canvas.note(&text, (x + 26.0, y), Anchor::Left);
         }
     }
-    Ok(())
-}
-
-/// The axis of the gap, and its unit (m).
-fn gap_axis(curves: &Curves) -> (Axis, f64) {
-    let farthest = curves.gaps[SAMPLES - 1];
-    let (metre, prefix) = prefix_of(0.999 * farthest);
-    let name = format!("gap ({prefix}m)");
-    (Axis::linear(0.0..farthest / metre, 6, name), metre)
-}
-
-fn heading(root: &Area, (x, y): Pixel, text: &str) -> Result<(), PictureError> {
-    Text::new(LABEL)
-        .bold()
-        .write(root, text, (x, y - 8.0), (HPos::Left, VPos::Bottom))
 }

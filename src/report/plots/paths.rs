@@ -1,19 +1,19 @@
 //! Paths of docking tiles.
 
-use plotters::prelude::RGBColor;
+use plotters::style::RGBColor;
 
-use super::composition::{Composition, Panel, part};
-use super::key::{Key, POLE_KEYS, key_table, start};
-use super::marks::{Box4, View, polyline, tile};
-use super::picture::{Area, PictureError};
-use super::style::{Axis, FIXED_FILL, GREEN, INK, MOVING_FILL, chart, pixel};
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas};
+use super::composition::{Composition, Panel};
+use super::key::{POLES, Sign, key, start};
+use super::marks::View;
+use super::picture::PictureError;
+use super::style::{GREEN, INK};
 use super::{Figure, Sheet};
 use crate::csv::table;
 use jobs::design::Design;
 use jobs::docking::Path;
-use physics::configuration::Configuration;
 use physics::dynamics::docking::End;
-use physics::tile::Pair;
 
 const WIDTH: f64 = 860.0;
 /// Space around the plot (pixels): top, right, bottom, left.
@@ -28,15 +28,14 @@ pub fn trajectories(
     trajectories: &[Path],
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
-    let mut entries = vec![
-        (Key::Line(GREEN), "ends bound"),
-        (Key::Line(INK), "ends in a trap"),
-        (Key::Line(FAINT), "ends free"),
-        (Key::Start, "start"),
+    let meanings = [
+        (Sign::Line(GREEN), "ends bound"),
+        (Sign::Line(INK), "ends in a trap"),
+        (Sign::Line(FAINT), "ends free"),
+        (Sign::Start, "start"),
     ];
-    entries.extend(POLE_KEYS);
-    let panel = Panel::new("", 0.0, plot_height, |root, _, place| {
-        paths(root, place, design, trajectories)
+    let panel = Panel::alone(plot_height, |canvas, place| {
+        paths(canvas, place, design, trajectories);
     });
     let composition = Composition {
         name: "trajectories".to_owned(),
@@ -45,10 +44,10 @@ pub fn trajectories(
             design.name,
             trajectories.len()
         ),
-        note: None,
         width: WIDTH,
         panels: vec![panel],
-        key: Some(key_table(entries)),
+        keys: vec![key(meanings.into_iter().chain(POLES))],
+        ..Composition::default()
     };
     let rows = trajectories
         .iter()
@@ -80,38 +79,28 @@ fn plot_height(width: f64) -> f64 {
 }
 
 fn paths(
-    root: &Area,
-    place: Box4,
+    canvas: &mut Canvas,
+    [left, top, right, bottom]: Box4,
     design: &Design,
     trajectories: &[Path],
-) -> Result<(), PictureError> {
+) {
     let reach = trajectories
         .iter()
         .filter_map(|(_, snapshots)| snapshots.first())
         .map(|s| s.motion.configuration.position().amax())
         .fold(0.5, f64::max)
         * 1.08;
-    let [left, top, right, bottom] = place;
-    let plot = plot_height(right - left) - MARGIN[0] - MARGIN[2];
-    let square = [left, top, left + plot + MARGIN[1] + MARGIN[3], bottom];
-    let axis = |name: &str| Axis::linear(-reach..reach, 8, name);
-    let area = part(root, square);
-    let chart = chart(&area, MARGIN, &axis("x (m)"), &axis("y (m)"), true)?;
+    let side = plot_height(right - left) - MARGIN[0] - MARGIN[2];
+    let square = [left, top, left + side + MARGIN[1] + MARGIN[3], bottom];
+    let axes = ["x (m)", "y (m)"].map(|name| Axis::even([-reach, reach], 1.0, 8, name));
+    let plot = Plot::new(canvas, square, MARGIN, axes, true);
     let view = View {
-        origin: pixel(&chart, 0.0, 0.0),
-        scale: plot / (2.0 * reach),
+        origin: plot.at(0.0, 0.0),
+        scale: side / (2.0 * reach),
         centre: nalgebra::Vector2::zeros(),
         turn: 0.0,
     };
-    let Pair {
-        fixed,
-        moving,
-        bound,
-        ..
-    } = &*design.pair;
-    tile(root, &view, moving, bound, MOVING_FILL)?;
-    let origin = Configuration::new(0.0, 0.0, 0.0);
-    tile(root, &view, fixed, &origin, FIXED_FILL)?;
+    view.tiles(canvas, &design.pair, &design.pair.bound);
     for (run, snapshots) in trajectories {
         let points: Vec<_> = snapshots
             .iter()
@@ -119,22 +108,17 @@ fn paths(
             .take_while(|p| p.amax() <= reach)
             .map(|p| view.pixel(p))
             .collect();
-        let (colour, width) = look(&run.end);
-        polyline(root, &points, colour, width)?;
+        let (colour, width) = match run.end {
+            End::Bound { .. } => (GREEN, 2.4),
+            End::Trapped { .. } => (INK, 1.4),
+            End::Free => (FAINT, 1.0),
+        };
+        canvas.line(&points, colour, width);
         if let Some(first) = points.first() {
-            start(root, *first, colour)?;
+            start(canvas, *first, colour);
         }
     }
-    Ok(())
 }
 
 /// Paths that end free, most of them.
 const FAINT: RGBColor = RGBColor(150, 150, 150);
-
-fn look(end: &End) -> (RGBColor, f64) {
-    match end {
-        End::Bound { .. } => (GREEN, 2.4),
-        End::Trapped { .. } => (INK, 1.4),
-        End::Free => (FAINT, 1.0),
-    }
-}

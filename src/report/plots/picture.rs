@@ -1,25 +1,21 @@
 //! A finished picture: the same drawing as SVG, as PNG and, for print, as PDF.
 
+use std::fmt::Write;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use plotters::coord::Shift;
-use plotters::prelude::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
-use std::fmt::Write;
-use tiny_skia::{Color, Pixmap, PixmapPaint, PremultipliedColorU8, Transform};
+use plotters::prelude::SVGBackend;
+use tiny_skia::{
+    Color, FillRule, FilterQuality, LineJoin, Paint, Pixmap, PixmapPaint, PremultipliedColorU8,
+    Stroke, Transform,
+};
 
-use super::canvas::Canvas;
-use super::pdf::PdfPage;
-use super::raster::{Raster, draw_stretched};
-use super::shapes::{Lettering, Painter};
+use super::canvas::{Bitmap, Canvas, Spot};
+use super::font::FAMILY;
+use super::pdf;
+use super::recorder::Shape;
 use super::sheet::Sheet;
-use super::style::FAMILY;
-
-/// Drawing units per pixel. plotters places everything on whole units; tenths of a pixel keep
-/// gentle slopes smooth.
-pub const UNITS: u32 = 10;
-
-/// What is drawn on, in [`UNITS`] of a pixel.
-pub type Area<'a> = DrawingArea<Canvas<'a>, Shift>;
+use super::style::UNITS;
 
 /// A drawing as SVG and, if wanted, as PNG and PDF.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,132 +39,119 @@ pub enum PictureError {
     Png(#[from] png::EncodingError),
 }
 
-impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PictureError {
-    fn from(error: DrawingAreaErrorKind<E>) -> Self {
-        Self::Layout(error.to_string())
-    }
-}
-
-/// An image with a palette, its first row at the top.
-#[derive(Clone, Debug)]
-pub struct Bitmap {
-    pub width: usize,
-    pub palette: Vec<[u8; 3]>,
-    /// One palette index a pixel.
-    pub pixels: Vec<u8>,
-}
-
-/// A bitmap and where it lies beneath the drawing (units: left, top, right, bottom).
-pub struct Underlay {
-    pub bitmap: Bitmap,
-    pub rectangle: [i32; 4],
-}
-
 impl Picture {
-    /// Draws a picture of `width` by `height` pixels on white. `drawing` may leave bitmaps to lie
-    /// beneath all else.
+    /// A canvas on white.
     ///
     /// # Errors
-    /// Where plotters cannot lay the drawing out or the PNG cannot be encoded.
-    pub fn draw(
-        sheet: &Sheet,
-        title: &str,
-        (width, height): (u32, u32),
-        drawing: impl FnOnce(&Area, &mut Vec<Underlay>) -> Result<(), PictureError>,
-    ) -> Result<Self, PictureError> {
-        let unit = f64::from(UNITS);
-        // Pixels of the PNG a unit.
-        let fine = sheet.dots() / unit;
-        let size = (width * UNITS, height * UNITS);
-        let pixels = [size.0, size.1].map(|side| (f64::from(side) * fine).round() as u32);
-        let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
-        let raster = || Raster::new(pixels[0], pixels[1], 1.0 / fine).ok_or_else(none);
-        let mut raster = (!sheet.vectors_only).then(raster).transpose()?;
-        let lettering = Lettering::new().ok_or_else(|| PictureError::Layout("no font".into()))?;
-        let mut pdf = sheet.millimetres().map(|_| PdfPage::new());
-        let mut elements = String::new();
-        let mut underlays = Vec::new();
-        {
-            let mut painters: Vec<&mut dyn Painter> = Vec::new();
-            painters.extend(raster.as_mut().map(|raster| raster as &mut dyn Painter));
-            painters.extend(pdf.as_mut().map(|page| page as &mut dyn Painter));
-            let canvas = Canvas::new(&mut elements, painters, lettering, size);
-            let area = canvas.into_drawing_area();
-            drawing(&area, &mut underlays)?;
-            area.present()?;
-        }
-        let millimetres = sheet.millimetres();
+    /// Where something could not be drawn, there is no such bitmap or it cannot be encoded.
+    pub(super) fn new(sheet: &Sheet, title: &str, canvas: &Canvas) -> Result<Self, PictureError> {
+        let shapes = &canvas.shapes().map_err(PictureError::Layout)?[..];
+        let bitmap = || png(canvas, shapes, sheet.dots() / UNITS);
+        let print = |pixel| pdf::page(title, canvas, shapes, pixel / UNITS);
         Ok(Self {
-            svg: svg(&elements, &underlays, (width, height), millimetres)?,
-            png: raster
-                .map(|raster| png(&raster.into_pixmap(), &underlays, fine))
-                .transpose()?,
-            pdf: pdf.zip(millimetres).map(|(page, millimetres)| {
-                page.finish(title, &underlays, size, millimetres / unit)
-            }),
+            svg: svg(canvas, shapes, sheet.millimetres())?,
+            png: (!sheet.vectors_only).then(bitmap).transpose()?,
+            pdf: sheet.millimetres().map(print),
         })
     }
 }
 
-/// The SVG document: plotters' elements with a head of our own (size in pixels or mm, coordinates in
-/// units, round joins) and the bitmaps beneath them.
+/// What plotters writes, with a head of our own (size in pixels or mm, coordinates in units, round
+/// joins), images beneath and spots above. Writing to a string cannot fail.
 fn svg(
-    elements: &str,
-    underlays: &[Underlay],
-    (width, height): (u32, u32),
+    canvas: &Canvas,
+    shapes: &[Shape],
     millimetres: Option<f64>,
 ) -> Result<String, PictureError> {
+    let size = canvas.root.dim_in_pixel();
+    let mut elements = String::new();
+    let mut backend = SVGBackend::with_string(&mut elements, size);
+    for shape in shapes {
+        let drawn = shape.draw(&mut backend);
+        drawn.map_err(|why| PictureError::Layout(why.to_string()))?;
+    }
+    drop(backend);
     let body = elements.split_once('>').map_or("", |(_, body)| body);
     // What all elements share is said once.
     let body = body
+        .trim_start()
+        .trim_end_matches("</svg>\n")
         .replace(" opacity=\"1\"", "")
         .replace(&format!(" font-family=\"{FAMILY}\""), "");
-    let [across, down] = [width, height].map(|side| match millimetres {
-        Some(pixel) => format!("{:.3}mm", f64::from(side) * pixel),
-        None => side.to_string(),
+    let [across, down] = [size.0, size.1].map(|side| match millimetres {
+        Some(pixel) => format!("{:.3}mm", f64::from(side) / UNITS * pixel),
+        None => (f64::from(side) / UNITS).to_string(),
     });
     let mut document = format!(
         "<svg width=\"{across}\" height=\"{down}\" viewBox=\"0 0 {} {}\" \
          stroke-linejoin=\"round\" font-family=\"{FAMILY}\" xmlns=\"http://www.w3.org/2000/svg\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>",
-        width * UNITS,
-        height * UNITS,
+         <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n",
+        size.0, size.1,
     );
-    for underlay in underlays {
-        let [left, top, right, bottom] = underlay.rectangle;
-        let data = STANDARD.encode(indexed_png(&underlay.bitmap)?);
-        // Writing to a string cannot fail.
-        let _ = write!(
+    for (bitmap, [left, top, right, bottom]) in &canvas.images {
+        let _ = writeln!(
             document,
-            "\n<image x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" \
-             preserveAspectRatio=\"none\" href=\"data:image/png;base64,{data}\"/>",
+            "<image x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" \
+             preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
             right - left,
             bottom - top,
+            STANDARD.encode(indexed_png(bitmap)?)
         );
     }
     document.push_str(&body);
+    for (corners, Spot { title, kind, value }) in &canvas.spots {
+        let corners = corners.iter().map(|(x, y)| format!("{x},{y}"));
+        let _ = writeln!(
+            document,
+            "<polygon data-{kind}=\"{value}\" opacity=\"0\" points=\"{}\"><title>{}</title>\
+             </polygon>",
+            corners.collect::<Vec<_>>().join(" "),
+            title.replace('&', "&amp;").replace('<', "&lt;"),
+        );
+    }
+    document.push_str("</svg>\n");
     Ok(document)
 }
 
-/// `fine`: pixels a unit.
-fn png(drawing: &Pixmap, underlays: &[Underlay], fine: f64) -> Result<Vec<u8>, PictureError> {
-    let mut page = drawing.clone();
+/// So many dots a unit, with smooth edges.
+fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureError> {
+    let size = canvas.root.dim_in_pixel();
+    let [width, height] = [size.0, size.1].map(|side| (f64::from(side) * dots).round() as u32);
+    let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
+    let mut page = Pixmap::new(width, height).ok_or_else(none)?;
     page.fill(Color::WHITE);
-    for underlay in underlays {
-        if let Some(image) = pixmap(&underlay.bitmap) {
-            let [left, top, right, bottom] = underlay.rectangle.map(|c| c as f32 * fine as f32);
-            draw_stretched(&mut page, &image, [left, top, right - left, bottom - top]);
+    let scaled = Transform::from_scale(dots as f32, dots as f32);
+    for (bitmap, place) in &canvas.images {
+        stretched(&mut page, bitmap, *place, scaled);
+    }
+    for shape in shapes {
+        let Some((path, transform)) = shape.path() else {
+            continue;
+        };
+        let (colour, width) = shape.paint();
+        let (r, g, b) = colour.rgb;
+        let mut paint = Paint::default();
+        paint.set_color_rgba8(r, g, b, (255.0 * colour.alpha).round() as u8);
+        let transform = scaled.pre_concat(transform);
+        match width {
+            Some(width) => {
+                let stroke = Stroke {
+                    width: width as f32,
+                    line_join: LineJoin::Round,
+                    ..Stroke::default()
+                };
+                page.stroke_path(&path, &paint, &stroke, transform, None);
+            }
+            None => page.fill_path(&path, &paint, FillRule::Winding, transform, None),
         }
     }
-    let paint = PixmapPaint::default();
-    page.draw_pixmap(0, 0, drawing.as_ref(), &paint, Transform::identity(), None);
     let rgb: Vec<u8> = page
         .pixels()
         .iter()
         .flat_map(|p| [p.red(), p.green(), p.blue()])
         .collect();
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, page.width(), page.height());
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     // Drawings, of few colours: filters and longer searches take time and make them no smaller.
     encoder.set_filter(png::Filter::NoFilter);
@@ -177,14 +160,27 @@ fn png(drawing: &Pixmap, underlays: &[Underlay], fine: f64) -> Result<Vec<u8>, P
     Ok(bytes)
 }
 
-fn pixmap(bitmap: &Bitmap) -> Option<Pixmap> {
-    let height = bitmap.pixels.len() / bitmap.width;
-    let mut pixmap = Pixmap::new(bitmap.width as u32, height as u32)?;
-    for (pixel, &index) in pixmap.pixels_mut().iter_mut().zip(&bitmap.pixels) {
+/// Draws an image stretched over a rectangle.
+fn stretched(page: &mut Pixmap, bitmap: &Bitmap, place: [i32; 4], scaled: Transform) {
+    let size = [bitmap.width, bitmap.pixels.len() / bitmap.width];
+    let Some(mut image) = Pixmap::new(size[0] as u32, size[1] as u32) else {
+        return;
+    };
+    for (pixel, &index) in image.pixels_mut().iter_mut().zip(&bitmap.pixels) {
         let [r, g, b] = bitmap.palette[index as usize];
-        *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255)?;
+        *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255).unwrap_or(*pixel);
     }
-    Some(pixmap)
+    let [left, top, right, bottom] = place.map(|c| c as f32);
+    let [across, down] = [
+        (right - left) / size[0] as f32,
+        (bottom - top) / size[1] as f32,
+    ];
+    let transform = scaled.pre_translate(left, top).pre_scale(across, down);
+    let paint = PixmapPaint {
+        quality: FilterQuality::Bilinear,
+        ..PixmapPaint::default()
+    };
+    page.draw_pixmap(0, 0, image.as_ref(), &paint, transform, None);
 }
 
 fn indexed_png(bitmap: &Bitmap) -> Result<Vec<u8>, png::EncodingError> {

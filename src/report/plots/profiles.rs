@@ -2,21 +2,21 @@
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
-use plotters::prelude::Color;
-use plotters::style::text_anchor::{HPos, VPos};
 
-use super::composition::{Composition, Panel, part};
+use plotters::style::Color;
+
+use super::axes::{Axis, Plot};
+use super::canvas::{Box4, Canvas, Pixel};
+use super::composition::{Composition, Panel};
 use super::labels::Labels;
-use super::marks::{Box4, Mark, Pixel, above, marker, polygon, polyline};
-use super::picture::{Area, PictureError};
+use super::marks::{Mark, above, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::style::{Axis, BLUE, GREEN, INK, LABEL, SMALL, SOFT, Text, VERMILLION, chart, pixel};
+use super::style::{Anchor, BLUE, GREEN, INK, LABEL, SMALL, SOFT, VERMILLION};
 use super::{energy, length};
 use crate::csv::{SEEN, table, thinned};
 use crate::names::place_name;
 use physics::landscape::{Barrier, Place, SaddleBounds};
-use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
 const PANEL_HEIGHT: f64 = 306.0;
@@ -33,23 +33,22 @@ pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composit
     let panel = |barrier: &&'a Barrier| {
         let barrier = *barrier;
         let [from, to] = [barrier.from, barrier.to].map(place_name);
-        let draw = move |root: &Area, _: &mut Vec<_>, place| {
-            draw_panel(root, place, scene, scale, barrier)
-        };
+        let draw =
+            move |canvas: &mut Canvas, place| Profile::draw(canvas, place, scene, scale, barrier);
         Panel::new(format!("{from}-{to}"), LEAST, |_| PANEL_HEIGHT, draw)
     };
-    let more = match barriers.len().saturating_sub(MOST) {
-        0 => None,
-        1 => Some("1 way out of a shallower state not shown".to_owned()),
-        more => Some(format!("{more} ways out of shallower states not shown")),
+    let note = match barriers.len().saturating_sub(MOST) {
+        0 => String::new(),
+        1 => "1 way out of a shallower state not shown".to_owned(),
+        more => format!("{more} ways out of shallower states not shown"),
     };
     (!barriers.is_empty()).then(|| Composition {
         name: "profiles".to_owned(),
         title: format!("{}: energy along the pathways out", scene.name),
-        note: more,
+        note,
         width: WIDTH,
         panels: barriers.iter().take(MOST).map(panel).collect(),
-        key: None,
+        ..Composition::default()
     })
 }
 
@@ -68,20 +67,6 @@ pub fn data(scene: &Scene) -> String {
     table(["from", "to", "s_m", "energy_J"], rows)
 }
 
-/// A panel's plot: where its points lie on the picture.
-struct PathwayPlot<'a, 'b> {
-    root: &'a Area<'b>,
-    scene: &'a Scene<'a>,
-    scale: &'a EnergyScale,
-    barrier: &'a Barrier,
-    /// Pixel of a length along the pathway (m) and an energy (J).
-    at: &'a dyn Fn(f64, f64) -> Pixel,
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-}
-
 /// The length (m) a panel shows: of an end that lies below the energy `low` (J) nothing.
 fn shown_length(barrier: &Barrier, low: f64) -> f64 {
     let path = &barrier.pathway;
@@ -91,45 +76,9 @@ fn shown_length(barrier: &Barrier, low: f64) -> f64 {
     seen.min(whole).max(f64::MIN_POSITIVE)
 }
 
-fn draw_panel(
-    root: &Area,
-    place: Box4,
-    scene: &Scene,
-    scale: &EnergyScale,
-    barrier: &Barrier,
-) -> Result<(), PictureError> {
-    let path = &barrier.pathway;
-    let (low, high) = shown_energies(barrier);
-    let start = path[0].s;
-    let length = shown_length(barrier, low);
-    // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
-    let (joule, prefix) = prefix_of(0.999 * low.abs().max(high.abs()));
-    let (metre, metre_prefix) = prefix_of(0.999 * length);
-    let name = format!("length of the pathway ({metre_prefix}m)");
-    let x_axis = Axis::linear(0.0..length / metre, 7, name);
-    let name = format!("energy U ({prefix}J)");
-    let y_axis = Axis::linear(low / joule..high / joule, 6, name);
-    let area = part(root, place);
-    let chart = chart(&area, MARGIN, &x_axis, &y_axis, true)?;
-    let at = |s: f64, energy: f64| pixel(&chart, (s - start) / metre, energy / joule);
-    let (corner, opposite) = (at(start, high), at(start + length, low));
-    PathwayPlot {
-        root,
-        scene,
-        scale,
-        barrier,
-        at: &at,
-        left: corner.0,
-        top: corner.1,
-        right: opposite.0,
-        bottom: opposite.1,
-    }
-    .draw()
-}
-
 /// The energies (J) a panel shows: zero, the saddle with its bounds and the start for certain; of
 /// an end that lies far below the start only the beginning of the fall.
-fn shown_energies(barrier: &Barrier) -> (f64, f64) {
+fn shown_energies(barrier: &Barrier) -> [f64; 2] {
     let energies = || barrier.pathway.iter().map(|p| p.energy);
     let SaddleBounds { lower, upper, .. } = barrier.bounds;
     let high = energies().fold(
@@ -145,115 +94,115 @@ fn shown_energies(barrier: &Barrier) -> (f64, f64) {
         lowest
     };
     let span = (high - low).max(f64::MIN_POSITIVE);
-    (low - 0.06 * span, high + 0.16 * span)
+    [low - 0.06 * span, high + 0.16 * span]
 }
 
-impl PathwayPlot<'_, '_> {
-    fn draw(&self) -> Result<(), PictureError> {
-        let barrier = self.barrier;
-        let names = [barrier.from, barrier.to].map(|place| self.scene.name_of(place));
-        Text::new(LABEL).bold().write(
-            self.root,
-            &format!("{} \u{2192} {}", names[0], names[1]),
-            (self.left, self.top - 25.0),
-            (HPos::Left, VPos::Bottom),
-        )?;
-        self.bounds()?;
-        let zero = (self.at)(0.0, 0.0).1;
-        polyline(
-            self.root,
-            &[(self.left, zero), (self.right, zero)],
-            INK,
-            1.6,
-        )?;
+/// The profile of a pathway in the making.
+struct Profile<'a> {
+    scene: &'a Scene<'a>,
+    scale: &'a EnergyScale,
+    barrier: &'a Barrier,
+    plot: Plot,
+    labels: Labels,
+}
 
-        let curve: Vec<Pixel> = barrier
-            .pathway
-            .iter()
-            .map(|p| (self.at)(p.s, p.energy))
-            .collect();
-        let pieces = above(&curve, self.bottom);
-        for piece in &pieces {
-            polyline(self.root, piece, BLUE, 2.4)?;
-        }
-        let frame = [
-            self.left + 2.0,
-            self.top + 2.0,
-            self.right - 2.0,
-            self.bottom - 2.0,
+impl<'a> Profile<'a> {
+    fn draw(
+        canvas: &mut Canvas,
+        place: Box4,
+        scene: &'a Scene,
+        scale: &'a EnergyScale,
+        barrier: &'a Barrier,
+    ) {
+        let range = shown_energies(barrier);
+        let along = [0.0, shown_length(barrier, range[0])];
+        let axes = [
+            Axis::quantity(along, "m", 7, "length of the pathway"),
+            Axis::quantity(range, "J", 6, "energy U"),
         ];
-        let mut labels = Labels::new(frame);
+        let plot = Plot::new(canvas, place, MARGIN, axes, true);
+        let [left, top, right, bottom] = plot.frame;
+        let names = [barrier.from, barrier.to].map(|place| scene.name_of(place));
+        let heading = format!("{} \u{2192} {}", names[0], names[1]);
+        canvas.write(
+            LABEL.bold(),
+            &heading,
+            (left, top - 25.0),
+            Anchor::BottomLeft,
+        );
+        let labels = Labels::new([left + 2.0, top + 2.0, right - 2.0, bottom - 2.0]);
+        let mut profile = Profile {
+            scene,
+            scale,
+            barrier,
+            plot,
+            labels,
+        };
+        profile.bounds(canvas);
+        let zero = profile.plot.level(0.0);
+        canvas.line(&zero, INK, 1.6);
+        let path = barrier.pathway.iter();
+        let curve: Vec<Pixel> = path.map(|p| profile.at(p.s, p.energy)).collect();
+        let pieces = above(&curve, bottom);
         for piece in &pieces {
-            labels.keep_off_line(piece);
+            canvas.line(piece, BLUE, 2.4);
+            profile.labels.keep_off_line(piece);
         }
-        labels.keep_off_line(&[(self.left, zero), (self.right, zero)]);
-        self.barrier(&mut labels)?;
-        self.ends(&mut labels, &curve)
+        profile.labels.keep_off_line(&zero);
+        profile.saddle(canvas);
+        profile.ends(canvas, &curve);
+    }
+
+    /// Where a length along the pathway (m) and an energy (J) lie.
+    fn at(&self, s: f64, energy: f64) -> Pixel {
+        self.plot.at(s - self.barrier.pathway[0].s, energy)
     }
 
     /// The certified bounds of the saddle energy as a band with its figures.
-    fn bounds(&self) -> Result<(), PictureError> {
+    fn bounds(&self, canvas: &mut Canvas) {
         let Some((lower, upper)) = self.barrier.bounds.both() else {
-            return Ok(());
+            return;
         };
-        let top = (self.at)(0.0, upper).1;
-        let bottom = (self.at)(0.0, lower).1.max(top + 2.0);
-        let band = [
-            (self.left, top),
-            (self.right, top),
-            (self.right, bottom),
-            (self.left, bottom),
-        ];
-        polygon(self.root, &band, GREEN.mix(0.35), None)?;
+        let [(left, top), (right, _)] = self.plot.level(upper);
+        let bottom = self.plot.level(lower)[0].1.max(top + 2.0);
+        canvas.block([left, top, right, bottom], GREEN.mix(0.35));
         let [lower, upper] = [lower, upper].map(|u| self.scale.label(u, 4));
-        Text::new(SMALL).colour(GREEN).write(
-            self.root,
-            &format!("certified {lower} to {upper}"),
-            (self.left, self.top - 7.0),
-            (HPos::Left, VPos::Bottom),
-        )
+        let text = format!("certified {lower} to {upper}");
+        let at = (left, self.plot.frame[1] - 7.0);
+        canvas.write(SMALL.colour(GREEN), &text, at, Anchor::BottomLeft);
     }
 
     /// The saddle, and an arrow from the start's energy up to it.
-    fn barrier(&self, labels: &mut Labels) -> Result<(), PictureError> {
+    fn saddle(&mut self, canvas: &mut Canvas) {
         let barrier = self.barrier;
         let path = &barrier.pathway;
         let Some(top) = path.iter().max_by_key(|p| OrderedFloat(p.energy)) else {
-            return Ok(());
+            return;
         };
-        let saddle = (self.at)(top.s, barrier.saddle_energy);
-        let foot = (self.at)(top.s, barrier.from_energy);
-        let start = (self.at)(path[0].s, barrier.from_energy);
-        polyline(self.root, &[start, foot], SOFT, 0.8)?;
+        let saddle = self.at(top.s, barrier.saddle_energy);
+        let foot = self.at(top.s, barrier.from_energy);
+        canvas.line(&[self.at(path[0].s, barrier.from_energy), foot], SOFT, 0.8);
         if foot.1 - saddle.1 > 12.0 {
             let (x, y) = saddle;
-            polyline(self.root, &[saddle, foot], VERMILLION, 1.6)?;
-            polyline(
-                self.root,
-                &[(x - 4.5, y + 15.0), (x, y + 7.0), (x + 4.5, y + 15.0)],
-                VERMILLION,
-                1.6,
-            )?;
-            labels.keep_off_line(&[saddle, foot]);
+            let head = [(x - 4.5, y + 15.0), (x, y + 7.0), (x + 4.5, y + 15.0)];
+            canvas.line(&[saddle, foot], VERMILLION, 1.6);
+            canvas.line(&head, VERMILLION, 1.6);
+            self.labels.keep_off_line(&[saddle, foot]);
         }
-        marker(self.root, Mark::Saddle, saddle, 5.0)?;
-        labels.keep_off(saddle, 6.0);
+        marker(canvas, Mark::Saddle, saddle, 5.0);
+        self.labels.keep_off(saddle, 6.0);
         let text = format!("saddle {}", self.scale.label(barrier.saddle_energy, 4));
-        labels.place(
-            self.root,
-            &text,
-            Text::new(SMALL),
-            saddle,
-            Vector2::new(0.3, -1.0),
-        )?;
+        self.labels
+            .place(canvas, &text, SMALL, saddle, Vector2::new(0.3, -1.0));
         let text = format!("barrier {}", self.scale.label(barrier.forward(), 4));
         let middle = (foot.0, (foot.1 + saddle.1) / 2.0);
-        let font = Text::new(SMALL).bold().colour(VERMILLION);
-        labels.place(self.root, &text, font, middle, Vector2::new(1.0, 0.0))
+        let font = SMALL.bold().colour(VERMILLION);
+        self.labels
+            .place(canvas, &text, font, middle, Vector2::new(1.0, 0.0));
     }
 
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
-    fn ends(&self, labels: &mut Labels, curve: &[Pixel]) -> Result<(), PictureError> {
+    fn ends(&mut self, canvas: &mut Canvas, curve: &[Pixel]) {
         let barrier = self.barrier;
         // A way to `free` ends where the tiles are apart, not where the energy is zero.
         let name = |place: Place, energy: f64| match place {
@@ -264,23 +213,24 @@ impl PathwayPlot<'_, '_> {
                 self.scale.label(energy, 4)
             ),
         };
-        let font = Text::new(SMALL);
-        marker(self.root, self.scene.mark_of(barrier.from), curve[0], 6.5)?;
-        labels.keep_off(curve[0], 7.0);
         let text = name(barrier.from, barrier.from_energy);
-        labels.place(self.root, &text, font, curve[0], Vector2::new(0.8, 0.6))?;
-
-        let end = curve[curve.len() - 1];
-        let text = name(barrier.to, barrier.to_energy);
-        if end.1 <= self.bottom {
-            marker(self.root, self.scene.mark_of(barrier.to), end, 6.5)?;
-            labels.keep_off(end, 7.0);
-            labels.place(self.root, &text, font, end, Vector2::new(-0.8, -0.3))
+        let far = name(barrier.to, barrier.to_energy);
+        marker(canvas, self.scene.mark_of(barrier.from), curve[0], 6.5);
+        self.labels.keep_off(curve[0], 7.0);
+        self.labels
+            .place(canvas, &text, SMALL, curve[0], Vector2::new(0.8, 0.6));
+        let (end, bottom) = (curve[curve.len() - 1], self.plot.frame[3]);
+        if end.1 <= bottom {
+            marker(canvas, self.scene.mark_of(barrier.to), end, 6.5);
+            self.labels.keep_off(end, 7.0);
+            self.labels
+                .place(canvas, &far, SMALL, end, Vector2::new(-0.8, -0.3));
         } else {
-            let text = format!("\u{2193} {text}");
-            let seen = curve.iter().rfind(|p| p.1 <= self.bottom - 12.0);
-            let exit = seen.copied().unwrap_or((end.0, self.bottom - 12.0));
-            labels.place(self.root, &text, font, exit, Vector2::new(-1.0, 0.0))
+            let text = format!("\u{2193} {far}");
+            let seen = curve.iter().rfind(|p| p.1 <= bottom - 12.0);
+            let exit = seen.copied().unwrap_or((end.0, bottom - 12.0));
+            self.labels
+                .place(canvas, &text, SMALL, exit, Vector2::new(-1.0, 0.0));
         }
     }
 }

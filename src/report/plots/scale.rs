@@ -1,5 +1,9 @@
 //! Energies as positions and colours.
 
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::types::RangedCoordf64;
+
+use super::style::minus;
 use physics::order::Order;
 use physics::units::si;
 
@@ -27,11 +31,6 @@ pub const VIK: [[u8; 3]; 17] = [
     [116, 21, 6],
     [89, 0, 8],
 ];
-
-/// Colours of the hatching of what is blocked.
-pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
-/// Steps of colour in a heat map.
-pub const COLOURS: usize = 250;
 
 /// Colour of a position from -1 (most negative) over 0 to 1.
 pub fn colour(position: f64) -> [u8; 3] {
@@ -110,10 +109,7 @@ impl EnergyScale {
     /// linear scale.
     pub fn ticks(&self, low: f64, high: f64) -> Vec<f64> {
         if self.is_linear {
-            let step = round_step((high - low) * self.most / 8.0);
-            let ends = [low, high].map(|end| end * self.most / step);
-            let steps = ends[0].ceil() as i64..=ends[1].floor() as i64;
-            return steps.map(|k| k as f64 * step).collect();
+            return round_numbers([low, high].map(|end| end * self.most), 9);
         }
         let top = libm::log10(self.most).floor() as i32;
         let powers = (top - Self::DECADES + 1..=top).map(|k| 10f64.powi(k));
@@ -140,19 +136,16 @@ impl EnergyScale {
     }
 }
 
-/// The round number 1, 2 or 5 times a power of ten nearest above `step`.
-pub fn round_step(step: f64) -> f64 {
-    let power = libm::pow(10f64, libm::log10(step).floor());
-    let multiple = [1.0, 2.0, 5.0]
-        .into_iter()
-        .find(|m| m * power >= step * (1.0 - 1e-9))
-        .unwrap_or(10.0);
-    multiple * power
-}
-
-/// A number's text with a true minus sign.
-pub fn minus(text: &str) -> String {
-    text.replace('-', "\u{2212}")
+/// Round numbers, evenly apart, from one number to another: as many as plotters finds, at most so many.
+pub fn round_numbers([low, high]: [f64; 2], most: usize) -> Vec<f64> {
+    let mut numbers = RangedCoordf64::from(low..high).key_points(BoldPoints(most));
+    // What is only rounding is zero.
+    for number in &mut numbers {
+        if number.abs() < 1e-9 * (high - low) {
+            *number = 0.0;
+        }
+    }
+    numbers
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ impl Sheet {
     /// # Errors
     /// The least and the greatest width (mm) that text of this size can have, where it has not.
     pub fn for_print(width: f64, font: f64) -> Result<Self, [f64; 2]> {
-        let pixel = font * POINT / SMALL;
+        let pixel = font * POINT / SMALL.size;
         let limits = [NARROWEST * pixel, WIDEST * pixel];
         if !(limits[0]..=limits[1]).contains(&width) {
             return Err(limits);
@@ -119,7 +119,7 @@ mod tests {
     fn text_is_as_high_as_it_was_asked_for() {
         let sheet = Sheet::for_print(85.0, 7.0).unwrap();
         let pixel = sheet.millimetres().unwrap();
-        assert!((SMALL * pixel / POINT - 7.0).abs() < 0.01);
+        assert!((SMALL.size * pixel / POINT - 7.0).abs() < 0.01);
         assert!((sheet.width(1000.0) * pixel - 85.0).abs() < 1e-9);
         assert_eq!(Sheet::SCREEN.width(1000.0), 1000.0);
         let page = Sheet::of_pixels(0.18);

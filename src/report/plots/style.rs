@@ -1,16 +1,16 @@
-//! What all pictures have in common: colours, text, axes.
+//! What all pictures have in common: colours and sizes of text.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
-use plotters::prelude::*;
-use plotters::style::FontFamily;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
+use plotters_backend::BackendCoord;
 
-use super::canvas::Canvas;
-use super::picture::{Area, PictureError, UNITS};
-use super::scale::{minus, round_step};
-use super::shapes::{PLOTTERS_FONT_SCALE, text_width};
+use super::font::{FAMILY, width};
+
+/// Drawing units in a pixel. plotters places everything on whole units; tenths of a pixel keep gentle
+/// slopes smooth.
+pub const UNITS: f64 = 10.0;
+/// Text of this size in plotters is set with a font of the size divided by this.
+pub const FONT_SCALE: f64 = 1.24;
 
 pub const INK: RGBColor = RGBColor(34, 34, 34);
 pub const SOFT: RGBColor = RGBColor(105, 105, 105);
@@ -23,40 +23,61 @@ pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub const YELLOW: RGBColor = RGBColor(240, 228, 66);
 pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 
-/// Fonts of about the width that labels are laid out for, the last of them any browser's own.
-pub const FAMILY: &str = "Noto Sans, Helvetica, Arial, sans-serif";
-/// Sizes of text (pixels).
-pub const TITLE: f64 = 20.0;
-pub const LABEL: f64 = 15.0;
-pub const SMALL: f64 = 13.0;
-/// Space left of and below the names of axes (pixels).
-const EDGE: f64 = 12.0;
+/// The colours of series.
+pub const COLOURS: [RGBColor; 7] = [
+    BLUE,
+    VERMILLION,
+    GREEN,
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    INK,
+];
 
 /// Pixels as drawing units.
-pub fn units(pixels: f64) -> i32 {
-    (pixels * f64::from(UNITS)).round() as i32
+pub fn unit(pixels: f64) -> i32 {
+    (pixels * UNITS).round() as i32
 }
 
-/// A point in pixels as drawing units.
-pub fn point((x, y): (f64, f64)) -> (i32, i32) {
-    (units(x), units(y))
+/// Points in pixels as drawing units.
+pub fn units(points: &[(f64, f64)]) -> Vec<BackendCoord> {
+    points.iter().map(|(x, y)| (unit(*x), unit(*y))).collect()
 }
 
 /// A line of this width (pixels).
-pub fn line(colour: impl Color, width: f64) -> ShapeStyle {
-    colour.stroke_width(units(width).max(1) as u32)
+pub fn stroke(colour: impl Color, width: f64) -> ShapeStyle {
+    colour.stroke_width(unit(width).max(1) as u32)
 }
 
-/// Text of this size (pixels).
-#[derive(Clone, Copy, Debug)]
+/// Which point of a text is named by its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    TopLeft,
+    Top,
+    TopRight,
+    Left,
+    Middle,
+    Right,
+    BottomLeft,
+    Bottom,
+    BottomRight,
+}
+
+/// How a text looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Text {
+    /// Pixels.
     pub size: f64,
     pub bold: bool,
     pub colour: RGBColor,
 }
 
+pub const TITLE: Text = Text::of(20.0);
+pub const LABEL: Text = Text::of(15.0);
+pub const SMALL: Text = Text::of(13.0);
+
 impl Text {
-    pub const fn new(size: f64) -> Self {
+    pub const fn of(size: f64) -> Self {
         Self {
             size,
             bold: false,
@@ -72,159 +93,52 @@ impl Text {
         Self { colour, ..self }
     }
 
-    /// Width of a text (pixels). Other fonts may be a tenth wider.
-    pub fn width(&self, text: &str) -> f64 {
-        text_width(text, self.bold) * self.size
-    }
-
-    pub fn style(&self, horizontal: HPos, vertical: VPos) -> TextStyle<'static> {
-        let size = self.size * f64::from(UNITS) * PLOTTERS_FONT_SCALE;
-        let weight = if self.bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
+    /// For plotters.
+    pub fn style(self, anchor: Anchor) -> TextStyle<'static> {
+        let weight = match self.bold {
+            true => FontStyle::Bold,
+            false => FontStyle::Normal,
         };
-        FontDesc::new(FontFamily::Name(FAMILY), size, weight)
-            .color(&self.colour)
-            .pos(Pos::new(horizontal, vertical))
+        let across = [HPos::Left, HPos::Center, HPos::Right][anchor as usize % 3];
+        let down = [VPos::Top, VPos::Center, VPos::Bottom][anchor as usize / 3];
+        FontDesc::new(
+            FontFamily::Name(FAMILY),
+            self.size * UNITS * FONT_SCALE,
+            weight,
+        )
+        .color(&self.colour)
+        .pos(Pos::new(across, down))
     }
 
-    /// Writes `text` at a point (pixels).
-    pub fn write(
-        &self,
-        root: &Area,
-        text: &str,
-        at: (f64, f64),
-        (horizontal, vertical): (HPos, VPos),
-    ) -> Result<(), PictureError> {
-        let style = self.style(horizontal, vertical);
-        root.draw(&plotters::element::Text::new(
-            text.to_owned(),
-            point(at),
-            style,
-        ))?;
-        Ok(())
+    /// Width of a text (pixels).
+    pub fn width(&self, text: &str) -> f64 {
+        width(text, self.bold) * self.size
     }
-}
 
-/// One axis of a chart: its range, the ticks with their labels, and what is plotted.
-#[derive(Clone, Debug)]
-pub struct Axis {
-    pub range: Range<f64>,
-    pub ticks: Vec<(f64, String)>,
-    pub name: String,
-}
+    /// Room for a text (pixels): other fonts may be a tenth wider.
+    pub fn room(&self, text: &str) -> f64 {
+        1.08 * self.width(text)
+    }
 
-impl Axis {
-    /// An axis with about `count` evenly spaced ticks at round numbers.
-    pub fn linear(range: Range<f64>, count: usize, name: impl Into<String>) -> Self {
-        let step = round_step((range.end - range.start) / count as f64);
-        let decimals = (-libm::log10(step).floor()).max(0.0) as usize;
-        let (first, last) = (
-            (range.start / step - 1e-9).ceil() as i64,
-            (range.end / step + 1e-9).floor() as i64,
-        );
-        let ticks = (first..=last)
-            .map(|k| {
-                let value = k as f64 * step;
-                (value, minus(&format!("{value:.decimals$}")))
-            })
-            .collect();
-        Self {
-            range,
-            ticks,
-            name: name.into(),
+    /// A text in lines that fit into so many pixels, as far as its words do.
+    pub fn lines(&self, text: &str, room: f64) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for word in text.split_whitespace() {
+            match lines.last_mut() {
+                Some(line) if self.room(&format!("{line} {word}")) <= room => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
         }
-    }
-
-    /// An axis of decimal logarithms with a tick at each power of ten, marked by that power.
-    pub fn decades(range: Range<f64>, name: impl Into<String>) -> Self {
-        let ticks = (range.start.ceil() as i32..=range.end.floor() as i32)
-            .map(|power| (f64::from(power), format!("{}", 10f64.powi(power))))
-            .collect();
-        Self {
-            range,
-            ticks,
-            name: name.into(),
-        }
+        lines
     }
 }
 
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (low, high): (i32, i32)) -> i32 {
-        let t = (value - self.range.start) / (self.range.end - self.range.start);
-        low + (t * f64::from(high - low)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        self.ticks.iter().map(|(value, _)| *value).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range.clone()
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format(value: &f64) -> String {
-        value.to_string()
-    }
-
-    fn format_ext(&self, value: &f64) -> String {
-        let tick = self.ticks.iter().find(|(tick, _)| tick == value);
-        tick.map_or_else(String::new, |(_, label)| label.clone())
-    }
-}
-
-pub type Chart<'a, 'b> = ChartContext<'a, Canvas<'b>, Cartesian2d<Axis, Axis>>;
-
-/// A chart with its axes, filling `area` but for the margins (pixels: top, right, bottom, left),
-/// which hold the tick labels and names of the axes as well.
-pub fn chart<'a, 'b>(
-    area: &'a Area<'b>,
-    [top, right, bottom, left]: [f64; 4],
-    x: &Axis,
-    y: &Axis,
-    mesh: bool,
-) -> Result<Chart<'a, 'b>, PictureError> {
-    let mut chart = ChartBuilder::on(area)
-        .margin_top(units(top))
-        .margin_right(units(right))
-        .margin_left(units(EDGE))
-        .margin_bottom(units(EDGE))
-        .x_label_area_size(units(bottom - EDGE))
-        .y_label_area_size(units(left - EDGE))
-        .build_cartesian_2d(x.clone(), y.clone())?;
-    let text = Text::new(LABEL);
-    let small = Text::new(SMALL);
-    let mut style = chart.configure_mesh();
-    if !mesh {
-        style.disable_mesh();
-    }
-    style
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(line(GRID, 1.0))
-        .axis_style(line(INK, 1.0))
-        .set_all_tick_mark_size(units(5.0))
-        .x_label_style(small.style(HPos::Center, VPos::Top))
-        .y_label_style(small.style(HPos::Right, VPos::Center))
-        .axis_desc_style(text.style(HPos::Center, VPos::Top))
-        .x_desc(x.name.clone())
-        .y_desc(y.name.clone())
-        .draw()?;
-    Ok(chart)
-}
-
-/// Where a point of a chart lies on the picture (pixels).
-pub fn pixel(chart: &Chart, x: f64, y: f64) -> (f64, f64) {
-    let (x, y) = chart.backend_coord(&(x, y));
-    (
-        f64::from(x) / f64::from(UNITS),
-        f64::from(y) / f64::from(UNITS),
-    )
+/// A number's text with a true minus sign.
+pub fn minus(text: &str) -> String {
+    text.replace('-', "\u{2212}")
 }
 
 #[cfg(test)]
@@ -232,23 +146,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round_numbers_within_the_range() {
-        let labels = |axis: Axis| -> Vec<String> {
-            axis.ticks.into_iter().map(|(_, label)| label).collect()
-        };
-        let wide = labels(Axis::linear(-0.73..0.73, 7, "x (m)"));
-        assert_eq!(wide, ["\u{2212}0.5", "0.0", "0.5"]);
-        let gaps = labels(Axis::linear(0.0..86.0, 9, "gap (mm)"));
-        assert_eq!(gaps[..3], ["0", "10", "20"]);
-        assert_eq!(gaps.len(), 9);
-    }
-
-    #[test]
     fn text_has_the_width_of_its_font() {
-        let text = Text::new(20.0);
-        assert_eq!(text.width(""), 0.0);
+        assert_eq!(TITLE.width(""), 0.0);
         // Digits of Noto Sans are 0.572 em wide.
-        assert!((text.width("00") - 22.88).abs() < 0.01);
-        assert!(text.bold().width("m") > text.width("m"));
+        assert!((TITLE.width("00") - 22.88).abs() < 0.01);
+        assert!(TITLE.bold().width("m") > TITLE.width("m"));
     }
 }

@@ -40,7 +40,7 @@ fn of_sought(sought: &Sought) -> Document<'_> {
     let set = file::of_words(&headline, words, bar, sought.side());
     let mut pictures = Vec::new();
     if let Some(map) = &map {
-        pictures.push(map.picture().off_page());
+        pictures.push(map.picture());
         pictures.push(histogram("Gaps of all pairs of words", sought.gaps()).into());
     }
     if !answer.frontier.is_empty() {

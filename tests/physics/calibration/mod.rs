@@ -9,9 +9,7 @@ use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::calibration::{
-    Calibration, CalibrationError, CalibrationSettings, Row, Specimen, calibrate,
-};
+use tilebind::calibration::{Calibration, CalibrationSettings, Row, Specimen, calibrate};
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{MagnetModel, Potential, ShieldedPotential};
 use tilebind::tile::{Face, Magnet, Outline, Tile};
@@ -97,11 +95,11 @@ fn measurements_with(noise: f64, fixed_shields: &[Option<Shield>; 4]) -> Vec<Row
         .collect()
 }
 
-fn fit(rows: &[Row]) -> Result<Calibration, CalibrationError> {
+fn fit(rows: &[Row]) -> Result<Calibration, String> {
     fit_with(rows, &Shields::default())
 }
 
-fn fit_with(rows: &[Row], shields: &Shields) -> Result<Calibration, CalibrationError> {
+fn fit_with(rows: &[Row], shields: &Shields) -> Result<Calibration, String> {
     let specimen = Specimen {
         model: MagnetModel::Dipole,
         fixed: &tile(1.0),
@@ -148,7 +146,7 @@ fn only_the_faces_that_had_shields_are_fitted() {
 fn a_pose_at_which_the_tiles_overlap_is_refused_with_its_line() {
     let mut rows = measurements(0.0);
     rows[7].configuration = Configuration::new(0.09, 0.0, 0.0);
-    let message = fit(&rows).unwrap_err().to_string();
+    let message = fit(&rows).unwrap_err();
     assert!(
         message.starts_with("line 9: the tiles overlap by 10.00 mm"),
         "{message}"
@@ -182,5 +180,5 @@ fn noise_shows_in_the_rows_held_out_and_the_errors_cover_the_truth() {
 #[test]
 fn too_few_rows_are_refused() {
     let rows = measurements(0.0);
-    assert!(matches!(fit(&rows[..2]), Err(CalibrationError::TooFew(_))));
+    assert!(fit(&rows[..2]).unwrap_err().contains("too few to fit"));
 }

@@ -55,7 +55,11 @@ fn a_flush_face_may_slide_and_leave_but_not_enter_or_turn() {
     let (contact, q) = flush();
     let constraints = contact.constraints(&q, 1e-6);
     let metric = Matrix3::identity();
-    let go = |v: Vector3<f64>| closest_admissible(v, &metric, &constraints).unwrap().0;
+    let go = |v: Vector3<f64>| {
+        closest_admissible((v, 1.0), &metric, &constraints)
+            .unwrap()
+            .0
+    };
     let slide = Vector3::new(0.0, 1.0, 0.0);
     assert!((go(slide) - slide).norm() < 1e-12);
     let leave = Vector3::new(1.0, 0.3, 0.1);
@@ -75,7 +79,7 @@ fn coinciding_corners_do_not_hinder_sliding_either_way() {
     for dy in [-1.0, 1.0] {
         let wanted = Vector3::new(-0.5, dy, 0.0);
         let (go, multipliers) =
-            closest_admissible(wanted, &Matrix3::identity(), &constraints).unwrap();
+            closest_admissible((wanted, 1.0), &Matrix3::identity(), &constraints).unwrap();
         assert!((go - Vector3::new(0.0, dy, 0.0)).norm() < 1e-12);
         assert!(multipliers.iter().all(|m| *m >= 0.0));
     }
@@ -86,7 +90,7 @@ fn mated_teeth_only_let_go_outwards() {
     let contact = Contact::new(&saw(false), &saw(true));
     let constraints = contact.constraints(&Configuration::new(0.4, 0.0, 0.0), 1e-6);
     let go = |v| {
-        closest_admissible(v, &Matrix3::identity(), &constraints)
+        closest_admissible((v, 1.0), &Matrix3::identity(), &constraints)
             .unwrap()
             .0
     };

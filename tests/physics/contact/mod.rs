@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::contact::{Contact, TOUCH};
+use tilebind::contact::Contact;
 use tilebind::tile::Outline;
 use tilebind::tile::outline::distance_to_segment;
 
@@ -103,7 +103,7 @@ fn clearance_agrees_with_a_plain_distance_of_segments() {
                 rng.random_range(-3.1..3.1),
             );
             let clearance = contact.clearance(&q);
-            assert_eq!(clearance >= -TOUCH, contact.is_free(&q));
+            assert_eq!(clearance >= -contact.touch(), contact.is_free(&q));
             if clearance > 0.0 {
                 compared += 1;
                 assert!(

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::contact::{Contact, Halves, TOUCH};
+use tilebind::contact::{Contact, Halves};
 
 use super::{saw, square};
 
@@ -28,7 +28,7 @@ fn flush_sliding_is_free_and_cheap_to_prove() {
     let contact = Contact::new(&square(0.4), &square(0.4));
     let a = Configuration::new(0.4, -0.3, 0.0);
     let b = Configuration::new(0.4, 0.3, 0.0);
-    assert!(contact.stays_separated(&a, &b, TOUCH));
+    assert!(contact.stays_separated(&a, &b, contact.touch()));
     assert!(contact.motion_is_free(&a, &b));
 }
 
@@ -93,7 +93,7 @@ fn a_proved_motion_is_free_wherever_it_is_looked_at() {
 fn flush_sliding_is_proved_with_touch_and_refused_where_room_is_asked_for() {
     let contact = Contact::new(&square(0.4), &square(0.4));
     let at = |x: f64, y: f64| Configuration::new(x, y, 0.0);
-    assert!(contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), TOUCH));
+    assert!(contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), contact.touch()));
     assert!(!contact.stays_separated(&at(0.4, -0.3), &at(0.4, 0.3), -1e-12));
     assert!(contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0009));
     assert!(!contact.stays_separated(&at(0.401, -0.3), &at(0.401, 0.3), -0.0011));
@@ -119,7 +119,8 @@ fn what_is_lent_to_many_motions_changes_no_verdict() {
                 continue;
             };
             let known = [a, b].map(|q| contact.known(q));
-            let verdict = contact.known_motion_overlaps_at_most(known.each_ref(), TOUCH, &mut left);
+            let verdict =
+                contact.known_motion_overlaps_at_most(known.each_ref(), contact.touch(), &mut left);
             assert_eq!(verdict, contact.motion_is_free(&a, &b), "{a:?} {b:?}");
             counts[usize::from(verdict)] += 1;
         }

@@ -9,7 +9,7 @@ use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::potential::{DipolePotential, Potential};
 use tilebind::tile::Tile;
-use tilebind::tile::profile::CHORD_ERROR;
+use tilebind::tile::profile::CHORD_SHARE;
 
 use super::{changed, files, magnets_of_face};
 use crate::designs;
@@ -162,7 +162,7 @@ fn a_magnet_sits_behind_the_line_at_its_place() {
         let s = magnet.position.y;
         let surface = 0.215 + 0.010 * (TAU * 4.0 * s / 0.43).sin();
         let expected = surface - 0.004 - 0.005;
-        assert!((magnet.position.x - expected).abs() <= CHORD_ERROR);
+        assert!((magnet.position.x - expected).abs() <= CHORD_SHARE * 0.020);
     }
 }
 

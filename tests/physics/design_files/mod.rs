@@ -7,6 +7,7 @@ mod excess;
 mod geometry;
 mod shields;
 mod starter;
+mod tolerance;
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
@@ -150,6 +151,35 @@ fn a_terse_design_takes_the_defaults() {
     );
     assert_eq!(design.pair.moving.magnets[0].moment, 0.5);
     assert_eq!(design.pair.bound, Configuration::new(0.4, 0.0, 0.0));
+}
+
+#[test]
+fn magnets_are_read_as_shops_sell_them() {
+    let design = designs::load("tests/designs/good/shop.toml");
+    let of = |tile: &Tile, face: &str| {
+        let magnets = tile.magnets.iter();
+        let mut own = magnets.filter(|magnet| tile.faces[magnet.face].name == face);
+        own.next().unwrap().clone()
+    };
+    let [fixed, moving] = [&design.pair.fixed, &design.pair.moving];
+    let east = of(fixed, "east");
+    for size in east.size {
+        assert!((size - 0.0127).abs() < 1e-17);
+    }
+    for (tile, face, remanence) in [
+        (fixed, "east", 1.30),
+        (fixed, "west", 1.2),
+        (moving, "west", 1.30),
+        (moving, "north", 0.39),
+    ] {
+        let found = of(tile, face).remanence();
+        assert!((found - remanence).abs() < 1e-12, "{face}: {found}");
+    }
+    let pulls = tilebind::tile::strength::pull(east.size, of(fixed, "north").remanence());
+    assert!((pulls / (5.0 * 9.806_65) - 1.0).abs() < 1e-12);
+    assert!((design.pitch.unwrap() - 0.0381).abs() < 1e-15);
+    assert!((fixed.mass - 0.113_398_092_5).abs() < 1e-12 && moving.mass == 0.11);
+    assert_eq!(design.sold.len(), 3, "{:?}", design.sold);
 }
 
 #[test]

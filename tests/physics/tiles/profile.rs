@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use tilebind::tile::profile::{CHORD_ERROR, Polyline, Profile, ProfileError, Waveform, complement};
+use tilebind::tile::profile::{
+    CHORD_SHARE, CHORD_SHARE_OF_RADIUS, Polyline, Profile, ProfileError, Waveform, complement,
+};
 
 fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, ProfileError> {
     let tab = Profile::Tab {
@@ -91,7 +93,7 @@ fn teeth_follow_their_formula() {
         Waveform::Square => phase(s).sin().signum(),
     };
     for (form, tolerance) in [
-        (Waveform::Sine, CHORD_ERROR),
+        (Waveform::Sine, CHORD_SHARE * depth),
         (Waveform::Triangle, 1e-15),
         (Waveform::Square, 1e-15),
     ] {
@@ -120,11 +122,43 @@ fn chords_of_an_arc_stay_within_their_error() {
             ];
             assert!((to_centre(pair[0]) - radius).abs() < 1e-12);
             let error = radius - to_centre(middle);
-            assert!(error > 0.0 && error <= CHORD_ERROR, "{error}");
+            assert!(error > 0.0 && error <= CHORD_SHARE * sagitta, "{error}");
+            assert!(error <= CHORD_SHARE_OF_RADIUS * radius, "{error}");
         }
         let top = line.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
         assert!((top - sagitta).abs() < 1e-15);
     }
+}
+
+/// A curve keeps its shape at every size: as many chords, and no sine that is a triangle.
+#[test]
+fn curves_have_the_same_chords_at_every_size() {
+    let of = |s: f64| {
+        let sine = teeth(Waveform::Sine, 4, 0.010 * s, 0.43 * s);
+        [
+            arc(0.06 * s, 0.005 * s, 0.0),
+            arc(0.1 * s, -0.08 * s, 0.01 * s),
+            sine,
+        ]
+    };
+    let whole = of(1.0);
+    assert_eq!(whole.each_ref().map(Vec::len), [13, 25, 65]);
+    for s in [0.01, 0.1, 10.0] {
+        for (line, other) in whole.iter().zip(of(s)) {
+            assert_eq!(line.len(), other.len(), "{s}");
+            for (a, b) in line.iter().zip(other) {
+                assert!(
+                    (0..2).all(|k| (a[k] * s - b[k]).abs() < 1e-15 * (1.0 + s)),
+                    "{s}"
+                );
+            }
+        }
+    }
+    let triangle = teeth(Waveform::Triangle, 4, 0.010, 0.43);
+    let sine = &whole[2];
+    let apart = sine.iter().map(|p| (height(&triangle, p[0]) - p[1]).abs());
+    // The most that sin(x) differs from 2 x / pi, at cos(x) = 2 / pi.
+    assert!(apart.fold(0.0, f64::max) > 0.2 * 0.005);
 }
 
 #[test]

@@ -75,6 +75,8 @@ west = { mates = "east" }
 [target]
 fixed = "east"
 moving = "west"
+[potential]
+model = "dipole"
 "#;
 
 #[test]

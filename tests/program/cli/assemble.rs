@@ -112,6 +112,152 @@ fn both_engines_get_the_same_strengths() {
     }
 }
 
+/// Letters and codes of a folder, from every file that has both.
+fn lettering(out: &Path) -> Vec<(String, String, String)> {
+    let mut found = Vec::new();
+    let is_code = |text: &str| !text.is_empty() && text.chars().all(|c| "NS.".contains(c));
+    let mut add = |file: &str, name: &str, code: &str| {
+        assert!(is_code(code), "{file}: {name} {code}");
+        found.push((file.to_owned(), name.to_owned(), code.to_owned()));
+    };
+    let table = text(out, "matrix.csv");
+    let faces = rows(&table);
+    for row in &faces[1..] {
+        add("matrix.csv", row[0], row[1]);
+    }
+    let words = text(out, "words.toml");
+    let (head, faces) = words.split_once("[faces]\n").unwrap();
+    for line in faces.lines().filter(|line| !line.is_empty()) {
+        let (name, entry) = line.split_once(" = ").unwrap();
+        add(
+            "words.toml",
+            name.trim_matches('"'),
+            entry.split('"').nth(1).unwrap(),
+        );
+    }
+    let list = head
+        .lines()
+        .find(|line| line.starts_with("words = ["))
+        .unwrap();
+    for (k, code) in list.split('"').skip(1).step_by(2).enumerate() {
+        add(
+            "words.toml, words",
+            &((b'A' + k as u8) as char).to_string(),
+            code,
+        );
+    }
+    let sheet = text(out, "sheet.md");
+    for line in sheet.lines().filter(|line| line.starts_with("| ")) {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        for cell in &cells {
+            if let Some((name, code)) = cell.split_once(' ').filter(|it| is_code(it.1)) {
+                add("sheet.md, tiles", name, code);
+            }
+        }
+        if is_code(cells[1]) && is_code(cells[2]) {
+            add("sheet.md, words", cells[0], cells[1]);
+            add("sheet.md, words", &format!("{}*", cells[0]), cells[2]);
+        }
+    }
+    // Tiles by their faces in the engine's file, and the same tiles in the designs.
+    let engine = text(out, "assembly.yaml");
+    let tiles = engine.lines().filter(|line| line.starts_with("- {name: "));
+    let tiles: Vec<(&str, Vec<&str>)> = tiles
+        .filter_map(|line| {
+            let (name, rest) = line.split_once("edges: [")?;
+            let edges = rest.split_once(']')?.0.split(", ");
+            let name = name.split('"').nth(1)?;
+            Some((name, edges.map(|edge| edge.trim_matches('"')).collect()))
+        })
+        .collect();
+    assert!(!tiles.is_empty());
+    for (name, design) in contents(&out.join("designs")) {
+        let design = String::from_utf8(design).unwrap();
+        let described = design
+            .lines()
+            .find(|line| line.starts_with("description"))
+            .unwrap();
+        let of = |k: usize| described.split(" face of ").nth(k).unwrap();
+        let first = of(1).split(" meets ").next().unwrap();
+        let second = of(2).trim_end_matches('"');
+        for (role, tile) in [("[fixed.faces]", first), ("[moving.faces]", second)] {
+            let tile = tiles
+                .iter()
+                .find(|it| it.0 == tile)
+                .unwrap_or_else(|| panic!("{tile}"));
+            let faces = design
+                .split(role)
+                .nth(1)
+                .unwrap()
+                .split("\n\n")
+                .next()
+                .unwrap();
+            for line in faces.lines().filter(|line| line.contains(" = {")) {
+                let (side, entry) = line.split_once(" = ").unwrap();
+                let side = ["north", "east", "south", "west"]
+                    .iter()
+                    .position(|it| *it == side);
+                let code = entry.split('"').nth(1).unwrap();
+                add(&name, tile.1[side.unwrap()], code);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_letter_is_the_same_word_in_every_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [searched, given] = ["searched", "given"].map(|name| folder.path().join(name));
+    built(
+        &["--lattice", "3x3", "--length", "8", "--gap", "0.25"],
+        &searched,
+    );
+    // The same words and two more, in another order, some as their mates.
+    let found = text(&searched, "words.toml");
+    let codes = found
+        .lines()
+        .find(|line| line.starts_with("words = ["))
+        .unwrap();
+    let mut codes: Vec<String> = codes
+        .split('"')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect();
+    codes.reverse();
+    let mate = |code: &str| -> String {
+        let other = |c: char| if c == 'N' { 'S' } else { 'N' };
+        code.chars().rev().map(other).collect()
+    };
+    codes[3] = mate(&codes[3]);
+    codes.insert(5, "NNNNNNNN".to_owned());
+    let set = folder.path().join("set.toml");
+    let list = codes.join("\", \"");
+    std::fs::write(
+        &set,
+        format!("words = [\"{list}\"]\n[magnet]\npitch = 0.04\n"),
+    )
+    .unwrap();
+    built(
+        &["--lattice", "3x3", "--words", set.to_str().unwrap()],
+        &given,
+    );
+    for out in [&searched, &given] {
+        let all = lettering(out);
+        let files: std::collections::BTreeSet<&str> = all.iter().map(|it| &it.0[..]).collect();
+        assert!(files.len() > 12, "{files:?}");
+        for (file, name, code) in &all {
+            let other = all.iter().find(|it| it.1 == *name).unwrap();
+            assert_eq!(code, &other.2, "{name} of {file} and of {}", other.0);
+        }
+        // And the set is one that is read.
+        let words = out.join("words.toml");
+        let read = json(&["crosstalk", words.to_str().unwrap(), "--json"]);
+        assert_eq!(read["words"].as_array().unwrap().len(), 12);
+    }
+}
+
 #[test]
 fn a_lattice_is_written_as_designs_whose_bonds_the_matrix_knows() {
     let folder = tempfile::tempdir().unwrap();

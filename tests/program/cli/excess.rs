@@ -12,7 +12,7 @@ fn squares(magnets: &str, faces: &str) -> String {
         "[table]\nsize = [2.0, 2.0]\n{magnets}\n\
          [fixed]\nside = 0.4\nthickness = 0.01\nmass = 0.1\n[fixed.faces]\n{faces}\n\
          [moving]\nside = 0.4\nthickness = 0.01\nmass = 0.1\n[moving.faces]\n{faces}\n\
-         [target]\nfixed = \"east\"\nmoving = \"west\"\n"
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n"
     )
 }
 

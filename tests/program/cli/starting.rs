@@ -111,11 +111,12 @@ sys.exit(1 if wrong else 0)
 "#;
 
 /// Designs with a fault that a schema can tell.
-const FAULTY: [&str; 24] = [
+const FAULTY: [&str; 25] = [
     "code-and-magnets",
     "code-in-lower-case",
     "draft-in-degrees",
     "fit-in-millimetres",
+    "grade-and-pull",
     "half-a-tooth",
     "magnet-in-millimetres",
     "magnet-with-a-wrong-pole",

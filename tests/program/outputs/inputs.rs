@@ -70,7 +70,7 @@ fn inputs() -> tempfile::TempDir {
     place(
         here,
         &[
-            ("wave.toml", &wave.replace("drawn-wave.svg", "wave.svg")),
+            ("wave.toml", &wave.replace("drawn-wave.svg", "wave.svg")[..]),
             ("crosstalk.csv", set),
         ],
     );

@@ -73,7 +73,7 @@ fn copy(folder: &Path, files: &[(&str, &str)]) {
 }
 
 /// Writes files, by their names, into a folder.
-fn place(folder: &Path, files: &[(&str, &str)]) {
+fn place(folder: &Path, files: &[(&str, impl AsRef<[u8]>)]) {
     for (name, content) in files {
         let path = folder.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

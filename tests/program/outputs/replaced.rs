@@ -225,7 +225,7 @@ fn a_folder_of_another_command_is_refused_or_its_files_stay_beside() {
     let (here, out) = (desk.path(), desk.path().join("R"));
     done(here, &words(ANALYSE));
     let analysed = contents(&out);
-    for line in [YIELD, RATES, WORDS, CROSSTALK, ASSEMBLE] {
+    for line in [MAKE, YIELD, RATES, WORDS, CROSSTALK, ASSEMBLE] {
         refused(
             here,
             &words(line),
@@ -250,11 +250,11 @@ fn a_folder_of_another_command_is_refused_or_its_files_stay_beside() {
             .all(|(name, content)| now.get(name) == Some(content))
     };
     // No two of their files have one name.
-    done(here, &words(MAKE));
-    done(here, &words(&format!("{MAKE} --kerf 0.0001")));
+    done(here, &words("show d.toml -o R/look.svg"));
+    done(here, &words("show d.toml -o R/look.svg --model cuboid"));
     assert!(unchanged());
     done(here, &words(ANALYSE));
-    assert!(out.join("sheet.md").exists());
+    assert!(out.join("look.svg").exists());
     let analysed = contents(&out);
     done(here, &words(&format!("{YIELD} --force")));
     let now = contents(&out);

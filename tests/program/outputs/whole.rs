@@ -189,8 +189,9 @@ fn what_a_killed_process_left_is_settled() {
         fs::create_dir_all(path("P/old")).unwrap();
         fs::create_dir(path("P/new")).unwrap();
         for name in &names {
-            fs::write(out.join(name), &old[*name]).unwrap();
-            fs::write(path("P/new").join(name), &new[*name]).unwrap();
+            place(&out, &[(name, &old[*name])]);
+            place(&path("P/new"), &[(name, &new[*name])]);
+            fs::create_dir_all(path("P/old").join(name).parent().unwrap()).unwrap();
         }
         fs::write(out.join(RECORD), record(&[&new, &old])).unwrap();
         for (from, to) in &steps[..killed] {

@@ -2,6 +2,7 @@
 
 mod code;
 mod shape;
+mod shop;
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -12,6 +13,7 @@ use physics::tile::barcode::Barcode;
 
 use code::code;
 pub use shape::Shape;
+pub use shop::ShopMagnet;
 
 /// Magnets that are sold (m): along the axis, along the face, through the thickness.
 const BLOCKS: [[f64; 3]; 5] = [
@@ -58,6 +60,8 @@ pub struct Start {
     pub magnets: usize,
     /// The line of the target faces.
     pub shape: Shape,
+    /// The magnets; of those that are sold the ones that fit best, where none are given.
+    pub magnet: Option<ShopMagnet>,
 }
 
 impl Default for Start {
@@ -67,6 +71,7 @@ impl Default for Start {
             side: 0.43,
             magnets: 4,
             shape: Shape::Tab,
+            magnet: None,
         }
     }
 }
@@ -112,11 +117,14 @@ impl Start {
     /// Magnets with their spacings (m), the best first.
     fn rows(&self) -> Vec<([f64; 3], f64)> {
         let inner = self.radius() * libm::cos(PI / f64::from(self.sides));
-        let smallest = BLOCKS[BLOCKS.len() - 1];
+        let own = self.magnet.map(|magnet| magnet.size);
+        let blocks = own.as_ref().map_or(&BLOCKS[..], std::slice::from_ref);
+        let smallest = blocks[blocks.len() - 1];
         let gaps = self.magnets.max(2) - 1;
         let wanted = (COMPACT * self.side / gaps.max(GAPS) as f64).min(WIDEST);
         let fits = |block: &[f64; 3]| block[0] <= inner / ACROSS && CLOSE * block[1] <= wanted;
-        let blocks = BLOCKS.into_iter().filter(|b| fits(b) || *b == smallest);
+        let blocks = blocks.iter().copied();
+        let blocks = blocks.filter(|b| fits(b) || *b == smallest);
         let rows = blocks.flat_map(|block| {
             let room = (USED * self.side - block[1]) / gaps as f64;
             let least = CLOSEST * block[1];
@@ -165,7 +173,7 @@ impl Start {
     }
 
     fn no_room(&self, fault: Option<DesignError>) -> StartError {
-        let smallest = BLOCKS[BLOCKS.len() - 1][1];
+        let smallest = self.magnet.map_or(BLOCKS[BLOCKS.len() - 1], |own| own.size)[1];
         let spacing = CLOSEST * smallest;
         let most = ((USED * self.side - smallest) / spacing).floor().max(0.0) + 1.0;
         let needed = (spacing * (self.magnets - 1) as f64 + smallest) / USED;
@@ -191,6 +199,7 @@ impl Start {
             side,
             magnets,
             shape,
+            magnet,
         } = *self;
         let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
         let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
@@ -207,6 +216,7 @@ impl Start {
             None => Default::default(),
         };
         let size = block.map(|x| x.to_string()).join(", ");
+        let strength = magnet.map_or_else(|| "remanence = 1.2".to_owned(), |own| own.strength());
         let tile =
             format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
         let mut text = String::new();
@@ -224,7 +234,7 @@ size = [{table}, {table}]
 
 [magnet]
 size = [{size}]  # along its axis, along the face, through the thickness
-remanence = 1.2
+{strength}
 pitch = {pitch}                  # centre to centre along the face
 inset = {inset}                  # from the face's surface to the magnet
 
@@ -245,6 +255,9 @@ inset = {inset}                  # from the face's surface to the magnet
 [target]
 fixed = \"{from}\"
 moving = \"{to}\"
+
+[potential]
+model = \"cuboid\"                # blocks, as magnets are; \"dipole\": the paper's point dipoles
 "
         );
         text

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use kurbo::Affine;
+use kurbo::{Affine, PathSeg};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::Transform;
 
@@ -12,6 +12,7 @@ use super::super::source::Source;
 use super::path::{SHAPES, draw};
 use super::pen::{Pen, Stroke, points};
 use super::scale::{scale, span};
+use physics::tile::profile::CHORD_SHARE;
 
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 
@@ -27,8 +28,12 @@ const FARTHEST: f64 = 1e3;
 /// Most elements within one another: reading goes one call deeper with each.
 const MOST_NESTED: usize = 256;
 
-/// Cubics that stand for an arc leave it by this share of the chord error at most.
-const ARC_SHARE: f64 = 1e-3;
+/// Largest distance of a chord from the curve that it stands for: as a share of the longer side of the
+/// box around the shape's control points (0.2 mm of a tile of 43 cm), of the shorter side (as
+/// [`CHORD_SHARE`] of a profile's depth), and of the longer side of the curve's own box, so that a small
+/// rounding keeps its shape.
+const CHORD_SHARE_OF_SHAPE: f64 = 1.0 / 2150.0;
+const CHORD_SHARE_OF_CURVE: f64 = 1.0 / 32.0;
 
 /// A shape of a drawing.
 #[derive(Clone, Debug)]
@@ -39,6 +44,8 @@ pub(super) struct Shape {
     /// The element's name in the file.
     pub span: Span,
     pub lines: Vec<Line>,
+    /// Largest distance of a chord from its curve (m).
+    pub chord_error: f64,
 }
 
 impl Shape {
@@ -62,11 +69,12 @@ pub(super) struct Line {
 pub(super) type Skipped = (Span, String);
 
 /// All shapes of a drawing, and what else is in it. `unit` is what the design says of the length
-/// (m) of a user unit.
+/// (m) of a user unit. Curves are drawn with chords that leave them by `chord_share` of the
+/// [`Shape::chord_error`] at most.
 pub(super) fn read(
     source: Source,
     unit: Option<f64>,
-    chord_error: f64,
+    chord_share: f64,
 ) -> Result<(Vec<Shape>, Vec<Skipped>)> {
     let options = ParsingOptions {
         // OpenSCAD begins with one.
@@ -92,7 +100,7 @@ pub(super) fn read(
     }
     let mut reader = Reader {
         source,
-        chord_error,
+        chord_share,
         points: 0,
         shapes: Vec::new(),
         skipped: Vec::new(),
@@ -105,7 +113,8 @@ pub(super) fn read(
 
 struct Reader<'a> {
     source: Source<'a>,
-    chord_error: f64,
+    /// What chords may use of the chord error.
+    chord_share: f64,
     /// Points of all lines so far.
     points: usize,
     shapes: Vec<Shape>,
@@ -163,9 +172,7 @@ impl Reader<'_> {
     }
 
     fn shape(&mut self, node: Node, map: Affine) -> Result<()> {
-        // The map's largest stretch of any direction.
-        let stretch = map.spectral_norm();
-        let mut pen = Pen::new(ARC_SHARE * self.chord_error / stretch);
+        let mut pen = Pen::default();
         draw(node, &mut pen).map_err(|fault| {
             let place = node.attribute_node(fault.attribute);
             let place = place.map_or(span(node), |attribute| {
@@ -187,11 +194,19 @@ impl Reader<'_> {
         let strokes = pen.finish();
         self.check_extent(node, &strokes, map)?;
         if overdrawn {
-            let message = "an arc of the shape has a radius of more than 200 km";
+            let message =
+                "an arc is all but straight: its radius is over a million times its length";
             let help = "draw it as a line";
             return Err(self.source.error(span(node), message, help));
         }
-        let lines = self.lines(node, &strokes, map)?;
+        let all = strokes.iter().flat_map(|s| s.segments.iter().flatten());
+        let [longer, shorter] = sides(all, map);
+        let flat = CHORD_SHARE * shorter;
+        let chord_error = match CHORD_SHARE_OF_SHAPE * longer {
+            error if flat > 0.0 => error.min(flat),
+            error => error,
+        };
+        let lines = self.lines(node, &strokes, (map, chord_error))?;
         if lines.is_empty() {
             let note = format!("<{}> that draws nothing", node.tag_name().name());
             self.skipped.push((span(node), note));
@@ -202,6 +217,7 @@ impl Reader<'_> {
             id: node.attribute("id").map(str::to_owned),
             span: span(node),
             lines,
+            chord_error,
         });
         Ok(())
     }
@@ -232,13 +248,20 @@ impl Reader<'_> {
     }
 
     /// The lines of a shape, curves as chords.
-    fn lines(&mut self, node: Node, strokes: &[Stroke], map: Affine) -> Result<Vec<Line>> {
+    fn lines(
+        &mut self,
+        node: Node,
+        strokes: &[Stroke],
+        (map, chord_error): (Affine, f64),
+    ) -> Result<Vec<Line>> {
         let mut lines = Vec::with_capacity(strokes.len());
         for stroke in strokes {
             let start = map * stroke.start;
             let mut segments = Vec::with_capacity(stroke.segments.len());
             for segment in &stroke.segments {
-                segments.push(points(segment, map, self.chord_error));
+                let [longer, _] = sides(segment.iter(), map);
+                let error = chord_error.min(CHORD_SHARE_OF_CURVE * longer);
+                segments.push(points(segment, map, self.chord_share * error));
                 self.points += segments.last().map_or(0, Vec::len);
                 if self.points > MOST_POINTS {
                     let message = format!("the drawing has more than {MOST_POINTS} points");
@@ -284,6 +307,21 @@ impl Reader<'_> {
         }
         Ok(())
     }
+}
+
+/// The longer and the shorter side (m) of the box around the control points of some segments.
+fn sides<'a>(segments: impl Iterator<Item = &'a PathSeg>, map: Affine) -> [f64; 2] {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for cubic in segments.map(|segment| map * segment.to_cubic()) {
+        for point in [cubic.p0, cubic.p1, cubic.p2, cubic.p3] {
+            for (k, x) in [point.x, point.y].into_iter().enumerate() {
+                low[k] = f64::min(low[k], x);
+                high[k] = f64::max(high[k], x);
+            }
+        }
+    }
+    let sides = [0, 1].map(|k| (high[k] - low[k]).max(0.0));
+    [sides[0].max(sides[1]), sides[0].min(sides[1])]
 }
 
 /// Whether an element is SVG's; a drawing without any namespace is taken for one.

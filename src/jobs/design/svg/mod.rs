@@ -7,8 +7,9 @@
 //! be seen is named in a warning, style sheets too, and what would move a shape without being read
 //! (a transform in an element's `style`, another origin of one) is refused.
 //!
-//! Curves become chords between points on the curve, no chord farther than
-//! [`CHORD_ERROR`] from it. Arcs go by way of cubics that leave them by a thousandth of that. Of
+//! Curves become chords between points on the curve, no chord farther from it than a share of the
+//! shape's and the curve's size ([`Shape::chord_error`]). Arcs go by way of cubics that leave them by a
+//! millionth of their radius. Of
 //! lines with very many points, as tracing programs draw them, the points are left out that lie
 //! within half the chord error of the others; curves then are drawn to within the other half.
 //!
@@ -46,7 +47,6 @@ use super::error::Result;
 use super::reader::{Entry, Section, nearest_help};
 use super::source::Source;
 use document::{Shape, Skipped};
-use physics::tile::profile::CHORD_ERROR;
 
 /// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
 const SAME_POINT: f64 = 1e-6;
@@ -126,14 +126,13 @@ fn with_shape<T>(
         .transpose()?;
     let id = section.get("id");
     with_drawing(&file, |source| {
-        let (shapes, skipped) = document::read(*source, unit, CHORD_ERROR)?;
+        let (shapes, skipped) = document::read(*source, unit, 1.0)?;
         note_skipped(source, &skipped);
         let use_it = |index: usize| match &shapes[index] {
             shape if shape.points() <= simplify::MANY => use_it(source, shape),
             // What is left out of it must leave no curve by more than the chord error.
             _ => {
-                let error = CHORD_ERROR - simplify::TOLERANCE;
-                let (shapes, _) = document::read(*source, unit, error)?;
+                let (shapes, _) = document::read(*source, unit, 1.0 - simplify::SHARE)?;
                 use_it(source, &shapes[index])
             }
         };

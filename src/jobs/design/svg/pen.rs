@@ -13,36 +13,29 @@ pub(super) struct Stroke {
     pub closed: bool,
 }
 
-/// Largest radius of an arc, in units of how far cubics may leave it: 200 km in a drawing that is
-/// read to 0.2 mm. Beyond, rounding moves the arc's points, and it would take ever more cubics.
-const LARGEST_RADIUS: f64 = 1e12;
+/// Cubics that stand for an arc leave it by this share of its radius at most; of a short piece of a
+/// large circle by far less, as what they leave falls as the sixth power of its angle.
+const ARC_SHARE: f64 = 1e-6;
+
+/// Largest radius of an arc, in units of the distance of its ends. Beyond, rounding moves the arc's
+/// points.
+const LARGEST_RADIUS: f64 = 1e6;
 
 /// Draws absolute segments, in user units.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Pen {
     strokes: Vec<Stroke>,
     at: Point,
     /// Whether an arc was too large to be drawn; a line stands in its place.
     overdrawn: bool,
-    /// How far the cubics that stand for an arc may leave it (user units).
-    arc_error: f64,
 }
 
 impl Pen {
-    pub fn new(arc_error: f64) -> Self {
-        Self {
-            strokes: Vec::new(),
-            at: Point::ORIGIN,
-            overdrawn: false,
-            arc_error,
-        }
-    }
-
     pub fn at(&self) -> Point {
         self.at
     }
 
-    /// Whether an arc's radius is more than [`LARGEST_RADIUS`] times the error of arcs.
+    /// Whether an arc's radius is more than [`LARGEST_RADIUS`] times the distance of its ends.
     pub fn overdrawn(&self) -> bool {
         self.overdrawn
     }
@@ -100,13 +93,13 @@ impl Pen {
             return self.line_to(to);
         };
         let radius = arc.radii.x.abs().max(arc.radii.y.abs());
-        if radius.is_nan() || radius > LARGEST_RADIUS * self.arc_error {
+        if radius.is_nan() || radius > LARGEST_RADIUS * self.at.distance(to) {
             self.overdrawn = true;
             return self.line_to(to);
         }
         let mut cubics: Vec<PathSeg> = Vec::new();
         let mut from = self.at;
-        arc.to_cubic_beziers(self.arc_error, |first, second, end| {
+        arc.to_cubic_beziers(ARC_SHARE * radius, |first, second, end| {
             cubics.push(CubicBez::new(from, first, second, end).into());
             from = end;
         });

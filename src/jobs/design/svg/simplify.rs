@@ -4,7 +4,6 @@ use super::super::error::Result;
 use super::super::quantity::four_digits;
 use super::super::source::Source;
 use super::document::Shape;
-use physics::tile::profile::CHORD_ERROR;
 
 /// Lines and outlines with more points than this are simplified: splitting an outline into convex
 /// parts takes time as the cube of its points.
@@ -16,11 +15,11 @@ const MOST_LEFT: usize = 500;
 /// Most points of a line or an outline before it is simplified.
 const MOST_DRAWN: usize = 100_000;
 
-/// How far what is drawn may lie from what is left of it (m). The other half of the chord error is
-/// for the curves: such shapes are read with chords that leave them by no more than that.
-pub(super) const TOLERANCE: f64 = CHORD_ERROR / 2.0;
+/// How far what is drawn may lie from what is left of it, as a share of the shape's chord error. The
+/// other half is for the curves: such shapes are read with chords that leave them by no more than that.
+pub(super) const SHARE: f64 = 0.5;
 
-/// Lines with the points taken away that lie within [`TOLERANCE`] of what is left; each keeps its
+/// Lines with the points taken away that lie within [`SHARE`] of the chord error of what is left; each keeps its
 /// ends. Where many are taken away, that is noted; few are left as they are.
 ///
 /// # Errors
@@ -42,9 +41,10 @@ pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
         let message = format!("the line has {drawn} points, more than {MOST_DRAWN}");
         return Err(source.error(shape.span, message, help));
     }
-    let lines: Vec<Vec<P>> = lines.iter().map(|line| within(line, TOLERANCE)).collect();
+    let tolerance = SHARE * shape.chord_error;
+    let lines: Vec<Vec<P>> = lines.iter().map(|line| within(line, tolerance)).collect();
     let left = count(&lines);
-    let tolerance = four_digits(1e3 * TOLERANCE);
+    let tolerance = four_digits(1e3 * tolerance);
     if left > MOST_LEFT {
         let message = format!(
             "the line has {drawn} points; without those within {tolerance} mm of the rest there \

@@ -9,24 +9,20 @@
 //! over the cuts' side of a cell holds for all its free configurations.
 //!
 //! All claims hold for configurations in which no point of a tile and no convex part lies deeper
-//! than [`RELAXED`] inside the other, which includes every configuration that counts as free.
+//! than [`relaxed`] inside the other, which includes every configuration that counts as free.
 
 mod possible;
 mod side;
 
 use nalgebra::Vector2;
 
+use super::Contact;
 use super::tree::{Below, Branch};
-use super::{Contact, TOUCH};
 use crate::cell::{Cell, Quadratic};
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 pub use possible::PossibleContact;
 use side::{Side, Verdict};
-
-/// Depth (m) up to which an overlap is not used as a proof: touching, and rounding (coordinates
-/// of metres carry errors of 1e-15 m).
-pub const RELAXED: f64 = 2.0 * TOUCH;
 
 /// A necessary condition of freedom over a cell: `form(d) + slack >= 0` at every free
 /// configuration of the cell, d its offset from the centre. `form` approximates the signed
@@ -99,6 +95,12 @@ impl ContactCells {
         }
     }
 
+    /// Depth (m) up to which an overlap is not used as a proof: touching, and rounding (coordinates
+    /// of metres carry errors of 1e-15 m).
+    pub fn relaxed(&self) -> f64 {
+        2.0 * self.contact.touch()
+    }
+
     /// How many edges the two outlines have.
     pub fn edges(&self) -> usize {
         let of = |side: &Side| side.outline.vertices().len();
@@ -108,41 +110,42 @@ impl ContactCells {
     /// What contact says about a cell; `None` where no configuration of it is free.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let q = &cell.centre;
+        let relaxed = self.relaxed();
         let (fixed, moving) = (&self.fixed.outline, &self.moving.outline);
         let apart = q.position().norm() - fixed.circumradius() - moving.circumradius();
-        if apart > cell.travel() + RELAXED {
+        if apart > cell.travel() + relaxed {
             return Some(Cuts::default());
         }
         // No support of a part changes by more than its points move, nor does the overlap's depth.
         let farthest = cell.reach(moving.circumradius());
-        if self.contact.is_clear_by(q, farthest + RELAXED) {
+        if self.contact.is_clear_by(q, farthest + relaxed) {
             return Some(Cuts::default());
         }
-        if !self.contact.overlaps_at_most(q, farthest + RELAXED) {
+        if !self.contact.overlaps_at_most(q, farthest + relaxed) {
             return None;
         }
         let turn = q.rotation();
         let position = q.position();
         let mut cuts = Cuts::default();
         let moving_reach =
-            |p: Vector2<f64>, radius: f64| cell.reach(p.norm() + radius) + radius + RELAXED;
+            |p: Vector2<f64>, radius: f64| cell.reach(p.norm() + radius) + radius + relaxed;
         let moving_in_fixed = Sweeping {
             probes: &self.moving,
             other: &self.fixed,
             place: &|p| position + turn * p,
             reach: &moving_reach,
-            cut: &|v, edge| fixed_edge_cut(fixed, edge, turn * v, q, cell),
+            cut: &|v, edge| fixed_edge_cut((fixed, edge), turn * v, q, (cell, relaxed)),
         };
         let fixed_reach = |p: Vector2<f64>, radius: f64| {
             let lever = (p - position).norm() + radius + cell.travel();
-            cell.reach(lever) + radius + RELAXED
+            cell.reach(lever) + radius + relaxed
         };
         let fixed_in_moving = Sweeping {
             probes: &self.fixed,
             other: &self.moving,
             place: &|p| turn.inverse() * (p - position),
             reach: &fixed_reach,
-            cut: &|w, edge| moving_edge_cut(moving, edge, w - position, q, cell),
+            cut: &|w, edge| moving_edge_cut((moving, edge), w - position, q, (cell, relaxed)),
         };
         let is_open = moving_in_fixed.look(&mut cuts) && fixed_in_moving.look(&mut cuts);
         (is_open && !cuts.is_violated(cell)).then_some(cuts)
@@ -217,11 +220,10 @@ impl Sweeping<'_> {
 /// The cut of a vertex of the moving tile, `arm` from its reference point, against an edge of the
 /// fixed one: `n . (p + R v - e) >= 0` with the edge's normal n and start e.
 fn fixed_edge_cut(
-    fixed: &Outline,
-    edge: usize,
+    (fixed, edge): (&Outline, usize),
     arm: Vector2<f64>,
     q: &Configuration,
-    cell: &Cell,
+    (cell, relaxed): (&Cell, f64),
 ) -> Cut {
     let n = fixed.normals()[edge];
     let start = fixed.vertices()[edge];
@@ -233,7 +235,7 @@ fn fixed_edge_cut(
             gradient: [n.x, n.y, n.dot(&turning)],
             hessian: [0.0, 0.0, -n.dot(&arm), 0.0, 0.0, 0.0],
         },
-        slack: arm.norm() * w * w * w / 6.0 + RELAXED,
+        slack: arm.norm() * w * w * w / 6.0 + relaxed,
     }
 }
 
@@ -243,11 +245,10 @@ fn fixed_edge_cut(
 /// Along a straight motion with the steps s and t of position and angle, the third derivative of
 /// `R n . (w - p)` is at most `|w - p| t^3 + 3 s t^2`.
 fn moving_edge_cut(
-    moving: &Outline,
-    edge: usize,
+    (moving, edge): (&Outline, usize),
     from: Vector2<f64>,
     q: &Configuration,
-    cell: &Cell,
+    (cell, relaxed): (&Cell, f64),
 ) -> Cut {
     let local = moving.normals()[edge];
     let start = moving.vertices()[edge];
@@ -260,6 +261,6 @@ fn moving_edge_cut(
             gradient: [-n.x, -n.y, turned.dot(&from)],
             hessian: [0.0, 0.0, -n.dot(&from), 0.0, -turned.x, -turned.y],
         },
-        slack: ((from.norm() + s) * t * t * t + 3.0 * s * t * t) / 6.0 + RELAXED,
+        slack: ((from.norm() + s) * t * t * t + 3.0 * s * t * t) / 6.0 + relaxed,
     }
 }

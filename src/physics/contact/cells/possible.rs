@@ -10,7 +10,8 @@ use nalgebra::{Vector2, Vector3};
 use super::side::Side;
 use super::{Cell, ContactCells};
 
-/// Share of the distances by which rounding is allowed for.
+/// Share of the distances, and of a metre where the tile is the paper's, by which rounding is allowed
+/// for.
 const ROUNDING: f64 = 1e-12;
 
 /// A convex vertex of one tile and an edge of the other that may touch somewhere in a cell. The
@@ -27,10 +28,12 @@ pub struct PossibleContact {
     arm: Vector2<f64>,
     /// Whether the edge is the moving tile's.
     edge_moves: bool,
+    /// A length (m) that places of the tiles are of.
+    unit: f64,
 }
 
 impl PossibleContact {
-    fn new(normal: Vector2<f64>, arm: Vector2<f64>, gap: f64, edge_moves: bool) -> Self {
+    fn new(normal: Vector2<f64>, arm: Vector2<f64>, gap: f64, edge_moves: bool, unit: f64) -> Self {
         let along = Vector3::new(normal.x, normal.y, cross(arm, normal));
         Self {
             gap,
@@ -38,6 +41,7 @@ impl PossibleContact {
             normal,
             arm,
             edge_moves,
+            unit,
         }
     }
 
@@ -53,7 +57,7 @@ impl PossibleContact {
         } else {
             n.x.abs() * half[0] + n.y.abs() * half[1]
         };
-        shift + turning + ROUNDING * (1.0 + self.arm.norm())
+        shift + turning + ROUNDING * (self.unit + self.arm.norm())
     }
 
     /// The least gap (m) over the box with these half sizes about the centre.
@@ -74,7 +78,7 @@ impl PossibleContact {
         } else {
             turned * lever
         };
-        let size = way.norm() + turned * (1.0 + arm.norm());
+        let size = way.norm() + turned * (self.unit + arm.norm());
         self.gradient.dot(step) - lost - ROUNDING * size
     }
 }
@@ -108,6 +112,7 @@ impl ContactCells {
             return Some(found);
         }
         let (turn, position) = (q.rotation(), q.position());
+        let unit = self.contact.scaled(1.0);
         let on_fixed = Meeting {
             vertices: &self.moving,
             edges: &self.fixed,
@@ -116,7 +121,13 @@ impl ContactCells {
             reach: &|p: Vector2<f64>| cell.reach(p.norm()),
             contact: &|vertex, normal, start| {
                 let arm = turn * vertex;
-                PossibleContact::new(normal, arm, normal.dot(&(position + arm - start)), false)
+                PossibleContact::new(
+                    normal,
+                    arm,
+                    normal.dot(&(position + arm - start)),
+                    false,
+                    unit,
+                )
             },
         };
         let back = turn.inverse();
@@ -128,7 +139,7 @@ impl ContactCells {
             reach: &|p: Vector2<f64>| cell.reach((p - position).norm() + cell.travel()),
             contact: &|vertex, normal, start| {
                 let (world, arm) = (turn * normal, vertex - position);
-                PossibleContact::new(world, arm, world.dot(&arm) - normal.dot(&start), true)
+                PossibleContact::new(world, arm, world.dot(&arm) - normal.dot(&start), true, unit)
             },
         };
         let is_listed = on_fixed.list(&cell.half, most, &mut found)
@@ -240,7 +251,7 @@ mod tests {
             let direction = draw(3.1);
             let normal = Vector2::new(libm::cos(direction), libm::sin(direction));
             let arm = Vector2::new(draw(0.3), draw(0.3));
-            let contact = PossibleContact::new(normal, arm, draw(0.01), k % 2 == 0);
+            let contact = PossibleContact::new(normal, arm, draw(0.01), k % 2 == 0, 1.0);
             let size = libm::pow(10f64, -3.0 + draw(1.5));
             let half = [size, 0.7 * size, size].map(|h: f64| h * (0.1 + draw(1.0).abs()));
             let step = Vector3::new(draw(size), draw(size), draw(size));

@@ -6,25 +6,29 @@ use ordered_float::OrderedFloat;
 use super::{Facing, TOUCHING};
 use crate::configuration::Configuration;
 use crate::order::Order;
+use crate::scale::Scale;
 use crate::tile::Outline;
 use crate::tile::outline::signed_area;
 
 /// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
 /// contact (of such pairs of edges), what neither tile fills.
 pub(super) fn gap_area(
-    fixed: &Outline,
-    moving: &Outline,
+    [fixed, moving]: [&Outline; 2],
     facing: &[Facing],
     q: &Configuration,
+    scale: Scale,
 ) -> f64 {
-    let stretches = facing.iter().filter_map(|it| it.stretch(q.position()));
+    let touching = scale.length(TOUCHING);
+    let stretches = facing
+        .iter()
+        .filter_map(|it| it.stretch(q.position(), touching));
     let points: Vec<Vector2<f64>> = stretches.flatten().collect();
     let hull = hull(points);
     let placed = moving.vertices().iter().map(|p| q.transform(*p)).collect();
     let filled = area_within(fixed.vertices().to_vec(), &hull) + area_within(placed, &hull);
     let gap = signed_area(&hull) - filled;
     // What rounding leaves of outlines that fit.
-    if gap < TOUCHING * TOUCHING.sqrt() {
+    if gap < touching * scale.length(TOUCHING.sqrt()) {
         0.0
     } else {
         gap

@@ -46,38 +46,39 @@ pub const LEAST_SHARE: f64 = 0.01;
 /// [`LEAST_SHARE`] of the shorter outline are left out.
 pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
     let (fixed, moving) = (contact.fixed(), contact.moving());
+    let same = contact.scaled(SAME);
     let least = LEAST_SHARE * perimeter(fixed).min(perimeter(moving));
-    let turns: Vec<Turn> = turns(fixed, moving, least);
+    let turns: Vec<Turn> = turns([fixed, moving], least, contact.scaled(TOUCHING));
     let laid: Vec<(&Turn, [usize; 2])> = turns
         .iter()
         .flat_map(|turn| turn.laid.iter().map(move |pair| (turn, *pair)))
         .collect();
     let mut found: Vec<(&Turn, Match)> = parallel::flat_map(&laid, |&(turn, laid)| {
-        let motions = flush_motions(fixed, moving, turn, laid).into_iter();
+        let motions = flush_motions(contact, turn, laid).into_iter();
         let held = |found: &Match| found.contact >= least && contact.is_free(&found.pose);
         motions.filter(held).map(move |one| (turn, one))
     });
     found.order_by_key(|(_, it)| {
         let q = it.pose;
         // Lengths that differ by rounding are the same.
-        let length = (it.contact / SAME).round();
+        let length = (it.contact / same).round();
         (
             OrderedFloat(-length),
-            [q.x, q.y, q.theta].map(|x| OrderedFloat((x / SAME).round())),
+            [q.x / same, q.y / same, q.theta / SAME].map(|x| OrderedFloat(x.round())),
         )
     });
     let mut distinct: Vec<(&Turn, Match)> = Vec::new();
     for one in found {
-        let same = |other: &(&Turn, Match)| {
+        let is_same = |other: &(&Turn, Match)| {
             let step = one.1.pose.step_to(&other.1.pose);
-            step.iter().all(|x| x.abs() < 10.0 * SAME)
+            step.xy().amax() < 10.0 * same && step.z.abs() < 10.0 * SAME
         };
-        if distinct.len() < most && !distinct.iter().rev().any(same) {
+        if distinct.len() < most && !distinct.iter().rev().any(is_same) {
             distinct.push(one);
         }
     }
     parallel::map(&distinct, |(turn, one)| Match {
-        gap: gap::gap_area(fixed, moving, &turn.facing, &one.pose),
+        gap: gap::gap_area([fixed, moving], &turn.facing, &one.pose, contact.scale()),
         ..*one
     })
 }
@@ -107,7 +108,7 @@ struct Turn {
 /// All turns that lay an edge on an edge and may give a contact of some length (m). At most of
 /// them, with curved outlines above all, few short edges meet, which bounds the contact before any
 /// motion is tried.
-fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
+fn turns([fixed, moving]: [&Outline; 2], least: f64, touching: f64) -> Vec<Turn> {
     let mut pairs: Vec<(f64, [usize; 2])> = (0..fixed.vertices().len())
         .flat_map(|a| (0..moving.vertices().len()).map(move |b| [a, b]))
         .map(|[a, b]| (turn_of(edge(fixed, a), edge(moving, b)), [a, b]))
@@ -123,7 +124,7 @@ fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
         of(0, fixed).min(of(1, moving))
     };
     let shortest = (0..fixed.vertices().len()).map(|a| length(fixed, a));
-    let widest = 2.0 * parallel_within(shortest.fold(f64::INFINITY, f64::min));
+    let widest = 2.0 * parallel_within(shortest.fold(f64::INFINITY, f64::min), touching);
     let around = |theta: f64| {
         let from = pairs.partition_point(|it| it.0 < theta - widest);
         let to = pairs.partition_point(|it| it.0 <= theta + widest);
@@ -133,7 +134,7 @@ fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
         let theta = laid[0].0;
         let all = [-TAU, 0.0, TAU].map(|whole| around(theta + whole));
         let near = all.into_iter().flatten().filter(|(other, [a, _])| {
-            wrap_angle(other - theta).abs() < 2.0 * parallel_within(length(fixed, *a))
+            wrap_angle(other - theta).abs() < 2.0 * parallel_within(length(fixed, *a), touching)
         });
         let near: Vec<[usize; 2]> = near.map(|it| it.1).collect();
         (may_touch(&near) >= least).then(|| Turn {
@@ -149,9 +150,10 @@ fn turns(fixed: &Outline, moving: &Outline, least: f64) -> Vec<Turn> {
     parallel::flat_map(&groups, |group| of(group))
 }
 
-/// Edges of such a length (m) are parallel to others within this angle (rad).
-fn parallel_within(length: f64) -> f64 {
-    PARALLEL.max(TOUCHING / length)
+/// Edges of such a length (m) are parallel to others within this angle (rad); edges closer than
+/// `touching` (m) touch.
+fn parallel_within(length: f64, touching: f64) -> f64 {
+    PARALLEL.max(touching / length)
 }
 
 /// The turn (rad) that lays a moving edge on a fixed one, face to face.
@@ -165,7 +167,9 @@ fn turn_of([start, end]: [Vector2<f64>; 2], [from, to]: [Vector2<f64>; 2]) -> f6
 /// Motions that lay edge b of the moving outline on edge a of the fixed one, face to face, with a
 /// corner of the one at a corner of the other along their common direction, and the length in
 /// contact; the gap is not yet looked at.
-fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Match> {
+fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Match> {
+    let (fixed, moving) = (contact.fixed(), contact.moving());
+    let [same, touching] = [SAME, TOUCHING].map(|length| contact.scaled(length));
     let [start, end] = edge(fixed, a);
     let [from, to] = edge(moving, b);
     let along = (end - start).normalize();
@@ -191,7 +195,7 @@ fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize;
         slides.extend(meeting.filter(|slide| *slide > least && *slide < most));
     }
     slides.order_by(f64::total_cmp);
-    slides.dedup_by(|a, b| (*a - *b).abs() < SAME);
+    slides.dedup_by(|a, b| (*a - *b).abs() < same);
     let pose = |slide: &f64| {
         let shift = across + along * *slide;
         Configuration::new(shift.x, shift.y, theta)
@@ -208,15 +212,15 @@ fn flush_motions(fixed: &Outline, moving: &Outline, turn: &Turn, [a, b]: [usize;
     for facing in &turn.facing {
         let height = (across + facing.from - facing.start).dot(&facing.normal);
         let slope = along.dot(&facing.normal);
-        let passing = if slope.abs() * (most - least) < TOUCHING {
+        let passing = if slope.abs() * (most - least) < touching {
             0..slides.len()
         } else {
-            let (at, reach) = (-height / slope, 2.0 * TOUCHING / slope.abs());
+            let (at, reach) = (-height / slope, 2.0 * touching / slope.abs());
             slides.partition_point(|s| *s < at - reach)
                 ..slides.partition_point(|s| *s <= at + reach)
         };
         for motion in &mut motions[passing] {
-            if let Some([a, b]) = facing.stretch(motion.pose.position()) {
+            if let Some([a, b]) = facing.stretch(motion.pose.position(), touching) {
                 motion.contact += (b - a).norm();
             }
         }
@@ -251,13 +255,14 @@ impl Facing {
         }
     }
 
-    /// The stretch along which the edges lie on each other once the moving one is shifted.
-    fn stretch(&self, shift: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
+    /// The stretch along which the edges lie on each other, closer than `touching` (m), once the moving
+    /// one is shifted.
+    fn stretch(&self, shift: Vector2<f64>, touching: f64) -> Option<[Vector2<f64>; 2]> {
         let [from, to] = [self.from, self.to].map(|p| p + shift - self.start);
-        let near = |p: Vector2<f64>| p.dot(&self.normal).abs() < TOUCHING;
+        let near = |p: Vector2<f64>| p.dot(&self.normal).abs() < touching;
         let low = to.dot(&self.along).max(0.0);
         let high = from.dot(&self.along).min(self.length);
-        (near(from) && near(to) && high - low > TOUCHING)
+        (near(from) && near(to) && high - low > touching)
             .then(|| [low, high].map(|place| self.start + self.along * place))
     }
 }

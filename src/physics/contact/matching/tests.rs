@@ -10,7 +10,9 @@ fn edges_touch_where_both_ends_of_one_lie_on_the_other_s_line() {
     let fixed = [[0.1, -0.1], [0.1, 0.1]].map(Vector2::from);
     let stretch = |from: [f64; 2], to: [f64; 2], shift: [f64; 2]| {
         let facing = Facing::new(fixed, [from, to].map(Vector2::from), 0.0);
-        facing.stretch(shift.into()).map(|ends| ends.map(|p| p.y))
+        facing
+            .stretch(shift.into(), super::TOUCHING)
+            .map(|ends| ends.map(|p| p.y))
     };
     let close = |found: Option<[f64; 2]>, low: f64, high: f64| {
         let [a, b] = found.expect("they touch");

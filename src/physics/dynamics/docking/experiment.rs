@@ -115,8 +115,9 @@ impl<'a> Experiment<'a> {
         for (number, (run, minimum)) in ended.into_iter().enumerate() {
             runs.push(run);
             let Some((q, energy)) = minimum else { continue };
-            let is_same =
-                |p: &Configuration| self.rule.distance(&self.problem.space, &q, p) < SAME_TRAP;
+            let is_same = |p: &Configuration| {
+                self.rule.distance(&self.problem.space, &q, p) < self.problem.scaled(SAME_TRAP)
+            };
             match places.iter_mut().find(|(p, ..)| is_same(p)) {
                 Some((.., caught)) => caught.push(number),
                 None => places.push((q, energy, vec![number])),
@@ -167,6 +168,6 @@ pub fn out_of_contact(problem: &Problem, q: &Configuration) -> Configuration {
         return *q;
     };
     let away = q.position().normalize();
-    let position = q.position() + away * (contact.lift(q, away) + CLEAR);
+    let position = q.position() + away * (contact.lift(q, away) + contact.scaled(CLEAR));
     Configuration::new(position.x, position.y, q.theta)
 }

@@ -12,6 +12,9 @@ pub(in crate::kinetics) const DEEPEST: u8 = 12;
 /// Smallest units in a first cell.
 pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 
+/// What rounding may make of a coordinate, as a share of the distance of the centres and of a radian.
+const ROUNDING: f64 = 1e-12;
+
 /// How much wider than deep first cells are, in phi and theta, where a mesh begins at contact and ...
 const WIDER: [f64; 2] = [6.0, 3.0];
 /// ... symmetry makes fewer configurations than this one: there they are so many that they take what
@@ -185,11 +188,11 @@ impl Chart {
         let arc = (r + size[0]) * size[1] / 2.0;
         let sagitta = arc * size[1] / 4.0;
         let half = |radial: f64, across: f64| {
-            radial.abs() * size[0] / 2.0 + across.abs() * arc + sagitta + 1e-12
+            radial.abs() * size[0] / 2.0 + across.abs() * arc + sagitta + ROUNDING * r
         };
         Cell {
             centre: Configuration::new(middle[0] * cos, middle[0] * sin, middle[2]),
-            half: [half(cos, sin), half(sin, cos), size[2] / 2.0 + 1e-12],
+            half: [half(cos, sin), half(sin, cos), size[2] / 2.0 + ROUNDING],
         }
     }
 }

@@ -42,7 +42,7 @@ impl Wall {
         let Some(contact) = &problem.contact else {
             return Self::Open(circle);
         };
-        match fitted && contact.least_lever() > LEAST_LEVER {
+        match fitted && contact.least_lever() > contact.scaled(LEAST_LEVER) {
             true => Self::Contact(Box::new(contact.clone())),
             false => Self::Circle(circle),
         }

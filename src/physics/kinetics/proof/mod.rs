@@ -118,7 +118,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let bounds = problem.bounds().ok()?;
     // The centre of mass is the reference point, or coordinates are not upright.
     let metric = problem.mass_metric(0.0);
-    let is_upright = metric[(0, 2)].abs().max(metric[(1, 2)].abs()) < 1e-12;
+    let is_upright = metric[(0, 2)].abs().max(metric[(1, 2)].abs()) < 1e-11 * problem.space.rho;
     if !is_upright || !field.mesh.chart.is_fitted() {
         return None;
     }

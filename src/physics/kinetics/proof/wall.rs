@@ -9,9 +9,9 @@ use super::expansion::Expansion;
 use crate::contact::Contact;
 use crate::tile::Outline;
 
-/// Arms that differ by less (m) within a box are one: between them lie slivers of some 1e-11 rad at
-/// most, which is far below the stated margin.
-const TIE: f64 = 1e-12;
+/// Arms that differ by less than this share of the longest within a box are one: between them lie
+/// slivers of some 1e-11 rad at most, which is far below the stated margin.
+const TIE: f64 = 4e-12;
 /// Edges times vertices at most.
 const MOST: usize = 4096;
 /// Rays whose angle to an edge's normal has a smaller cosine are taken to run along the edge.
@@ -198,7 +198,7 @@ impl Edge {
             );
             let shift = libm::atan2(y, x);
             let beyond = libm::hypot(x, y) * greatest_cos([from + shift, to + shift]);
-            if beyond > TIE {
+            if beyond > TIE * farthest[0] {
                 alone = false;
                 arm = arm.widened(beyond);
                 let at = theta + Expansion::constant(shift);

@@ -277,7 +277,7 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
 /// A pathway of the certificate, which leads through the middles of its cells, made short, if it does
 /// not rise above `upper` (J).
 fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
-    let limits = Limits::below(upper, problem.depth());
+    let limits = Limits::below(upper, problem);
     let direct = pathway::shortened(problem, points, &limits);
     let mut pathways = [direct.as_slice(), points]
         .into_iter()

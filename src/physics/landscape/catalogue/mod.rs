@@ -262,7 +262,7 @@ impl Catalogue {
         self.states
             .iter()
             .map(|s| (problem.space.distance(&s.configuration, q), s.id))
-            .filter(|(distance, _)| *distance < SAME)
+            .filter(|(distance, _)| *distance < problem.scaled(SAME))
             .min_by_key(|(distance, _)| OrderedFloat(*distance))
             .map(|(_, id)| id)
     }
@@ -273,7 +273,7 @@ impl Catalogue {
             (Place::Free, Place::Free) => true,
             (Place::State(a), Place::State(b)) => {
                 let (a, b) = (&self.states[a], &other.states[b]);
-                problem.space.distance(&a.configuration, &b.configuration) < SAME
+                problem.space.distance(&a.configuration, &b.configuration) < problem.scaled(SAME)
             }
             _ => false,
         };

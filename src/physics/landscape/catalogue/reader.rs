@@ -20,8 +20,8 @@ use crate::parallel;
 /// bond may settle a little beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
-/// Places a micrometre apart can be told from each other (1/m).
-const TELLABLE: f64 = 1e6;
+/// Places this far apart (m, and rad) can be told from each other.
+const TELLABLE: f64 = 1e-6;
 
 pub(super) struct Reader<'a> {
     pub survey: &'a Exploration<'a>,
@@ -45,7 +45,8 @@ impl Reader<'_> {
             .map(|(id, &found)| (self.node(found), id))
             .collect();
         let bound = order.first().copied();
-        let bound = bound.filter(|&state| self.distance_to_bound(state) < BOUND);
+        let bound = bound
+            .filter(|&state| self.distance_to_bound(state) < self.survey.problem.scaled(BOUND));
         let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
         let states: Vec<State> = parallel::flat_map(&classes, of_class);
         Catalogue {
@@ -101,7 +102,11 @@ impl Reader<'_> {
         classes.order_by_key(|class| {
             let distance = self.distance_to_bound(class[0]);
             let energy = OrderedFloat(self.energy(class[0]));
-            (distance >= BOUND, energy, OrderedFloat(distance))
+            (
+                distance >= self.survey.problem.scaled(BOUND),
+                energy,
+                OrderedFloat(distance),
+            )
         });
         // What rounding makes of the energies of twins is no order.
         let as_deep = |a: &Class, b: &Class| {
@@ -111,8 +116,10 @@ impl Reader<'_> {
         for twins in classes.chunk_by_mut(as_deep) {
             twins.order_by_key(|class| {
                 let Configuration { x, y, theta } = self.configuration(class[0]);
-                let place = [self.distance_to_bound(class[0]), y, x, theta];
-                place.map(|length| (length * TELLABLE).round() as i64)
+                let unit = self.survey.problem.scaled(1.0);
+                let far = self.distance_to_bound(class[0]);
+                let place = [far / unit, y / unit, x / unit, theta];
+                place.map(|part| (part / TELLABLE).round() as i64)
             });
         }
         (classes, count - kept)

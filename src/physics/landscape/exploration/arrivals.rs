@@ -22,7 +22,8 @@ impl Exploration<'_> {
     /// Adds the minima that far starts are known to come to rest in, below an energy (J), and that
     /// are no states yet.
     pub fn add_rests(&mut self, ends: &[Option<Configuration>], below: f64) {
-        let is_new = |end: &&Configuration| self.state_at(end, SAME).is_none();
+        let same = self.problem.scaled(SAME);
+        let is_new = |end: &&Configuration| self.state_at(end, same).is_none();
         let new: Vec<&Configuration> = ends.iter().flatten().filter(is_new).collect();
         let known = self.known();
         let found: Vec<Stationary> = parallel::flat_map(&new, |end| {
@@ -42,7 +43,7 @@ impl Exploration<'_> {
         let problem = self.problem;
         let mut followed: HashMap<usize, usize> = HashMap::new();
         let wanted = |(_, end): &&(Configuration, Configuration)| {
-            let Some(state) = self.state_at(end, SAME) else {
+            let Some(state) = self.state_at(end, problem.scaled(SAME)) else {
                 return false;
             };
             let count = followed.entry(state).or_default();
@@ -76,7 +77,8 @@ impl Exploration<'_> {
         let problem = self.problem;
         let q = self.states[state].minimum.point.q;
         let pair = problem.pair.as_ref();
-        let is_bond = pair.is_some_and(|pair| problem.space.distance(&q, &pair.bound) < BOUND);
+        let is_bond = pair
+            .is_some_and(|pair| problem.space.distance(&q, &pair.bound) < problem.scaled(BOUND));
         if is_bond {
             FOLLOWED_INTO_BOND
         } else {

@@ -102,7 +102,7 @@ impl Exploration<'_> {
         };
         let q = symmetry.apply(&q);
         let is_state = self.states.iter().any(|state| state.node == node);
-        let state = is_state.then(|| self.state_at(&q, SAME));
+        let state = is_state.then(|| self.state_at(&q, self.problem.scaled(SAME)));
         match state.flatten() {
             Some(state) => self.states[state].node,
             None => self.network.add_node(Some((q, energy))),
@@ -119,7 +119,8 @@ pub(super) fn distinct<'a>(
     let mut images: Vec<Configuration> = Vec::new();
     let is_new = |symmetry: &&Symmetry| {
         let image = symmetry.apply(q);
-        let is_same = |other: &Configuration| problem.space.distance(other, &image) <= SAME;
+        let is_same =
+            |other: &Configuration| problem.space.distance(other, &image) <= problem.scaled(SAME);
         let is_new = !images.iter().any(is_same);
         images.push(image);
         is_new

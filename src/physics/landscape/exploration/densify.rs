@@ -15,6 +15,10 @@ use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{Point, edge};
 
+/// Milestones are added within this much (m, metric of the space) of where ways meet, at least and at
+/// most.
+const RADII: [f64; 2] = [2e-3, 0.03];
+
 impl Exploration<'_> {
     /// Joins a state's node to the network by milestones around it, where none of its copies is
     /// joined. Where energies are dear, of very many magnets, straight motions to other states and to
@@ -70,7 +74,11 @@ impl Exploration<'_> {
         };
         let place = Place {
             centre,
-            radius: self.problem.space.length(along).clamp(2e-3, 0.03),
+            radius: self
+                .problem
+                .space
+                .length(along)
+                .clamp(self.problem.scaled(RADII[0]), self.problem.scaled(RADII[1])),
             highest: self.network.costs(merge.link).peak,
             number: (round << 32) + merge.link as u64,
         };

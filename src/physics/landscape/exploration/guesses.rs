@@ -67,7 +67,7 @@ impl Exploration<'_> {
     fn look_near(&mut self, places: Vec<Configuration>) {
         let places: Vec<Configuration> = places
             .into_iter()
-            .filter(|q| self.state_at(q, KNOWN).is_none())
+            .filter(|q| self.state_at(q, self.problem.scaled(KNOWN)).is_none())
             .collect();
         let verified = self.known();
         let descents: Vec<Descent> =

@@ -264,7 +264,7 @@ impl<'a> Exploration<'a> {
     fn state_node(&mut self, minimum: &Stationary) -> usize {
         let problem = self.problem;
         let q = minimum.point.q;
-        if let Some(known) = self.state_at(&q, SAME) {
+        if let Some(known) = self.state_at(&q, self.problem.scaled(SAME)) {
             return self.states[known].node;
         }
         let class = self.states.len();

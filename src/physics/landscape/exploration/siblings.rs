@@ -89,7 +89,7 @@ pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Ve
         {
             if meetings
                 .iter()
-                .all(|known| known.distance(&meeting, size) > SAME)
+                .all(|known| known.distance(&meeting, size) > problem.scaled(SAME))
             {
                 meetings.push(meeting);
             }

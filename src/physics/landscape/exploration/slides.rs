@@ -33,7 +33,10 @@ pub(super) fn slid_meetings(problem: &Problem) -> Vec<Configuration> {
                 let to_known = known.iter().map(|other| problem.space.distance(q, other));
                 to_known.fold(f64::INFINITY, f64::min)
             };
-            if images.map(|q| distance(&q)).any(|d| d < SAME) {
+            if images
+                .map(|q| distance(&q))
+                .any(|d| d < problem.scaled(SAME))
+            {
                 continue;
             }
             known.push(flush);

@@ -46,7 +46,9 @@ impl Exploration<'_> {
             self.transition_states.iter().map(|s| s.0.point.q).collect();
         let mut fresh: Vec<Stationary> = Vec::new();
         for found in found {
-            let is_same = |q: &Configuration| problem.space.distance(q, &found.point.q) <= SAME;
+            let is_same = |q: &Configuration| {
+                problem.space.distance(q, &found.point.q) <= problem.scaled(SAME)
+            };
             if !known.iter().any(is_same) {
                 known.extend(symmetries.iter().map(|s| s.apply(&found.point.q)));
                 fresh.push(found);
@@ -98,8 +100,11 @@ impl Exploration<'_> {
 /// The descent from a transition state to one of its sides.
 fn off_saddle(problem: &Problem, saddle: &Stationary, sign: f64, known: &Known) -> Option<Descent> {
     let unstable = saddle.modes.first()?.1;
-    let aim = saddle.point.q.moved(unstable * (sign * OFF_SADDLE));
-    let start = constrained::settle(problem, &aim, OFF_SADDLE)?;
+    let aim = saddle
+        .point
+        .q
+        .moved(unstable * (sign * problem.scaled(OFF_SADDLE)));
+    let start = constrained::settle(problem, &aim, problem.scaled(OFF_SADDLE))?;
     let descent = descend_among(problem, &start, known);
     (descent.way[0].energy <= saddle.point.energy).then_some(descent)
 }

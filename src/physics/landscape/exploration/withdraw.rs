@@ -38,7 +38,9 @@ impl Exploration<'_> {
                     let far = problem.space.distance(&at(one), &at(other));
                     (OrderedFloat(far), other)
                 });
-                let mut near: Vec<_> = far.filter(|(far, _)| far.0 <= FARTHEST).collect();
+                let mut near: Vec<_> = far
+                    .filter(|(far, _)| far.0 <= problem.scaled(FARTHEST))
+                    .collect();
                 near.sort_unstable();
                 near.into_iter()
                     .take(MOST_OTHERS)
@@ -141,7 +143,7 @@ impl Exploration<'_> {
 /// Away from each closed contact, and from all of them together.
 fn directions(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     let mut normals: Vec<Vector2<f64>> = Vec::new();
-    for constraint in constrained::constraints(problem, q, CLOSED) {
+    for constraint in constrained::constraints(problem, q, problem.scaled(CLOSED)) {
         let normal = constraint.gradient.xy().normalize();
         let is_same = |known: &Vector2<f64>| (known - normal).norm() < 1e-6;
         if !normals.iter().any(is_same) {

@@ -26,9 +26,9 @@
 //! For the model potential and the two outlines as given, with the reference point on the table:
 //!
 //! - `lower` holds for every path on which no point of a tile gets deeper than
-//!   [`RELAXED`](crate::contact::cells::RELAXED) (2e-9 m) into the other, more than every free one;
+//!   [`relaxed`](crate::contact::cells::ContactCells::relaxed) (2e-9 m of the paper's tile) into the other, more than every free one;
 //! - `upper` is that of the returned pathway, on no stretch of which the tiles overlap by more than
-//!   [`TOUCH`](crate::contact::TOUCH) (1e-9 m), which counts as touching;
+//!   [`touch`](crate::contact::Contact::touch) (1e-9 m of the paper's tile), which counts as touching;
 //! - rounding errors are included, see [`crate::potential::bounds`], [`crate::cell`] and
 //!   [`crate::contact::cells`]. Assumed is that f64 arithmetic is IEEE 754's, and that the
 //!   platform's sine, cosine, arc and exponential functions are right to 8 units in the last place.

@@ -5,7 +5,7 @@ use ordered_float::OrderedFloat;
 
 use crate::cell::Cell;
 use crate::configuration::Configuration;
-use crate::contact::{Constraint, Contact, TOUCH, closest_admissible};
+use crate::contact::{Constraint, Contact, closest_admissible};
 use crate::landscape::bounded::Bounded;
 
 /// How far (m) inner points of a pathway are lifted off contact, so that a chord between two of
@@ -116,7 +116,7 @@ impl Bounded<'_> {
     /// Whether the straight way is proved free throughout.
     fn is_free(&self, from: &Configuration, to: &Configuration) -> bool {
         self.contact
-            .is_none_or(|contact| contact.stays_separated(from, to, TOUCH))
+            .is_none_or(|contact| contact.stays_separated(from, to, contact.touch()))
     }
 
     /// The configuration moved off contact until the tiles are [`LIFT`] apart or, where there is no
@@ -125,13 +125,14 @@ impl Bounded<'_> {
         let Some(contact) = self.contact else {
             return Some(*q);
         };
-        let [wide, close] = AROUND;
+        let [wide, close] = AROUND.map(|around| contact.scaled(around));
+        let lift = contact.scaled(LIFT);
         let moved = |at: &Configuration| self.space.distance(q, at);
-        let first = self.lifted_by(contact, q, (LIFT, wide));
-        let second = if first.is_some_and(|at| moved(&at) <= SHORT) {
+        let first = self.lifted_by(contact, q, (lift, wide));
+        let second = if first.is_some_and(|at| moved(&at) <= contact.scaled(SHORT)) {
             None
         } else {
-            self.lifted_by(contact, q, (LIFT, close))
+            self.lifted_by(contact, q, (lift, close))
         };
         let lifted = first.into_iter().chain(second);
         lifted
@@ -153,7 +154,7 @@ impl Bounded<'_> {
                 return Some(at);
             }
             let clearance = contact.clearance(&at);
-            if clearance >= 0.5 * (lift - TOUCH) {
+            if clearance >= 0.5 * (lift - contact.touch()) {
                 return Some(at);
             }
             let margin = 2.0 * clearance.abs() + around;
@@ -165,7 +166,11 @@ impl Bounded<'_> {
                     ..c
                 })
                 .collect();
-            let (step, _) = closest_admissible(Vector3::zeros(), &metric, &constraints)?;
+            let (step, _) = closest_admissible(
+                (Vector3::zeros(), contact.scaled(1.0)),
+                &metric,
+                &constraints,
+            )?;
             at = at.moved(step);
         }
         None

@@ -25,6 +25,8 @@ const WAYS_OUT: [f64; 2] = [6.0, 60.0];
 const NARROW: f64 = 8.0;
 /// A projected force shorter than this share of the whole one is taken for none.
 const HELD: f64 = 1e-6;
+/// A step out of contact is to clear all by this much (m).
+const SPARE: f64 = 1e-9;
 /// Tries to make a step open all contacts throughout a cell.
 const TRIES: usize = 4;
 
@@ -94,6 +96,11 @@ impl CellProof<'_> {
         ))
     }
 
+    /// What steps are long or short by (m).
+    fn unit(&self) -> f64 {
+        self.bounded.scale().length(1.0)
+    }
+
     /// A cell's half sizes (m).
     pub fn sizes(&self, cell: &Cell) -> [f64; 3] {
         let [x, y, theta] = cell.half;
@@ -136,7 +143,7 @@ impl CellProof<'_> {
         let metric = self.metric();
         let force = -(metric.try_inverse()? * gradient);
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
-        let (direction, _) = closest_admissible(force, &metric, &held)?;
+        let (direction, _) = closest_admissible((force, force.norm()), &metric, &held)?;
         let length = |v: &Vector3<f64>| v.dot(&(metric * v)).sqrt();
         if length(&direction) <= HELD * length(&force) {
             return None;
@@ -171,7 +178,7 @@ impl CellProof<'_> {
                 gradient: cut.form.gradient.into(),
             })
             .collect();
-        let push = closest_admissible(Vector3::zeros(), &self.metric(), &rows);
+        let push = closest_admissible((Vector3::zeros(), self.unit()), &self.metric(), &rows);
         let push = push.map_or_else(Vector3::zeros, |(push, _)| push);
         Vector3::from_fn(|i, _| push[i].clamp(-cell.half[i], cell.half[i]))
     }
@@ -199,7 +206,7 @@ impl CellProof<'_> {
                 .iter()
                 .map(|c| row(c, -(least(c).max(0.0) + 1.1 * lost(c))))
                 .collect();
-            step = closest_admissible(wanted, &self.metric(), &rows)?.0;
+            step = closest_admissible((wanted, self.unit()), &self.metric(), &rows)?.0;
             if (0..3).any(|i| step[i].abs() > longest * cell.half[i]) {
                 step = fitted(&step, &cell.half, longest);
             }
@@ -241,7 +248,7 @@ impl CellProof<'_> {
     /// Whether a step leads from every free configuration of the cell into a wholly free box.
     fn opens(&self, cell: &Cell, lowest: f64, longest: f64) -> Option<Verdict> {
         let contacts = self.possible(&widened(cell, longest))?;
-        let spare = 1e-9;
+        let spare = self.bounded.scale().length(SPARE);
         let least = |c: &PossibleContact| spare - c.least(&cell.half);
         let step = self.opening_step(cell, &contacts, (Vector3::zeros(), longest), least)?;
         let swept = swept(cell, &step);

@@ -94,7 +94,7 @@ fn known_way(
     minimum: &Configuration,
 ) -> Option<Vec<Configuration>> {
     let problem = survey.problem;
-    let from = survey.states[survey.state_at(minimum, SAME)?].node;
+    let from = survey.states[survey.state_at(minimum, problem.scaled(SAME))?].node;
     let is_listed = survey
         .states
         .iter()

@@ -8,7 +8,7 @@ use crate::problem::{Problem, Symmetry};
 
 /// Cells along theta at the start.
 const SLICES: u32 = 8;
-/// Rounding of coordinates (m) is less than this.
+/// Rounding of coordinates is less than this share of the largest of them.
 const ROUNDING: f64 = 1e-12;
 
 /// A wedge of the plane and a sector of theta. Turns of the moving tile onto itself by a whole
@@ -38,9 +38,15 @@ impl Domain {
         }
     }
 
+    /// What rounding may make of a coordinate (m).
+    fn rounding(&self) -> f64 {
+        ROUNDING * self.half_size[0].max(self.half_size[1])
+    }
+
     /// The cells that the search begins with.
     pub fn first_cells(&self) -> Vec<Cell> {
         let slice = PI / f64::from(self.of_moving * SLICES);
+        let rounding = self.rounding();
         let [x, y] = self.half_size.map(|size| size / 2.0);
         let mut cells = Vec::new();
         for k in 0..SLICES {
@@ -48,7 +54,7 @@ impl Domain {
             for [right, up] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
                 cells.push(Cell {
                     centre: Configuration::new(right * x, up * y, theta),
-                    half: [x, y, slice].map(|half| half + ROUNDING),
+                    half: [x + rounding, y + rounding, slice + ROUNDING],
                 });
             }
         }
@@ -64,7 +70,7 @@ impl Domain {
         // The farthest to the inner side of either of the wedge's lines.
         [cos, -cos].into_iter().all(|cos| {
             let centre = sin * cell.centre.x + cos * cell.centre.y;
-            centre + sin * cell.half[0] + cos.abs() * cell.half[1] >= -ROUNDING
+            centre + sin * cell.half[0] + cos.abs() * cell.half[1] >= -self.rounding()
         })
     }
 }

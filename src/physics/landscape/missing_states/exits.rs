@@ -146,7 +146,7 @@ impl<'a> Exits<'a> {
         let minimum = match descent.outcome {
             Outcome::Minimum(minimum) => *minimum,
             Outcome::Stuck(q) => {
-                let beside = self.near(&q, STUCK)?;
+                let beside = self.near(&q, self.problem.scaled(STUCK))?;
                 self.endings[beside].minimum.clone()
             }
             Outcome::Free => return None,
@@ -176,13 +176,14 @@ impl<'a> Exits<'a> {
     }
 
     fn ending(&mut self, minimum: Stationary) -> usize {
-        self.near(&minimum.point.q, SAME).unwrap_or_else(|| {
-            self.endings.push(Ending {
-                minimum,
-                beyond: f64::NEG_INFINITY,
-                is_new: true,
-            });
-            self.endings.len() - 1
-        })
+        self.near(&minimum.point.q, self.problem.scaled(SAME))
+            .unwrap_or_else(|| {
+                self.endings.push(Ending {
+                    minimum,
+                    beyond: f64::NEG_INFINITY,
+                    is_new: true,
+                });
+                self.endings.len() - 1
+            })
     }
 }

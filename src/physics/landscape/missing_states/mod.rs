@@ -31,7 +31,7 @@
 //!
 //! What is proved holds for the model potential and the outlines as given, for configurations in
 //! which the tiles' interiors are disjoint, with the reference point on the table; the pathways let
-//! overlaps of [`TOUCH`](crate::contact::TOUCH) pass. Rounding is included as in the barriers'
+//! overlaps of [`touch`](crate::contact::Contact::touch) pass. Rounding is included as in the barriers'
 //! certificates ([`super::minimax`]).
 
 mod cell;

@@ -16,9 +16,11 @@ use crate::landscape::results::Uncertified;
 use crate::landscape::stationary::Stationary;
 use crate::observer::Observer;
 use crate::problem::Problem;
+use crate::scale::Scale;
 use crate::subdivision::Waiting;
 
-/// Sides smaller than this (m or rad, half a side) are not halved: below it rounding rules.
+/// Sides smaller than this (half a side in rad, or in m for the paper's tile) are not halved: below it
+/// rounding rules.
 const SMALLEST: f64 = 1e-9;
 /// Cells assessed between two looks at what is left of the work.
 const BATCH: usize = 4096;
@@ -110,7 +112,7 @@ impl<'a> Search<'a> {
             let looked_at = queue.look(BATCH, |(cell, _)| proof.verdict(cell));
             self.cells += looked_at.len();
             for (cell, lowest, losses) in self.unproved(&proof, looked_at) {
-                match halves(&cell, &losses) {
+                match halves(&cell, &losses, self.problem.scale()) {
                     Some(halves) => halves
                         .into_iter()
                         .filter(|half| domain.meets(half))
@@ -156,9 +158,10 @@ impl<'a> Search<'a> {
 }
 
 /// The halves of a cell along the coordinate whose size costs most; `None` where it is too small.
-fn halves(cell: &Cell, losses: &[f64; 3]) -> Option<[Cell; 2]> {
+fn halves(cell: &Cell, losses: &[f64; 3], scale: Scale) -> Option<[Cell; 2]> {
     let axis = (0..3).max_by_key(|&i| OrderedFloat(losses[i]))?;
     let size = cell.half[axis];
-    let half = size / 2.0 + 4.0 * f64::EPSILON * (1.0 + size);
-    (size > SMALLEST).then(|| cell.parts(axis, half))
+    let at = cell.centre.to_array()[axis].abs();
+    let half = size / 2.0 + 4.0 * f64::EPSILON * (at + size);
+    (size > SMALLEST * if axis < 2 { scale.factor() } else { 1.0 }).then(|| cell.parts(axis, half))
 }

@@ -71,7 +71,7 @@ fn free_polyline(problem: &Problem, all: &[Point]) -> Option<Vec<Point>> {
 /// Appends a free way from the last corner to `to`, its middle pushed out of overlap where needed.
 fn join(problem: &Problem, corners: &mut Vec<Point>, to: &Point, depth: u32) -> Option<()> {
     let ends = [&corners.last()?.q, &to.q];
-    if problem.motion_overlaps_at_most(ends[0], ends[1], OVERLAP) {
+    if problem.motion_overlaps_at_most(ends[0], ends[1], problem.scaled(OVERLAP)) {
         corners.push(*to);
         return Some(());
     }
@@ -89,7 +89,7 @@ fn middle(problem: &Problem, from: &Configuration, to: &Configuration) -> Option
     let length = problem.space.distance(from, to);
     let settled = |share: f64| {
         let straight = from.interpolate(to, share);
-        let overlap = (-problem.clearance(&straight)).max(OVERLAP);
+        let overlap = (-problem.clearance(&straight)).max(problem.scaled(OVERLAP));
         let sizes = [2.0, 8.0, 64.0].map(|times| times * overlap);
         let sizes = sizes.into_iter().filter(|size| *size < length);
         sizes.chain([length]).find_map(|size| {
@@ -166,8 +166,11 @@ impl Leg<'_> {
     /// A configuration of the leg pushed out of overlap, where the motions to it from `before` and on
     /// to the end are proved free.
     fn pushed_out(&self, before: &Configuration, q: &Configuration) -> Option<Configuration> {
-        let pushed = constrained::settle(self.problem, q, 4.0 * OVERLAP)?;
-        let is_free = |end| self.problem.motion_overlaps_at_most(end, &pushed, OVERLAP);
+        let pushed = constrained::settle(self.problem, q, 4.0 * self.problem.scaled(OVERLAP))?;
+        let is_free = |end| {
+            self.problem
+                .motion_overlaps_at_most(end, &pushed, self.problem.scaled(OVERLAP))
+        };
         [before, &self.to]
             .into_iter()
             .all(is_free)
@@ -206,11 +209,12 @@ impl Leg<'_> {
     /// good as linear between them.
     fn refine(&self, pathway: &mut Pathway, a: At, b: At) {
         let length = self.problem.space.distance(&a.0, &b.0);
-        if length > SHORTEST {
+        if length > self.problem.scaled(SHORTEST) {
             let middle = a.0.interpolate(&b.0, 0.5);
             let energy = self.problem.energy(&middle);
             let is_bent = (energy - (a.1 + b.1) / 2.0).abs() > self.bend;
-            if (is_bent || length > LONGEST) && self.problem.is_clear(&middle) {
+            if (is_bent || length > self.problem.scaled(LONGEST)) && self.problem.is_clear(&middle)
+            {
                 self.refine(pathway, a, (middle, energy));
                 self.refine(pathway, (middle, energy), b);
                 return;

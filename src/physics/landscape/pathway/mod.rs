@@ -17,8 +17,9 @@ use legs::of_milestones;
 use shortcut::bypassed;
 pub use shortcut::{Limits, shortened};
 
-/// Descents into one minimum end this close to each other (m, metric of the space).
-const SAME: f64 = 1e-7;
+/// Descents into one minimum end this close to each other (metric of the space, in radii of
+/// gyration).
+const SAME: f64 = 5e-7;
 
 /// How much higher a way to `free` may rise than the lowest one, as a fraction of the barrier and not
 /// above 0: far configurations are all free, but their energies differ a little.
@@ -39,7 +40,7 @@ pub fn lowest(
     [goals, ends]: [&HashSet<usize>; 2],
     [depth, bend]: [f64; 2],
 ) -> Option<(usize, Pathway)> {
-    let limits = Limits::below(highest(network, from, goals, depth)?, depth);
+    let limits = Limits::below(highest(network, from, goals, depth)?, network.problem);
     let cost = Cost::Below {
         highest: limits.highest,
         per_metre: limits.per_metre,
@@ -85,7 +86,7 @@ pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -
     let (Some(end), Some(start)) = (first.last().copied(), second.first()) else {
         return Some(if first.is_empty() { second } else { first });
     };
-    if space.distance(&end.configuration, &start.configuration) > SAME {
+    if space.distance(&end.configuration, &start.configuration) > SAME * space.rho {
         return None;
     }
     let rest = second.into_iter().skip(1);

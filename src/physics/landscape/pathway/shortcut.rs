@@ -47,11 +47,12 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Ways that rise nowhere above `highest` (J), energies being measured by `depth` (J).
-    pub fn below(highest: f64, depth: f64) -> Self {
+    /// Ways between such tiles that rise nowhere above `highest` (J).
+    pub fn below(highest: f64, problem: &Problem) -> Self {
+        let depth = problem.depth();
         Self {
             highest,
-            per_metre: PER_METRE * depth,
+            per_metre: PER_METRE * depth / problem.scaled(1.0),
             tolerance: CLOSELY * depth,
         }
     }
@@ -91,7 +92,7 @@ fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
             let [before, here, after] = [points[k - 1], points[k], points[k + 1]];
             let middle = before.interpolate(&after, 0.5);
             let aside = problem.space.distance(&middle, &here);
-            if aside < KINK {
+            if aside < problem.scaled(KINK) {
                 continue;
             }
             let Some(pulled) = constrained::settle(problem, &middle, aside) else {
@@ -112,13 +113,13 @@ fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
 
 /// Whether a straight motion overlaps no more than the legs of a pathway do.
 fn is_free(problem: &Problem, from: &Configuration, to: &Configuration) -> bool {
-    problem.motion_overlaps_at_most(from, to, OVERLAP)
+    problem.motion_overlaps_at_most(from, to, problem.scaled(OVERLAP))
 }
 
 fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration> {
     let mut fine: Vec<Configuration> = points.first().copied().into_iter().collect();
     for pair in points.windows(2) {
-        let count = (problem.space.distance(&pair[0], &pair[1]) / STEP).ceil();
+        let count = (problem.space.distance(&pair[0], &pair[1]) / problem.scaled(STEP)).ceil();
         let between = (1..count as usize).map(|k| pair[0].interpolate(&pair[1], k as f64 / count));
         fine.extend(between.chain([pair[1]]));
     }
@@ -161,7 +162,7 @@ fn worst_detour(
         for &to in &looked_at[k + 1..] {
             // At best.
             let saved = prices[to] - prices[from] - price(from, to);
-            if saved > WORTHWHILE * limits.per_metre {
+            if saved > problem.scaled(WORTHWHILE) * limits.per_metre {
                 pairs.push((saved, from, to));
             }
         }

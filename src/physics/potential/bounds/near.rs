@@ -7,15 +7,18 @@
 
 use std::f64::consts::PI;
 
+use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
 
 /// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
-/// as touching, with room to spare.
-const SLACK: f64 = 1e-8;
+/// as touching ([`TOUCH`](crate::contact::TOUCH)), with room to spare.
+pub const SLACK: f64 = 1e-8;
 
-/// How deep (m) a tile's magnets lie inside its outline.
+/// How deep (m) a tile's magnets lie inside its outline, less half the slack for tiles of its size.
 pub fn depths(tile: &Tile) -> Vec<f64> {
-    let depth = |magnet: &Magnet| (-tile.outline.signed_distance(magnet.position)).max(0.0);
+    let radius = tile.outline.circumradius();
+    let spare = Scale::of([radius; 2]).length(SLACK) / 2.0;
+    let depth = |magnet: &Magnet| (-tile.outline.signed_distance(magnet.position)).max(0.0) - spare;
     tile.magnets.iter().map(depth).collect()
 }
 
@@ -62,7 +65,7 @@ impl Interval {
 /// The least distance (m) of two dipoles that are `r` (m) apart at a cell's centre, of which one
 /// moves by up to `reach` (m), and whose distances to their own outlines sum to `depths` (m).
 pub fn least_distance(r: f64, reach: f64, depths: f64) -> f64 {
-    (r - reach).max(depths - SLACK)
+    (r - reach).max(depths)
 }
 
 /// What a cell does to two dipoles.

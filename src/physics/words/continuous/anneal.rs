@@ -18,8 +18,8 @@ const HEAT: [f64; 2] = [0.05, 5e-4];
 const OF_WORST: f64 = 0.6;
 const EXCHANGED: f64 = 0.15;
 const REDRAWN: f64 = 0.05;
-/// Shifts (m), from the least on, by factors up to this one.
-const SHIFT: (f64, f64) = (2e-4, 400.0);
+/// Shifts, in lengths of a face, from the least on, by factors up to this one.
+const SHIFT: (f64, f64) = (2e-4 / 0.43, 400.0);
 /// What the mean of all meetings counts beside the strongest.
 const OF_MEAN: f64 = 0.02;
 
@@ -240,7 +240,7 @@ fn changed(wanted: &Wanted, word: &SpacedWord, rng: &mut ChaCha8Rng) -> Option<S
             word.magnets[other].1 *= -1;
         }
     } else {
-        let size = SHIFT.0 * libm::pow(SHIFT.1, rng.random::<f64>());
+        let size = wanted.face * SHIFT.0 * libm::pow(SHIFT.1, rng.random::<f64>());
         word.magnets[k].0 += if rng.random() { size } else { -size };
         word.magnets.sort_by(|a, b| a.0.total_cmp(&b.0));
     }

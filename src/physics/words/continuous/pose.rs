@@ -11,8 +11,8 @@ use crate::units::MU0_OVER_4PI;
 
 /// Tilts (rad) that are looked at, either way.
 const TILTS: [f64; 6] = [0.01, 0.02, 0.04, 0.08, 0.16, 0.32];
-/// Polishing: steps of slide (m) and tilt (rad), halved so often.
-const STEPS: [f64; 2] = [2e-3, 4e-3];
+/// Polishing: steps of slide (in lengths of a face) and tilt (rad), halved so often.
+const STEPS: [f64; 2] = [2e-3 / 0.43, 4e-3];
 const HALVINGS: usize = 4;
 
 /// Energies of two faces of given magnets.
@@ -86,12 +86,13 @@ impl Meetings {
         wrong: &dyn Fn(f64) -> bool,
         best: &mut (f64, [f64; 2]),
     ) {
+        let steps = [STEPS[0] * self.face, STEPS[1]];
         let mut share = 1.0;
         for _ in 0..HALVINGS {
             for axis in 0..2 {
                 for sign in [1.0, -1.0] {
                     let mut there = best.1;
-                    there[axis] += sign * share * STEPS[axis];
+                    there[axis] += sign * share * steps[axis];
                     if let Some(energy) = self.energy(first, second, there[0], there[1])
                         && energy < best.0
                         && wrong(there[0])

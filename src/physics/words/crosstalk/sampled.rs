@@ -131,7 +131,7 @@ impl Stage {
         let mut here = start;
         let mut best = value(here)?;
         let mut step = lever / self.places as f64 / SLIDES_A_PLACE;
-        while step > FINEST {
+        while step > self.contact.scaled(FINEST) {
             let steps = [step / lever, step, step];
             let moves = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)));
             let tried = moves.filter_map(|(axis, sign)| {

@@ -47,12 +47,15 @@ impl Stage {
             }
             minima.order_by_key(|(energy, _)| OrderedFloat(*energy));
             let problem = self.problem_of(words[number], words[number].mate());
-            let bond = self.pair.bound;
+            let (bond, same) = (self.pair.bound, self.contact.scaled(SAME));
             let polished = minima
                 .into_iter()
                 .take(POLISHED)
                 .filter_map(|(_, setting)| self.polished(&problem, setting))
-                .filter(|(_, q)| bond.step_to(q).iter().any(|x| x.abs() > SAME));
+                .filter(|(_, q)| {
+                    let step = bond.step_to(q);
+                    step.xy().amax() > same || step.z.abs() > SAME
+                });
             polished.min_by_key(|(energy, _)| OrderedFloat(*energy))
         })
     }

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use super::super::effort::Effort;
 use super::super::graph::Graph;
 use super::super::local;
-use super::Search;
+use super::{Search, seeded};
 use crate::budget::Budget;
 use crate::order::Order;
 
@@ -58,7 +58,13 @@ impl Search<'_> {
             };
             let mut part = work.share(share);
             let graph = self.graph(at..=at, false);
+            let seed = seeded(&self.seeds, &graph, self.enough, &mut part);
             let members = self.taken(&graph, &mut rng, &mut part);
+            let members = if seed.len() > members.len() {
+                seed
+            } else {
+                members
+            };
             work.give_back(&part);
             if members.len() > self.best.len() {
                 self.accept(&graph, &members);

@@ -10,6 +10,7 @@ mod many;
 
 use std::ops::RangeInclusive;
 
+use crate::budget::Budget;
 use crate::order::Order;
 use crate::parallel;
 
@@ -79,6 +80,21 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         let sound = |word| task.rules.within(&task.lags, word, word, limit(deepest));
         words.retain(|(_, word)| sound(*word));
     }
+    let seeds = task.codes(limit(match first.complete {
+        true => words.iter().map(|it| it.0).fold(0.0, f64::max),
+        false => task.deepest_bond(),
+    }));
+    if !first.complete {
+        // Words of known codes are among those to choose from.
+        let more = seeds.iter().flatten().filter_map(|word| {
+            let bond = task.rules.bond(&task.lags, *word);
+            (bond > 0.0 && task.constraints.allow(&task.lags, &task.rules, *word))
+                .then_some((bond, *word))
+        });
+        words.extend(more);
+        words.order_by_key(|it| it.1);
+        words.dedup_by_key(|it| it.1);
+    }
     let candidates = words.len();
     // Of little work there is always some left to do something with what was drawn.
     let looked = first.work + candidates as u64 * BOND;
@@ -104,6 +120,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         task,
         gap,
         words,
+        seeds,
         bonds,
         best: Vec::new(),
         enough: enough.min(code_bound),
@@ -169,11 +186,42 @@ fn all_classes(task: &Task) -> usize {
     (if task.exchangeable() { all / 2.0 } else { all }) as usize
 }
 
+/// The largest of what is left of known codes in a graph: their words in order, each that goes with all
+/// before.
+fn seeded(seeds: &[Vec<Word>], graph: &Graph, enough: usize, budget: &mut Budget) -> Vec<usize> {
+    let mut best: Vec<usize> = Vec::new();
+    for seed in seeds.iter().filter(|seed| seed.len() > 2) {
+        let mut members: Vec<usize> = Vec::new();
+        for word in seed {
+            if members.len() >= enough || budget.is_spent() {
+                break;
+            }
+            let Ok(vertex) = graph.words.binary_search(word) else {
+                continue;
+            };
+            let against = members
+                .iter()
+                .position(|other| !graph.joined(vertex, *other));
+            budget.spend(8 + against.map_or(members.len(), |k| k + 1) as u64 * graph.judgement());
+            if against.is_none() {
+                members.push(vertex);
+            }
+        }
+        if members.len() > best.len() {
+            best = members;
+        }
+    }
+    best.sort_unstable();
+    best
+}
+
 struct Search<'a> {
     task: &'a Task,
     gap: f64,
     /// Bonds (J) and words, the words ascending.
     words: Vec<(f64, Word)>,
+    /// Known codes.
+    seeds: Vec<Vec<Word>>,
     /// Bonds that differ (J), deepest first.
     bonds: Vec<f64>,
     best: Vec<Word>,
@@ -249,8 +297,9 @@ impl<'a> Search<'a> {
     fn clique(&mut self, graph: &Graph) -> Clique {
         let (enough, effort) = (self.enough, &mut *self.effort);
         let look = LOOK_A_PAIR * (graph.len() * graph.len()) as f64;
+        let seed = seeded(&self.seeds, graph, enough, &mut effort.budget);
         let known = effort.part(look.min(LOOK), |part| {
-            local::search(graph, Vec::new(), enough, part)
+            local::search(graph, seed, enough, part)
         });
         let mut found = Clique {
             upper: graph.len(),

@@ -2,52 +2,21 @@
 
 mod kept;
 mod results;
-mod shown;
+mod views;
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
+use tilebind::Analysis as Found;
 use tilebind::landscape::{Barrier, Place, pathway};
-use tilebind::pipeline::{self, Request};
 use tilebind::report::analysis::{Extent, document};
 use tilebind::report::document::Document;
 use tilebind::report::plots::{self, Scene, Sheet};
-use tilebind::{Analysis as Found, Settings};
 
 use crate::design::{Content, Design};
-use crate::request::request;
 use crate::table::FREE;
-use crate::{fault, job};
-
-/// The library's settings.
-fn settings(given: Option<&Bound<'_, PyDict>>, design: &tilebind::Design) -> PyResult<Settings> {
-    let settings = request::<Request>(given)?.settings(design);
-    job::check_memory(settings.milestones, settings.neighbours)?;
-    Ok(settings)
-}
-
-/// The main job.
-pub fn analyse(
-    py: Python<'_>,
-    design: Py<Design>,
-    given: Option<&Bound<'_, PyDict>>,
-    progress: Option<bool>,
-) -> PyResult<Analysis> {
-    let content = design.get().content.clone();
-    let settings = settings(given, &content.design)?;
-    let start = Instant::now();
-    let found = job::run(py, progress, |told| {
-        pipeline::analyse(&content.design, &settings, told)
-    })?;
-    Ok(Analysis {
-        design,
-        content,
-        found,
-        wall_s: start.elapsed().as_secs_f64(),
-    })
-}
+use crate::{fault, shown};
 
 /// What the main job found: states, traps, barriers with their proofs, pathways. It never changes.
 #[pyclass(frozen, module = "tilebind")]
@@ -59,6 +28,16 @@ pub struct Analysis {
 }
 
 impl Analysis {
+    /// What was found of a design in so long (s).
+    pub fn new(design: Py<Design>, found: Found, wall_s: f64) -> Self {
+        Self {
+            content: design.get().content.clone(),
+            design,
+            found,
+            wall_s,
+        }
+    }
+
     fn scene(&self) -> Scene<'_> {
         let design = &self.content.design;
         Scene::new(design, &self.found.problem, &self.found.catalogue)
@@ -128,10 +107,8 @@ impl Analysis {
 
     /// SVG documents of the pictures that are wanted.
     fn pictures(&self, py: Python<'_>, wanted: &[&str]) -> PyResult<Vec<String>> {
-        let drawn = job::quietly(py, || {
+        shown::svg(py, || {
             plots::draw(&self.scene(), &Sheet::SCREEN, |name| wanted.contains(&name))
-        })?;
-        let drawn = drawn.map_err(fault::run)?;
-        Ok(drawn.iter().map(|figure| figure.svg().to_owned()).collect())
+        })
     }
 }

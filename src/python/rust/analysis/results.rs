@@ -2,17 +2,18 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::kinetics::bond::Shaking;
+use tilebind::bond::{self, held};
 use tilebind::landscape::Place;
 use tilebind::landscape::map::{EnergyMap, Window};
+use tilebind::rates;
+use tilebind::report;
 use tilebind::report::plots;
 use tilebind::report::states::{barriers, states};
 
 use super::Analysis;
 use crate::design::Design;
-use crate::request::request;
-use crate::table;
-use crate::{convert, fault, job, kinetics};
+use crate::request::request_with;
+use crate::{convert, fault, job, shown, table};
 
 #[pymethods]
 impl Analysis {
@@ -29,8 +30,7 @@ impl Analysis {
     /// in contact, energy as blocks.
     #[getter]
     fn states<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let states = states(&self.content.design, &self.found, true);
-        table::structured(py, table::of_table(&states))
+        table::array(py, &states(&self.content.design, &self.found, true))
     }
 
     /// numpy.ndarray : The barriers, structured: `from`, `to` (ids of states, -1 for free),
@@ -39,10 +39,14 @@ impl Analysis {
     /// length.
     #[getter]
     fn barriers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let mut columns = table::of_table(&barriers(&self.found.catalogue.barriers));
+        let mut barriers = barriers(&self.found.catalogue.barriers);
         // The files of the pathways.
-        columns.retain(|(name, _)| name != "pathway");
-        table::structured(py, columns)
+        let files = barriers
+            .heads
+            .iter_mut()
+            .filter(|head| head.key == "pathway");
+        files.for_each(|head| head.is_csv = false);
+        table::array(py, &barriers)
     }
 
     /// numpy.ndarray : The pose (3,) in which the target faces coincide (m, m, rad).
@@ -174,10 +178,22 @@ impl Analysis {
     /// -------
     /// dict
     ///     `bond_kT`, `docking_cost_kT`, `ln_K`, `two_hold_one_does_not_J` and more.
-    fn bond<'py>(&self, py: Python<'py>, kt: f64, coverage: f64) -> PyResult<Bound<'py, PyAny>> {
-        let found = (&*self.found.problem, &self.found.catalogue);
-        let shaking = Shaking { kt, coverage };
-        kinetics::bond(py, &self.content.design, found, shaking)
+    #[pyo3(signature = (kt, coverage))]
+    fn bond<'py>(
+        &self,
+        py: Python<'py>,
+        kt: Bound<'py, PyAny>,
+        coverage: Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = PyDict::new(py);
+        asked.set_item("coverage", coverage)?;
+        let asked: bond::Request = request_with(py, Some(&asked), "kt", kt)?;
+        let (design, found) = (&self.content.design, &self.found);
+        let found = (&*found.problem, &found.catalogue);
+        let held = job::answer(py, Some(false), |_| {
+            held(design, found, asked.shaking(), false)
+        })?;
+        shown::report(py, &report::bond::document(design, &held))
     }
 
     /// How fast shaken tiles bind, come off and change between bond and traps: overdamped motion at
@@ -207,19 +223,18 @@ impl Analysis {
     /// dict
     ///     As ``tilebind rates --json``: basins, rates with their bounds, occupation, first-passage
     ///     times.
-    #[pyo3(signature = (kt, *, traps = 3, **settings))]
+    #[pyo3(signature = (kt, **settings))]
     fn rates<'py>(
         &self,
         py: Python<'py>,
-        kt: f64,
-        traps: usize,
-        settings: Option<Bound<'py, PyDict>>,
+        kt: Bound<'py, PyAny>,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = settings.unwrap_or_else(|| PyDict::new(py));
-        settings.set_item("kt", kt)?;
-        let asked = request(Some(&settings))?;
-        let found = (&self.content.design, &self.found);
-        kinetics::rates(py, found, &asked, traps)
+        let asked: rates::Request = request_with(py, settings, "kt", kt)?;
+        let (design, found) = (&self.content.design, &self.found);
+        let rates = job::answer(py, Some(false), |_| asked.rates(design, found, false))?;
+        let document = report::rates::document(design, &rates, found.settings.seed);
+        shown::report(py, &document)
     }
 
     /// Which kinds of states merge at which energy.
@@ -231,7 +246,6 @@ impl Analysis {
     ///     it), `energy_J` (of its foot), `copies`, `joins_at_J` (NaN for a line that joins none)
     ///     with certified bounds `lower_J` and `upper_J`.
     fn disconnectivity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let lines = plots::merge_lines(&self.scene());
-        table::structured(py, table::of_csv(&lines))
+        table::array(py, &table::of_csv(&plots::merge_lines(&self.scene())))
     }
 }

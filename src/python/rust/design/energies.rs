@@ -3,15 +3,13 @@
 use std::borrow::Cow;
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use tilebind::contact::matching::Match;
-use tilebind::report::json;
+use tilebind::query::poses::clearance;
+use tilebind::report::{json, matching};
 
 use super::Design;
-use crate::job;
 use crate::poses::{self, Poses};
-use crate::request::request;
-use crate::table::{self, Named, Values};
+use crate::request::request_with;
+use crate::{job, table};
 
 #[pymethods]
 impl Design {
@@ -95,13 +93,7 @@ impl Design {
         let problem = self.content.problem(None);
         poses::numbers(py, &poses, |qs, out: &mut [[f64; 1]]| {
             for (q, [out]) in qs.iter().zip(out) {
-                let clearance = problem.clearance(q);
-                // Tiles that touch may overlap by a rounding error.
-                let clearance = match problem.is_clear(q) {
-                    true => clearance.max(0.0),
-                    false => clearance,
-                };
-                *out = json::positive_zero(clearance);
+                *out = json::positive_zero(clearance(&problem, q));
             }
         })
     }
@@ -135,25 +127,10 @@ impl Design {
     ///     Structured, longest contact first: `x_m`, `y_m`, `theta_rad`, `contact_m`, `gap_m2`.
     #[pyo3(signature = (most = 100))]
     fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
-        let asked = PyDict::new(py);
-        asked.set_item("most", most)?;
-        let asked: tilebind::matching::Request = request(Some(&asked))?;
-        let content = self.content.clone();
-        let found = job::quietly(py, move || asked.matches(&content.design))?;
-        let real = |name: &str, of: fn(&Match) -> f64| -> Named {
-            (
-                name.to_owned(),
-                Values::Real(found.iter().map(of).collect()),
-            )
-        };
-        let columns = vec![
-            real("x_m", |one| one.pose.x),
-            real("y_m", |one| one.pose.y),
-            real("theta_rad", |one| one.pose.theta),
-            real("contact_m", |one| one.contact),
-            real("gap_m2", |one| one.gap),
-        ];
-        table::structured(py, columns)
+        let asked: tilebind::matching::Request = request_with(py, None, "most", most)?;
+        let design = &self.content.design;
+        let found = job::quietly(py, || asked.matches(design))?;
+        table::array(py, &matching::table(&found))
     }
 
     /// The time (s) that the energies of poses take on all cores by themselves, for the bench.

@@ -5,12 +5,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use tilebind::design::Design as Whole;
 use tilebind::inspection::Inspection;
-use tilebind::report::inspection;
-use tilebind::report::plots::{Sheet, glance};
+use tilebind::report::document::rows;
+use tilebind::report::inspection::document;
 
 use super::Design;
-use crate::table::{self, Named, Values};
-use crate::{convert, fault};
+use crate::{shown, table};
 
 #[pymethods]
 impl Design {
@@ -52,10 +51,11 @@ impl Design {
         table::fixed(PyArray1::from_slice(py, &bound).into_any())
     }
 
-    /// tuple of float : Size of the air table (m) along x and along y.
+    /// AirTable : Size of the air table (m) along x and along y; called, it has many tiles put on it.
     #[getter]
-    fn table(&self) -> (f64, f64) {
-        self.content.design.table.into()
+    fn table<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let class = slf.py().import("tilebind._results")?.getattr("AirTable")?;
+        class.call1((slf.get().content.design.table, slf.getattr("_on_table")?))
     }
 
     /// The corners of a tile's outline, counter-clockwise, in the tile's own frame.
@@ -87,26 +87,17 @@ impl Design {
     ///     axis), `moment_A_m2`, `remanence_T`, `length_m` (along the moment), `width_m`,
     ///     `height_m` (through the tile), `face` (its number).
     fn magnets<'py>(&self, py: Python<'py>, tile: &str) -> PyResult<Bound<'py, PyAny>> {
-        let magnets = &self.tile(tile)?.magnets;
-        let real = |name: &str, of: fn(&tilebind::tile::Magnet) -> f64| -> Named {
-            (
-                name.to_owned(),
-                Values::Real(magnets.iter().map(of).collect()),
-            )
-        };
-        let faces = magnets.iter().map(|magnet| magnet.face as i64).collect();
-        let columns = vec![
-            real("x_m", |magnet| magnet.position.x),
-            real("y_m", |magnet| magnet.position.y),
-            real("angle_rad", |magnet| magnet.angle),
-            real("moment_A_m2", |magnet| magnet.moment),
-            real("remanence_T", tilebind::tile::Magnet::remanence),
-            real("length_m", |magnet| magnet.size[0]),
-            real("width_m", |magnet| magnet.size[1]),
-            real("height_m", |magnet| magnet.size[2]),
-            ("face".to_owned(), Values::Whole(faces)),
-        ];
-        table::structured(py, columns)
+        let magnets = rows(&self.tile(tile)?.magnets)
+            .column("x_m", "", "", |magnet| magnet.position.x)
+            .column("y_m", "", "", |magnet| magnet.position.y)
+            .column("angle_rad", "", "", |magnet| magnet.angle)
+            .column("moment_A_m2", "", "", |magnet| magnet.moment)
+            .column("remanence_T", "", "", |magnet| magnet.remanence())
+            .column("length_m", "", "", |magnet| magnet.size[0])
+            .column("width_m", "", "", |magnet| magnet.size[1])
+            .column("height_m", "", "", |magnet| magnet.size[2])
+            .column("face", "", "", |magnet| magnet.face);
+        table::array(py, &magnets.table("magnets"))
     }
 
     /// The design at a glance: its bond, the forces that hold it, what is wrong with it.
@@ -114,12 +105,9 @@ impl Design {
     /// Returns
     /// -------
     /// str
-    fn summary(&self, py: Python<'_>) -> String {
-        const COLUMNS: usize = 100;
-        py.detach(|| {
-            let design = &self.content.design;
-            inspection::text(design, &Inspection::new(design), COLUMNS)
-        })
+    fn summary(&self) -> String {
+        let found = Inspection::new(&self.content.design);
+        document(&self.content.design, &found).text(Some(100))
     }
 
     /// The same as numbers.
@@ -128,9 +116,8 @@ impl Design {
     /// -------
     /// dict
     fn show<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let design = &self.content.design;
-        let shown = py.detach(|| inspection::json(design, &Inspection::new(design)).to_string());
-        convert::json(py, &shown)
+        let found = Inspection::new(&self.content.design);
+        shown::report(py, &document(&self.content.design, &found))
     }
 
     /// The two tiles bound, as an SVG document.
@@ -139,9 +126,9 @@ impl Design {
     /// -------
     /// str
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
-        let design = &self.content.design;
-        let picture = py.detach(|| glance::draw(design, &Inspection::new(design), &Sheet::SCREEN));
-        picture.map(|picture| picture.svg).map_err(fault::run)
+        let found = Inspection::new(&self.content.design);
+        let pictures = shown::pictures(py, &document(&self.content.design, &found));
+        Ok(pictures?.concat())
     }
 
     /// The magnets as magpylib collections, and, with poses, the moving ones' path.
@@ -165,8 +152,7 @@ impl Design {
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(py), vec![self.svg(py)?]))
+        shown::notebook(py, self.summary(), vec![self.svg(py)?])
     }
 
     fn __repr__(&self) -> String {

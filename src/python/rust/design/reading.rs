@@ -4,10 +4,13 @@ use std::path::PathBuf;
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyMapping};
+use pyo3::types::{PyDict, PyMapping};
+use tilebind::start;
 use tilebind::sweep::Source;
 
 use super::Design;
+use crate::request::request;
+use crate::shown::{self, Reduced};
 use crate::{convert, fault, pickle};
 
 #[pymethods]
@@ -78,6 +81,27 @@ impl Design {
         Self::loads(py, &text, "design.toml")
     }
 
+    /// Make a design to start from, as ``tilebind init`` writes it.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str, optional
+    /// sides, side, magnets : int, float, int, optional
+    ///     Sides of both tiles, length of a side (m), magnets on each of the two faces that are to
+    ///     bind.
+    /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
+    ///     Of those faces.
+    ///
+    /// Returns
+    /// -------
+    /// Design
+    #[staticmethod]
+    #[pyo3(signature = (name = "starter", **settings))]
+    fn start(py: Python<'_>, name: &str, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let text = request::<start::Request>(settings)?.text(name);
+        Self::loads(py, &text.map_err(fault::value)?, "design.toml")
+    }
+
     /// The same design with a key set to another value.
     ///
     /// Parameters
@@ -136,12 +160,8 @@ impl Design {
         u64::from_str_radix(&self.content.design.sha256[..16], 16).unwrap_or(0)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let py = slf.py();
-        let restore = slf.get_type().getattr("_restore")?;
-        Ok((restore, (pickle::dump(py, &slf.get().content.source)?,)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        shown::reduced(slf, &slf.get().content.source)
     }
 
     #[staticmethod]

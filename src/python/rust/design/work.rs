@@ -1,13 +1,26 @@
 //! The jobs that take a design.
 
+use std::time::Instant;
+
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use tilebind::workshop::Making;
+use pyo3::types::{PyDict, PyString};
+use tilebind::budget::Ended;
+use tilebind::calibration;
+use tilebind::docking::{self, loosening, released};
+use tilebind::pipeline;
+use tilebind::query;
+use tilebind::rates;
+use tilebind::report;
+use tilebind::workshop::{Made, Making};
+use tilebind::table::{Request, of_design, table as put};
+use tilebind::yields::yields;
 
 use super::Design;
-use crate::analysis::{self, Analysis};
-use crate::request::request;
-use crate::{barrier, crowd, dock, kinetics, workshop};
+use crate::analysis::Analysis;
+use crate::dock::{self, Docking};
+use crate::poses::pose;
+use crate::request::{request, request_with};
+use crate::{convert, job, shown, table};
 
 #[pymethods]
 impl Design {
@@ -61,7 +74,15 @@ impl Design {
         progress: Option<bool>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Analysis> {
-        analysis::analyse(py, slf, settings, progress)
+        let content = slf.get().content.clone();
+        let settings = request::<pipeline::Request>(settings)?.settings(&content.design);
+        job::check_memory(settings.milestones, settings.neighbours)?;
+        let start = Instant::now();
+        let found = job::run(py, progress, |told| {
+            pipeline::analyse(&content.design, &settings, told)
+        })?;
+        let wall_s = start.elapsed().as_secs_f64();
+        Ok(Analysis::new(slf, found, wall_s))
     }
 
     /// One barrier, between certified bounds: the lowest possible value of the highest energy on the
@@ -98,8 +119,33 @@ impl Design {
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let query = barrier::query(py, [Some(start), end], settings, &self.content.design)?;
-        barrier::ask(py, &self.content.design, &query, progress)
+        let settings = settings.map_or_else(|| Ok(PyDict::new(py)), |given| given.copy())?;
+        settings.set_item("from", pose(start)?.to_array().to_vec())?;
+        match end {
+            Some(end) if !end.is_instance_of::<PyString>() => {
+                settings.set_item("to", pose(end)?.to_array().to_vec())?;
+            }
+            Some(end) => settings.set_item("to", end)?,
+            None => settings.set_item("to", "free")?,
+        }
+        let design = &self.content.design;
+        let query = request::<query::Request>(Some(&settings))?.query(design);
+        let answer = job::answer(py, progress, |told| query::barrier(design, &query, told))?;
+        let barrier = &answer.barrier;
+        let fields = PyDict::new(py);
+        fields.set_item("lower", barrier.bounds.lower)?;
+        fields.set_item("upper", barrier.bounds.upper)?;
+        fields.set_item("path", table::pathway(py, &barrier.pathway)?)?;
+        fields.set_item("saddle_energy", barrier.saddle_energy)?;
+        let saddle = barrier.saddle.to_array().to_vec();
+        fields.set_item("saddle_pose", table::grid(py, saddle, vec![3])?)?;
+        fields.set_item("forward", barrier.forward())?;
+        fields.set_item("reverse", barrier.reverse())?;
+        fields.set_item("caged", barrier.bounds.caged)?;
+        let why = answer.uncertified.map(|why| why.to_string());
+        fields.set_item("uncertified", why)?;
+        fields.set_item("ended_by", answer.ended.map(Ended::name))?;
+        convert::named(py, "Barrier", &fields)
     }
 
     /// Send the moving tile towards the fixed one many times; see :func:`tilebind.dock`.
@@ -109,8 +155,8 @@ impl Design {
         py: Python<'_>,
         progress: Option<bool>,
         settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<dock::Docking> {
-        dock::docked(py, slf, settings, progress)
+    ) -> PyResult<Docking> {
+        dock::dock(py, slf, progress, settings)
     }
 
     /// Where a shaken tile that is let go ends, and how soon: overdamped motion at kT.
@@ -131,6 +177,12 @@ impl Design {
     /// certify : float, optional
     ///     Refine until the bounds of the mean exit time are apart by this share at most; 0.1 by
     ///     default, as far as it comes within seconds.
+    /// check : int, optional
+    ///     Let so many rigid bodies with inertia go at the start, too.
+    /// restitution : float, optional
+    ///     Share of the approach velocity that a knock of these gives back; 1 by default.
+    /// seed : int, optional
+    ///     Of these.
     /// prove : bool, optional
     ///     Prove how often tiles set out from the well about the start, and bounds of the mean time
     ///     until they are at an end: for tiles that are convex about their centres of mass, of dipoles.
@@ -148,9 +200,13 @@ impl Design {
         start: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked = request(settings)?;
+        let start = pose(start)?;
+        let place = start.to_array().to_vec();
+        let asked: rates::Request = request_with(py, settings, "start", place)?;
         let posed = (&self.content.design, &**self.content.problem(None));
-        kinetics::exits(py, posed, start, &asked)
+        let (found, check) = job::answer(py, Some(false), |_| asked.exit(posed, start))?;
+        let document = report::rates::exit_document(posed.0, &found, check.as_ref());
+        shown::report(py, &document)
     }
 
     /// How many pairs are bound after a time on a shaken table, and at which shaking most are.
@@ -188,63 +244,33 @@ impl Design {
         py: Python<'py>,
         kt: Bound<'py, PyAny>,
         progress: Option<bool>,
-        settings: Option<Bound<'py, PyDict>>,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = settings.unwrap_or_else(|| PyDict::new(py));
-        settings.set_item("kt", kt)?;
-        let question = request(Some(&settings))?;
-        kinetics::yielded(py, &self.content.design, &question, progress)
+        let (design, question) = (&self.content.design, request_with(py, settings, "kt", kt)?);
+        let found = job::answer(py, progress, |told| yields(design, &question, told))?;
+        shown::report(py, &report::yields::document(design, &question, &found))
     }
 
-    /// Many tiles on one table, with contact, friction and drives, and what they hold.
-    ///
-    /// Parameters
-    /// ----------
-    /// time : float
-    ///     How long each run lasts (s).
-    /// count : sequence of int, optional
-    ///     Tiles of the fixed tile's kind and of the moving one's, at random places.
-    /// start : str or os.PathLike, optional
-    ///     In place of `count`: a CSV file of the tiles at the start, with the columns `tile`, `kind`
-    ///     ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
-    /// runs : int, optional
-    /// shaking : float, optional
-    ///     Effective energy kT (J) of shaking.
-    /// correlation : float, optional
-    ///     Its correlation time (s): that between two random kicks.
-    /// orbital : tuple of float, optional
-    ///     The table goes round in a circle: radius (m) and rounds a second (Hz).
-    /// fan : sequence, optional
-    ///     Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and how
-    ///     often a second.
-    /// drag, friction, restitution : float, optional
-    ///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
-    ///     back.
-    /// step : float, optional
-    ///     Longest step (s).
-    /// frames : float, optional
-    ///     Time (s) between two moments whose places are kept.
-    /// seed : int, optional
-    /// progress : bool, optional
-    ///
-    /// Returns
-    /// -------
-    /// dict
-    ///     As ``tilebind table --json``.
+    /// Many tiles on one table: what calling `table` does.
     #[pyo3(signature = (time, *, start = None, progress = None, **settings))]
-    fn table<'py>(
+    fn _on_table<'py>(
         &self,
         py: Python<'py>,
         time: f64,
         start: Option<std::path::PathBuf>,
         progress: Option<bool>,
-        settings: Option<Bound<'py, PyDict>>,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = settings.unwrap_or_else(|| PyDict::new(py));
-        settings.set_item("time", time)?;
-        let asked = request(Some(&settings))?;
-        let start = start.map(std::fs::read_to_string).transpose()?;
-        crowd::table_of(py, &self.content.design, &asked, start.as_deref(), progress)
+        let (design, asked) = (&self.content.design, request_with(py, settings, "time", time)?);
+        let asked: Request = asked;
+        let text = start.map(std::fs::read_to_string).transpose()?;
+        let found = job::answer(py, progress, |told| {
+            let crowd = of_design(design).map_err(|error| error.to_string())?;
+            let start = asked.start(&crowd, text.as_deref().map(|text| ("start", text)))?;
+            asked.check()?;
+            put(crowd, &asked, &start, told).map_err(|error| error.to_string())
+        })?;
+        shown::report(py, &report::table::document(design, &found, asked.seed))
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
@@ -260,14 +286,15 @@ impl Design {
     /// -------
     /// dict of str to bytes
     ///     By their names: DXF and SVG in mm, a sheet in Markdown.
-    #[pyo3(signature = (*, kerf = 0.0, clearance = 1e-4))]
+    #[pyo3(signature = (**settings))]
     fn make<'py>(
         &self,
         py: Python<'py>,
-        kerf: f64,
-        clearance: f64,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        workshop::files(py, &self.content.design, &Making { kerf, clearance })
+        let (design, making) = (&self.content.design, request::<Making>(settings)?);
+        let made = job::answer(py, Some(false), |_| Made::new(design, &making))?;
+        convert::files(py, report::workshop::document(design, &made).beside)
     }
 
     /// Fit the constants of soft-iron shields to measured forces or energies.
@@ -285,14 +312,17 @@ impl Design {
     /// -------
     /// dict
     ///     The constants with their errors, and how well they tell what was held out.
-    #[pyo3(signature = (table, *, hold_out = 5))]
+    #[pyo3(signature = (table, *, hold_out = None))]
     fn calibrate<'py>(
         &self,
         py: Python<'py>,
         table: &Bound<'py, PyAny>,
-        hold_out: usize,
+        hold_out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        workshop::calibrated(py, &self.content.design, table, hold_out)
+        let asked: calibration::Request = request_with(py, None, "hold_out", hold_out)?;
+        let (design, text) = (&self.content.design, text(table)?);
+        let found = job::answer(py, Some(false), |_| asked.of_forces(design, &text))?;
+        shown::report(py, &report::calibration::document(design, &found))
     }
 
     /// Fit the effective energy kT of a shaking to pairs that bind and part.
@@ -313,15 +343,17 @@ impl Design {
     /// -------
     /// dict
     ///     As ``tilebind calibrate --bonds --json``.
-    #[pyo3(signature = (table, *, area = None, within = None))]
+    #[pyo3(signature = (table, **settings))]
     fn calibrate_bonds<'py>(
         &self,
         py: Python<'py>,
         table: &Bound<'py, PyAny>,
-        area: Option<f64>,
-        within: Option<f64>,
+        settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        workshop::kt_of_bonds(py, &self.content.design, table, area, within)
+        let asked: calibration::Request = request(settings)?;
+        let (design, text) = (&self.content.design, text(table)?);
+        let found = job::answer(py, Some(false), |told| asked.of_pairs(design, &text, told))?;
+        shown::report(py, &report::calibration::document(design, &found))
     }
 
     /// Start bound, with a thermal velocity, many times: the rate of detachment under shaking.
@@ -330,6 +362,8 @@ impl Design {
     /// ----------
     /// shaking : float
     ///     Effective energy kT (J) of a random force.
+    /// overdamped : bool, optional
+    ///     Tell the rate of overdamped motion at the same kT and drag beside it.
     /// progress : bool, optional
     /// **settings
     ///     As of :func:`tilebind.dock`; those of starts do not matter.
@@ -338,14 +372,36 @@ impl Design {
     /// -------
     /// dict
     ///     As ``tilebind dock --from-bond --json``.
-    #[pyo3(signature = (*, shaking, progress = None, **settings))]
+    #[pyo3(signature = (*, shaking, overdamped = false, progress = None, **settings))]
     fn releases<'py>(
         &self,
         py: Python<'py>,
-        shaking: f64,
+        shaking: Bound<'py, PyAny>,
+        overdamped: bool,
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        dock::released(py, &self.content, shaking, settings, progress)
+        let asked: docking::Request = request_with(py, settings, "shaking", shaking)?;
+        let (design, problem) = (&self.content.design, &**self.content.problem(None));
+        let settings = asked.settings();
+        let beside = overdamped.then(|| {
+            let posed = (design, problem);
+            job::answer(py, progress, |told| loosening(posed, &settings, told))
+        });
+        let found = job::answer(py, progress, |told| released(problem, &settings, told))?;
+        let beside = beside.transpose()?;
+        let document = report::release::document(design, &settings, &found, beside);
+        shown::report(py, &document)
     }
+}
+
+/// A table as CSV: of a frame, or of the file of that name.
+fn text(table: &Bound<'_, PyAny>) -> PyResult<String> {
+    if table.hasattr("to_csv")? {
+        let keywords = PyDict::new(table.py());
+        keywords.set_item("index", false)?;
+        return table.call_method("to_csv", (), Some(&keywords))?.extract();
+    }
+    let path: std::path::PathBuf = table.extract()?;
+    Ok(std::fs::read_to_string(path)?)
 }

@@ -29,10 +29,12 @@ const TRAVEL: f64 = 0.15;
 const LONGEST: f64 = 10.0;
 /// Share of the approach velocity that their knocks give back.
 const RESTITUTION: f64 = 0.9;
-/// Drag (1/s) of the trajectories from either side of the saddle.
+/// Drag (1/s, of the paper's tile) of the trajectories from either side of the saddle.
 const LIGHT_DRAG: f64 = 0.5;
 /// Longest way (m) of a point of the tile in one step in contact.
 const STEP: f64 = 5e-4;
+/// How far (m) a direction is followed to see whether it leads into contact.
+const ASIDE: f64 = 1e-5;
 /// How far below the barrier trajectories start, in barriers.
 const BELOW: [f64; 2] = [0.001, 0.05];
 /// How far above it those start that ought to cross.
@@ -88,7 +90,8 @@ impl<'a> Checker<'a> {
             ceiling - barrier.from_energy
         };
         let speed = (2.0 * climb.max(f64::MIN_POSITIVE) / body.mass).sqrt();
-        let duration = (TRAVEL / speed).min(LONGEST);
+        let scale = problem.scale();
+        let duration = (scale.length(TRAVEL) / speed).min(scale.time(LONGEST));
         let lossless = MotionSettings {
             drag: 0.0,
             friction: 0.0,
@@ -100,7 +103,7 @@ impl<'a> Checker<'a> {
             ..MotionSettings::default()
         };
         let settling = MotionSettings {
-            drag: LIGHT_DRAG,
+            drag: LIGHT_DRAG / scale.factor(),
             restitution: 0.01,
             ..lossless.clone()
         };
@@ -222,7 +225,8 @@ impl<'a> Checker<'a> {
         let mut direction = Vector3::zeros();
         for _ in 0..20 {
             direction = Vector3::from_fn(|i, _| normal(rng) / masses[i].sqrt());
-            let step = direction * (1e-5 / self.problem.space.length(direction).max(1e-300));
+            let step = direction
+                * (self.problem.scaled(ASIDE) / self.problem.space.length(direction).max(1e-300));
             if self.problem.is_clear(&q.moved(step)) {
                 break;
             }
@@ -243,7 +247,7 @@ impl<'a> Checker<'a> {
             spoilt
                 || target.map_or_else(
                     || space.is_far(q),
-                    |target| space.distance(&target, q) < ARRIVED,
+                    |target| space.distance(&target, q) < self.problem.scaled(ARRIVED),
                 )
         });
         let last = &run.last;
@@ -301,7 +305,7 @@ impl<'a> Checker<'a> {
     fn place_of(&self, minimum: &Configuration) -> Option<Place> {
         let distance = |s: &State| self.problem.space.distance(&s.configuration, minimum);
         let nearest = self.states.iter().min_by_key(|s| OrderedFloat(distance(s)));
-        let nearest = nearest.filter(|state| distance(state) < SAME)?;
+        let nearest = nearest.filter(|state| distance(state) < self.problem.scaled(SAME))?;
         Some(Place::State(nearest.id))
     }
 }

@@ -64,7 +64,8 @@ impl Checker<'_> {
     fn places_on(&self, path: &[PathwayPoint], own: Place, other: Place) -> Vec<Place> {
         let near = |state: &&State| {
             let distance = |q: &Configuration| self.problem.space.distance(&state.configuration, q);
-            path.iter().any(|p| distance(&p.configuration) < ARRIVED)
+            path.iter()
+                .any(|p| distance(&p.configuration) < self.problem.scaled(ARRIVED))
         };
         let passed = self.states.iter().filter(near);
         let passed = passed.map(|state| Place::State(state.id));
@@ -79,16 +80,21 @@ impl Checker<'_> {
         let slow = 1e-3 * self.barrier.forward();
         let mut rng = stream(self.settings.seed, 0);
         let mut spoilt = false;
-        let run = self
-            .settling
-            .run(start, SETTLING, &mut rng, &mut |snapshot| {
+        let run = self.settling.run(
+            start,
+            self.problem.scale().time(SETTLING),
+            &mut rng,
+            &mut |snapshot| {
                 let q = &snapshot.motion.configuration;
                 spoilt |= snapshot.total() >= self.ceiling;
-                let is_here = |s: &State| space.distance(&s.configuration, q) < 0.1 * ARRIVED;
+                let is_here = |s: &State| {
+                    space.distance(&s.configuration, q) < 0.1 * self.problem.scaled(ARRIVED)
+                };
                 spoilt
                     || space.is_far(q)
                     || (snapshot.kinetic < slow && self.states.iter().any(is_here))
-            });
+            },
+        );
         *steps += run.free_steps + run.contact_steps;
         (!spoilt).then(|| self.place_below(&run.last)).flatten()
     }

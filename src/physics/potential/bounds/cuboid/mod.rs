@@ -76,7 +76,7 @@
 //! `ln(S / 1e-15 m) < 40`; at most 20 of their operations are on results of that size, each right to
 //! 1e-13 or better (the reciprocals): together less than `1e-10 S^2`, which times the face's charge
 //! is added for each pair. Gradients and Hessians have the same relative errors and act over less
-//! than the distance that their denominators hold. Distances have a spare 1e-8 m. Assumed as
+//! than the distance that their denominators hold. Distances have a spare 1e-8 m for the paper's tile, and in proportion for others. Assumed as
 //! elsewhere: the platform's sine, cosine and arc functions are right to 8 units in the last place.
 
 mod faces;
@@ -87,12 +87,14 @@ mod tests;
 use nalgebra::Vector2;
 
 use super::dipole::{DipoleBounds, NEAR, Spread};
+use super::near::SLACK;
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::CuboidPotential;
 use crate::potential::batch::Level;
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::correction::Correction;
+use crate::scale::Scale;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
 use faces::{Left, Motion, Pair};
@@ -111,8 +113,9 @@ const SERIES: f64 = 1e-7;
 /// Share by which rounding may change what nodes give.
 const ROUNDING: f64 = 1e-10;
 
-/// Depth (m) up to which a block may stick out of its tile and still count as inside.
-const STICKING_OUT: f64 = 1e-9;
+/// Depth up to which a block may stick out of its tile and still count as inside, as a share of the slack
+/// of what counts as touching.
+const STICKING_OUT: f64 = 0.1;
 
 /// Cell bounds of the interaction energy of two tiles' blocks.
 #[derive(Clone, Debug)]
@@ -123,6 +126,8 @@ pub struct CuboidBounds {
     potential: CuboidPotential,
     fixed: Vec<Enclosed>,
     moving: Vec<Enclosed>,
+    /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
+    slack: f64,
 }
 
 /// A block with what is known of it.
@@ -157,29 +162,32 @@ impl CuboidBounds {
             error: SERIES,
         };
         let enclosed = |tile| enclosed(tile, level);
+        let tiles = [fixed, moving];
         Self {
             level,
             dipoles: DipoleBounds::with_level(fixed, moving, level).with_spread(spread),
             potential,
             fixed: enclosed(fixed),
             moving: enclosed(moving),
+            slack: Scale::of(tiles.map(|tile| tile.outline.circumradius())).length(SLACK),
         }
     }
 }
 
 fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
+    let slack = Scale::of([tile.outline.circumradius(); 2]).length(SLACK);
     let inside = |magnet: &Magnet| {
         magnet
             .corners()
             .iter()
-            .all(|corner| tile.outline.signed_distance(*corner) <= STICKING_OUT)
-            && !is_cut(&Block::from(magnet), &tile.outline)
+            .all(|corner| tile.outline.signed_distance(*corner) <= STICKING_OUT * slack)
+            && !is_cut(&Block::from(magnet), &tile.outline, STICKING_OUT * slack)
     };
     tile.magnets
         .iter()
         .map(|magnet| {
             let block = Block::from(magnet);
-            let (totals, left) = faces(level, &block, &block, &SELF, &mut Nodes::new());
+            let (totals, left) = faces(level, &block, &block, &still(slack), &mut Nodes::new());
             Enclosed {
                 block,
                 inside: inside(magnet),
@@ -190,13 +198,16 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
 }
 
 /// Nothing moves.
-const SELF: Motion = Motion {
-    arm: Vector2::new(0.0, 0.0),
-    reach: 0.0,
-    sides: Vector2::new(0.0, 0.0),
-    turn: 0.0,
-    apart: false,
-};
+fn still(slack: f64) -> Motion {
+    Motion {
+        arm: Vector2::zeros(),
+        reach: 0.0,
+        sides: Vector2::zeros(),
+        turn: 0.0,
+        apart: false,
+        slack,
+    }
+}
 
 /// The form of two blocks by their pole faces, in the frame of the first one's axis, and what it
 /// leaves out, rounding included.
@@ -231,9 +242,9 @@ fn faces(
     (totals, left)
 }
 
-/// Whether the outline runs through a block's inner part.
-fn is_cut(block: &Block, outline: &Outline) -> bool {
-    let half = [block.size[0], block.size[1]].map(|size| size / 2.0 - STICKING_OUT);
+/// Whether the outline runs through a block's inner part, farther than this (m) inside.
+fn is_cut(block: &Block, outline: &Outline, inside: f64) -> bool {
+    let half = [block.size[0], block.size[1]].map(|size| size / 2.0 - inside);
     let local = |p: Vector2<f64>| {
         let d = p - block.position;
         [block.axis.dot(&d), block.axis.perp(&d)]
@@ -317,6 +328,7 @@ impl CuboidBounds {
             sides: Vector2::new(cell.half[0], cell.half[1]),
             turn: cell.half[2],
             apart: fixed.inside && moving.inside,
+            slack: self.slack,
         };
         let by_faces = (!coarse)
             .then(|| faces(self.level, first, &second, &motion, nodes))

@@ -34,8 +34,8 @@ fn a_block_that_is_cut_or_sticks_out_does_not_count_as_inside() {
         [-1.0, 1.0],
     ];
     let outline = Outline::new(notch.map(|[x, y]| Vector2::new(x, y)).to_vec()).unwrap();
-    assert!(is_cut(&block, &outline));
-    assert!(!is_cut(&Block::new(1.0, [0.2, 0.05, 0.1]), &outline));
+    assert!(is_cut(&block, &outline, 1e-9));
+    assert!(!is_cut(&Block::new(1.0, [0.2, 0.05, 0.1]), &outline, 1e-9));
 }
 
 #[test]

@@ -19,9 +19,6 @@ use crate::potential::cuboid::limits::segment_distance;
 use lengths::hypotenuse;
 use rule::Rule;
 
-/// How much (m) blocks may overlap in configurations that count as free, with room to spare.
-const SLACK: f64 = 1e-8;
-
 /// The share of the distance to the sheet that the ellipse of analyticity takes.
 const ELLIPSE: f64 = 0.75;
 
@@ -58,6 +55,8 @@ pub(super) struct Motion {
     pub turn: f64,
     /// Whether no point of the second block gets into the first one where the tiles are free.
     pub apart: bool,
+    /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
+    pub slack: f64,
 }
 
 /// How far (J) the energy may be from what forms say, and the slope and the jumps of an
@@ -177,7 +176,7 @@ impl Pair {
 
     /// Cuts a panel until each piece is far enough for its width, or fine enough.
     fn cut(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
-        let distance = self.distance(panel) - self.motion.reach - SLACK;
+        let distance = self.distance(panel) - self.motion.reach - self.motion.slack;
         if distance >= FAR * self.motion.reach
             && let Some(rule) = Rule::at(distance / panel.half)
         {
@@ -257,7 +256,7 @@ impl Pair {
 
     /// How far (m) the cell moves the points of a panel, along h and along v.
     fn moved(&self, panel: &SheetPanel) -> [f64; 2] {
-        self.ways(panel, 0.5).map(|way| way + SLACK)
+        self.ways(panel, 0.5).map(|way| way + self.motion.slack)
     }
 
     /// How fast (m) they are in a motion by the cell's half sizes from anywhere in the cell.
@@ -296,7 +295,7 @@ impl Pair {
     /// Whether a panel that may get below the first block's face, within the face's width, does not
     /// where the tiles are free: it would be inside the block.
     fn stays_out(&self, h: f64, up: f64) -> bool {
-        self.motion.apart && h > -up && 2.0 * up <= self.first[0] - SLACK
+        self.motion.apart && h > -up && 2.0 * up <= self.first[0] - self.motion.slack
     }
 
     /// Width of the first block's pole face and the smaller and the greater thickness (m).

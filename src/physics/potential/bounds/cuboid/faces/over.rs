@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::arch::Arch;
 use super::lengths::hypotenuse;
 use super::rule::Rule;
-use super::{ELLIPSE, Left, Motion, Pair, SLACK, SheetPanel};
+use super::{ELLIPSE, Left, Motion, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
 /// Panels over a face that are turned against it by more than this (rad) are cut as others.
@@ -15,12 +15,14 @@ impl Pair {
     /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
     /// upright edges, by a Gauss rule. `None` where it is not so.
     pub(super) fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
-        let Motion { reach, turn, .. } = self.motion;
+        let Motion {
+            reach, turn, slack, ..
+        } = self.motion;
         let tilt = panel.along.x.abs() + turn;
         let [reach_up, reach_aside] = self.extent(panel);
         let (h, v) = (panel.middle.x, panel.middle.y.abs());
         let sheet = self.first[1] / 2.0;
-        let clear = sheet - v - reach_aside - SLACK;
+        let clear = sheet - v - reach_aside - slack;
         let is_level = tilt <= STEEPEST && panel.half * tilt <= 0.5 * reach;
         if !is_level || h.abs() + reach_up > clear || !(h > reach_up || self.stays_out(h, reach_up))
         {
@@ -38,7 +40,7 @@ impl Pair {
         // the rest, from 0 to `edges`, by half of that.
         let [up, aside] = self.moved(panel);
         let gap =
-            |h: f64| 4.0 * libm::log(hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * SLACK));
+            |h: f64| 4.0 * libm::log(hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * slack));
         let floor = (h - reach_up).max(0.0);
         let mut arch = Arch::of(floor, up, h + reach_up, |h| [gap(h); 2]);
         let off = arch.off + 0.5 * edges * up;
@@ -57,7 +59,7 @@ impl Pair {
         let [arced, arced_slope] = arch.bent_off(arc, [up, fast_up], turn);
         let bent = off * up + arced;
         let gap_alone = |way: f64| {
-            let way = way.max(SLACK);
+            let way = way.max(slack);
             4.0 * way * way * (0.5 * libm::log(hypotenuse(way, high) / hypotenuse(way, low)) + 0.75)
         };
         // What is of third order.
@@ -65,7 +67,7 @@ impl Pair {
             third * aside * aside * (aside / 3.0 + 0.75 * up) + edges * arc * (up + 2.0 * aside);
         // Their slopes.
         let gap_slope = |way: f64| {
-            let way = way.max(SLACK);
+            let way = way.max(slack);
             4.0 * way * (libm::log(hypotenuse(way, high) / hypotenuse(way, low)) + 1.0)
         };
         let bent_slope = off * fast_up + arced_slope;
@@ -87,7 +89,7 @@ impl Pair {
 
         let weight = panel.weight();
         Some(Left {
-            spread: weight.abs() * (bent + rest + rule_s + 4.0 * PI * thick * SLACK),
+            spread: weight.abs() * (bent + rest + rule_s + 4.0 * PI * thick * slack),
             slope: weight.abs() * (bent_slope + rest_slope + rule_slope),
             jump: weight.abs() * self.stuck_out(),
         })

@@ -4,13 +4,12 @@ use std::f64::consts::PI;
 
 use super::arch::Arch;
 use super::lengths::{asinh, hypotenuse, stretch};
-use super::{Left, Pair, SLACK, SheetPanel};
-use crate::potential::bounds::cuboid::STICKING_OUT;
+use super::{Left, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
-/// How much (m) blocks overlap at most where the tiles' interiors are disjoint, by sticking out of
-/// them, there and back, with room for rounding.
-const STUCK_OUT: f64 = 5.0 * STICKING_OUT;
+/// How much blocks overlap at most where the tiles' interiors are disjoint, by sticking out of them, there
+/// and back, with room for rounding: as a share of the slack, of which blocks may stick out by a tenth.
+const STUCK_OUT: f64 = 0.5;
 
 /// A form of second order in place of Phi over a panel.
 #[derive(Clone, Copy)]
@@ -51,7 +50,7 @@ impl Pair {
     /// out of their tiles.
     pub(super) fn stuck_out(&self) -> f64 {
         let [_, thin, _] = self.charge();
-        4.0 * PI * thin * STUCK_OUT
+        4.0 * PI * thin * STUCK_OUT * self.motion.slack
     }
 
     /// The remainder of Phi about the middle of a panel, averaged over it. `None` where it has none
@@ -60,8 +59,8 @@ impl Pair {
         let sheet = self.first[1] / 2.0;
         let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x, panel.middle.y.abs());
-        let inside = v + aside <= sheet - SLACK;
-        let beside = v - aside >= sheet + SLACK;
+        let inside = v + aside <= sheet - self.motion.slack;
+        let beside = v - aside >= sheet + self.motion.slack;
         if !(beside || (inside && (h > up || self.stays_out(h, up)))) {
             return None;
         }
@@ -94,7 +93,7 @@ impl Pair {
         let tilt = panel.half * (panel.along.x.abs() + turn).min(1.0);
         let tilted = levels.bend * tilt * tilt / 6.0;
         let tilted_slope = levels.bend * tilt * panel.half * turn / 3.0;
-        let remainder = bent + arced + tilted + 4.0 * PI * thick * SLACK;
+        let remainder = bent + arced + tilted + 4.0 * PI * thick * self.motion.slack;
         let bent = Bent {
             arch: levels.bend,
             remainder,
@@ -113,7 +112,7 @@ impl Pair {
         let [high, low] = self.heights();
         // What the two ends of a level edge add, as one logarithm.
         let edge = |height: f64| {
-            let away = hypotenuse(h, height).max(0.1 * SLACK);
+            let away = hypotenuse(h, height).max(0.1 * self.motion.slack);
             stretch(sheet + v, away) * stretch(sheet - v, away) / (away * away)
         };
         2.0 * libm::log(edge(low) / edge(high))

@@ -1,9 +1,9 @@
 //! What a sweep answers: one sentence, and a table of its points.
 
-use super::assessments::view;
-use super::document::{Table, rows};
-use super::figures::{cell, heading};
-use super::sweep::Sweep;
+use super::points::Sweep;
+use crate::assessments::view;
+use crate::document::{Table, rows};
+use crate::figures::{cell, heading};
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
 use jobs::sweep::Point;

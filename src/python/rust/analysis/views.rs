@@ -8,7 +8,7 @@ use tilebind::report::files::ANALYSE;
 use tilebind::report::plots::Sheet;
 
 use super::Analysis;
-use crate::{fault, job};
+use crate::{fault, job, shown};
 
 /// The pictures by their names.
 const PICTURES: [&str; 7] = [
@@ -65,10 +65,8 @@ impl Analysis {
     ///     HTML that needs nothing but a browser.
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
         let scene = self.scene();
-        let html = job::quietly(py, || {
-            self.document(Extent::Full, &scene).html(&self.command())
-        })?;
-        html.map_err(fault::run)
+        let document = self.document(Extent::Full, &scene);
+        shown::page(py, &document, &self.command())
     }
 
     /// The text of ``report.json``: every byte as ``tilebind analyse`` writes it, but for what
@@ -150,8 +148,7 @@ impl Analysis {
         ax: Option<Bound<'py, PyAny>>,
         style: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let plots = slf.py().import("tilebind._plots")?;
-        plots.getattr("plot_map")?.call((slf, ax), style)
+        shown::plotted(slf.py(), "plot_map", (slf, ax), style)
     }
 
     /// Draw the energy along a pathway.
@@ -175,10 +172,7 @@ impl Analysis {
         ax: Option<Bound<'py, PyAny>>,
         style: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let plots = slf.py().import("tilebind._plots")?;
-        plots
-            .getattr("plot_profile")?
-            .call((slf, start, end, ax), style)
+        shown::plotted(slf.py(), "plot_profile", (slf, start, end, ax), style)
     }
 
     /// Draw which kinds of states merge at which energy.
@@ -198,16 +192,12 @@ impl Analysis {
         ax: Option<Bound<'py, PyAny>>,
         style: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let plots = slf.py().import("tilebind._plots")?;
-        plots
-            .getattr("plot_disconnectivity")?
-            .call((slf, ax), style)
+        shown::plotted(slf.py(), "plot_disconnectivity", (slf, ax), style)
     }
 
     fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let pictures = self.pictures(py, &["map", "disconnectivity"])?;
-        let html = py.import("tilebind._html")?;
-        html.call_method1("page", (self.summary(), pictures))
+        shown::notebook(py, self.summary(), pictures)
     }
 
     fn __repr__(&self) -> String {

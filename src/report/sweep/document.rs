@@ -2,69 +2,17 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::assessments::{capture_settings, checked, merge, numbers, quantities};
-use super::document::{Cell, Document, Entries, Part, Table, rows};
-use super::page::Charts;
-use super::plots::curve_data;
-use super::plots::curve_names::said;
-use jobs::comparison::Assessment;
-use jobs::sweep::{Outcome, Plan, Point, Progress, Store};
+use super::pictures::drawings;
+use super::points::Sweep;
+use crate::assessments::{capture_settings, checked, merge, numbers, quantities};
+use crate::document::{Cell, Document, Entries, Part, Table, rows};
+use crate::page::Charts;
+use jobs::sweep::{Outcome, Point, Progress};
 
-/// The folder of the designs of points.
-pub const DESIGNS: &str = "designs";
-/// Of more points the designs are not written.
-const MOST_DESIGNS: usize = 400;
 /// Reasons that the summary gives.
 const REASONS: usize = 5;
 
-/// A finished sweep.
-#[derive(Clone, Debug)]
-pub struct Sweep<'a> {
-    /// What was asked.
-    pub plan: &'a Plan,
-    /// The points of the plan, in order.
-    pub points: Vec<Point>,
-    /// What came of each point.
-    pub outcomes: Vec<Outcome>,
-}
-
-impl<'a> Sweep<'a> {
-    /// Reads what came of each point.
-    ///
-    /// # Errors
-    /// How far the sweep is, where points are missing.
-    pub fn read(plan: &'a Plan, store: &Store) -> Result<Self, Progress> {
-        let points = plan.points();
-        let found: Vec<Option<Outcome>> = points.iter().map(|point| store.load(point)).collect();
-        let progress = Progress::new(found.iter().map(Option::as_ref));
-        if progress.missing > 0 {
-            return Err(progress);
-        }
-        Ok(Self {
-            plan,
-            points,
-            outcomes: found.into_iter().flatten().collect(),
-        })
-    }
-
-    /// How many points are done, impossible, failed and missing.
-    pub fn progress(&self) -> Progress {
-        Progress::new(self.outcomes.iter().map(Some))
-    }
-
-    /// The assessment of a point, if its design is possible.
-    pub fn assessment(&self, index: usize) -> Option<&Assessment> {
-        match &self.outcomes[index] {
-            Outcome::Done { result } => Some(result),
-            Outcome::Impossible { .. } | Outcome::Failed { .. } => None,
-        }
-    }
-
-    /// Why a point has no assessment.
-    pub fn reason(&self, index: usize) -> Option<&str> {
-        reason(&self.outcomes[index])
-    }
-
+impl Sweep<'_> {
     /// What there is to know of it.
     pub fn document(&self) -> Document<'_> {
         let plan = self.plan;
@@ -86,7 +34,7 @@ impl<'a> Sweep<'a> {
             answer: self.answer().unwrap_or_else(|| counts.clone()),
             entries: self.entries(),
             part: Some(Part::Charts(Charts::new(self))),
-            pictures: curve_data::drawings(self),
+            pictures: drawings(self),
             notes: [counts]
                 .into_iter()
                 .chain(refused.into_iter().take(REASONS))
@@ -170,39 +118,10 @@ impl<'a> Sweep<'a> {
         numbers(all, |(_, one)| *one).table("sweep").in_csv("sweep")
     }
 
-    /// The file of a point's design beside the results; `None` where it is impossible, or needs
-    /// drawings, which lie elsewhere.
-    pub fn design_file(&self, point: &Point) -> Option<String> {
-        let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();
-        let possible = self.assessment(point.index).is_some() && point.text().is_some();
-        let few = self.points.len() <= MOST_DESIGNS;
-        (possible && few && !needs_drawings).then(|| format!("{DESIGNS}/{}.toml", point.name))
-    }
-
     /// The designs of points by their files.
     pub fn designs(&self) -> impl Iterator<Item = (String, &str)> {
         let points = self.points.iter();
         points.filter_map(|point| Some((self.design_file(point)?, point.text()?)))
-    }
-
-    /// A point by its values: `depth = 5 mm, model = dipole`; with several designs, or where nothing
-    /// is varied, by its design first.
-    pub fn called(&self, point: &Point) -> String {
-        let design = &self.plan.designs[point.design].name;
-        let named = self.plan.designs.len() > 1 || self.plan.axes.is_empty();
-        let values = self.plan.axes.iter().zip(&point.values);
-        let values = values.map(|(axis, value)| {
-            let name = axis.name();
-            format!("{name} = {}", said(name, value))
-        });
-        let parts = named.then(|| design.clone()).into_iter().chain(values);
-        parts.collect::<Vec<_>>().join(", ")
-    }
-
-    /// The point that all are set against, if one was named and could be assessed.
-    pub fn baseline(&self) -> Option<usize> {
-        let index = self.plan.baseline_of(&self.points)?;
-        self.assessment(index).map(|_| index)
     }
 }
 
@@ -227,12 +146,5 @@ fn status(outcome: &Outcome) -> &'static str {
         Outcome::Done { .. } => "done",
         Outcome::Impossible { .. } => "impossible",
         Outcome::Failed { .. } => "failed",
-    }
-}
-
-fn reason(outcome: &Outcome) -> Option<&str> {
-    match outcome {
-        Outcome::Done { .. } => None,
-        Outcome::Impossible { reason } | Outcome::Failed { reason } => Some(reason),
     }
 }

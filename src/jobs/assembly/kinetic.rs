@@ -1,0 +1,487 @@
+//! What grows at a shaking, errors included: the kinetic model (kTAM), followed tile by tile.
+//!
+//! Winfree's model as the engines have it: to every free place beside a tile each kind of tile comes
+//! at a rate `s exp(-Gmc)` (s its share), and a tile that is held by neighbours with h (kT, repulsion
+//! counted) leaves at `exp(-h)`; the seed stays, and what a leaving tile cuts off from the seed leaves
+//! with it. Times are counted in *waits* exp(Gmc): in one wait a tile of a usual kind comes to a place
+//! once on average. A wrong tile that more holds than docking costs (h > Gmc) stays for exp(h - Gmc)
+//! waits: the colder, the longer, and what docks beside it meanwhile locks it in. This kinetic
+//! trapping, and no weight in equilibrium, makes the errors of cold growth.
+//!
+//! Tiles that would leave within 1e-5 of a wait are left out, which is about the share of errors that
+//! they could make at each place.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::TileSet;
+use super::growth::{Grown, Holds, STEPS};
+use physics::dynamics::docking::stream;
+use physics::interruption;
+use physics::parallel;
+
+/// Tiles that stay for a smaller share of a wait are left out: its logarithm.
+const FLEETING: f64 = -11.5;
+/// No tile's stay is counted longer than this (kT above Gmc), so that rates stay numbers.
+const FOR_GOOD: f64 = 600.0;
+/// What grows is followed up to so many tiles.
+const MOST_TILES: usize = 400;
+/// Waits that a growth is given: so many, and so many for each tile.
+const WAITS: [f64; 2] = [20.0, 4.0];
+/// Events of a growth at most.
+const MOST_EVENTS: usize = 200_000;
+
+/// What came of several growths at one shaking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Growths.
+    pub runs: usize,
+    /// Of them, those in which every tile was right in the end.
+    pub right: usize,
+    /// ... and those that ended with wrong tiles; the others were not done.
+    pub wrong: usize,
+    /// Wrong tiles that stay over tiles that were to grow, mean of all growths.
+    pub errors_a_tile: f64,
+    /// Waits until a right one was done, mean; `None` where none was.
+    pub waits: Option<f64>,
+}
+
+/// A tile set to be grown, as an engine would.
+pub struct Kinetics<'a> {
+    set: &'a TileSet,
+    holds: Holds,
+    gse: f64,
+    gmc: f64,
+    rows: usize,
+    columns: usize,
+    /// The right tile of each cell.
+    wanted: Vec<Option<usize>>,
+    seeds: Vec<(usize, usize)>,
+    /// Tiles with which it is done.
+    target: usize,
+    /// Whether it is then all that grows.
+    ends: bool,
+    /// Whether places have one right tile.
+    directed: bool,
+}
+
+/// How one growth ended.
+struct End {
+    right: bool,
+    wrong: usize,
+    waits: f64,
+}
+
+/// The state of one growth.
+struct State {
+    tiles: Vec<Option<usize>>,
+    rates: Tree,
+    there: usize,
+    right: usize,
+}
+
+impl<'a> Kinetics<'a> {
+    /// Of a set as engines have it (with a canvas, a seed, Gse and Gmc), and what grows of it without
+    /// errors.
+    pub fn new(set: &'a TileSet, grown: &Grown) -> Self {
+        let [rows, columns] = set.size.unwrap_or([1; 2]);
+        let first = set.seed.first().copied().unwrap_or((0, 0, 0));
+        let mut wanted = vec![None; rows * columns];
+        for ((x, y), tile) in &grown.tiles {
+            let (row, column) = (first.0 as i32 - y, first.1 as i32 + x);
+            let inside = (0..rows as i32).contains(&row) && (0..columns as i32).contains(&column);
+            if inside {
+                wanted[row as usize * columns + column as usize] = Some(*tile);
+            }
+        }
+        let cell = |(row, column, tile): &(usize, usize, usize)| (row * columns + column, *tile);
+        Self {
+            set,
+            holds: Holds::new(set),
+            gse: set.gse.unwrap_or_default(),
+            gmc: set.gmc.unwrap_or_default(),
+            rows,
+            columns,
+            wanted,
+            seeds: set.seed.iter().map(cell).collect(),
+            target: grown.tiles.len().min(MOST_TILES),
+            ends: grown.complete && grown.tiles.len() <= MOST_TILES,
+            directed: grown.choices == 0,
+        }
+    }
+
+    /// The same at another shaking.
+    pub fn at(self, gse: f64, gmc: f64) -> Self {
+        Self { gse, gmc, ..self }
+    }
+
+    /// So many growths; the same for the same seed.
+    pub fn growths(&self, runs: usize, seed: u64) -> Growth {
+        let ends = parallel::map(0..runs, |run| self.grow(&mut stream(seed, run)));
+        let right: Vec<&End> = ends.iter().filter(|end| end.right).collect();
+        let wrong: usize = ends.iter().map(|end| end.wrong).sum();
+        let waits: f64 = right.iter().map(|end| end.waits).sum();
+        Growth {
+            runs,
+            right: right.len(),
+            wrong: ends.iter().filter(|end| end.wrong > 0).count(),
+            errors_a_tile: wrong as f64 / (runs * self.target).max(1) as f64,
+            waits: (!right.is_empty()).then(|| waits / right.len() as f64),
+        }
+    }
+
+    /// The cells about one, by side; `None` beyond the canvas.
+    fn near(&self, cell: usize) -> [Option<usize>; 4] {
+        let (row, column) = ((cell / self.columns) as i32, (cell % self.columns) as i32);
+        STEPS.map(|(dx, dy)| {
+            let (row, column) = (row - dy, column + dx);
+            let inside =
+                (0..self.rows as i32).contains(&row) && (0..self.columns as i32).contains(&column);
+            inside.then(|| row as usize * self.columns + column as usize)
+        })
+    }
+
+    /// With what a tile's neighbours hold it in a cell (kT).
+    fn held(&self, tiles: &[Option<usize>], cell: usize, tile: usize) -> f64 {
+        let sides = self.near(cell).into_iter().enumerate();
+        let hold = |(side, near): (usize, Option<usize>)| {
+            Some(self.holds.between(tile, side, tiles[near?]?))
+        };
+        self.gse * sides.filter_map(hold).sum::<f64>()
+    }
+
+    /// What may dock in a free cell and stay a while, with its rate (1/wait).
+    fn docking(&self, tiles: &[Option<usize>], cell: usize) -> impl Iterator<Item = (usize, f64)> {
+        let stays = move |tile: &usize| {
+            self.set.tiles[*tile].stoic > 0.0
+                && self.held(tiles, cell, *tile) - self.gmc >= FLEETING
+        };
+        let all = (0..self.set.tiles.len()).filter(stays);
+        all.map(|tile| (tile, self.set.tiles[tile].stoic))
+    }
+
+    /// The rate (1/wait) of whatever may happen in a cell.
+    fn rate(&self, tiles: &[Option<usize>], cell: usize) -> f64 {
+        match tiles[cell] {
+            Some(_) if self.seeds.iter().any(|seed| seed.0 == cell) => 0.0,
+            Some(tile) => {
+                let stay = self.held(tiles, cell, tile) - self.gmc;
+                libm::exp(-stay.clamp(-FOR_GOOD, FOR_GOOD))
+            }
+            None if self
+                .near(cell)
+                .iter()
+                .flatten()
+                .all(|it| tiles[*it].is_none()) =>
+            {
+                0.0
+            }
+            None => self.docking(tiles, cell).map(|it| it.1).sum(),
+        }
+    }
+
+    fn put(&self, state: &mut State, cell: usize, tile: Option<usize>) {
+        for (what, step) in [(state.tiles[cell], -1), (tile, 1)] {
+            let count = |count: &mut usize| *count = count.wrapping_add_signed(step);
+            if what.is_some() {
+                count(&mut state.there);
+            }
+            if what.is_some() && what == self.wanted[cell] {
+                count(&mut state.right);
+            }
+        }
+        state.tiles[cell] = tile;
+        for cell in self.near(cell).into_iter().flatten().chain([cell]) {
+            state.rates.set(cell, self.rate(&state.tiles, cell));
+        }
+    }
+
+    /// The cells of tiles that no chain of tiles that hold each other joins with a seed.
+    fn adrift(&self, tiles: &[Option<usize>]) -> Vec<usize> {
+        let mut joined = vec![false; tiles.len()];
+        let mut open: Vec<usize> = self.seeds.iter().map(|seed| seed.0).collect();
+        open.iter().for_each(|cell| joined[*cell] = true);
+        while let Some(cell) = open.pop() {
+            let Some(tile) = tiles[cell] else { continue };
+            for (side, near) in self.near(cell).into_iter().enumerate() {
+                let Some((near, other)) = near.and_then(|near| Some((near, tiles[near]?))) else {
+                    continue;
+                };
+                if !joined[near] && self.holds.between(tile, side, other) > 0.0 {
+                    joined[near] = true;
+                    open.push(near);
+                }
+            }
+        }
+        let there = (0..tiles.len()).filter(|cell| tiles[*cell].is_some());
+        there.filter(|cell| !joined[*cell]).collect()
+    }
+
+    /// Whether a tile is where it should be or, where there is a choice, beside no wrong one.
+    fn is_right(&self, tiles: &[Option<usize>], cell: usize, tile: usize) -> bool {
+        if self.directed {
+            // Of what grows on nothing is known out there.
+            return self.wanted[cell] == Some(tile) || (!self.ends && self.wanted[cell].is_none());
+        }
+        let strengths = self
+            .near(cell)
+            .into_iter()
+            .enumerate()
+            .filter_map(|(side, near)| {
+                let other = tiles[near?]?;
+                let faces = [(tile, side), (other, (side + 2) % 4)];
+                let [one, other] = faces.map(|(tile, side)| self.set.tiles[tile].glues[side]);
+                Some((one, other))
+            });
+        // A word meets its mate, n places on, or an empty face another one.
+        let n = self.set.glues.len() / 2;
+        let mut pairs = strengths.map(|pair| match pair {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.abs_diff(b) == n,
+            _ => false,
+        });
+        pairs.all(|right| right)
+    }
+
+    fn grow(&self, rng: &mut ChaCha8Rng) -> End {
+        let cells = self.rows * self.columns;
+        let mut state = State {
+            tiles: vec![None; cells],
+            rates: Tree::new(cells),
+            there: 0,
+            right: 0,
+        };
+        for (cell, tile) in &self.seeds {
+            self.put(&mut state, *cell, Some(*tile));
+        }
+        let limit = WAITS[0] + WAITS[1] * self.target as f64;
+        let mut waits = 0.0;
+        let mut is_done = false;
+        for event in 0..MOST_EVENTS {
+            if event % 256 == 0 {
+                interruption::check();
+            }
+            is_done = match (self.ends && self.directed, self.ends) {
+                (true, _) => state.there == state.right && state.right == self.target,
+                (false, false) => state.there >= self.target,
+                (false, true) => false,
+            };
+            let all = state.rates.sum();
+            if is_done || all <= 0.0 {
+                break;
+            }
+            waits -= libm::log(1.0 - rng.random::<f64>()) / all;
+            if waits > limit {
+                break;
+            }
+            let cell = state.rates.at(rng.random::<f64>() * all);
+            if state.tiles[cell].is_some() {
+                self.put(&mut state, cell, None);
+                let near = self.near(cell).into_iter().flatten();
+                if near.filter(|it| state.tiles[*it].is_some()).count() > 1 {
+                    for cell in self.adrift(&state.tiles) {
+                        self.put(&mut state, cell, None);
+                    }
+                }
+                continue;
+            }
+            let kinds: Vec<(usize, f64)> = self.docking(&state.tiles, cell).collect();
+            let mut rest = rng.random::<f64>() * kinds.iter().map(|it| it.1).sum::<f64>();
+            let chosen = kinds.iter().find(|(_, rate)| {
+                rest -= rate;
+                rest < 0.0
+            });
+            if let Some((tile, _)) = chosen.or(kinds.last()) {
+                self.put(&mut state, cell, Some(*tile));
+            }
+        }
+        // Tiles that hardly hold are on their way.
+        let stays = |cell: &usize| {
+            let tile = state.tiles[*cell]?;
+            let is_seed = self.seeds.iter().any(|seed| seed.0 == *cell);
+            (is_seed || self.held(&state.tiles, *cell, tile) > self.gmc).then_some(tile)
+        };
+        let staying: Vec<(usize, usize)> = (0..cells)
+            .filter_map(|cell| Some((cell, stays(&cell)?)))
+            .collect();
+        let right = staying.iter();
+        let right = right.filter(|(cell, tile)| self.is_right(&state.tiles, *cell, *tile));
+        let wrong = staying.len() - right.count();
+        let whole = is_done || !self.directed && staying.len() >= self.target;
+        End {
+            right: whole && wrong == 0,
+            wrong,
+            waits,
+        }
+    }
+}
+
+/// Rates of cells with their sums, so that one is chosen and changed in as many steps as the number
+/// of cells has bits, and no sum drifts.
+struct Tree {
+    sums: Vec<f64>,
+    leaves: usize,
+}
+
+impl Tree {
+    fn new(cells: usize) -> Self {
+        let leaves = cells.max(1).next_power_of_two();
+        Self {
+            sums: vec![0.0; 2 * leaves],
+            leaves,
+        }
+    }
+
+    fn sum(&self) -> f64 {
+        self.sums[1]
+    }
+
+    fn set(&mut self, cell: usize, rate: f64) {
+        let mut at = self.leaves + cell;
+        self.sums[at] = rate;
+        while at > 1 {
+            at /= 2;
+            self.sums[at] = self.sums[2 * at] + self.sums[2 * at + 1];
+        }
+    }
+
+    /// The cell at which the sum of rates passes a number.
+    fn at(&self, mut rest: f64) -> usize {
+        let mut at = 1;
+        while at < self.leaves {
+            let left = self.sums[2 * at];
+            // Rounding never leads where nothing happens.
+            let goes_left = rest < left || self.sums[2 * at + 1] <= 0.0;
+            at = if goes_left { 2 * at } else { 2 * at + 1 };
+            rest -= if goes_left { 0.0 } else { left };
+        }
+        at - self.leaves
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::growth::grow;
+    use super::super::{Glue, TileType, lattice};
+    use super::*;
+
+    fn kinetics(set: &TileSet, grown: &Grown, gse: f64, gmc: f64) -> Growth {
+        Kinetics::new(set, grown).at(gse, gmc).growths(400, 3)
+    }
+
+    /// A seed with one place, for which two tiles compete, of strengths 1 and w: with h = w Gse > Gmc
+    /// neither leaves in time, so that the wrong one stays half the time; with h far below Gmc it is
+    /// gone before the right one comes, and stays exp(h - Gmc) of a wait.
+    #[test]
+    fn a_wrong_tile_that_holds_stays_and_one_that_does_not_leaves() {
+        let set = |weak: f64| {
+            let glue = |name: &str, strength| Glue {
+                name: name.to_owned(),
+                strength,
+            };
+            TileSet {
+                glues: vec![glue("a", 1.0), glue("b", 0.0)],
+                links: vec![(0, 1, weak)],
+                tiles: vec![
+                    TileType {
+                        stoic: 0.0,
+                        ..TileType::new("seed", [None, Some(0), None, None])
+                    },
+                    TileType::new("right", [None, None, None, Some(0)]),
+                    TileType::new("wrong", [None, None, None, Some(1)]),
+                ],
+                seed: vec![(2, 2, 0)],
+                size: Some([5, 5]),
+                tau: Some(1.0),
+                ..TileSet::default()
+            }
+        };
+        let share = |weak: f64, gse: f64| {
+            let set = set(weak);
+            let grown = grow(&set, 10);
+            assert_eq!(grown.tiles.len(), 2);
+            let found = kinetics(&set, &grown, gse, 10.0);
+            assert_eq!(found.right + found.wrong, found.runs, "{found:?}");
+            found.wrong as f64 / found.runs as f64
+        };
+        // 400 tosses of a coin: 0.025 is a standard error.
+        assert!((share(0.9, 30.0) - 0.5).abs() < 0.1, "{}", share(0.9, 30.0));
+        assert_eq!(share(0.5, 14.0), 0.0);
+        // A wrong tile that stays for t waits is there when the time is over: with the right one
+        // coming once a wait it heals with the rate 1/t, half of the time wrongly.
+        assert!(share(0.9, 13.0) < 0.1);
+    }
+
+    /// Against the exact chain: one free place and one kind of tile is there K / (1 + K) of the time.
+    #[test]
+    fn occupation_is_that_of_the_constant() {
+        let set = TileSet {
+            size: Some([3, 3]),
+            ..lattice::unique([1, 2])
+        };
+        let set = TileSet {
+            seed: vec![(1, 0, 0)],
+            ..set
+        };
+        let grown = grow(&set, 10);
+        let kinetics = Kinetics::new(&set, &grown).at(9.0, 9.5);
+        let mut state = State {
+            tiles: vec![None; 9],
+            rates: Tree::new(9),
+            there: 0,
+            right: 0,
+        };
+        kinetics.put(&mut state, 3, Some(0));
+        // The place to the east: one kind fits, at one a wait, and leaves at exp(Gmc - Gse).
+        assert_eq!(state.rates.sum(), 1.0);
+        kinetics.put(&mut state, 4, Some(1));
+        assert!((state.rates.sum() - libm::exp(0.5)).abs() < 1e-12);
+        kinetics.put(&mut state, 4, None);
+        assert_eq!((state.rates.sum(), state.there), (1.0, 1));
+    }
+
+    /// What a tile cuts off leaves with it.
+    #[test]
+    fn what_is_cut_off_is_adrift() {
+        let set = TileSet {
+            size: Some([1, 4]),
+            seed: vec![(0, 0, 0)],
+            ..lattice::unique([1, 4])
+        };
+        let kinetics = Kinetics::new(&set, &grow(&set, 10));
+        let mut tiles = [Some(0), Some(1), Some(2), Some(3)];
+        assert!(kinetics.adrift(&tiles).is_empty());
+        tiles[1] = None;
+        assert_eq!(kinetics.adrift(&tiles), [2, 3]);
+    }
+
+    /// The colder, the more errors; near standstill a lattice with mismatches of 39 % of a bond
+    /// grows right.
+    #[test]
+    fn cold_growth_makes_errors() {
+        let mut set = lattice::unique([3, 3]);
+        let n = set.glues.len();
+        set.links = (0..n)
+            .flat_map(|a| (a + 1..n).map(move |b| (a, b, 0.39)))
+            .collect();
+        set.seed = vec![(5, 5, 4)];
+        set.size = Some([11, 11]);
+        let plain = TileSet {
+            links: Vec::new(),
+            ..set.clone()
+        };
+        let grown = grow(&plain, 100);
+        assert_eq!(grown.tiles.len(), 9);
+        let at = |gse: f64| kinetics(&set, &grown, gse, 12.0);
+        let [hot, cool, cold] = [13.5, 22.0, 60.0].map(at);
+        let [one, two, three] = [hot, cool, cold].map(|it| it.errors_a_tile);
+        assert!(
+            one <= two && two < three && three > 0.1,
+            "{hot:?} {cool:?} {cold:?}"
+        );
+        assert!(
+            hot.right > 390 && cold.right < 40,
+            "{hot:?} {cool:?} {cold:?}"
+        );
+    }
+}

@@ -1,0 +1,150 @@
+//! Magnets as shops describe them: `10 x 5 x 2 mm N42`.
+
+use crate::design::quantity::{MAGNET_SIZE, PULL, REMANENCE, four_digits};
+use crate::design::units;
+use physics::tile::grade::Grade;
+use physics::tile::strength::Strength;
+
+/// A block magnet of a shop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShopMagnet {
+    /// Along its magnetic axis, along the face, through the tile's thickness (m).
+    pub size: [f64; 3],
+    strength: Strength,
+}
+
+const HELP: &str = "write length x width x height as shops do, magnetised through the last: \
+                    \"10 x 5 x 2 mm N42\"; in place of the grade, a pull (\"1.8 kg\") or a remanence \
+                    (\"1.2 T\")";
+
+impl ShopMagnet {
+    /// Reads length x width x height, of which the last is the one that shops' blocks are
+    /// magnetised through, with a unit, and a grade, a pull or a remanence behind it.
+    ///
+    /// ```
+    /// use tilebind_jobs::design::ShopMagnet;
+    /// assert_eq!(ShopMagnet::parse("10 x 5 x 2 mm N42")?.size, [0.002, 0.010, 0.005]);
+    /// # Ok::<(), String>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where it is no such description; the message says what is missing.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let wrong = |what: &str| format!("{what}; {HELP}");
+        let plain = text
+            .trim()
+            .replace(['\u{d7}', 'X', '*'], "x")
+            .replace(',', " ");
+        let parts: Vec<&str> = plain.splitn(3, 'x').map(str::trim).collect();
+        let &[first, second, rest] = parts.as_slice() else {
+            return Err(wrong("a block has three lengths"));
+        };
+        let (third, unit, rest) = last_length(rest).ok_or_else(|| {
+            wrong("the lengths have no unit, or one that is not known (mm, cm, in)")
+        })?;
+        // A unit of its own behind a length, or the one behind the last.
+        let length = |text: &str| {
+            let own = units::read(text, units::LENGTH);
+            own.or_else(|| units::read(&format!("{text} {unit}"), units::LENGTH))
+        };
+        let lengths = [length(first), length(second), Some(third)];
+        let [Some(long), Some(wide), Some(through)] = lengths else {
+            return Err(wrong("a block has three lengths"));
+        };
+        for length in [long, wide, through] {
+            let checked = MAGNET_SIZE.check("a length of the magnet", length);
+            checked.map_err(|(message, _)| message)?;
+        }
+        let strength = match rest {
+            "" => Strength::Remanence(1.2),
+            rest => strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is no grade")))?,
+        };
+        Ok(Self {
+            // The longer side along the face: that leaves the tile thin.
+            size: [through, long.max(wide), long.min(wide)],
+            strength,
+        })
+    }
+
+    /// The line of a design file that says how strong it is.
+    pub(super) fn strength(&self) -> String {
+        match self.strength {
+            Strength::Grade(grade) => format!("grade = \"{}\"", grade.name),
+            Strength::Pull(force) => format!(
+                "pull = \"{} kg\"               # off thick steel",
+                four_digits(force / 9.806_65)
+            ),
+            Strength::Remanence(remanence) => format!("remanence = {remanence}"),
+            _ => String::new(),
+        }
+    }
+}
+
+/// A length (m) at the beginning of a text, its unit and what is left.
+fn last_length(text: &str) -> Option<(f64, &str, &str)> {
+    let unit = text.find(|c: char| c.is_alphabetic())?;
+    let after = text[unit..].find(|c: char| !c.is_alphabetic());
+    let (length, rest) = text.split_at(after.map_or(text.len(), |at| unit + at));
+    Some((
+        units::read(length, units::LENGTH)?,
+        &length[unit..],
+        rest.trim(),
+    ))
+}
+
+fn strength(text: &str) -> Option<Strength> {
+    if let Some(grade) = Grade::named(text) {
+        return Some(Strength::Grade(grade));
+    }
+    let pull = PULL.read(text).map(Strength::Pull);
+    let pull = pull.or_else(|| REMANENCE.read(text).map(Strength::Remanence));
+    pull.filter(|strength| match strength {
+        Strength::Pull(force) => PULL.check("", *force).is_ok(),
+        Strength::Remanence(remanence) => REMANENCE.check("", *remanence).is_ok(),
+        _ => false,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn magnets_are_read_as_shops_write_them() {
+        let n42 = Strength::Grade(Grade::named("N42").unwrap());
+        for (text, size, strength) in [
+            ("10 x 5 x 2 mm N42", [0.002, 0.010, 0.005], n42),
+            ("5x10x2mm, N42", [0.002, 0.010, 0.005], n42),
+            (
+                "1 cm \u{d7} 5 mm \u{d7} 2 mm N42SH",
+                [0.002, 0.010, 0.005],
+                n42,
+            ),
+            ("10*5*2 mm", [0.002, 0.010, 0.005], Strength::Remanence(1.2)),
+            ("1/2 x 1/4 x 1/8 in N42", [0.003175, 0.0127, 0.00635], n42),
+            (
+                "10 x 5 x 2 mm 1.1 T",
+                [0.002, 0.010, 0.005],
+                Strength::Remanence(1.1),
+            ),
+            (
+                "10 x 5 x 2 mm 18 N",
+                [0.002, 0.010, 0.005],
+                Strength::Pull(18.0),
+            ),
+        ] {
+            let read = ShopMagnet::parse(text);
+            assert_eq!(read, Ok(ShopMagnet { size, strength }), "{text}");
+        }
+        for text in [
+            "",
+            "10 x 5 mm",
+            "10 x 5 x 2",
+            "10 x 5 x 2 mm N43",
+            "10 x 5 x 2 m",
+            "a x b x c mm",
+        ] {
+            assert!(ShopMagnet::parse(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Lengths that differ by what no cutter resolves.
+//!
+//! Faces that are meant to meet may differ by up to [`allowance`]: a side drawn in points or in
+//! inches, corners that a program rounded to 0.01 mm, an arc drawn once as an arc and once as
+//! Beziers. What is done then, always with a warning:
+//!
+//! - the outlines stay as they are drawn, and the base lines of the target faces meet middle on
+//!   middle;
+//! - the complement of a longer face ends where its own face ends;
+//! - where the target faces overlap so by no more than that, the bound configuration is drawn straight
+//!   apart until they touch; where that takes more (a tab with upright flanks, too wide for its
+//!   slot), the moving face is drawn back by the overlap, as `fit` draws it.
+//!
+//! Everything after that, contact, energies and their bounds, is of the outlines and of the bound
+//! configuration that come of it, exactly: no bound is widened.
+
+use super::error::DesignError;
+use super::reader::Entry;
+use physics::units::{plain, to_digits};
+
+/// What cutters and printers resolve (m).
+const RESOLVED: f64 = 50e-6;
+/// The part of a face's length that may be missing all the same.
+const SHARE: f64 = 1e-3;
+/// Lengths that differ by less than this share are the same but for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// By how much (m) two faces of these lengths (m) may differ or overlap.
+pub(super) fn allowance(a: f64, b: f64) -> f64 {
+    RESOLVED.min(SHARE * a.min(b))
+}
+
+/// How two lengths compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lengths {
+    /// The same but for rounding.
+    Same,
+    /// Different by no more than the allowance.
+    Near,
+    /// Different.
+    Unequal,
+}
+
+impl Lengths {
+    /// Of two faces (m).
+    pub fn of(a: f64, b: f64) -> Self {
+        match (a - b).abs() {
+            difference if difference <= ROUNDING * a.max(b) => Self::Same,
+            // With what rounding does to a difference that is just allowed.
+            difference if difference <= allowance(a, b) * (1.0 + 1e-9) => Self::Near,
+            _ => Self::Unequal,
+        }
+    }
+}
+
+/// Two lengths (m) in millimetres, with as many digits as it takes to tell them apart.
+pub(super) fn told_apart(a: f64, b: f64) -> [String; 2] {
+    let both = |digits: usize| [a, b].map(|x| to_digits(x * 1e3, digits).to_string());
+    let digits = (4..16).find(|digits| {
+        let [first, second] = both(*digits);
+        first != second
+    });
+    both(digits.unwrap_or(16)).map(|told| format!("{told} mm"))
+}
+
+/// A small length (m) in micrometres.
+pub(super) fn micrometres(length: f64) -> String {
+    format!("{} um", plain(length * 1e6, 3))
+}
+
+/// That two faces are unequal by less than a cutter resolves, and what is made of them.
+pub(super) fn nearly_equal(entry: &Entry, what: &str, a: f64, b: f64) -> DesignError {
+    let [first, second] = told_apart(a, b);
+    entry.source.doubt(
+        entry.span(),
+        format!(
+            "{what} {first} and {second}: {} apart, less than a cutter resolves",
+            micrometres((a - b).abs())
+        ),
+        "the outlines stay as drawn, and the faces meet middle on middle; make them equal if they \
+         are meant to be",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_differences_are_allowed_in_proportion() {
+        for (a, b, expected) in [
+            (0.08, 0.08, Lengths::Same),
+            (0.08, 0.08 + 1e-12, Lengths::Same),
+            (0.08, 0.080_000_12, Lengths::Near),
+            (0.08, 0.079_95, Lengths::Near),
+            (0.08, 0.079_949, Lengths::Unequal),
+            (0.01, 0.010_01, Lengths::Near),
+            (0.01, 0.010_02, Lengths::Unequal),
+            (0.1, 0.08, Lengths::Unequal),
+        ] {
+            assert_eq!(Lengths::of(a, b), expected, "{a} {b}");
+            assert_eq!(Lengths::of(b, a), expected, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn digits_that_differ_are_told() {
+        assert_eq!(told_apart(0.08, 0.080_000_12), ["80 mm", "80.00012 mm"]);
+        assert_eq!(told_apart(0.1, 0.08), ["100 mm", "80 mm"]);
+        assert_eq!(micrometres(1.2e-7), "0.120 um");
+    }
+}

@@ -1,0 +1,55 @@
+//! Why there is no answer: what was asked for has none, or the work failed.
+
+use std::fmt::Display;
+
+use crate::query::QueryError;
+use crate::sweep::PlanError;
+use crate::workshop::PartError;
+use physics::dynamics::SettingsError;
+use physics::dynamics::docking::DockingError;
+use physics::kinetics::bond::BondError;
+use physics::kinetics::exit::ExitError;
+use physics::kinetics::rates::RatesError;
+
+/// Why there is no answer.
+pub trait Unanswered: Display {
+    /// Whether it is what was asked for that has none; else the work failed.
+    fn is_of_the_question(&self) -> bool {
+        true
+    }
+}
+
+/// Of what was typed.
+impl Unanswered for String {}
+
+impl Unanswered for BondError {
+    fn is_of_the_question(&self) -> bool {
+        false
+    }
+}
+
+impl Unanswered for QueryError {
+    fn is_of_the_question(&self) -> bool {
+        *self != Self::NoWay
+    }
+}
+
+impl Unanswered for RatesError {
+    fn is_of_the_question(&self) -> bool {
+        !matches!(self, Self::Unsolved(_))
+    }
+}
+
+impl Unanswered for ExitError {
+    fn is_of_the_question(&self) -> bool {
+        !matches!(self, Self::Unsolved(_))
+    }
+}
+
+impl Unanswered for DockingError {}
+
+impl Unanswered for PartError {}
+
+impl Unanswered for PlanError {}
+
+impl Unanswered for SettingsError {}

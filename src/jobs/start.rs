@@ -1,0 +1,62 @@
+//! A design to start from: what is asked of it.
+
+use clap::Args;
+
+use crate::design::{STARTER, Shape, ShopMagnet, Start, StartError};
+use crate::request::{self, Word};
+
+/// What a design to start from is to be like; with nothing asked for it is one that explains every key.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Sides of both tiles, 3 to 24 [default: 4]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
+    pub sides: Option<u32>,
+
+    /// Length of a side (m), or with a unit: \"12 cm\" [default: 0.43]
+    #[arg(long, value_name = "M", value_parser = request::length)]
+    pub side: Option<f64>,
+
+    /// Magnets on each of the two faces that are to bind, 1 to 16 [default: 4]
+    #[arg(long, value_name = "K", value_parser = request::count)]
+    pub magnets: Option<usize>,
+
+    /// Shape of those faces: flat, tab, arc, sine or triangle [default: tab]
+    #[arg(long, value_parser = shape(), hide_possible_values = true)]
+    pub shape: Option<Shape>,
+
+    /// The magnets as a shop describes them, length x width x height, magnetised through the
+    /// last: \"10 x 5 x 2 mm N42\" [default: those that fit]
+    #[arg(long, value_name = "BLOCK", value_parser = ShopMagnet::parse)]
+    pub magnet: Option<ShopMagnet>,
+}
+
+fn shape() -> Word<Shape> {
+    let names = Shape::NAMES.map(|(name, _)| name).join(", ");
+    Word::new(&Shape::NAMES, format!("a shape is one of {names}"))
+}
+
+impl Request {
+    /// The text of the design, called like the file of this stem as far as names go.
+    ///
+    /// # Errors
+    /// Where there is no such design.
+    pub fn text(&self, stem: &str) -> Result<String, StartError> {
+        let asked = (self.sides, self.side, self.magnets, self.shape);
+        if asked == (None, None, None, None) && self.magnet.is_none() {
+            return Ok(STARTER.to_owned());
+        }
+        let usual = Start::default();
+        let start = Start {
+            sides: self.sides.unwrap_or(usual.sides),
+            side: self.side.unwrap_or(usual.side),
+            magnets: self.magnets.unwrap_or(usual.magnets),
+            shape: self.shape.unwrap_or(usual.shape),
+            magnet: self.magnet,
+        };
+        // A name that no quotes or control characters end.
+        let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);
+        let name: String = stem.chars().filter(plain).collect();
+        let name = name.trim_matches(|c| c == '-' || c == ' ');
+        start.design(if name.is_empty() { "starter" } else { name })
+    }
+}

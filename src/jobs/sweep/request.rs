@@ -1,0 +1,86 @@
+//! What is asked of a sweep.
+
+use clap::Args;
+
+use super::error::PlanError;
+use super::plan::Plan;
+use super::refine::refined;
+use super::source::Source;
+use super::store::Outcome;
+use super::vary::Axis;
+use crate::comparison::Question;
+use crate::design::Design;
+use crate::request;
+
+/// Rounds in which points are added.
+const ROUNDS: usize = 3;
+
+/// What is asked of a sweep, besides the designs and what is varied of them.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Add so many points, between those at which the figures bend most, one number being varied
+    #[arg(long, value_name = "N", value_parser = request::count)]
+    pub refine: Option<usize>,
+
+    /// The point that all are set against: values that are varied, such as depth=0, or a design's
+    /// name
+    #[arg(long, value_name = "POINT")]
+    pub baseline: Option<String>,
+
+    /// How points are assessed.
+    #[command(flatten)]
+    pub question: Question,
+}
+
+impl Request {
+    /// The sweep over designs.
+    ///
+    /// # Errors
+    /// As [`Plan::of`] and [`Plan::against`], and where points are to be added to what is no curve over
+    /// one number.
+    pub fn plan(&self, designs: Vec<(Source, Design)>, axes: Vec<Axis>) -> Result<Plan, PlanError> {
+        let (sources, designs): (Vec<Source>, Vec<Design>) = designs.into_iter().unzip();
+        let settings = self.question.request.of(&designs);
+        let mut plan = Plan::of(sources, axes, settings, self.question.seed)?;
+        if let Some(point) = &self.baseline {
+            plan = plan.against(point)?;
+        }
+        let numbers = plan.axes.iter().filter_map(Axis::numbers);
+        let varied: Vec<usize> = numbers.map(|n| n.len()).filter(|&n| n > 1).collect();
+        match (self.refine, &varied[..]) {
+            (Some(_), [..=2] | [] | [_, _, ..]) => Err(PlanError::NoCurve),
+            _ => Ok(plan),
+        }
+    }
+
+    /// Works on points where the figures bend, in rounds that each look at what is known by then; how
+    /// many of those that were asked for are not added, as nothing else bends.
+    ///
+    /// # Errors
+    /// The first one of `work`, which works on all points of a plan.
+    pub fn refined<E>(
+        &self,
+        mut plan: Plan,
+        known: impl Fn(&Plan) -> Option<Vec<Outcome>>,
+        mut work: impl FnMut(&Plan) -> Result<(), E>,
+    ) -> Result<(Plan, usize), E> {
+        let asked = self.refine.unwrap_or(0);
+        let mut left = asked;
+        let count = |plan: &Plan| {
+            plan.axes
+                .iter()
+                .map(|axis| axis.values.len())
+                .sum::<usize>()
+        };
+        while left > 0 {
+            // A third at a time: enough to see what the first ones show.
+            let round = asked.div_ceil(ROUNDS).min(left);
+            let finer = known(&plan).and_then(|outcomes| refined(&plan, &outcomes, round));
+            let Some(finer) = finer else { break };
+            left -= count(&finer) - count(&plan);
+            plan = finer;
+            work(&plan)?;
+        }
+        Ok((plan, left))
+    }
+}

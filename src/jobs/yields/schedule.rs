@@ -1,0 +1,84 @@
+//! One shaking after another: which when.
+
+use super::Question;
+use super::outcome::Outcome;
+use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
+use physics::kinetics::mixture::{self, Mixture};
+use physics::kinetics::numbers::{self, Numbers};
+use physics::kinetics::population::{Crowd, PairRates};
+use physics::parallel;
+
+/// Slots of a schedule.
+const SLOTS: usize = 8;
+/// Pairs for which schedules are sought at most, and states that these may have.
+const PAIRS: usize = 3;
+const STATES: usize = 300;
+/// What holds nothing is left so many times as fast as the most fleeting state.
+const FLEETING: f64 = 10.0;
+
+/// The best schedule of the settings, and for how many tiles: as many as asked for, but at most six,
+/// and fewer where there are so many kinds of traps that not even these can be followed.
+pub(super) fn best(
+    outcomes: &[Outcome],
+    holds: &[&Hold],
+    question: &Question,
+    tile_area: f64,
+) -> (usize, Mixture) {
+    // The same states for all settings: a trap that catches nothing at one shaking holds there what
+    // it has caught at another one.
+    let caught = |hold: &&&Hold| {
+        outcomes
+            .iter()
+            .any(|outcome| rates_of(outcome, hold).is_some())
+    };
+    let kinds: Vec<&Hold> = holds.iter().filter(caught).copied().collect();
+    let fits =
+        |pairs: &usize| numbers::count(kinds.len(), *pairs).is_some_and(|states| states <= STATES);
+    let most = PAIRS.min(question.tiles / 2);
+    let pairs = (1..=most).rev().find(fits).unwrap_or(1);
+    let crowd = Crowd::new(2 * pairs, question.coverage, tile_area);
+    let settings = parallel::map(0..outcomes.len(), |k| {
+        let all = rates(outcomes, &outcomes[k], &kinds, question.coverage);
+        Numbers::new(&all, &crowd)
+    });
+    let first = &settings[0];
+    let share = |state: usize| f64::from(first.of(state)[0]) / pairs as f64;
+    let values: Vec<f64> = (0..first.len()).map(share).collect();
+    let chains: Vec<_> = settings.iter().map(Numbers::chain).collect();
+    let found = mixture::schedule(&chains, &values, question.time, SLOTS);
+    (2 * pairs, found)
+}
+
+/// Attachment and detachment of a state at a setting, if it has caught anything there.
+fn rates_of(outcome: &Outcome, hold: &Hold) -> Option<[f64; 2]> {
+    let states = outcome.states.iter();
+    let mut own = states.filter(|state| state.name == hold.name);
+    own.next().map(|state| [state.on, state.off])
+}
+
+/// The rates of all kinds of states at a setting. What has caught nothing there, but at others, lets
+/// go as detailed balance has it with their mean attachment rate.
+fn rates(outcomes: &[Outcome], outcome: &Outcome, kinds: &[&Hold], coverage: f64) -> PairRates {
+    let known = |hold: &&Hold| rates_of(outcome, hold);
+    let fastest = kinds.iter().filter_map(known).map(|rates| rates[1]);
+    let fastest = fastest.fold(0.0, f64::max);
+    let shaking = Shaking {
+        kt: outcome.kt,
+        coverage,
+    };
+    let of = |hold: &&Hold| {
+        known(hold).unwrap_or_else(|| {
+            let others = outcomes.iter().filter_map(|other| rates_of(other, hold));
+            let others: Vec<f64> = others.map(|rates| rates[0]).collect();
+            let on = others.iter().sum::<f64>() / others.len() as f64;
+            let off = hold
+                .holds_at(outcome.kt)
+                .then(|| on / hold.association(&hold.docking(&shaking, TOLERANCE)));
+            let off = off.filter(|off| off.is_finite());
+            [0.0, off.unwrap_or(FLEETING * fastest)]
+        })
+    };
+    let all = kinds.iter().map(of);
+    let (on, off) = all.map(|[on, off]| (on, off)).unzip();
+    PairRates { on, off }
+}

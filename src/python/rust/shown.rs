@@ -1,0 +1,60 @@
+//! Results as people look at them, and as bytes: what all classes have.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use serde::Serialize;
+use tilebind::report::document::Document;
+use tilebind::report::plots::{Figure, PictureError, Sheet};
+
+use crate::{convert, fault, job, pickle};
+
+/// A report as dictionaries and lists.
+pub fn report<'py>(py: Python<'py>, document: &Document) -> PyResult<Bound<'py, PyAny>> {
+    convert::json(py, &document.report())
+}
+
+/// The pictures of a document as SVG documents.
+pub fn pictures(py: Python<'_>, document: &Document) -> PyResult<Vec<String>> {
+    svg(py, || Ok(document.figures(&Sheet::SCREEN)?.concat()))
+}
+
+/// SVG documents of pictures that are drawn beside the interpreter.
+pub fn svg(
+    py: Python<'_>,
+    draw: impl FnOnce() -> Result<Vec<Figure>, PictureError> + Send,
+) -> PyResult<Vec<String>> {
+    let drawn = job::quietly(py, draw)?.map_err(fault::run)?;
+    Ok(drawn.iter().map(|figure| figure.svg().to_owned()).collect())
+}
+
+/// The page of a document, made by a command.
+pub fn page(py: Python<'_>, document: &Document, command: &str) -> PyResult<String> {
+    job::quietly(py, || document.html(command))?.map_err(fault::run)
+}
+
+/// What a notebook shows: a text and pictures.
+pub fn notebook(py: Python<'_>, text: String, pictures: Vec<String>) -> PyResult<Bound<'_, PyAny>> {
+    let html = py.import("tilebind._html")?;
+    html.call_method1("page", (text, pictures))
+}
+
+/// What draws on axes of matplotlib, see `_plots.py`.
+pub fn plotted<'py>(
+    py: Python<'py>,
+    name: &str,
+    arguments: impl pyo3::call::PyCallArgs<'py>,
+    style: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("tilebind._plots")?
+        .getattr(name)?
+        .call(arguments, style)
+}
+
+/// How a class's `_restore` makes an object anew.
+pub type Reduced<'py> = (Bound<'py, PyAny>, (Bound<'py, PyBytes>,));
+
+/// An object in a pickle: what makes it anew of this value.
+pub fn reduced<'py, T>(object: &Bound<'py, T>, value: &impl Serialize) -> PyResult<Reduced<'py>> {
+    let restore = object.as_any().get_type().getattr("_restore")?;
+    Ok((restore, (pickle::dump(object.py(), value)?,)))
+}

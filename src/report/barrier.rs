@@ -1,0 +1,131 @@
+//! One barrier between two poses.
+
+use serde_json::json;
+
+use crate::csv::{SEEN, pathway as csv_of, thinned};
+use crate::document::{Cell, Document, Drawing, Entries, rows};
+use crate::files::Files;
+use crate::plots::chart::{Chart, Dimension, Look};
+use crate::plots::poses;
+use crate::states::{barriers, why_no_way};
+use jobs::design::Design;
+use jobs::query::{Answer, Query};
+use physics::budget::Ended;
+use physics::landscape::minimax::End;
+use physics::units::{si, si_range};
+
+/// The file of the pathway in a folder of results.
+pub const PATHWAY: &str = "pathway.csv";
+
+/// What there is to know of a barrier; `file` is where its pathway is, if it is anywhere.
+pub fn document<'a>(
+    design: &'a Design,
+    query: &Query,
+    answer: &'a Answer,
+    file: Option<&str>,
+) -> Document<'a> {
+    let barrier = &answer.barrier;
+    let uncertified = answer.uncertified.map(|why| format!("no bounds: {why}"));
+    let ended = answer.ended.map(Ended::describe);
+    let ended = ended.map(|why| format!("bounds are wider than asked for: {why}"));
+    let mut pictures = vec![ends(design, query, answer)];
+    let mut beside = Files::new();
+    if barrier.has_way() {
+        pictures.insert(0, profile(answer).into());
+        let text = csv_of(&barrier.pathway);
+        beside.insert(PATHWAY.to_owned(), text.into_bytes());
+    }
+    Document {
+        title: format!("{}: one barrier", design.name),
+        answer: sentence(design, query, answer),
+        entries: entries(query, answer, file),
+        pictures,
+        beside,
+        notes: uncertified.into_iter().chain(ended).collect(),
+        origin: format!("{} magnets", design.interaction.model.name()),
+        ..Document::default()
+    }
+}
+
+/// The barrier as a list of barriers has it, its ends given by their poses.
+fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
+    let to = match query.to {
+        End::At(pose) => Cell::from(pose),
+        End::Free => "free".into(),
+    };
+    Entries::default()
+        .row(barriers([&answer.barrier]))
+        .fact("from", "from", query.from)
+        .fact("to", "to", to)
+        // Why the bounds are null, where they are.
+        .data(
+            "uncertified",
+            json!(answer.uncertified.map(|why| why.to_string())),
+        )
+        // What ended the narrowing before it was done: "work" or "clock", of which only the latter
+        // makes another run differ.
+        .data("ended_by", json!(answer.ended.map(Ended::name)))
+        .data("pathway", json!(file))
+}
+
+fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
+    let (name, barrier) = (&design.name, &answer.barrier);
+    let to = match query.to {
+        End::At(_) => "the other",
+        End::Free => "free",
+    };
+    if let Some(why) = why_no_way(barrier) {
+        return format!("{name}: from the one pose to {to} there is no way: {why}");
+    }
+    let certified = barrier.bounds.above(barrier.from_energy).both();
+    let certified = certified.map_or_else(String::new, |(lower, upper)| {
+        format!(" (certified: {})", si_range(lower, upper, "J", 4))
+    });
+    format!(
+        "{name}: the way from the one pose to {to} climbs {}{certified}, back {}",
+        si(barrier.forward(), "J", 4),
+        si(barrier.reverse(), "J", 4)
+    )
+}
+
+/// The energy along the way.
+fn profile(answer: &Answer) -> Chart {
+    let way = thinned(&answer.barrier.pathway, SEEN);
+    Chart {
+        name: "profile",
+        title: "Energy along the way".to_owned(),
+        x: Dimension::new("s_m", "way"),
+        y: Dimension::new("energy_J", "energy"),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with(
+        "energy",
+        Look::Line,
+        way.into_iter().map(|point| [point.s, point.energy]),
+    )
+}
+
+/// The tiles where the way starts, is highest and ends.
+fn ends<'a>(design: &'a Design, query: &Query, answer: &Answer) -> Drawing<'a> {
+    let barrier = &answer.barrier;
+    let start = (query.from, barrier.from_energy, "start");
+    let highest = (barrier.saddle, barrier.saddle_energy, "highest");
+    let end = query.to.configuration();
+    let end = end.map(|q| (*q, barrier.to_energy, "end"));
+    let highest = barrier.has_way().then_some(highest);
+    let all: Vec<_> = [start].into_iter().chain(highest).chain(end).collect();
+    let title = "Where the way starts, is highest and ends";
+    Drawing::new(title, move |sheet| {
+        let told = all
+            .iter()
+            .map(|(q, energy, name)| (*q, format!("{name}: {}", si(*energy, "J", 4))));
+        let numbers = rows(&all)
+            .column("at", "", "", |(.., name)| *name)
+            .column("pose", "", "", |(q, ..)| *q)
+            .column("energy_J", "", "", |(_, energy, _)| *energy)
+            .table("");
+        let told: Vec<_> = told.collect();
+        poses::draw(("poses", title), &design.pair, &told, numbers.csv(), sheet)
+    })
+}

@@ -1,0 +1,86 @@
+//! What quantities are measured in, and how people read them.
+
+use physics::units::{duration, plain, si};
+
+/// What a quantity is measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Nothing: a count, a ratio, a name.
+    None,
+    /// A part of all, which people read in percent.
+    Share,
+    /// A unit by its symbol.
+    Of(&'static str),
+}
+
+/// Ends of keys and the units that they stand for, longer ones first.
+const UNITS: [(&str, &str); 21] = [
+    ("_m2_per_s", "m²/s"),
+    ("_m2_s", "m²/s"),
+    ("_per_m2", "1/m²"),
+    ("_per_m", "1/m"),
+    ("_m_per_s", "m/s"),
+    ("_per_s", "/s"),
+    ("_m2_rad", "m² rad"),
+    ("_J_per_m", "J/m"),
+    ("_rad", "rad"),
+    ("_deg", "°"),
+    ("_kT", "kT"),
+    ("_Nm", "N m"),
+    ("_Am2", "A m²"),
+    ("_kg", "kg"),
+    ("_m2", "m²"),
+    ("_m_s", "m/s"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_J", "J"),
+    ("_N", "N"),
+    ("_T", "T"),
+];
+
+impl Unit {
+    /// The unit in which a key ends.
+    pub fn of_key(key: &str) -> Self {
+        let found = UNITS.iter().find(|(end, _)| key.ends_with(end));
+        found.map_or(Self::None, |(_, symbol)| Self::Of(symbol))
+    }
+
+    /// A key without its unit.
+    pub(super) fn stripped(key: &str) -> &str {
+        let mut found = UNITS.iter().filter_map(|(end, _)| key.strip_suffix(end));
+        found.next().unwrap_or(key)
+    }
+
+    /// Its symbol; empty where there is none.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Share => "%",
+            Self::Of(symbol) => symbol,
+        }
+    }
+}
+
+/// A number as people read it: with so many digits, its unit, and a prefix where that is usual.
+pub fn told(value: f64, unit: Unit, digits: usize) -> String {
+    match unit {
+        _ if value.is_nan() => "-".to_owned(),
+        Unit::Of("s") if value.is_infinite() => "never".to_owned(),
+        _ if value.is_infinite() => "-".to_owned(),
+        Unit::None => plain(value, digits),
+        Unit::Share => share(value),
+        Unit::Of("s") => duration(value, digits),
+        Unit::Of("rad") => format!("{:.1}\u{b0}", value.to_degrees() + 0.0),
+        Unit::Of("kT") => format!("{value:.1} kT"),
+        Unit::Of(symbol @ ("J" | "m" | "N" | "T" | "m/s" | "N m")) => si(value, symbol, digits),
+        Unit::Of(symbol) => format!("{} {symbol}", plain(value, digits)),
+    }
+}
+
+/// `42 %`; two decimals below one percent.
+fn share(value: f64) -> String {
+    match 100.0 * value {
+        percent if percent > 0.0 && percent < 1.0 => format!("{percent:.2} %"),
+        percent => format!("{percent:.0} %"),
+    }
+}

@@ -1,0 +1,233 @@
+//! Axes, and where values stand between them.
+
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::{Drawable, PointCollection};
+use plotters::prelude::{Cartesian2d, ChartBuilder, ChartContext, TRANSPARENT};
+
+use super::canvas::{Box4, Canvas, Pixel};
+use super::recorder::Recorder;
+use super::scale::{EnergyScale, round_numbers};
+use super::style::{Anchor, GRID, INK, LABEL, SMALL, UNITS, minus, stroke, unit};
+use physics::units::prefix_of;
+
+/// Space left of and below the names of axes (pixels).
+const EDGE: f64 = 12.0;
+
+/// How values stand along an axis.
+#[derive(Clone, Copy, Debug)]
+pub enum Spacing {
+    /// As multiples of a unit.
+    Even(f64),
+    /// By the decimal logarithms of what they are more than minus this.
+    Logarithms(f64),
+    /// By a scale of energies.
+    Energies(EnergyScale),
+}
+
+impl Spacing {
+    /// Where a value stands, on an axis without ends.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Even(unit) => value / unit,
+            Self::Logarithms(offset) => libm::log10(value + offset),
+            Self::Energies(scale) => scale.position(value),
+        }
+    }
+}
+
+/// One axis: from where to where, the values that are marked with their texts, what is told.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    pub spacing: Spacing,
+    /// As they are spaced.
+    pub ends: [f64; 2],
+    /// Places of marks, as they are spaced.
+    pub marks: Vec<(f64, String)>,
+    pub name: String,
+}
+
+impl Axis {
+    /// An axis of multiples of a unit with about `count` marks at round numbers.
+    pub fn even(range: [f64; 2], unit: f64, count: usize, name: impl Into<String>) -> Self {
+        let ends = range.map(|end| end / unit);
+        let numbers = round_numbers(ends, count + 1);
+        let steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+        let step = steps.fold(ends[1] - ends[0], f64::min);
+        let decimals = (-(libm::log10(step) + 1e-9).floor()).max(0.0) as usize;
+        let mark = |value| (value, minus(&format!("{value:.decimals$}")));
+        Self {
+            spacing: Spacing::Even(unit),
+            ends,
+            marks: numbers.into_iter().map(mark).collect(),
+            name: name.into(),
+        }
+    }
+
+    /// An axis of a quantity in the SI unit `symbol`, with the prefix that suits its size.
+    pub fn quantity(range: [f64; 2], symbol: &str, count: usize, name: &str) -> Self {
+        // Just below a power of a thousand still counts as the smaller unit: 1000 mm, not 1 m.
+        let (unit, prefix) = prefix_of(0.999 * range[0].abs().max(range[1].abs()));
+        Self::even(range, unit, count, format!("{name} ({prefix}{symbol})"))
+    }
+
+    /// An axis on which nothing is told but which of some things one is.
+    pub fn places(count: usize) -> Self {
+        Self {
+            spacing: Spacing::Even(1.0),
+            ends: [0.0, count as f64],
+            marks: Vec::new(),
+            name: String::new(),
+        }
+    }
+
+    /// As plotters has it.
+    fn spaced(&self) -> RangedCoordf64 {
+        (self.ends[0]..self.ends[1]).into()
+    }
+}
+
+/// Along the axis are values as they are spaced.
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, place: &f64, limit: (i32, i32)) -> i32 {
+        self.spaced().map(place, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        let room = 1e-9 * (self.ends[1] - self.ends[0]);
+        let within = self.ends[0] - room..=self.ends[1] + room;
+        let places = self.marks.iter().map(|mark| mark.0);
+        places.filter(|place| within.contains(place)).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.spaced().range()
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, place: &f64) -> String {
+        let mark = self.marks.iter().find(|mark| mark.0 == *place);
+        mark.map_or_else(String::new, |(_, text)| text.clone())
+    }
+}
+
+/// A rectangle between axes.
+pub struct Plot {
+    /// Pixels.
+    pub frame: Box4,
+    spacing: [Spacing; 2],
+    chart: ChartContext<'static, Recorder, Cartesian2d<Axis, Axis>>,
+}
+
+impl Plot {
+    /// Draws axes within a place but for the margins (pixels: top, right, bottom, left), which hold
+    /// the texts of marks and the names of axes as well; with a grid or without.
+    pub fn new(
+        canvas: &mut Canvas,
+        [left, top, right, bottom]: Box4,
+        margin: [f64; 4],
+        [x, y]: [Axis; 2],
+        grid: bool,
+    ) -> Self {
+        let spacing = [x.spacing, y.spacing];
+        let names = [x.name.clone(), y.name.clone()];
+        let area = canvas.root.clone().shrink(
+            (unit(left), unit(top)),
+            (unit(right - left), unit(bottom - top)),
+        );
+        let [edge, foot] = [margin[3], margin[2]].map(|wide| wide.min(EDGE));
+        let built = ChartBuilder::on(&area)
+            .margin_top(unit(margin[0]))
+            .margin_right(unit(margin[1]))
+            .margin_bottom(unit(foot))
+            .margin_left(unit(edge))
+            .x_label_area_size(unit(margin[2] - foot))
+            .y_label_area_size(unit(margin[3] - edge))
+            .build_cartesian_2d(x, y);
+        let mut chart = built.expect("without a title nothing is drawn that could fail");
+        let mut mesh = chart.configure_mesh();
+        if !grid {
+            mesh.disable_mesh();
+        }
+        let drawn = mesh
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(stroke(GRID, 1.0))
+            .axis_style(stroke(INK, 1.0))
+            .set_all_tick_mark_size(unit(5.0))
+            .label_style(SMALL.style(Anchor::Middle))
+            .axis_desc_style(LABEL.style(Anchor::Middle))
+            .x_desc(&names[0])
+            .y_desc(&names[1])
+            .draw();
+        canvas.done(drawn);
+        let area = chart.plotting_area();
+        let [across, up] = [area.get_x_axis_pixel_range(), area.get_y_axis_pixel_range()];
+        let frame = [across.start, up.start, across.end, up.end];
+        Self {
+            frame: frame.map(|end| f64::from(end) / UNITS),
+            spacing,
+            chart,
+        }
+    }
+
+    /// A point as it is spaced, which series are made of.
+    pub fn place(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.spacing[0].of(x), self.spacing[1].of(y))
+    }
+
+    /// Where a point lies (pixels).
+    pub fn at(&self, x: f64, y: f64) -> Pixel {
+        let (x, y) = self.chart.backend_coord(&self.place(x, y));
+        (f64::from(x) / UNITS, f64::from(y) / UNITS)
+    }
+
+    /// Draws a series, within the plot.
+    pub fn series<E, S: IntoIterator<Item = E>>(&mut self, canvas: &mut Canvas, series: S)
+    where
+        for<'b> &'b E: PointCollection<'b, (f64, f64)>,
+        E: Drawable<Recorder>,
+    {
+        let drawn = self.chart.draw_series(series).map(drop);
+        canvas.done(drawn);
+    }
+
+    /// A level line across the plot.
+    pub fn level(&self, y: f64) -> [Pixel; 2] {
+        let [left, _, right, _] = self.frame;
+        let y = self.at(0.0, y).1;
+        [(left, y), (right, y)]
+    }
+
+    /// Says above the plot what it shows.
+    pub fn heading(&self, canvas: &mut Canvas, text: &str) {
+        let at = (self.frame[0], self.frame[1] - 8.0);
+        canvas.write(LABEL.bold(), text, at, Anchor::BottomLeft);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_numbers_within_the_range() {
+        let labels = |axis: Axis| -> Vec<String> {
+            axis.marks.into_iter().map(|(_, label)| label).collect()
+        };
+        let wide = labels(Axis::even([-0.73, 0.73], 1.0, 7, "x (m)"));
+        assert_eq!(
+            wide[..4],
+            ["\u{2212}0.6", "\u{2212}0.4", "\u{2212}0.2", "0.0"]
+        );
+        assert_eq!(wide.len(), 7);
+        let gaps = labels(Axis::even([0.0, 86.0], 1.0, 9, "gap (mm)"));
+        assert_eq!(gaps[..3], ["0", "10", "20"]);
+        assert_eq!(gaps.len(), 9);
+    }
+}

@@ -1,0 +1,97 @@
+//! Pictures with the numbers that they show, drawn and yet to be drawn.
+
+use super::composition::Composition;
+use super::picture::{Picture, PictureError};
+use super::sheet::Sheet;
+
+/// Pictures with the numbers that they show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// The stem of the file of numbers, and of the picture if there is one only.
+    pub name: String,
+    /// By the stems of their files: one, or one for each of its panels.
+    pub pictures: Vec<(String, Picture)>,
+    /// The numbers, as CSV.
+    pub data: String,
+}
+
+impl Figure {
+    pub(crate) fn new(
+        composition: &Composition,
+        sheet: &Sheet,
+        data: String,
+    ) -> Result<Self, PictureError> {
+        Ok(Self {
+            name: composition.name.clone(),
+            pictures: composition.draw(sheet)?,
+            data,
+        })
+    }
+
+    /// The first picture as SVG.
+    pub fn svg(&self) -> &str {
+        self.pictures
+            .first()
+            .map_or("", |(_, picture)| &picture.svg)
+    }
+
+    /// The files by their names: each picture in every form, and the numbers.
+    pub fn files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
+        let numbers = (format!("{}.csv", self.name), self.data.into_bytes());
+        let pictures = self.pictures.into_iter().flat_map(|(stem, picture)| {
+            let forms = [
+                ("svg", Some(picture.svg.into_bytes())),
+                ("png", picture.png),
+                ("pdf", picture.pdf),
+            ];
+            let named =
+                |(ending, bytes): (_, Option<_>)| Some((format!("{stem}.{ending}"), bytes?));
+            forms.into_iter().filter_map(named).collect::<Vec<_>>()
+        });
+        pictures.chain([numbers])
+    }
+}
+
+/// What draws pictures.
+type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a;
+
+/// A picture yet to be drawn.
+pub struct Drawing<'a> {
+    /// What it shows.
+    pub title: String,
+    /// Whether the page has it; where a part of the page shows the same, it does not.
+    pub is_shown: bool,
+    /// Draws it.
+    pub draw: Box<Draw<'a>>,
+}
+
+impl<'a> Drawing<'a> {
+    /// A picture of what its title says.
+    pub fn new(
+        title: impl Into<String>,
+        draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
+    ) -> Self {
+        Self::several(title, move |sheet| Ok(vec![draw(sheet)?]))
+    }
+
+    /// Pictures that are drawn together.
+    pub fn several(
+        title: impl Into<String>,
+        draw: impl Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            is_shown: true,
+            draw: Box::new(draw),
+        }
+    }
+
+    /// In a file only: a part of the page shows the same.
+    #[must_use]
+    pub fn off_page(self) -> Self {
+        Self {
+            is_shown: false,
+            ..self
+        }
+    }
+}

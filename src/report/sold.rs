@@ -1,0 +1,81 @@
+//! Magnets that are given by what shops say of them, a grade or a pull, and how sure that is.
+
+use serde_json::{Value, json};
+
+use physics::tile::strength::{PULL_SPREAD, Strength};
+use physics::units::{MU0, to_digits};
+
+/// What a shop's grade or pull says of magnets, and how sure that is.
+pub fn told((strength, size): &(Strength, [f64; 3])) -> String {
+    let millimetres = size.map(|x| four(x * 1e3)).join(" x ");
+    let block = format!(
+        "magnets {millimetres} mm, magnetised through {} mm",
+        four(size[0] * 1e3)
+    );
+    match strength {
+        Strength::Grade(grade) => {
+            let [least, usual, most] = grade.remanence;
+            let [low, high] = grade.energy_range().map(|factor| 100.0 * (factor - 1.0));
+            format!(
+                "{block}, {}: remanence {usual:.2} T ({least:.2} to {most:.2} T as makers state it: energies \
+                 {low:+.0} to {high:+.0} %)",
+                grade.name
+            )
+        }
+        Strength::Pull(force) => {
+            let found = remanence(strength, *size);
+            let [low, high] = pulled_range(found);
+            format!(
+                "{block}, that pull {} off thick steel: remanence {} T if block and plate are ideal; \
+                 what sellers state is {} to {} of that, so it may be {} to {} T",
+                crate::tiles::force(*force),
+                three(found),
+                PULL_SPREAD[0],
+                PULL_SPREAD[1],
+                three(low),
+                three(high),
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+/// Of a block of this size (T).
+fn remanence(strength: &Strength, size: [f64; 3]) -> f64 {
+    MU0 * strength.moment(size) / size.iter().product::<f64>()
+}
+
+/// Where a remanence (T) that is taken from a pull may lie, as sellers state pulls: the pull goes with
+/// its square.
+fn pulled_range(remanence: f64) -> [f64; 2] {
+    let [least, most] = PULL_SPREAD;
+    [most, least].map(|share| remanence / share.sqrt())
+}
+
+/// Significant digits of a number, without zeros at its end.
+fn four(value: f64) -> String {
+    to_digits(value, 4).to_string()
+}
+
+fn three(value: f64) -> String {
+    to_digits(value, 3).to_string()
+}
+
+/// Magnets that are given by a grade or a pull.
+pub fn entry((strength, size): &(Strength, [f64; 3])) -> Value {
+    let found = remanence(strength, *size);
+    let mut entry = json!({ "size_m": size, "remanence_T": found });
+    match strength {
+        Strength::Grade(grade) => {
+            let [least, _, most] = grade.remanence;
+            entry["grade"] = json!(grade.name);
+            entry["remanence_range_T"] = json!([least, most]);
+        }
+        Strength::Pull(force) => {
+            entry["pull_N"] = json!(force);
+            entry["remanence_range_T"] = json!(pulled_range(found));
+        }
+        _ => {}
+    }
+    entry
+}

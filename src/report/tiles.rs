@@ -1,0 +1,74 @@
+//! What tiles carry and what holds them, in words.
+
+use crate::document::{Table, rows};
+use jobs::design::Design;
+use jobs::inspection::{Hold, Inspection};
+use physics::order::Order;
+use physics::tile::{Magnet, Tile};
+use physics::units::si;
+
+/// Weight of a gram (N).
+pub const GRAM: f64 = 9.806_65e-3;
+/// Significant digits of energies and forces.
+const DIGITS: usize = 4;
+
+/// What is wrong with a design, its reader's doubts first; empty where nothing is.
+pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
+    let doubts = design.warnings.iter();
+    let doubts = doubts.map(|doubt| format!("{}; {}", doubt.message, doubt.help));
+    doubts.chain(inspection.faults(design)).collect()
+}
+
+/// A force in newtons and grams.
+pub fn force(newtons: f64) -> String {
+    let grams = newtons / GRAM;
+    let decimals = match grams.abs() {
+        100.0.. => 0,
+        1.0.. => 1,
+        _ => 3,
+    };
+    format!("{} ({grams:.decimals$} g)", si(newtons, "N", 3))
+}
+
+/// What holds the tiles, a line for each model of the magnets.
+// One line a column.
+#[rustfmt::skip]
+pub fn models(models: &[Hold]) -> Table {
+    rows(models)
+        .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural().to_owned())
+        .column("energy_J", "energy", "where the target faces meet", |it| it.energy).digits(DIGITS)
+        .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| force(it.contact))
+        .column("along_N", "", "", |it| it.along)
+        .column("torque_Nm", "", "", |it| it.torque)
+        .column("pull_off_N", "pull-off", "the largest pull on the way straight out", |it| it.pull_off).viewed(|it| pull_off(it))
+        .column("pull_off_gap_m", "", "", |it| it.pull_off_gap)
+        .table("models")
+        .in_file("models")
+}
+
+/// The largest pull on the way straight out, and where it is.
+pub fn pull_off(hold: &Hold) -> String {
+    match hold.pull_off_gap {
+        0.0 => force(hold.pull_off),
+        gap => format!("{} at {}", force(hold.pull_off), si(gap, "m", 2)),
+    }
+}
+
+/// Which pole a magnet turns outwards.
+pub fn letter(tile: &Tile, magnet: &Magnet) -> char {
+    let outwards = tile.faces[magnet.face].normal();
+    match magnet.moment_vector().dot(&outwards) >= 0.0 {
+        true => 'N',
+        false => 'S',
+    }
+}
+
+/// The magnets of a face with their places along it (m), counter-clockwise.
+pub fn magnets(tile: &Tile, number: usize) -> Vec<(f64, &Magnet)> {
+    let face = &tile.faces[number];
+    let own = tile.magnets.iter().filter(|magnet| magnet.face == number);
+    let place = |magnet: &Magnet| (magnet.position - face.middle()).dot(&face.tangent());
+    let mut placed: Vec<_> = own.map(|magnet| (place(magnet), magnet)).collect();
+    placed.order_by(|a, b| a.0.total_cmp(&b.0));
+    placed
+}
