@@ -123,8 +123,7 @@
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, comparison, design, docking,
     inspection, matching, memory, output, pipeline, query, rates, request, start, sweep, table,
-    word_sets,
-    workshop, yields,
+    word_sets, workshop, yields,
 };
 pub use physics::table as many_bodies;
 pub use physics::{

@@ -11,8 +11,8 @@ use tilebind::pipeline;
 use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
-use tilebind::workshop::{Made, Making};
 use tilebind::table::{Request, of_design, table as put};
+use tilebind::workshop::{Made, Making};
 use tilebind::yields::yields;
 
 use super::Design;
@@ -261,7 +261,10 @@ impl Design {
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (design, asked) = (&self.content.design, request_with(py, settings, "time", time)?);
+        let (design, asked) = (
+            &self.content.design,
+            request_with(py, settings, "time", time)?,
+        );
         let asked: Request = asked;
         let text = start.map(std::fs::read_to_string).transpose()?;
         let found = job::answer(py, progress, |told| {
