@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
-use tilebind::table::{self, Request};
+use tilebind::table::{self, About, Request};
 
-use super::options::{DesignOptions, ThreadOption};
+use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, input, interrupt};
 
@@ -26,8 +27,14 @@ Examples:
     --out target/table
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
-    #[command(flatten)]
-    design: DesignOptions,
+    /// The design file, or a tile set as `tilebind assemble` takes it
+    #[arg(value_name = "DESIGN|TILESET")]
+    tiles: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = input::model(),
+          hide_possible_values = true)]
+    model: Option<MagnetModel>,
 
     #[command(flatten)]
     request: Request,
@@ -46,13 +53,21 @@ pub struct TableCommand {
 impl TableCommand {
     pub fn run(self) -> Result<(), Failure> {
         interrupt::prepare()?;
-        let design = self.design.load()?;
         self.request.check().map_err(Failure::Usage)?;
-        let mut inputs = self.design.inputs(&design);
+        let is_design = self.tiles.extension().is_some_and(|it| it == "toml");
+        let design = is_design.then(|| input::load_as(&self.tiles, self.model));
+        let design = design.transpose()?;
+        let mut inputs = match &design {
+            Some(design) => input::files_of(&self.tiles, design),
+            None => vec![self.tiles.clone()],
+        };
         inputs.extend(self.start.clone());
         let output = self.results.output(&TABLE, inputs)?;
         self.threads.use_threads()?;
-        let crowd = table::of_design(&design).map_err(|error| Failure::Usage(error.to_string()))?;
+        let (about, crowd) = match &design {
+            Some(design) => About::of_design(design).map_err(Failure::Usage)?,
+            None => About::of_set(&self.tiles, &self.request, self.model)?,
+        };
         let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
             let name = path.display().to_string();
             let text = input::text(path).map_err(|error| {
@@ -69,7 +84,7 @@ impl TableCommand {
         let progress = self.results.progress();
         let found = table::table(crowd, &self.request, &start, &progress);
         let found = found.map_err(Failure::of)?;
-        let document = document(&design, &found, self.request.seed);
+        let document = document(&about, &found, self.request.seed);
         self.results.deliver(&document, output, &progress)
     }
 }

@@ -215,3 +215,60 @@ impl Writer {
         file
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(bytes: &[u8], at: usize) -> u64 {
+        u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap())
+    }
+
+    #[test]
+    fn chunks_lie_where_the_index_says() {
+        let square = vec![[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]];
+        let kinds = [
+            ("fixed".to_owned(), square.clone()),
+            ("b".to_owned(), square),
+        ];
+        let tile = |kind: usize, x: f64| Particle {
+            place: [x, 0.5],
+            theta: std::f64::consts::PI,
+            velocity: [0.0; 3],
+            kind,
+            mass: 0.25,
+            inertia: 0.5,
+        };
+        let frames = vec![
+            vec![tile(0, 1.0), tile(1, 2.0)],
+            vec![tile(0, 3.0), tile(1, 4.0)],
+        ];
+        let bytes = file(&kinds, [2.0, 3.0], &frames);
+        assert_eq!(number(&bytes, 0), MAGIC);
+        let (index, entries) = (number(&bytes, 8) as usize, number(&bytes, 16) as usize);
+        let names = number(&bytes, 24) as usize;
+        assert_eq!(names, index + 32 * entries);
+        let list = &bytes[names..];
+        let names: Vec<&str> = list
+            .split(|byte| *byte == 0)
+            .take_while(|name| !name.is_empty())
+            .map(|name| std::str::from_utf8(name).unwrap())
+            .collect();
+        let places: Vec<f32> = (0..entries)
+            .map(|k| &bytes[index + 32 * k..index + 32 * (k + 1)])
+            .filter(|entry| number(entry, 16) > 0)
+            .filter(|entry| {
+                let name = u16::from_le_bytes(entry[28..30].try_into().unwrap());
+                names[usize::from(name)] == "particles/position"
+            })
+            .flat_map(|entry| {
+                let (rows, at) = (number(entry, 8) as usize, number(entry, 16) as usize);
+                assert_eq!(rows, 2);
+                bytes[at..at + 4 * 3 * rows].chunks(4)
+            })
+            .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
+            .collect();
+        let expected = [1.0, 0.5, 0.0, 2.0, 0.5, 0.0, 3.0, 0.5, 0.0, 4.0, 0.5, 0.0];
+        assert_eq!(places, expected);
+    }
+}

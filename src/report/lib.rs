@@ -8,6 +8,7 @@
 //! - [`comparison`], [`sweep`] - designs side by side, many designs from one;
 //! - [`docking`], [`release`] - tiles sent towards each other, and shaken loose;
 //! - [`bond`], [`rates`], [`yields`] - how strongly, how soon and how many shaken tiles bind;
+//! - [`table`], [`gsd`] - many tiles on one table, and their trajectory for OVITO;
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
 //! - [`barrier`], [`energies`] - one barrier between two poses, what is felt at given poses;
 //! - [`matching`] - how two outlines fit; [`calibration`] - what is fitted to measurements;

@@ -5,8 +5,7 @@ use serde_json::{Value, json};
 use crate::document::{Document, Drawing, Entries, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::plots::chart::{Chart, Dimension, Look, Point};
-use jobs::design::Design;
-use jobs::table::{Found, Interval, Lifetime, Moment, Verdict};
+use jobs::table::{About, Found, Interval, Lifetime, Moment, Verdict};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -14,17 +13,13 @@ use physics::table::{Mover, Sample};
 use physics::units::{duration, plain, si};
 
 /// What there is to know of a table.
-pub fn document<'a>(design: &'a Design, found: &'a Found, seed: u64) -> Document<'a> {
+pub fn document<'a>(about: &About, found: &'a Found, seed: u64) -> Document<'a> {
     let statistics = &found.statistics;
     Document {
-        title: format!(
-            "{} tiles of {} on the table",
-            found.kinds.len(),
-            design.name
-        ),
+        title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
         answer: format!(
             "{}: {} tiles hold each other in {} bonds and {} traps after {} ({}; {} of {} seed {seed})",
-            design.name,
+            about.name,
             found.kinds.len(),
             told(&statistics.bonds),
             told(&statistics.traps),
@@ -38,11 +33,11 @@ pub fn document<'a>(design: &'a Design, found: &'a Found, seed: u64) -> Document
             },
         ),
         remarks: vec![meaning(found)],
-        entries: entries(design, found, seed),
+        entries: entries(about, found, seed),
         pictures: pictures(found),
         beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
         notes: notes(found),
-        origin: format!("seed {seed}, {} magnets", design.interaction.model.name()),
+        origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
     }
 }
@@ -115,9 +110,13 @@ fn interval(interval: &Interval) -> Value {
 
 // One line an entry.
 #[rustfmt::skip]
-fn entries(design: &Design, found: &Found, seed: u64) -> Entries {
+fn entries(about: &About, found: &Found, seed: u64) -> Entries {
     let statistics = &found.statistics;
-    crate::document::entries(design)
+    let identity = json!({"name": about.name, "sha256": about.sha256});
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("design", identity)
+        .data("model", about.model.name())
         .data("seed", seed)
         .data("settings", settings(&found.settings))
         .fact("tiles", "tiles", found.kinds.len())

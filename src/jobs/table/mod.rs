@@ -4,11 +4,13 @@ mod crowds;
 mod request;
 mod start_file;
 mod statistics;
+mod subject;
 
 pub use crowds::{of_assembly, of_design};
 pub use request::Request;
 pub use start_file::{StartFileError, read as read_start};
 pub use statistics::{Interval, Lifetime, Moment, Statistics, Verdict};
+pub use subject::About;
 
 use std::time::Instant;
 

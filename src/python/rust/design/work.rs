@@ -11,7 +11,7 @@ use tilebind::pipeline;
 use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
-use tilebind::table::{Request, of_design, table as put};
+use tilebind::table::{About, Request, table as put};
 use tilebind::workshop::{Made, Making};
 use tilebind::yields::yields;
 
@@ -268,12 +268,14 @@ impl Design {
         let asked: Request = asked;
         let text = start.map(std::fs::read_to_string).transpose()?;
         let found = job::answer(py, progress, |told| {
-            let crowd = of_design(design).map_err(|error| error.to_string())?;
+            let (about, crowd) = About::of_design(design)?;
             let start = asked.start(&crowd, text.as_deref().map(|text| ("start", text)))?;
             asked.check()?;
-            put(crowd, &asked, &start, told).map_err(|error| error.to_string())
+            let found = put(crowd, &asked, &start, told).map_err(|error| error.to_string())?;
+            Ok::<_, String>((about, found))
         })?;
-        shown::report(py, &report::table::document(design, &found, asked.seed))
+        let (about, found) = found;
+        shown::report(py, &report::table::document(&about, &found, asked.seed))
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
