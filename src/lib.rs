@@ -123,8 +123,9 @@
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
     docking, inspection, matching, memory, output, pipeline, query, rates, request, start, sweep,
-    text, word_sets, workshop, yields,
+    table, text, word_sets, workshop, yields,
 };
+pub use physics::table as many_bodies;
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,
     interruption, kinetics, landscape, observer, potential, problem, roadmap, tile, units, words,

@@ -27,6 +27,7 @@ pub mod show;
 mod style;
 pub mod sweep;
 mod sweep_progress;
+pub mod table;
 pub mod words;
 mod workload;
 pub mod yields;

@@ -209,7 +209,7 @@ fn range(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
-fn fan(text: &str) -> Result<Fan, String> {
+pub(crate) fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
                         0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
                         often a second";

@@ -8,6 +8,7 @@
 //! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
 //! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
+//! | [`table`] | many tiles on one table |
 //! | [`word_sets`] | sets of barcodes: what is asked, magnets anywhere, sets as files |
 //! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
 //! | [`memory`] | whether the machine has the memory that is needed |
@@ -32,6 +33,7 @@ mod refused;
 pub mod request;
 pub mod start;
 pub mod sweep;
+pub mod table;
 pub mod text;
 pub mod word_sets;
 pub mod workshop;

@@ -12,6 +12,7 @@
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
 //! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
+//! | [`table`] | many tiles that really move |
 //! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 
@@ -34,6 +35,7 @@ pub mod roadmap;
 mod sample;
 pub mod scale;
 pub mod subdivision;
+pub mod table;
 pub mod tile;
 pub mod units;
 pub mod words;

@@ -114,6 +114,11 @@ fn collected<T: Send>(count: usize, put: &(dyn Fn(usize, &mut Vec<T>) + Sync)) -
     all
 }
 
+/// On how many threads work is shared out.
+pub fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
 /// How many of so many items are a part.
 fn size(count: usize) -> usize {
     count.div_ceil(PARTS * rayon::current_num_threads()).max(1)

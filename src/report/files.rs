@@ -104,6 +104,22 @@ pub const ASSEMBLE: Command = Command {
     pictures: &["grown"],
 };
 
+/// `tilebind table`.
+pub const TABLE: Command = Command {
+    name: "table",
+    files: &[
+        REPORT,
+        PAGE,
+        "energy.csv",
+        "bonds.csv",
+        "clusters.csv",
+        "course.csv",
+        "trajectory.csv",
+        "trajectory.gsd",
+    ],
+    pictures: &["held", "largest", "energy"],
+};
+
 /// `tilebind yield`.
 pub const YIELD: Command = Command {
     name: "yield",

@@ -18,6 +18,7 @@ mod narrow;
 mod plain;
 mod potentials;
 mod strength;
+mod table;
 mod tiles;
 mod units;
 mod wells;

@@ -44,8 +44,10 @@ impl From<Motion> for [f64; 6] {
 
 /// The centre of mass (m), the orientation (rad, not wrapped) and their rates of change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Phase {
+pub struct Phase {
+    /// The first (m, m, rad).
     pub place: Vector3<f64>,
+    /// The second (m/s, m/s, rad/s).
     pub velocity: Vector3<f64>,
 }
 
@@ -69,7 +71,8 @@ impl Body {
         Vector3::new(self.mass, self.mass, self.inertia)
     }
 
-    pub(super) fn phase(&self, motion: &Motion) -> Phase {
+    /// The same motion by the centre of mass.
+    pub fn phase(&self, motion: &Motion) -> Phase {
         let q = &motion.configuration;
         let centre = q.transform(self.centre);
         Phase {
@@ -86,14 +89,14 @@ impl Body {
     }
 
     /// The configuration whose centre of mass and orientation are given.
-    pub(super) fn configuration(&self, place: &Vector3<f64>) -> Configuration {
+    pub fn configuration(&self, place: &Vector3<f64>) -> Configuration {
         let theta = wrap_angle(place.z);
         let lever = self.lever(theta);
         Configuration::new(place.x - lever.x, place.y - lever.y, theta)
     }
 
     /// The centre of mass as seen from the reference point, in the table's axes (m).
-    pub(super) fn lever(&self, theta: f64) -> Vector2<f64> {
+    pub fn lever(&self, theta: f64) -> Vector2<f64> {
         Configuration::new(0.0, 0.0, theta).rotation() * self.centre
     }
 }

@@ -34,7 +34,8 @@ mod simulation;
 mod trajectory;
 mod vicinity;
 
-pub use body::{Body, Motion};
+pub use body::{Body, Motion, Phase};
 pub use force::Fan;
 pub use settings::{MotionSettings, SettingsError};
 pub use simulation::{Run, Simulation, Snapshot, Stop};
+pub use trajectory::{normal, thermal_velocity};

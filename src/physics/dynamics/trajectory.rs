@@ -309,12 +309,12 @@ impl<'a, 'b> Trajectory<'a, 'b> {
 }
 
 /// A velocity (m/s, m/s, rad/s) of a body in equilibrium at kT (J).
-pub(super) fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Vector3<f64> {
+pub fn thermal_velocity(body: &Body, kt: f64, rng: &mut ChaCha8Rng) -> Vector3<f64> {
     body.masses().map(|mass| (kt / mass).sqrt() * normal(rng))
 }
 
 /// A normally distributed number of mean 0 and variance 1 (Box and Muller 1958).
-pub(super) fn normal(rng: &mut ChaCha8Rng) -> f64 {
+pub fn normal(rng: &mut ChaCha8Rng) -> f64 {
     let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
     radius * libm::cos(TAU * rng.random::<f64>())
 }

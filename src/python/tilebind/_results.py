@@ -7,6 +7,57 @@ from typing import NamedTuple
 import numpy as np
 
 
+class AirTable(tuple):  # type: ignore[type-arg]
+    """Size of the air table (m) along x and along y; called, it has many tiles put on it."""
+
+    def __new__(cls, size, put):
+        table = super().__new__(cls, size)
+        table._put = put
+        return table
+
+    def __call__(self, time, **settings):
+        """Many tiles on one table, with contact, friction and drives, and what they hold.
+
+        Parameters
+        ----------
+        time : float
+            How long each run lasts (s).
+        count : sequence of int, optional
+            Tiles of the fixed tile's kind and of the moving one's, at random places.
+        start : str or os.PathLike, optional
+            In place of `count`: a CSV file of the tiles at the start, with the columns `tile`, `kind`
+            ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
+        runs : int, optional
+        shaking : float, optional
+            Effective energy kT (J) of shaking.
+        correlation : float, optional
+            Its correlation time (s): that between two random kicks.
+        orbital : tuple of float, optional
+            The table goes round in a circle: radius (m) and rounds a second (Hz).
+        fan : sequence, optional
+            Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and
+            how often a second.
+        drag, friction, restitution : float, optional
+            Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
+            back.
+        step : float, optional
+            Longest step (s).
+        frames : float, optional
+            Time (s) between two moments whose places are kept.
+        seed : int, optional
+        progress : bool, optional
+
+        Returns
+        -------
+        dict
+            As ``tilebind table --json``.
+        """
+        return self._put(time, **settings)
+
+    def __reduce__(self):
+        return tuple, (tuple(self),)
+
+
 class Barrier(NamedTuple):
     """One barrier: the lowest possible value of the highest energy on the way."""
 

@@ -20,6 +20,27 @@ _Floats = NDArray[np.float64]
 _Table = NDArray[np.void]
 _Value = float | str | bool | Sequence[Any] | Mapping[str, Any]
 
+class AirTable(tuple[float, float]):
+    def __call__(
+        self,
+        time: float,
+        *,
+        count: Sequence[int] | None = None,
+        start: str | PathLike[str] | None = None,
+        runs: int = 1,
+        shaking: float | None = None,
+        correlation: float | None = None,
+        orbital: tuple[float, float] | None = None,
+        fan: Sequence[Sequence[float]] | None = None,
+        drag: float = 0.005,
+        friction: float = 0.3,
+        restitution: float = 0.01,
+        step: float | None = None,
+        frames: float | None = None,
+        seed: int = 1,
+        progress: bool | None = None,
+    ) -> dict[str, Any]: ...
+
 @final
 class Design:
     @staticmethod
@@ -54,7 +75,7 @@ class Design:
     @property
     def bound(self) -> _Floats: ...
     @property
-    def table(self) -> tuple[float, float]: ...
+    def table(self) -> AirTable: ...
     def outline(self, tile: _TileName) -> _Floats: ...
     def magnets(self, tile: _TileName) -> _Table: ...
     def energy(self, poses: ArrayLike, *, model: _Model | None = None) -> Any: ...

@@ -67,6 +67,7 @@ fn help_lists_the_commands_and_every_command_has_an_example() {
         "rates",
         "bond",
         "yield",
+        "table",
         "init",
         "show",
         "make",

@@ -51,10 +51,11 @@ impl Design {
         table::fixed(PyArray1::from_slice(py, &bound).into_any())
     }
 
-    /// tuple of float : Size of the air table (m) along x and along y.
+    /// AirTable : Size of the air table (m) along x and along y; called, it has many tiles put on it.
     #[getter]
-    fn table(&self) -> (f64, f64) {
-        self.content.design.table.into()
+    fn table<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let class = slf.py().import("tilebind._results")?.getattr("AirTable")?;
+        class.call1((slf.get().content.design.table, slf.getattr("_on_table")?))
     }
 
     /// The corners of a tile's outline, counter-clockwise, in the tile's own frame.

@@ -11,6 +11,7 @@ use tilebind::pipeline;
 use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
+use tilebind::table::{About, Request, table as put};
 use tilebind::workshop::{Made, Making};
 use tilebind::yields::yields;
 
@@ -248,6 +249,33 @@ impl Design {
         let (design, question) = (&self.content.design, request_with(py, settings, "kt", kt)?);
         let found = job::answer(py, progress, |told| yields(design, &question, told))?;
         shown::report(py, &report::yields::document(design, &question, &found))
+    }
+
+    /// Many tiles on one table: what calling `table` does.
+    #[pyo3(signature = (time, *, start = None, progress = None, **settings))]
+    fn _on_table<'py>(
+        &self,
+        py: Python<'py>,
+        time: f64,
+        start: Option<std::path::PathBuf>,
+        progress: Option<bool>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (design, asked) = (
+            &self.content.design,
+            request_with(py, settings, "time", time)?,
+        );
+        let asked: Request = asked;
+        let text = start.map(std::fs::read_to_string).transpose()?;
+        let found = job::answer(py, progress, |told| {
+            let (about, crowd) = About::of_design(design)?;
+            let start = asked.start(&crowd, text.as_deref().map(|text| ("start", text)))?;
+            asked.check()?;
+            let found = put(crowd, &asked, &start, told).map_err(|error| error.to_string())?;
+            Ok::<_, String>((about, found))
+        })?;
+        let (about, found) = found;
+        shown::report(py, &report::table::document(&about, &found, asked.seed))
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.

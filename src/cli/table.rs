@@ -1,0 +1,90 @@
+//! `tilebind table`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use tilebind::design::MagnetModel;
+use tilebind::report::files::TABLE;
+use tilebind::report::table::document;
+use tilebind::table::{self, About, Request};
+
+use super::options::ThreadOption;
+use super::results::ResultOptions;
+use super::{Failure, input, interrupt};
+
+/// Put many tiles on one table, with contact, friction and drives, and count what they hold
+#[derive(Args)]
+#[command(after_help = "\
+All tiles move, the pair's fixed one too: --count 12,12 is twelve of either kind. They start at random
+places, or as --start says: a table with the columns tile,kind,x,y,theta,vx,vy,omega (m, rad, m/s, rad/s). A bond
+is a pair whose target faces' magnets have met; a trap is any other pair in touch that has not the energy to
+come apart. Energy is accounted for in every run; where more than 1 % is missing, the run is made again with
+half the step.
+
+Examples:
+  tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
+  tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --runs 20 --shaking 3e-3 --drag 0.5 \\
+    --out target/table
+  tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
+pub struct TableCommand {
+    /// The design file, or a tile set as `tilebind assemble` takes it
+    #[arg(value_name = "DESIGN|TILESET")]
+    tiles: PathBuf,
+
+    /// Model of the magnets, dipole or cuboid [default: the design's]
+    #[arg(long, value_name = "MODEL", value_parser = tilebind::request::model(),
+          hide_possible_values = true)]
+    model: Option<MagnetModel>,
+
+    #[command(flatten)]
+    request: Request,
+
+    /// Tiles at the start, in place of --count at random places
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "count")]
+    start: Option<PathBuf>,
+
+    #[command(flatten)]
+    threads: ThreadOption,
+
+    #[command(flatten)]
+    results: ResultOptions,
+}
+
+impl TableCommand {
+    pub fn run(self) -> Result<(), Failure> {
+        interrupt::prepare()?;
+        self.request.check().map_err(Failure::Usage)?;
+        let is_design = self.tiles.extension().is_some_and(|it| it == "toml");
+        let design = is_design.then(|| input::load_as(&self.tiles, self.model));
+        let design = design.transpose()?;
+        let mut inputs = match &design {
+            Some(design) => input::files_of(&self.tiles, design),
+            None => vec![self.tiles.clone()],
+        };
+        inputs.extend(self.start.clone());
+        let output = self.results.output(&TABLE, inputs)?;
+        self.threads.use_threads()?;
+        let (about, crowd) = match &design {
+            Some(design) => About::of_design(design).map_err(Failure::Usage)?,
+            None => About::of_set(&self.tiles, &self.request, self.model)?,
+        };
+        let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
+            let name = path.display().to_string();
+            let text = input::text(path).map_err(|error| {
+                Failure::Usage(format!("cannot read the start {name}: {error}"))
+            })?;
+            Ok((name, text))
+        });
+        let file = file.transpose()?;
+        let start = self.request.start(
+            &crowd,
+            file.as_ref().map(|it| (it.0.as_str(), it.1.as_str())),
+        );
+        let start = start.map_err(Failure::Usage)?;
+        let progress = self.results.progress();
+        let found = table::table(crowd, &self.request, &start, &progress);
+        let found = found.map_err(Failure::of)?;
+        let document = document(&about, &found, self.request.seed);
+        self.results.deliver(&document, output, &progress)
+    }
+}

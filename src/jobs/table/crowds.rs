@@ -1,0 +1,132 @@
+//! Kinds of tiles of a design, or of a tile set.
+
+use std::sync::Arc;
+
+use crate::Refused;
+use crate::assembly::axis::Met;
+use crate::assembly::{Assembly, designs};
+use crate::design::Design;
+use physics::configuration::ConfigurationSpace;
+use physics::dynamics::docking::MatchRule;
+use physics::potential::Interaction;
+use physics::potential::shielding::Shields;
+use physics::problem::Problem;
+use physics::table::{Crowd, CrowdError, Kind};
+use physics::tile::{Pair, Tile};
+
+/// Pairs' energies are cut off below this share of the bond's depth.
+const CUT_OFF: f64 = 1e-4;
+
+/// The fixed and the moving tile of a design as kinds `fixed` and `moving`; two of one kind attract and
+/// touch each other, too.
+///
+/// # Errors
+/// Where forces do not belong to energies.
+pub fn of_design(design: &Design) -> Result<Crowd, CrowdError> {
+    let problem = design.problem();
+    let pair = &design.pair;
+    let kinds = vec![
+        Kind::new("fixed", pair.fixed.clone()),
+        Kind::new("moving", pair.moving.clone()),
+    ];
+    let shields = &design.interaction.shields;
+    let of_kind = |kind: usize| match kind {
+        0 => shields.fixed.clone(),
+        _ => shields.moving.clone(),
+    };
+    let interaction = |first: usize, second: usize| Interaction {
+        shields: Shields {
+            rule: shields.rule,
+            fixed: of_kind(first),
+            moving: of_kind(second),
+        },
+        ..design.interaction.clone()
+    };
+    let bonds = |first: usize, second: usize| match (first, second) {
+        (0, 1) => MatchRule::new(&problem, None).into_iter().collect(),
+        _ => Vec::new(),
+    };
+    let tolerance = CUT_OFF * problem.depth();
+    Crowd::new(
+        kinds,
+        problem.space.half_size,
+        tolerance,
+        &interaction,
+        bonds,
+    )
+}
+
+/// The tiles of a set as kinds, by their names, on a table of a size (m). Bonds are those of every two
+/// tiles that meet in what grows.
+///
+/// # Errors
+/// Where a tile meets no other, or forces do not belong to energies.
+pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refused> {
+    let types = &assembly.built.set.tiles;
+    let met: Vec<Met> = designs::named(assembly)
+        .into_iter()
+        .map(|it| it.1)
+        .collect();
+    let mut pairs = Vec::new();
+    for (name, text) in designs::all(assembly) {
+        pairs.push(Design::parse(&text, &name)?);
+    }
+    let mut tiles: Vec<Option<Tile>> = vec![None; types.len()];
+    for ((first, _, second), design) in met.iter().zip(&pairs) {
+        tiles[*first].get_or_insert_with(|| design.pair.fixed.clone());
+        tiles[*second].get_or_insert_with(|| design.pair.moving.clone());
+    }
+    let lone = tiles.iter().position(Option::is_none);
+    if let Some(lone) = lone.or(pairs.is_empty().then_some(0)) {
+        let name = types.get(lone).map_or("", |it| it.name.as_str());
+        let message = format!("the tile `{name}` meets no other in what grows: it has no bonds");
+        return Err(message.into());
+    }
+    let kinds = types.iter().zip(tiles.into_iter().flatten());
+    let kinds = kinds
+        .map(|(it, tile)| Kind::new(it.name.clone(), tile))
+        .collect();
+    let interaction = pairs[0].interaction.clone();
+    let depths = pairs.iter().map(|design| design.problem().depth());
+    let tolerance = CUT_OFF * depths.fold(f64::INFINITY, f64::min);
+    let bonds = |i: usize, j: usize| {
+        let mut rules = Vec::new();
+        for ((first, _, second), design) in met.iter().zip(&pairs) {
+            if (*first, *second) == (i, j) {
+                rules.extend(MatchRule::new(&design.problem(), None));
+            }
+            if (*second, *first) == (i, j) {
+                rules.extend(MatchRule::new(&turned(design), None));
+            }
+        }
+        rules
+    };
+    let half = table.map(|size| 0.5 * size);
+    let crowd = Crowd::new(kinds, half, tolerance, &|_, _| interaction.clone(), bonds);
+    crowd.map_err(|error| error.to_string().into())
+}
+
+/// The problem of a design in which the moving tile is taken for the fixed one.
+fn turned(design: &Design) -> Problem {
+    let pair = &design.pair;
+    let turned = Pair {
+        fixed: pair.moving.clone(),
+        moving: pair.fixed.clone(),
+        target: (pair.target.1, pair.target.0),
+        bound: pair.bound.inverse(),
+    };
+    let shields = &design.interaction.shields;
+    let interaction = Interaction {
+        shields: Shields {
+            rule: shields.rule,
+            fixed: shields.moving.clone(),
+            moving: shields.fixed.clone(),
+        },
+        ..design.interaction.clone()
+    };
+    let space = ConfigurationSpace {
+        rho: turned.moving.radius_of_gyration(),
+        ..design.space()
+    };
+    Problem::new(space, Arc::new(turned), &interaction)
+}

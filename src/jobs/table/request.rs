@@ -1,0 +1,186 @@
+//! What is asked of a table.
+
+use clap::Args;
+
+use super::start_file;
+use crate::docking::fan;
+use crate::request;
+use physics::dynamics::{Fan, MotionSettings};
+use physics::table::run::Start;
+use physics::table::start::check;
+use physics::table::{Crowd, Orbital, TableSettings};
+
+/// Longest step (s).
+const LONGEST_STEP: f64 = 0.01;
+/// Time between two random kicks (s) ...
+const KICKS: f64 = 5e-3;
+/// ... of which drag takes no more than this share of the velocity.
+const DRAG_A_KICK: f64 = 0.25;
+/// Most tiles.
+const MOST_TILES: usize = 100_000;
+/// Moments that are looked at where no frames are asked for.
+const MOMENTS: f64 = 200.0;
+
+/// What is asked of a table.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct Request {
+    /// Tiles of each kind: of a design the fixed tile's and the moving one's, of a tile set each tile's
+    #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
+    pub count: Vec<usize>,
+
+    /// How long each run lasts (s)
+    #[arg(long, value_name = "S", value_parser = request::positive)]
+    pub time: f64,
+
+    /// Runs, each from a start of its own
+    #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
+    pub runs: usize,
+
+    /// Effective energy kT (J) of shaking
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
+    pub shaking: Option<f64>,
+
+    /// Correlation time of shaking (s): random kicks come so far apart, however short the steps are
+    /// [default: 0.005, or less where drag is above 50]
+    #[arg(long, value_name = "S", value_parser = request::positive)]
+    pub correlation: Option<f64>,
+
+    /// Let the table go round in a circle: radius (m) and rounds a second (Hz)
+    #[arg(long, value_name = "A,F", value_parser = orbital)]
+    pub orbital: Option<Orbital>,
+
+    /// A fan at X,Y (m) that pushes tiles' centres away with the energy E_J over the width S (m);
+    /// the energy may swing by the share A at the frequency F (Hz)
+    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
+    pub fan: Vec<Fan>,
+
+    /// Drag rate (1/s)
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = request::not_negative)]
+    pub drag: f64,
+
+    /// Coefficient of friction between tiles and of a tile and the rim
+    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
+          value_parser = request::not_negative)]
+    pub friction: f64,
+
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = request::share)]
+    pub restitution: f64,
+
+    /// Longest step (s); steps in contact are shorter, in proportion [default: 0.001, or less where the
+    /// drives ask for it]
+    #[arg(long, value_name = "S", value_parser = step)]
+    pub step: Option<f64>,
+
+    /// Keep the tiles' places every so many seconds
+    #[arg(long, value_name = "DT", value_parser = request::positive)]
+    pub frames: Option<f64>,
+
+    /// Seed of all random numbers; a run depends on it and on its own number only
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
+    pub seed: u64,
+}
+
+impl Request {
+    /// With what runs are made.
+    pub fn settings(&self) -> TableSettings {
+        let usual = TableSettings::USUAL_STEP;
+        let kicks = self
+            .correlation
+            .unwrap_or_else(|| KICKS.min(DRAG_A_KICK / self.drag));
+        let fastest = self.fan.iter().map(|fan| fan.frequency);
+        let fastest = fastest
+            .chain(self.orbital.map(|it| it.frequency))
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        let mut step = self
+            .step
+            .unwrap_or(usual.min(0.02 / fastest))
+            .min(self.time);
+        if self.shaking.is_some() {
+            // A whole number of steps from kick to kick.
+            step = kicks / (kicks / step - 1e-9).ceil().max(1.0);
+        }
+        TableSettings {
+            duration: self.time,
+            drag: self.drag,
+            friction: self.friction,
+            restitution: self.restitution,
+            shaking: self.shaking,
+            kicks,
+            orbital: self.orbital,
+            fans: self.fan.clone(),
+            step,
+            sampling: self.frames.unwrap_or(self.time / MOMENTS),
+            walls: true,
+        }
+    }
+
+    /// Whether places are kept.
+    pub fn keeps_frames(&self) -> bool {
+        self.frames.is_some()
+    }
+
+    /// Where tiles start: as the file says whose name and text are given, or at random.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or there are not as many counts as kinds.
+    pub fn start(&self, crowd: &Crowd, file: Option<(&str, &str)>) -> Result<Start, String> {
+        if let Some((name, text)) = file {
+            let movers = start_file::read(text, crowd);
+            let movers = movers.map_err(|error| format!("{name}: {error}"))?;
+            return match check(crowd, &movers, true) {
+                Ok(()) => Ok(Start::Given(movers)),
+                Err(error) => Err(format!("{name}: {error}")),
+            };
+        }
+        let kinds: Vec<&str> = crowd.kinds.iter().map(|kind| kind.name.as_str()).collect();
+        if self.count.len() != kinds.len() {
+            return Err(format!(
+                "--count has {} numbers, but there are {} kinds of tiles: {}",
+                self.count.len(),
+                kinds.len(),
+                kinds.join(", ")
+            ));
+        }
+        if !(1..=MOST_TILES).contains(&self.count.iter().sum::<usize>()) {
+            return Err(format!("from 1 to {MOST_TILES} tiles can be on a table"));
+        }
+        Ok(Start::Random(self.count.clone()))
+    }
+
+    /// What makes no sense together.
+    ///
+    /// # Errors
+    /// What it is, and what to do.
+    pub fn check(&self) -> Result<(), String> {
+        if self.shaking.is_some() && self.drag == 0.0 {
+            return Err(
+                "--shaking heats tiles without end where there is no drag: set --drag above 0"
+                    .into(),
+            );
+        }
+        if self.correlation.is_some() && self.shaking.is_none() {
+            return Err("--correlation is that of --shaking: set that, too".into());
+        }
+        Ok(())
+    }
+}
+
+fn orbital(text: &str) -> Result<Orbital, String> {
+    match request::numbers(text).as_deref() {
+        Some([amplitude, frequency]) if *amplitude >= 0.0 && *frequency > 0.0 => Ok(Orbital {
+            amplitude: *amplitude,
+            frequency: *frequency,
+        }),
+        _ => Err("a circle is A,F in m and Hz, such as 0.005,2".to_owned()),
+    }
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    let found = request::positive(text)
+        .ok()
+        .filter(|it| *it <= LONGEST_STEP);
+    found.ok_or_else(|| format!("a step greater than 0 and at most {LONGEST_STEP} s is needed"))
+}

@@ -1,0 +1,104 @@
+//! Tiles at the start, read from a table.
+
+use csv::{ReaderBuilder, Trim};
+
+use physics::configuration::Configuration;
+use physics::dynamics::Motion;
+use physics::table::{Crowd, Mover};
+
+/// The columns.
+const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
+
+/// What is wrong with the table, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("line {line}: {message}")]
+pub struct StartFileError {
+    /// Which line, from 1.
+    pub line: u64,
+    /// What is wrong, and how to mend it.
+    pub message: String,
+}
+
+/// Reads the tiles at the start: a line each, in the order of their numbers.
+///
+/// # Errors
+/// Where a line cannot be read.
+pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
+    let mut reader = ReaderBuilder::new()
+        .flexible(true)
+        .trim(Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let wrong = |line: u64, message: String| StartFileError { line, message };
+    let headers = reader
+        .headers()
+        .map_err(|it| wrong(1, it.to_string()))?
+        .clone();
+    let place = |name: &str| headers.iter().position(|it| it == name);
+    let places = COLUMNS.map(place);
+    if let Some(missing) = places.iter().position(Option::is_none) {
+        let message = format!(
+            "there is no column `{}`: the first line names the columns {}",
+            COLUMNS[missing],
+            COLUMNS.join(",")
+        );
+        return Err(wrong(1, message));
+    }
+    let places = places.map(Option::unwrap_or_default);
+    let mut found: Vec<(usize, u64, Mover)> = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            wrong(line, error.to_string())
+        })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let entry = |column: usize| record.get(places[column]).unwrap_or_default();
+        let tile: usize = entry(0).parse().map_err(|_| {
+            let message = format!("`{}` is no number of a tile, from 0 on", entry(0));
+            wrong(line, message)
+        })?;
+        let kind = crowd.kinds.iter().position(|kind| kind.name == entry(1));
+        let kind = kind.ok_or_else(|| {
+            let names: Vec<&str> = crowd.kinds.iter().map(|it| it.name.as_str()).collect();
+            let message = format!(
+                "`{}` is no kind of tile; there is {}",
+                entry(1),
+                names.join(", ")
+            );
+            wrong(line, message)
+        })?;
+        let mut numbers = [0.0; 6];
+        for (k, number) in numbers.iter_mut().enumerate() {
+            let text = entry(k + 2);
+            let read: Option<f64> = text.parse().ok().filter(|it: &f64| it.is_finite());
+            *number = read.ok_or_else(|| {
+                wrong(
+                    line,
+                    format!("`{text}` under `{}` is no number", COLUMNS[k + 2]),
+                )
+            })?;
+        }
+        if let Some((_, other, _)) = found.iter().find(|it| it.0 == tile) {
+            let message = format!("tile {tile} was there on line {other} already");
+            return Err(wrong(line, message));
+        }
+        let [x, y, theta, vx, vy, omega] = numbers;
+        let motion = Motion {
+            configuration: Configuration::from([x, y, theta]),
+            velocity: [vx, vy, omega].into(),
+        };
+        found.push((tile, line, Mover::new(crowd, kind, &motion)));
+    }
+    if found.is_empty() {
+        return Err(wrong(
+            1,
+            "there are no tiles: write a line for each".to_owned(),
+        ));
+    }
+    found.sort_by_key(|it| it.0);
+    if let Some((k, it)) = found.iter().enumerate().find(|(k, it)| it.0 != *k) {
+        let message = format!("tiles are numbered from 0 on, each once: there is no tile {k}");
+        return Err(wrong(it.1, message));
+    }
+    Ok(found.into_iter().map(|it| it.2).collect())
+}

@@ -1,0 +1,217 @@
+//! What runs tell together.
+
+use physics::dynamics::docking::poisson_interval;
+use physics::order::Order;
+use physics::table::TableSettings;
+use physics::table::contacts::Tie;
+use physics::table::run::{Life, Run};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// A mean over runs with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The mean.
+    pub mean: f64,
+    /// The lower end; `None` of a single run.
+    pub low: Option<f64>,
+    /// The upper end.
+    pub high: Option<f64>,
+}
+
+impl Interval {
+    /// By Student's t of the runs' values.
+    pub fn of(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+        let half = (values.len() > 1).then(|| {
+            let t = StudentsT::new(0.0, 1.0, n - 1.0);
+            let t = t.map_or(f64::NAN, |t| t.inverse_cdf(0.975));
+            t * (squares / (n - 1.0) / n).sqrt()
+        });
+        Self {
+            mean,
+            low: half.map(|half| mean - half),
+            high: half.map(|half| mean + half),
+        }
+    }
+}
+
+/// What a table is like in the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Its kinetic energy is that of kT.
+    Thermal,
+    /// It has less, or nothing drives it.
+    Frozen,
+    /// It has more, or something else drives it than shaking.
+    Driven,
+}
+
+impl Verdict {
+    /// What users call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Thermal => "thermal",
+            Self::Frozen => "frozen",
+            Self::Driven => "driven",
+        }
+    }
+}
+
+/// The kinetic energy of a thermal table is that of kT within this share.
+pub const THERMAL: f64 = 0.1;
+
+/// How long bonds or traps last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lifetime {
+    /// How many there were.
+    pub begun: usize,
+    /// How many ended.
+    pub ended: usize,
+    /// All their time together (s).
+    pub time: f64,
+    /// Time over ends (s), with its 95 % interval; `None` where none ended.
+    pub mean: Option<f64>,
+    /// Its ends; the upper one `None` where nothing bounds it.
+    pub interval: [Option<f64>; 2],
+}
+
+/// At one moment of all runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Since the start (s).
+    pub time: f64,
+    /// Bonds.
+    pub bonds: Interval,
+    /// Traps.
+    pub traps: Interval,
+    /// Tiles of the largest cluster.
+    pub largest: Interval,
+}
+
+/// What runs tell together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    /// Bonds at the end.
+    pub bonds: Interval,
+    /// Traps at the end.
+    pub traps: Interval,
+    /// Sizes of clusters at the end with their mean count in a run.
+    pub clusters: Vec<(usize, f64)>,
+    /// Over time.
+    pub moments: Vec<Moment>,
+    /// Kinetic energy per degree of freedom over kT, of the second half of the time.
+    pub kinetic_kt: Option<f64>,
+    /// What that means.
+    pub verdict: Verdict,
+    /// The largest of the runs' errors of energy.
+    pub energy_error: f64,
+    /// The shortest step of a run (s).
+    pub step: f64,
+    /// Runs whose steps were halved.
+    pub halved: usize,
+    /// Of bonds and of traps.
+    pub lifetimes: [Lifetime; 2],
+}
+
+impl Statistics {
+    /// Of some runs, at least one.
+    pub fn of(runs: &[Run], settings: &TableSettings) -> Self {
+        let at_end = |tie: Tie| {
+            let count = |run: &Run| run.samples.last().map_or(0, |last| last.count(tie)) as f64;
+            Interval::of(&runs.iter().map(count).collect::<Vec<_>>())
+        };
+        let kinetic = runs.iter().map(|run| run.kinetic).sum::<f64>() / runs.len() as f64;
+        let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
+        let is_driven = !settings.fans.is_empty() || settings.orbital.is_some();
+        let verdict = match kinetic_kt {
+            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL => Verdict::Thermal,
+            Some(share) if share < 0.5 => Verdict::Frozen,
+            None if !is_driven => Verdict::Frozen,
+            _ => Verdict::Driven,
+        };
+        Self {
+            bonds: at_end(Tie::Bond),
+            traps: at_end(Tie::Trap),
+            clusters: clusters(runs),
+            moments: moments(runs),
+            kinetic_kt,
+            verdict,
+            energy_error: runs.iter().map(|run| run.energy_error).fold(0.0, f64::max),
+            step: runs
+                .iter()
+                .map(|run| run.step)
+                .fold(f64::INFINITY, f64::min),
+            halved: runs.iter().filter(|run| run.step < settings.step).count(),
+            lifetimes: [Tie::Bond, Tie::Trap].map(|tie| lifetime(runs, tie)),
+        }
+    }
+}
+
+fn clusters(runs: &[Run]) -> Vec<(usize, f64)> {
+    let last = runs.iter().filter_map(|run| run.samples.last());
+    let mut sizes: Vec<usize> = last
+        .flat_map(|last| last.clusters.iter().copied())
+        .collect();
+    sizes.order_by_key(|size| *size);
+    let mut counted: Vec<(usize, f64)> = Vec::new();
+    for size in sizes {
+        match counted.last_mut() {
+            Some((known, count)) if *known == size => *count += 1.0,
+            _ => counted.push((size, 1.0)),
+        }
+    }
+    for (_, count) in &mut counted {
+        *count /= runs.len() as f64;
+    }
+    counted
+}
+
+/// All runs at the moments of the first; halved steps have the same moments to within a step.
+fn moments(runs: &[Run]) -> Vec<Moment> {
+    let count = runs.iter().map(|run| run.samples.len()).min().unwrap_or(0);
+    (0..count)
+        .map(|k| {
+            let of = |get: &dyn Fn(&physics::table::Sample) -> f64| {
+                Interval::of(
+                    &runs
+                        .iter()
+                        .map(|run| get(&run.samples[k]))
+                        .collect::<Vec<_>>(),
+                )
+            };
+            Moment {
+                time: runs[0].samples[k].time,
+                bonds: of(&|it| it.count(Tie::Bond) as f64),
+                traps: of(&|it| it.count(Tie::Trap) as f64),
+                largest: of(&|it| it.clusters.first().copied().unwrap_or(0) as f64),
+            }
+        })
+        .collect()
+}
+
+fn lifetime(runs: &[Run], tie: Tie) -> Lifetime {
+    let mut lifetime = Lifetime {
+        begun: 0,
+        ended: 0,
+        time: 0.0,
+        mean: None,
+        interval: [None; 2],
+    };
+    for run in runs {
+        let end = run.samples.last().map_or(0.0, |last| last.time);
+        let of_tie = run.lives.iter().filter(|life: &&Life| life.tie == tie);
+        for life in of_tie {
+            lifetime.begun += 1;
+            lifetime.ended += usize::from(life.to.is_some());
+            lifetime.time += life.to.unwrap_or(end) - life.from;
+        }
+    }
+    if lifetime.begun > 0 {
+        let [low, high] = poisson_interval(lifetime.ended);
+        lifetime.mean = (lifetime.ended > 0).then(|| lifetime.time / lifetime.ended as f64);
+        lifetime.interval = [high, low].map(|count| (count > 0.0).then(|| lifetime.time / count));
+    }
+    lifetime
+}

@@ -1,0 +1,117 @@
+//! Bonds, traps and clusters of a moment.
+
+use super::crowd::Crowd;
+use super::pair::{Two, configuration, relative};
+use super::start::Mover;
+use crate::tile::outline::cross;
+
+/// Tiles with a clearance below this (m) touch, as far as being held is concerned.
+pub const HELD_WITHIN: f64 = 2e-3;
+
+/// How two tiles hold each other.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+pub enum Tie {
+    /// As they are meant to.
+    Bond,
+    /// In any other way.
+    Trap,
+}
+
+impl Tie {
+    /// What users call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bond => "bond",
+            Self::Trap => "trap",
+        }
+    }
+}
+
+/// Two tiles that hold each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// Their numbers, the lesser first.
+    pub tiles: [usize; 2],
+    /// How they do.
+    pub tie: Tie,
+    /// Their energy (J).
+    pub energy: f64,
+}
+
+/// All tiles that hold each other, in order. Bonds are told by the magnets of the faces that are
+/// meant to bind. A trap is any other pair in touch whose energy, with the kinetic energy
+/// of the tiles against each other, is below 0.
+pub fn held(crowd: &Crowd, movers: &[Mover], near: impl Iterator<Item = Two>) -> Vec<Held> {
+    let mut found: Vec<Held> = near.filter_map(|two| tie(crowd, movers, two)).collect();
+    found.sort_by_key(|held| held.tiles);
+    found
+}
+
+fn tie(crowd: &Crowd, movers: &[Mover], two: Two) -> Option<Held> {
+    let tiles = [two.first, two.second].map(|k| &movers[k]);
+    let [first, second] = tiles;
+    let couple = crowd.couple(first.kind, second.kind).0;
+    let [a, b] = tiles.map(|it| configuration(crowd, it));
+    let q = relative(&a, &b);
+    let pair = [two.first.min(two.second), two.first.max(two.second)];
+    if couple.bonds.iter().any(|rule| rule.holds(&q)) {
+        let energy = couple.pull(&q).0;
+        return Some(Held {
+            tiles: pair,
+            tie: Tie::Bond,
+            energy,
+        });
+    }
+    if couple.contact.clearance_bound(&q) > HELD_WITHIN {
+        return None;
+    }
+    let energy = couple.pull(&q).0;
+    let is_held =
+        || energy + inner(crowd, tiles) < 0.0 && couple.contact.clearance(&q) <= HELD_WITHIN;
+    is_held().then_some(Held {
+        tiles: pair,
+        tie: Tie::Trap,
+        energy,
+    })
+}
+
+/// Kinetic energy (J) of two tiles about their common centre, but for that of turning together:
+/// `m v^2 / 2 + (I w^2 + J z^2) / 2 - L^2 / (2 (m r^2 + I + J))`, m the reduced mass, r and v the
+/// distance of the centres and its change, w and z the turning rates and L the angular momentum.
+fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
+    let [first, second] = tiles;
+    let [a, b] = tiles.map(|it| crowd.kinds[it.kind].body);
+    let mass = a.mass * b.mass / (a.mass + b.mass);
+    let r = (second.place - first.place).xy();
+    let v = (second.velocity - first.velocity).xy();
+    let [w, z] = tiles.map(|it| it.velocity.z);
+    let whole = 0.5 * (mass * v.norm_squared() + a.inertia * w * w + b.inertia * z * z);
+    let turn = mass * cross(r, v) + a.inertia * w + b.inertia * z;
+    let together = mass * r.norm_squared() + a.inertia + b.inertia;
+    (whole - 0.5 * turn * turn / together).max(0.0)
+}
+
+/// The sizes of all clusters of tiles that hold each other, single tiles among them, falling.
+pub fn clusters(tiles: usize, held: &[Held]) -> Vec<usize> {
+    let mut cluster: Vec<usize> = (0..tiles).collect();
+    for held in held {
+        let [a, b] = held.tiles.map(|k| top(&cluster, k));
+        cluster[a.max(b)] = a.min(b);
+    }
+    let mut sizes = vec![0; tiles];
+    for k in 0..tiles {
+        sizes[top(&cluster, k)] += 1;
+    }
+    sizes.retain(|size| *size > 0);
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
+
+fn top(cluster: &[usize], mut k: usize) -> usize {
+    while cluster[k] != k {
+        k = cluster[k];
+    }
+    k
+}

@@ -1,0 +1,233 @@
+//! Kinds of tiles, and what acts between every two of them.
+
+use nalgebra::Vector2;
+
+use crate::configuration::Configuration;
+use crate::contact::Contact;
+use crate::dynamics::Body;
+use crate::dynamics::docking::MatchRule;
+use crate::potential::shielding::ShieldRule;
+use crate::potential::{Interaction, Potential};
+use crate::tile::Tile;
+
+/// A kind of tiles.
+pub struct Kind {
+    /// What it is called.
+    pub name: String,
+    /// Its outline and magnets.
+    pub tile: Tile,
+    /// Its mass and inertia.
+    pub body: Body,
+    /// Largest distance of a point of the tile from its centre of mass (m).
+    pub reach: f64,
+}
+
+impl Kind {
+    /// A kind of its name.
+    pub fn new(name: impl Into<String>, tile: Tile) -> Self {
+        let body = Body::of_tile(&tile);
+        let corners = tile.outline.vertices().iter();
+        let reach = corners.map(|it| (it - body.centre).norm());
+        Self {
+            name: name.into(),
+            reach: reach.fold(0.0, f64::max),
+            body,
+            tile,
+        }
+    }
+}
+
+/// Where the energy of two tiles ends: it counts in full up to the distance `from` of the reference
+/// points and not at all from `to` on; between them it is multiplied by
+/// `1 - 10 s^3 + 15 s^4 - 6 s^5`, s from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutoff {
+    /// Up to here (m) nothing is left out.
+    pub from: f64,
+    /// From here on (m) everything is.
+    pub to: f64,
+    /// The largest energy (J) left out of a pair, of the poses looked at: [`BEARINGS`] directions by as
+    /// many orientations, at `from`.
+    pub left_out: f64,
+}
+
+/// Directions and orientations in which energies are looked at for the cut-off.
+pub const BEARINGS: usize = 18;
+
+impl Cutoff {
+    /// The least distance from which on the energy stays below a tolerance (J).
+    fn new(potential: &dyn Potential, touching: f64, tolerance: f64) -> Self {
+        let largest = |r: f64| {
+            let turn = std::f64::consts::TAU / BEARINGS as f64;
+            let mut poses = Vec::with_capacity(BEARINGS * BEARINGS);
+            for k in 0..BEARINGS {
+                let bearing = turn * k as f64;
+                let (x, y) = (r * libm::cos(bearing), r * libm::sin(bearing));
+                let poses_here =
+                    (0..BEARINGS).map(|l| Configuration::from([x, y, turn * l as f64]));
+                poses.extend(poses_here);
+            }
+            let mut energies = vec![0.0; poses.len()];
+            potential.energies(&poses, &mut energies);
+            energies.into_iter().map(f64::abs).fold(0.0, f64::max)
+        };
+        // Energies fall like the third power of the distance or faster, once tiles are apart.
+        let (mut low, mut high) = (touching, touching);
+        let mut left_out = largest(high);
+        while left_out > tolerance && high < 1e3 * touching {
+            low = high;
+            high *= 1.5;
+            left_out = largest(high);
+        }
+        for _ in 0..4 {
+            let middle = 0.5 * (low + high);
+            let there = largest(middle);
+            match there > tolerance {
+                true => low = middle,
+                false => (high, left_out) = (middle, there),
+            }
+        }
+        Self {
+            from: high,
+            to: 1.15 * high,
+            left_out,
+        }
+    }
+
+    /// The factor at a distance r (m), and its derivative (1/m).
+    pub(super) fn factor(&self, r: f64) -> (f64, f64) {
+        if r <= self.from {
+            return (1.0, 0.0);
+        }
+        if r >= self.to {
+            return (0.0, 0.0);
+        }
+        let width = self.to - self.from;
+        let s = (r - self.from) / width;
+        let value = 1.0 - s * s * s * (10.0 + s * (6.0 * s - 15.0));
+        let slope = -30.0 * s * s * (1.0 - s) * (1.0 - s) / width;
+        (value, slope)
+    }
+}
+
+/// What acts between two kinds: the first stands where a pair's fixed tile does.
+pub struct Couple {
+    /// Their outlines.
+    pub contact: Contact,
+    /// U(x, y, theta).
+    pub potential: Box<dyn Potential + Send>,
+    /// When they are bound as they are meant to be; none for kinds that are not.
+    pub bonds: Vec<MatchRule>,
+    /// Where the energy ends.
+    pub cutoff: Cutoff,
+    /// Outlines nearer than this (m) are near.
+    pub near: f64,
+}
+
+/// Kinds of tiles on a table.
+pub struct Crowd {
+    /// The kinds.
+    pub kinds: Vec<Kind>,
+    /// Of the kinds i <= j, number `j (j + 1) / 2 + i`.
+    couples: Vec<Couple>,
+    /// Half the table's size along x and y (m).
+    pub half_size: [f64; 2],
+}
+
+/// Why tiles cannot be simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CrowdError {
+    /// Shields by the nearest-face rule.
+    #[error(
+        "with [shield] rule = \"nearest-face\" energies jump and forces know nothing of it: use the \
+         smooth rule"
+    )]
+    NearestFace,
+}
+
+impl Crowd {
+    /// Kinds on a table. `interaction` tells what acts between two of them, `bonds` when they are bound.
+    /// Energies below `tolerance` (J) are cut off.
+    ///
+    /// # Errors
+    /// Where forces do not belong to energies.
+    pub fn new(
+        kinds: Vec<Kind>,
+        half_size: [f64; 2],
+        tolerance: f64,
+        interaction: &dyn Fn(usize, usize) -> Interaction,
+        mut bonds: impl FnMut(usize, usize) -> Vec<MatchRule>,
+    ) -> Result<Self, CrowdError> {
+        let mut couples = Vec::new();
+        for j in 0..kinds.len() {
+            for i in 0..=j {
+                let acts = interaction(i, j);
+                if acts.shields.rule == ShieldRule::NearestFace {
+                    return Err(CrowdError::NearestFace);
+                }
+                let [first, second] = [&kinds[i].tile, &kinds[j].tile];
+                let potential = acts.between(first, second).potential;
+                let radii = first.outline.circumradius() + second.outline.circumradius();
+                let magnets = first.magnets.iter().chain(&second.magnets);
+                let length = magnets.map(|magnet| magnet.size[0]).fold(0.0, f64::max);
+                couples.push(Couple {
+                    contact: Contact::new(&first.outline, &second.outline),
+                    cutoff: Cutoff::new(potential.as_ref(), radii, tolerance),
+                    potential,
+                    bonds: bonds(i, j),
+                    near: (2.0 * length).max(0.05 * radii),
+                });
+            }
+        }
+        Ok(Self {
+            kinds,
+            couples,
+            half_size,
+        })
+    }
+
+    /// What acts between two kinds, and whether the second of them is the couple's first.
+    pub fn couple(&self, i: usize, j: usize) -> (&Couple, bool) {
+        let (low, high) = (i.min(j), i.max(j));
+        (&self.couples[high * (high + 1) / 2 + low], i > j)
+    }
+
+    /// All couples.
+    pub fn couples(&self) -> &[Couple] {
+        &self.couples
+    }
+
+    /// The farthest that any energy reaches (m).
+    pub fn range(&self) -> f64 {
+        let reach = |couple: &Couple| couple.cutoff.to.max(couple.radii() + couple.near);
+        self.couples.iter().map(reach).fold(0.0, f64::max)
+    }
+
+    /// The table's corners as a size (m^2).
+    pub fn area(&self) -> f64 {
+        4.0 * self.half_size[0] * self.half_size[1]
+    }
+}
+
+impl Couple {
+    /// The distance (m) of the reference points from which on no point of the tiles can touch.
+    pub fn radii(&self) -> f64 {
+        self.contact.fixed().circumradius() + self.contact.moving().circumradius()
+    }
+
+    /// U (J) of the second tile at a pose in the first one's frame, cut off, with the force (N) on it in
+    /// that frame and the torque (N m) about its reference point.
+    pub(super) fn pull(&self, q: &Configuration) -> (f64, Vector2<f64>, f64) {
+        let r = q.position().norm();
+        let (factor, slope) = self.cutoff.factor(r);
+        if factor == 0.0 {
+            return (0.0, Vector2::zeros(), 0.0);
+        }
+        let (energy, gradient) = self.potential.energy_and_gradient(q);
+        let mut force = -gradient.xy() * factor;
+        if slope != 0.0 {
+            force -= q.position() * (energy * slope / r);
+        }
+        (energy * factor, force, -gradient.z * factor)
+    }
+}

@@ -1,0 +1,90 @@
+//! What pushes tiles from outside: shaking, fans, the table's own motion; and drag.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Vector2, Vector3};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::settings::TableSettings;
+use super::start::Mover;
+
+/// A tile with what shakes it.
+#[derive(Clone, Debug)]
+pub struct Rider {
+    /// Where it is and how it moves.
+    pub mover: Mover,
+    rng: ChaCha8Rng,
+    /// Its share of kinetic energy that is still to be put right (J).
+    pub debt: f64,
+}
+
+/// The drives of a run.
+#[derive(Clone, Copy)]
+pub struct Drive<'a> {
+    settings: &'a TableSettings,
+}
+
+impl Rider {
+    /// A tile when a run begins, with its own random numbers.
+    pub fn new(mover: Mover, rng: ChaCha8Rng) -> Self {
+        Self {
+            mover,
+            rng,
+            debt: 0.0,
+        }
+    }
+}
+
+impl<'a> Drive<'a> {
+    pub fn new(settings: &'a TableSettings) -> Self {
+        Self { settings }
+    }
+
+    /// Drag over a time h (s), and with it the kick of shaking: an Ornstein-Uhlenbeck step of the
+    /// velocity, exact, `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit variance, for each
+    /// degree of freedom with its mass or moment of inertia. The work done, and what is lost to drag (J).
+    pub fn damp(&self, rider: &mut Rider, masses: &Vector3<f64>, h: f64) -> [f64; 2] {
+        let TableSettings { drag, shaking, .. } = self.settings;
+        if *drag == 0.0 {
+            return [0.0; 2];
+        }
+        let velocity = &mut rider.mover.velocity;
+        let kinetic = |v: &Vector3<f64>| 0.5 * masses.component_mul(v).dot(v);
+        let before = kinetic(velocity);
+        let decay = libm::exp(-drag * h);
+        *velocity *= decay;
+        let slowed = kinetic(velocity);
+        let mut work = 0.0;
+        if let Some(kt) = shaking {
+            let spread = masses.map(|mass| (kt / mass * (1.0 - decay * decay)).sqrt());
+            *velocity += spread.component_mul(&normals(&mut rider.rng));
+            work = kinetic(velocity) - slowed;
+        }
+        [work, before - slowed]
+    }
+
+    /// What fans and the table's motion give a tile at a place (m) and a time (s), as an acceleration.
+    pub fn push(&self, mass: f64, place: Vector2<f64>, time: f64) -> Vector2<f64> {
+        let fans = self.settings.fans.iter();
+        let force: Vector2<f64> = fans.map(|fan| fan.energy_and_force(place, time).1).sum();
+        let mut acceleration = force / mass;
+        if let Some(orbital) = self.settings.orbital {
+            // The table is at A (cos, sin), and its acceleration against that.
+            let rate = TAU * orbital.frequency;
+            let phase = rate * time;
+            acceleration += Vector2::new(libm::cos(phase), libm::sin(phase))
+                * (orbital.amplitude * rate * rate);
+        }
+        acceleration
+    }
+}
+
+/// Three normally distributed numbers of mean 0 and variance 1 (Box and Muller 1958).
+fn normals(rng: &mut ChaCha8Rng) -> Vector3<f64> {
+    let mut radius = || (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
+    let radii = [radius(), radius()];
+    let (sin, cos) = libm::sincos(TAU * rng.random::<f64>());
+    let other = libm::cos(TAU * rng.random::<f64>());
+    Vector3::new(radii[0] * cos, radii[0] * sin, radii[1] * other)
+}

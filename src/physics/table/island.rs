@@ -1,0 +1,494 @@
+//! Tiles that are near each other or the rim, through one step of the table.
+//!
+//! # Steps
+//! Velocity Verlet, with the forces of the other tiles and the drives held as they are. A step is short
+//! enough for forces to change little: `h <= 0.05 sqrt(l / a)`, l half the shortest side of a magnet and a the largest
+//! acceleration, and for tiles in contact to move no more than 0.1 mm, all in proportion to the step of
+//! the table. (Tiles that hardly move need no short steps.)
+//!
+//! # Knocks
+//! The gap of a point goes as `g + u t + a t^2 / 2`. Where it closes with a velocity u1 that gives back so much
+//! that the tiles fly on for longer than the shortest step, the step ends there, and the impulse acts on the velocities
+//! of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
+//! are moved to end at contact and not beyond, and of what they touch their velocities are freed. From shorter
+//! flights they come back with the velocity of the parabola, so that elastic contact keeps its
+//! energy there too. Where many points or friction would let energy grow (Kane and Levinson 1985), so
+//! much less is given back that it does not.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::crowd::Crowd;
+use super::drive::Rider;
+use super::hold::{ERROR, Hold, hold_back, kinetic, share_within};
+use super::pair::{Two, configuration, pull, relative};
+use super::settings::TableSettings;
+use super::start::Mover;
+use crate::configuration::Configuration;
+use crate::contact::{ContactPoint, NearPairs};
+
+/// Points are touched at gaps below this (m).
+const TOUCHED: f64 = 1e-9;
+/// Outlines are kept apart by this (m). The force of two blocks turns round where their pole faces pass
+/// through each other, so that tiles must not overlap by the least; an energy is off by a force times
+/// this.
+pub const SKIN: f64 = 1e-7;
+/// What overlaps is pushed out by no more in a step (m).
+const PUSHED_OUT: f64 = 1e-6;
+/// Points of contact are looked for at least this far (m).
+const LEAST_MARGIN: f64 = 1e-4;
+/// Where nothing is near, this far (m).
+const SEEN: f64 = 3e-3;
+/// Longest way of a tile in contact in a usual step (m).
+const TRAVEL: f64 = 1e-4;
+/// Of the time in which forces change, a usual step's share.
+const SHARE: f64 = 0.05;
+/// Tiles slower than this (m/s) need no short steps.
+const SLOW: f64 = 2e-3;
+/// A longest step has so many shortest.
+const SHORTEST: f64 = 16.0;
+/// The pairs of edges and corners that may touch are looked for so much farther (m) than they are
+/// needed, and so less often.
+const AHEAD: f64 = 4e-3;
+
+/// Two tiles that are near each other, with what is known of their contact.
+#[derive(Debug)]
+pub struct NearPair {
+    pub two: Two,
+    edges: NearPairs,
+    /// How far (m) `edges` see, from `at`.
+    seen: f64,
+    at: Configuration,
+    /// The tiles are apart by at least this (m) at `room_at`.
+    room: f64,
+    room_at: Configuration,
+}
+
+impl NearPair {
+    pub fn new(two: Two) -> Self {
+        Self {
+            two,
+            edges: NearPairs::default(),
+            seen: f64::NEG_INFINITY,
+            at: Configuration::new(0.0, 0.0, 0.0),
+            room: f64::NEG_INFINITY,
+            room_at: Configuration::new(0.0, 0.0, 0.0),
+        }
+    }
+
+    /// The points of contact within a margin (m), if there may be any.
+    fn points(
+        &mut self,
+        crowd: &Crowd,
+        q: &Configuration,
+        kinds: [usize; 2],
+        margin: f64,
+    ) -> Vec<ContactPoint> {
+        let contact = &crowd.couple(kinds[0], kinds[1]).0.contact;
+        let radius = contact.moving().circumradius();
+        let moved = |from: &Configuration| {
+            let step = from.step_to(q);
+            step.xy().norm() + radius * step.z.abs()
+        };
+        if self.room - moved(&self.room_at) > margin {
+            return Vec::new();
+        }
+        let seen = margin.max(SEEN);
+        let needed = 1.5 * seen;
+        if self.seen - moved(&self.at) < needed {
+            self.seen = needed + AHEAD;
+            self.at = *q;
+            self.edges = contact.near(q, self.seen);
+        }
+        let mut points = contact.points(q, margin, &self.edges);
+        if points.is_empty() {
+            points = contact.points(q, seen, &self.edges);
+        }
+        self.room = points.iter().map(|point| point.gap).fold(seen, f64::min);
+        self.room_at = *q;
+        points.retain(|point| point.gap <= margin);
+        points
+    }
+}
+
+/// What happened in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Happened {
+    /// Kinetic energy lost in contact (J).
+    pub contact_loss: f64,
+    /// Steps that were made.
+    pub steps: usize,
+}
+
+/// Tiles that are tied together by being near.
+pub struct Island<'a> {
+    pub crowd: &'a Crowd,
+    pub settings: &'a TableSettings,
+    /// Half a magnet's shortest side (m).
+    pub feature: f64,
+    /// The tiles.
+    pub riders: Vec<Rider>,
+    /// What other tiles, fans and the table's motion give them (m/s^2, m/s^2, rad/s^2).
+    pub steady: Vec<Vector3<f64>>,
+    /// Pairs, by numbers of this island's tiles.
+    pub pairs: Vec<(Two, &'a mut NearPair)>,
+}
+
+/// What is at hand at a moment.
+struct State {
+    velocities: Vec<Vector3<f64>>,
+    accelerations: Vec<Vector3<f64>>,
+    /// Of the pairs (J).
+    potential: f64,
+    /// Kinetic energy that is still to be put right (J).
+    debt: f64,
+}
+
+impl Island<'_> {
+    /// Goes on for a step of the table.
+    pub fn advance(&mut self) -> Happened {
+        let masses: Vec<_> = self
+            .riders
+            .iter()
+            .map(|it| self.crowd.kinds[it.mover.kind].body.masses())
+            .collect();
+        let inverse: Vec<_> = masses.iter().map(|it| it.map(|mass| 1.0 / mass)).collect();
+        let (accelerations, potential) = self.accelerations(&masses);
+        let mut state = State {
+            velocities: self.riders.iter().map(|it| it.mover.velocity).collect(),
+            accelerations,
+            potential,
+            debt: self.riders.iter().map(|it| it.debt).sum(),
+        };
+        let mut happened = Happened::default();
+        self.go_on(
+            &mut state,
+            [&masses, &inverse],
+            self.settings.step,
+            &mut happened,
+        );
+        for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
+            rider.mover.velocity = *velocity;
+        }
+        let share = state.debt / self.riders.len() as f64;
+        for rider in &mut self.riders {
+            rider.debt = share;
+        }
+        happened
+    }
+
+    /// Goes on for a time (s) with steady forces from outside.
+    fn go_on(
+        &mut self,
+        state: &mut State,
+        masses: [&[Vector3<f64>]; 2],
+        duration: f64,
+        happened: &mut Happened,
+    ) {
+        let mut time = 0.0;
+        while time < duration {
+            crate::interruption::check();
+            let left = duration - time;
+            let longest = self.longest_step(state).min(left);
+            let points = self.points(state, longest);
+            let touching = points.iter().any(|hold| hold.gap <= self.travel());
+            let longest = match touching {
+                true => longest.min(self.time_to_travel(state)),
+                false => longest,
+            };
+            let h = self.until_knock(state, &points, longest);
+            happened.contact_loss += self.step(state, points, masses, h);
+            happened.steps += 1;
+            time = if h == left { duration } else { time + h };
+        }
+    }
+
+    /// All accelerations, and the energy of the pairs (J).
+    fn accelerations(&self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, f64) {
+        let mut all = self.steady.clone();
+        let mut potential = 0.0;
+        for (two, _) in &self.pairs {
+            let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
+            let couple = self.crowd.couple(first.kind, second.kind).0;
+            let (energy, pulls) = pull(self.crowd, couple, [first, second]);
+            potential += energy;
+            for (tile, pull) in [two.first, two.second].into_iter().zip(pulls) {
+                all[tile] += pull.component_div(&masses[tile]);
+            }
+        }
+        (all, potential)
+    }
+
+    fn travel(&self) -> f64 {
+        TRAVEL * self.settings.fineness()
+    }
+
+    /// Speed or acceleration of a tile's fastest point, at most.
+    fn fastest(&self, tile: usize, of: &[Vector3<f64>]) -> f64 {
+        let reach = self.crowd.kinds[self.riders[tile].mover.kind].reach;
+        of[tile].xy().norm() + reach * of[tile].z.abs()
+    }
+
+    fn fastest_of_all(&self, of: &[Vector3<f64>]) -> f64 {
+        let tiles = 0..self.riders.len();
+        tiles.map(|tile| self.fastest(tile, of)).fold(0.0, f64::max)
+    }
+
+    /// The longest step (s) in which forces change little.
+    fn longest_step(&self, state: &State) -> f64 {
+        if self.fastest_of_all(&state.velocities) < SLOW {
+            return f64::INFINITY;
+        }
+        let pull = self.fastest_of_all(&state.accelerations);
+        SHARE * self.settings.fineness() * (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// How long (s) until a tile has gone as far as it may in contact.
+    fn time_to_travel(&self, state: &State) -> f64 {
+        let speed = self.fastest_of_all(&state.velocities);
+        self.travel() / speed.max(f64::MIN_POSITIVE)
+    }
+
+    /// The points that may be touched in a step of at most this length (s).
+    fn points(&mut self, state: &State, h: f64) -> Vec<Hold> {
+        let way: Vec<f64> = (0..self.riders.len())
+            .map(|tile| {
+                let [v, a] =
+                    [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, of));
+                h * (v + 0.5 * h * a)
+            })
+            .collect();
+        let margin = |way: f64| LEAST_MARGIN.max(3.0 * way);
+        let mut holds = Vec::new();
+        let (crowd, riders) = (self.crowd, &self.riders);
+        let centre = |tile: usize| riders[tile].mover.place.xy();
+        for (two, near) in &mut self.pairs {
+            let tiles = [two.first, two.second];
+            let [a, b] = tiles.map(|tile| configuration(crowd, &riders[tile].mover));
+            let kinds = tiles.map(|tile| riders[tile].mover.kind);
+            let margin = margin(way[two.first] + way[two.second]);
+            for point in near.points(crowd, &relative(&a, &b), kinds, margin) {
+                let at = a.transform(point.on_moving);
+                let axis = a.rotation() * point.normal;
+                let gap = point.gap - SKIN;
+                holds.push(Hold::new(tiles.map(Some), at, axis, gap, centre));
+            }
+        }
+        if self.settings.walls {
+            for (tile, rider) in riders.iter().enumerate() {
+                at_rim(
+                    crowd,
+                    &rider.mover,
+                    margin(way[tile]),
+                    &mut |point, axis, gap| {
+                        holds.push(Hold::new([None, Some(tile)], point, axis, gap, centre));
+                    },
+                );
+            }
+        }
+        holds
+    }
+
+    /// The time (s) of the first knock that the step is to end at, or a longest one.
+    fn until_knock(&self, state: &State, holds: &[Hold], longest: f64) -> f64 {
+        let shortest = longest / SHORTEST;
+        let mut first = longest;
+        for hold in holds {
+            let u = hold.rate(&state.velocities);
+            let a = hold.rate(&state.accelerations);
+            let Some((time, speed)) = closes(hold.gap, u, a) else {
+                continue;
+            };
+            let back = 2.0 * self.settings.restitution * speed;
+            let is_resolved = back > shortest * (-a).max(0.0);
+            if time < first && is_resolved {
+                first = time;
+            }
+        }
+        first.max(shortest).min(longest)
+    }
+
+    /// A step (s); the energy lost in contact (J).
+    fn step(
+        &mut self,
+        state: &mut State,
+        mut holds: Vec<Hold>,
+        [masses, inverse]: [&[Vector3<f64>]; 2],
+        h: f64,
+    ) -> f64 {
+        let friction = self.settings.friction;
+        let before = state.velocities.clone();
+        let pulled = std::mem::take(&mut state.accelerations);
+        let mut free = before.clone();
+        for (v, a) in free.iter_mut().zip(&pulled) {
+            *v += a * (0.5 * h);
+        }
+        let mut way = free.clone();
+        for hold in &mut holds {
+            hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
+        }
+        hold_back(inverse, &mut way, &mut holds, friction);
+        // The velocities with which what is touched is come back to; held all along the step or not.
+        let mut touched: Vec<(Hold, Option<f64>)> = Vec::new();
+        let mut held: Vec<Hold> = Vec::new();
+        for mut hold in holds {
+            if hold.gap + hold.rate(&way) * h > TOUCHED {
+                continue;
+            }
+            let is_held = hold.impulses[0] > 0.0;
+            let back = is_held.then(|| {
+                let [u, a] = [&before, &pulled].map(|of| hold.rate(of));
+                closes(hold.gap, u, a).map_or(0.0, |(_, speed)| speed)
+            });
+            hold.least = 0.0;
+            if is_held {
+                held.push(hold);
+            }
+            touched.push((hold, back));
+        }
+        if !held.is_empty() {
+            hold_back(inverse, &mut free, &mut held, friction);
+        }
+        for (rider, way) in self.riders.iter_mut().zip(&way) {
+            rider.mover.place += way * h;
+        }
+        let (accelerations, potential) = self.accelerations(masses);
+        let mut velocities = free;
+        for (v, a) in velocities.iter_mut().zip(&accelerations) {
+            *v += a * (0.5 * h);
+        }
+        let steady = self.steady.iter().zip(masses).zip(&way);
+        let work = steady.map(|((a, mass), way)| mass.component_mul(a).dot(way) * h);
+        let energy = kinetic(masses, &before) + work.sum::<f64>() + state.potential - potential;
+        state.accelerations = accelerations;
+        state.potential = potential;
+        if held.is_empty() {
+            put_right(state, &mut velocities, (masses, &self.steady), energy, h);
+        }
+        if touched.is_empty() {
+            state.velocities = velocities;
+            return 0.0;
+        }
+        let energy = match held.is_empty() {
+            true => kinetic(masses, &velocities),
+            false => energy,
+        };
+        let riders = &self.riders;
+        let centre = |tile: usize| riders[tile].mover.place.xy();
+        let mut approaches = Vec::with_capacity(touched.len());
+        let mut holds: Vec<Hold> = Vec::with_capacity(touched.len());
+        for (mut hold, back) in touched {
+            // The point goes with the tile before it.
+            let carried = hold.tiles[1].map_or(Vector2::zeros(), |tile| {
+                let arm = hold.point - (riders[tile].mover.place.xy() - way[tile].xy() * h);
+                (way[tile].xy() + Vector2::new(-arm.y, arm.x) * way[tile].z) * h
+            });
+            hold.place(hold.point + carried, centre);
+            approaches.push(back.unwrap_or(-hold.rate(&velocities)));
+            holds.push(hold);
+        }
+        let mut stopped = velocities;
+        let free = stopped.clone();
+        hold_back(inverse, &mut stopped, &mut holds, friction);
+        let restitution = self.settings.restitution;
+        if restitution > 0.0 && approaches.iter().any(|u| *u > ERROR) {
+            for (hold, approach) in holds.iter_mut().zip(&approaches) {
+                hold.least = restitution * approach.max(0.0);
+            }
+            let mut bounced = free;
+            hold_back(inverse, &mut bounced, &mut holds, friction);
+            let change: Vec<_> = bounced.iter().zip(&stopped).map(|(b, s)| b - s).collect();
+            let share = share_within(masses, &stopped, &change, energy);
+            for (v, change) in stopped.iter_mut().zip(&change) {
+                *v += change * share;
+            }
+        }
+        state.velocities = stopped;
+        energy - kinetic(masses, &state.velocities)
+    }
+}
+
+/// Changes velocities along the forces of the pairs, by less than a step (s) did, so that the
+/// kinetic energy is what the potential says (J); what cannot be put right now is next time.
+fn put_right(
+    state: &mut State,
+    velocities: &mut [Vector3<f64>],
+    (masses, steady): (&[Vector3<f64>], &[Vector3<f64>]),
+    energy: f64,
+    h: f64,
+) {
+    let now = kinetic(masses, velocities);
+    let wanted = energy + state.debt - now;
+    let pulls = state.accelerations.iter().zip(steady);
+    let pulls: Vec<Vector3<f64>> = pulls.map(|(all, steady)| all - steady).collect();
+    let square = 2.0 * kinetic(masses, &pulls);
+    if square == 0.0 {
+        state.debt = wanted;
+        return;
+    }
+    let each = masses.iter().zip(velocities.iter()).zip(&pulls);
+    let along: f64 = each
+        .map(|((mass, v), a)| mass.component_mul(v).dot(a))
+        .sum();
+    // The root nearest to 0 of `along x + square x^2 / 2 = wanted`.
+    let root = (along * along + 2.0 * square * wanted).max(0.0).sqrt();
+    let x = 2.0 * wanted / (along + root.copysign(along));
+    let most = 0.5 * h;
+    let x = if x.is_finite() {
+        x.clamp(-most, most)
+    } else {
+        0.0
+    };
+    for (v, a) in velocities.iter_mut().zip(&pulls) {
+        *v += a * x;
+    }
+    state.debt = energy + state.debt - kinetic(masses, velocities);
+}
+
+/// When a gap (m) closes that goes as `gap + u t + a t^2 / 2`, and with which velocity (m/s).
+fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
+    let gap = gap.max(0.0);
+    let square = u * u - 2.0 * a * gap;
+    if square < 0.0 || (u >= 0.0 && a >= 0.0) {
+        return None;
+    }
+    let speed = square.sqrt();
+    let time = match u < 0.0 {
+        true => 2.0 * gap / (speed - u),
+        false => (u + speed) / -a,
+    };
+    Some((time, speed))
+}
+
+/// The corners of a tile within a margin (m) of the rim: where, the rim's normal, and the gap.
+pub fn at_rim(
+    crowd: &Crowd,
+    mover: &Mover,
+    margin: f64,
+    found: &mut dyn FnMut(Vector2<f64>, Vector2<f64>, f64),
+) {
+    let kind = &crowd.kinds[mover.kind];
+    let room = rim_room(crowd, mover);
+    if room > margin {
+        return;
+    }
+    let q = configuration(crowd, mover);
+    let (rotation, position) = (q.rotation(), q.position());
+    for corner in kind.tile.outline.vertices() {
+        let p = position + rotation * corner;
+        for axis in 0..2 {
+            let gap = crowd.half_size[axis] - p[axis].abs();
+            if gap <= margin {
+                let mut normal = Vector2::zeros();
+                normal[axis] = -p[axis].signum();
+                found(p, normal, gap);
+            }
+        }
+    }
+}
+
+/// How far (m) a tile is from the rim, at least.
+pub fn rim_room(crowd: &Crowd, mover: &Mover) -> f64 {
+    let [x, y] = crowd.half_size;
+    let p = mover.place.xy();
+    (x - p.x.abs()).min(y - p.y.abs()) - crowd.kinds[mover.kind].reach
+}

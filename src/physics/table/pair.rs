@@ -1,0 +1,62 @@
+//! Two tiles as one sees the other, and what acts between them.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::crowd::{Couple, Crowd};
+use super::start::Mover;
+use crate::configuration::{Configuration, wrap_angle};
+use crate::tile::outline::cross;
+
+/// Two tiles by their numbers, in the order of the couple of their kinds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Two {
+    pub first: usize,
+    pub second: usize,
+}
+
+/// Where the reference point of a tile is, and how it is turned.
+pub fn configuration(crowd: &Crowd, mover: &Mover) -> Configuration {
+    crowd.kinds[mover.kind].body.configuration(&mover.place)
+}
+
+/// The pose of the second in the frame of the first.
+pub fn relative(first: &Configuration, second: &Configuration) -> Configuration {
+    let p = first.rotation().inverse() * (second.position() - first.position());
+    Configuration::new(p.x, p.y, wrap_angle(second.theta - first.theta))
+}
+
+impl Two {
+    /// Of two tiles of some kinds.
+    pub fn of(kinds: [usize; 2], [i, j]: [usize; 2]) -> Self {
+        match kinds[0] <= kinds[1] {
+            true => Self {
+                first: i,
+                second: j,
+            },
+            false => Self {
+                first: j,
+                second: i,
+            },
+        }
+    }
+}
+
+/// The energy (J) of two tiles of a couple, and what pulls at each about its centre of mass (N, N, N m).
+pub fn pull(
+    crowd: &Crowd,
+    couple: &Couple,
+    [first, second]: [&Mover; 2],
+) -> (f64, [Vector3<f64>; 2]) {
+    let [a, b] = [first, second].map(|it| configuration(crowd, it));
+    let (energy, force, torque) = couple.pull(&relative(&a, &b));
+    let force: Vector2<f64> = a.rotation() * force;
+    let about = |mover: &Mover, q: &Configuration| q.position() - mover.place.xy();
+    // The forces are equal and opposite, and so is their torque about any one point.
+    let of_second = torque + cross(about(second, &b), force);
+    let of_first = -torque - cross(b.position() - first.place.xy(), force);
+    let pulls = [
+        Vector3::new(-force.x, -force.y, of_first),
+        Vector3::new(force.x, force.y, of_second),
+    ];
+    (energy, pulls)
+}

@@ -1,0 +1,239 @@
+//! Runs of a table: what is seen of them, and whether energy is accounted for.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::contacts::{Held, Tie, clusters, held};
+use super::crowd::Crowd;
+use super::settings::TableSettings;
+use super::start::{Mover, StartError, at_random, check};
+use super::stepper::{Account, BlowUp, Stepper};
+
+/// Energy that is not accounted for may be this share of the largest term; else the step is halved.
+pub const ACCOUNTED: f64 = 0.01;
+/// So often is it halved at most.
+const HALVINGS: usize = 4;
+
+/// The table at one moment.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Since the start (s).
+    pub time: f64,
+    /// Kinetic energy (J).
+    pub kinetic: f64,
+    /// Energy of magnets (J).
+    pub potential: f64,
+    /// What became of the rest.
+    pub account: Account,
+    /// Bonds and traps.
+    pub held: Vec<Held>,
+    /// Sizes of clusters, falling.
+    pub clusters: Vec<usize>,
+    /// The tiles, where they are kept.
+    pub movers: Option<Vec<Mover>>,
+}
+
+impl Sample {
+    /// How many pairs are held in a way.
+    pub fn count(&self, tie: Tie) -> usize {
+        self.held.iter().filter(|held| held.tie == tie).count()
+    }
+
+    /// Energy (J) that was there or came in and is not accounted for since the start.
+    fn missing(&self, start: &Self) -> f64 {
+        self.kinetic + self.potential - self.account.work
+            + self.account.contact_loss
+            + self.account.drag_loss
+            - start.kinetic
+            - start.potential
+    }
+
+    /// The largest of all energies in the account (J).
+    fn largest(&self) -> f64 {
+        let Account {
+            work,
+            contact_loss,
+            drag_loss,
+        } = self.account;
+        [self.kinetic, self.potential, work, contact_loss, drag_loss]
+            .map(f64::abs)
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+}
+
+/// A finished run.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Its number, from 0.
+    pub index: usize,
+    /// The table from time to time, first and last moment among them.
+    pub samples: Vec<Sample>,
+    /// Mean kinetic energy per degree of freedom (J) over the second half of the time.
+    pub kinetic: f64,
+    /// The largest energy not accounted for over the largest term.
+    pub energy_error: f64,
+    /// The step (s) that was made in the end.
+    pub step: f64,
+    /// Steps of the table and of islands.
+    pub steps: [u64; 2],
+    /// How long bonds and traps lasted that ended, and those that had not.
+    pub lives: Vec<Life>,
+}
+
+/// A bond or a trap from its beginning to its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Life {
+    /// The tiles.
+    pub tiles: [usize; 2],
+    /// What held them.
+    pub tie: Tie,
+    /// From when (s).
+    pub from: f64,
+    /// Until when (s); `None` where it lasted to the end.
+    pub to: Option<f64>,
+}
+
+/// Where tiles start.
+#[derive(Clone, Debug)]
+pub enum Start {
+    /// So many of each kind at random places.
+    Random(Vec<usize>),
+    /// As they are.
+    Given(Vec<Mover>),
+}
+
+/// Why a run failed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// It could not begin.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// It went too fast.
+    #[error(transparent)]
+    BlowUp(#[from] BlowUp),
+}
+
+/// The random numbers of a run, independent of all others.
+pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream((1 << 42) + index as u64);
+    rng
+}
+
+/// One run. `frames` keeps the tiles in every sample;
+///
+/// # Errors
+/// Where it cannot begin, or steps are too long by far.
+pub fn run(
+    crowd: &Crowd,
+    settings: &TableSettings,
+    (seed, index): (u64, usize),
+    start: &Start,
+    frames: bool,
+) -> Result<Run, RunError> {
+    let mut rng = stream(seed, index);
+    let movers = match start {
+        Start::Random(counts) => at_random(crowd, counts, settings.shaking, &mut rng)?,
+        Start::Given(movers) => movers.clone(),
+    };
+    check(crowd, &movers, settings.walls)?;
+    let mut settings = settings.clone();
+    for halving in 0.. {
+        let run = once(crowd, &settings, index, (&movers, &rng), frames);
+        let is_sound = run.as_ref().is_ok_and(|run| run.energy_error <= ACCOUNTED);
+        if is_sound || halving == HALVINGS {
+            return Ok(run?);
+        }
+        settings.step *= 0.5;
+    }
+    unreachable!("the last of the halvings returns")
+}
+
+fn once(
+    crowd: &Crowd,
+    settings: &TableSettings,
+    index: usize,
+    (movers, rng): (&[Mover], &ChaCha8Rng),
+    frames: bool,
+) -> Result<Run, BlowUp> {
+    let random = |tile: usize| {
+        let mut rng = rng.clone();
+        rng.set_stream(rng.get_stream() + ((1 + tile as u64) << 43));
+        rng.set_word_pos(0);
+        rng
+    };
+    let mut stepper = Stepper::new(crowd, settings, movers.to_vec(), &random);
+    let between = (settings.sampling / settings.step).round().max(1.0) as u64;
+    let steps = (settings.duration / settings.step).ceil().max(1.0) as u64;
+    let mut samples = vec![sample(crowd, &mut stepper, frames)];
+    let mut sums = (0.0, 0u64);
+    let mut lives: Vec<Life> = Vec::new();
+    follow(&mut lives, &samples[0]);
+    for step in 1..=steps {
+        stepper.step()?;
+        if 2 * step >= steps {
+            sums = (sums.0 + stepper.kinetic(), sums.1 + 1);
+        }
+        if step % between == 0 || step == steps {
+            samples.push(sample(crowd, &mut stepper, frames));
+            follow(&mut lives, &samples[samples.len() - 1]);
+        }
+    }
+    let missing = samples.iter().map(|it| it.missing(&samples[0]).abs());
+    let missing = missing.fold(0.0, f64::max);
+    let largest = samples.iter().map(Sample::largest).fold(0.0, f64::max);
+    Ok(Run {
+        index,
+        kinetic: sums.0 / sums.1 as f64 / (3 * movers.len()) as f64,
+        energy_error: if largest > 0.0 {
+            missing / largest
+        } else {
+            0.0
+        },
+        step: settings.step,
+        steps: [steps, stepper.short_steps],
+        samples,
+        lives,
+    })
+}
+
+fn sample(crowd: &Crowd, stepper: &mut Stepper, frames: bool) -> Sample {
+    let movers = stepper.movers();
+    let held = held(crowd, &movers, stepper.near_pairs());
+    Sample {
+        time: stepper.time,
+        kinetic: stepper.kinetic(),
+        potential: stepper.potential(),
+        account: stepper.account,
+        clusters: clusters(movers.len(), &held),
+        held,
+        movers: frames.then_some(movers),
+    }
+}
+
+/// Begins and ends lives as a sample says.
+fn follow(lives: &mut Vec<Life>, sample: &Sample) {
+    for life in lives.iter_mut().filter(|life| life.to.is_none()) {
+        let lasts = sample
+            .held
+            .iter()
+            .any(|it| it.tiles == life.tiles && it.tie == life.tie);
+        if !lasts {
+            life.to = Some(sample.time);
+        }
+    }
+    for held in &sample.held {
+        let is_known = lives
+            .iter()
+            .any(|it| it.to.is_none() && it.tiles == held.tiles && it.tie == held.tie);
+        if !is_known {
+            lives.push(Life {
+                tiles: held.tiles,
+                tie: held.tie,
+                from: sample.time,
+                to: None,
+            });
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Where tiles are when a run begins.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::crowd::Crowd;
+use crate::configuration::{Configuration, wrap_angle};
+use crate::contact::TOUCH;
+use crate::dynamics::{Motion, thermal_velocity};
+
+/// Tiles placed at random are at least this far (m) from each other and from the rim.
+const ROOM: f64 = 2e-3;
+/// Places tried for a tile.
+const TRIES: usize = 20_000;
+
+/// A tile on the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mover {
+    /// The number of its kind.
+    pub kind: usize,
+    /// Its centre of mass (m) and how it is turned (rad, not wrapped).
+    pub place: Vector3<f64>,
+    /// How these change (m/s, m/s, rad/s).
+    pub velocity: Vector3<f64>,
+}
+
+/// Why a run cannot begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StartError {
+    /// Their area alone is too large.
+    #[error("{tiles} tiles of {area:.3} m2 together do not fit on a table of {table:.3} m2")]
+    TooMany {
+        /// How many.
+        tiles: usize,
+        /// What they cover (m^2).
+        area: f64,
+        /// The table (m^2).
+        table: f64,
+    },
+    /// No place was found.
+    #[error(
+        "no free place was found for tile {tile} of {tiles} in {TRIES} tries: tiles at random places \
+         block each other before a table is full; here they would cover {share:.2} of it"
+    )]
+    NoRoom {
+        /// Its number, from 0.
+        tile: usize,
+        /// Of how many.
+        tiles: usize,
+        /// Coverage of all tiles.
+        share: f64,
+    },
+    /// Two of the tiles given.
+    #[error("tiles {first} and {second} overlap by {depth:.3e} m")]
+    Overlap {
+        /// Its number, from 0.
+        first: usize,
+        /// The other's.
+        second: usize,
+        /// How deep (m).
+        depth: f64,
+    },
+    /// One of the tiles given.
+    #[error("tile {tile} reaches {beyond:.3e} m beyond the rim")]
+    BeyondRim {
+        /// Its number, from 0.
+        tile: usize,
+        /// How far (m).
+        beyond: f64,
+    },
+}
+
+impl Mover {
+    /// Of a tile whose reference point is given, and the velocity of its centre of mass.
+    pub fn new(crowd: &Crowd, kind: usize, motion: &Motion) -> Self {
+        let phase = crowd.kinds[kind].body.phase(motion);
+        Self {
+            kind,
+            place: phase.place,
+            velocity: phase.velocity,
+        }
+    }
+
+    /// Where the reference point is, and how the tile moves.
+    pub fn motion(&self, crowd: &Crowd) -> Motion {
+        Motion {
+            configuration: crowd.kinds[self.kind].body.configuration(&self.place),
+            velocity: self.velocity,
+        }
+    }
+
+    /// How far (m) it reaches beyond the rim; below 0 where it does not.
+    pub(super) fn beyond(&self, crowd: &Crowd) -> f64 {
+        let kind = &crowd.kinds[self.kind];
+        let q = kind.body.configuration(&self.place);
+        let (rotation, position) = (q.rotation(), q.position());
+        let corners = kind.tile.outline.vertices().iter();
+        let beyond = corners.map(|corner| {
+            let p = position + rotation * corner;
+            (p.x.abs() - crowd.half_size[0]).max(p.y.abs() - crowd.half_size[1])
+        });
+        beyond.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// The clearance (m) of two tiles, or any number above `enough` where it is more.
+fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) -> f64 {
+    let (couple, swapped) = crowd.couple(a.0, b.0);
+    let [first, second] = if swapped { [&b, &a] } else { [&a, &b] };
+    let q = super::pair::relative(&first.1, &second.1);
+    let bound = couple.contact.clearance_bound(&q);
+    if bound > enough {
+        return bound;
+    }
+    couple.contact.clearance(&q)
+}
+
+/// So many tiles of each kind, at places and in orientations drawn evenly from those where they are
+/// free of the tiles before; at rest, or where kT (J) is given with velocities of that temperature.
+///
+/// # Errors
+/// Where there is no room.
+pub fn at_random(
+    crowd: &Crowd,
+    counts: &[usize],
+    kt: Option<f64>,
+    rng: &mut ChaCha8Rng,
+) -> Result<Vec<Mover>, StartError> {
+    let tiles: usize = counts.iter().sum();
+    let of_kind = counts.iter().zip(&crowd.kinds);
+    let area: f64 = of_kind
+        .map(|(count, kind)| *count as f64 * kind.tile.outline.area())
+        .sum();
+    let table = crowd.area();
+    if area > table {
+        return Err(StartError::TooMany { tiles, area, table });
+    }
+    // One of each kind in turn, so that no kind has the best places.
+    let mut left = counts.to_vec();
+    let mut placed: Vec<(usize, Configuration)> = Vec::new();
+    while left.iter().any(|count| *count > 0) {
+        for kind in 0..left.len() {
+            if left[kind] > 0 {
+                left[kind] -= 1;
+                let q = free_place(crowd, kind, &placed, rng).ok_or(StartError::NoRoom {
+                    tile: placed.len(),
+                    tiles,
+                    share: area / table,
+                })?;
+                placed.push((kind, q));
+            }
+        }
+    }
+    placed.sort_by_key(|(kind, _)| *kind);
+    let mover = |(kind, configuration): (usize, Configuration)| {
+        let velocity = match kt {
+            Some(kt) => thermal_velocity(&crowd.kinds[kind].body, kt, rng),
+            None => Vector3::zeros(),
+        };
+        let motion = Motion {
+            configuration,
+            velocity,
+        };
+        Mover::new(crowd, kind, &motion)
+    };
+    Ok(placed.into_iter().map(mover).collect())
+}
+
+fn free_place(
+    crowd: &Crowd,
+    kind: usize,
+    placed: &[(usize, Configuration)],
+    rng: &mut ChaCha8Rng,
+) -> Option<Configuration> {
+    (0..TRIES).find_map(|_| {
+        crate::interruption::check();
+        let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
+        let [x, y] = crowd.half_size;
+        let q = Configuration::new(even(x), even(y), wrap_angle(even(0.5 * TAU)));
+        let motion = Motion {
+            configuration: q,
+            velocity: Vector3::zeros(),
+        };
+        let is_free = Mover::new(crowd, kind, &motion).beyond(crowd) <= -ROOM
+            && placed
+                .iter()
+                .all(|other| clearance(crowd, [(kind, q), *other], ROOM) >= ROOM);
+        is_free.then_some(q)
+    })
+}
+
+/// Whether tiles are free of each other and on the table.
+///
+/// # Errors
+/// Where they are not.
+pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartError> {
+    let place = |mover: &Mover| {
+        let q = super::pair::configuration(crowd, mover);
+        (mover.kind, q)
+    };
+    for (tile, mover) in movers.iter().enumerate() {
+        let beyond = mover.beyond(crowd);
+        if walls && beyond > TOUCH {
+            return Err(StartError::BeyondRim { tile, beyond });
+        }
+    }
+    // Sorted along x, so that few are compared.
+    let places: Vec<_> = movers.iter().map(place).collect();
+    let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
+    let widest = 2.0 * widest.fold(0.0, f64::max);
+    let mut order: Vec<usize> = (0..movers.len()).collect();
+    order.sort_by(|&i, &j| places[i].1.x.total_cmp(&places[j].1.x).then(i.cmp(&j)));
+    let mut worst: Option<StartError> = None;
+    for (k, &i) in order.iter().enumerate() {
+        for &j in &order[k + 1..] {
+            if places[j].1.x - places[i].1.x > widest {
+                break;
+            }
+            let depth = -clearance(crowd, [places[i], places[j]], 0.0);
+            let deepest = match &worst {
+                Some(StartError::Overlap { depth, .. }) => *depth,
+                _ => TOUCH,
+            };
+            if depth > deepest {
+                worst = Some(StartError::Overlap {
+                    first: i.min(j),
+                    second: i.max(j),
+                    depth,
+                });
+            }
+        }
+    }
+    worst.map_or(Ok(()), Err)
+}

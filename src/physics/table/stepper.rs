@@ -1,0 +1,356 @@
+//! All tiles through one step after another, and the account of energy.
+
+use nalgebra::{Vector2, Vector3};
+use rand_chacha::ChaCha8Rng;
+
+use super::crowd::Crowd;
+use super::drive::{Drive, Rider};
+use super::island::{Happened, Island, NearPair, rim_room};
+use super::neighbours::Neighbours;
+use super::pair::{Two, configuration, pull, relative};
+use super::settings::TableSettings;
+use super::start::Mover;
+
+/// Tiles go no farther in a step than this share of what counts as near.
+const SHARE_OF_NEAR: f64 = 0.25;
+
+/// What became of energy since the start (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Account {
+    /// Work of shaking, fans and the table's motion.
+    pub work: f64,
+    /// Lost in contact.
+    pub contact_loss: f64,
+    /// Lost to drag.
+    pub drag_loss: f64,
+}
+
+/// A run under way.
+pub struct Stepper<'a> {
+    crowd: &'a Crowd,
+    settings: &'a TableSettings,
+    drive: Drive<'a>,
+    riders: Vec<Rider>,
+    /// Since the start (s).
+    pub time: f64,
+    /// What became of energy.
+    pub account: Account,
+    /// Steps of islands so far.
+    pub short_steps: u64,
+    since_kick: usize,
+    neighbours: Neighbours,
+    near: Vec<NearPair>,
+    feature: f64,
+    least_near: f64,
+}
+
+/// Tiles went too fast for the steps.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "at {time:.6} s tile {tile} moves at {speed:.3e} m/s, too fast for steps of {step:.3e} s: the motion \
+     blows up; make the step shorter"
+)]
+pub struct BlowUp {
+    /// When (s).
+    pub time: f64,
+    /// Which tile.
+    pub tile: usize,
+    /// How fast (m/s).
+    pub speed: f64,
+    /// The step (s).
+    pub step: f64,
+}
+
+impl<'a> Stepper<'a> {
+    /// Tiles at the start; `random` are the random numbers of each tile.
+    pub fn new(
+        crowd: &'a Crowd,
+        settings: &'a TableSettings,
+        movers: Vec<Mover>,
+        random: &dyn Fn(usize) -> ChaCha8Rng,
+    ) -> Self {
+        let drive = Drive::new(settings);
+        let movers = movers.into_iter().enumerate();
+        let riders = movers.map(|(k, mover)| Rider::new(mover, random(k)));
+        let magnets = crowd.kinds.iter().flat_map(|kind| &kind.tile.magnets);
+        let sides = magnets.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
+        let nears = crowd.couples().iter().map(|couple| couple.near);
+        let mut stepper = Self {
+            crowd,
+            settings,
+            drive,
+            riders: riders.collect(),
+            time: 0.0,
+            account: Account::default(),
+            short_steps: 0,
+            since_kick: 0,
+            neighbours: Neighbours::default(),
+            near: Vec::new(),
+            feature: 0.5 * sides.fold(0.02, f64::min),
+            least_near: nears.fold(f64::INFINITY, f64::min),
+        };
+        stepper.find_near();
+        stepper
+    }
+
+    /// Finds the pairs that are near each other.
+    fn find_near(&mut self) {
+        let movers = self.riders.iter().map(|it| it.mover);
+        let places: Vec<_> = movers.clone().map(|it| it.place).collect();
+        let kinds = movers.map(|it| &self.crowd.kinds[it.kind]);
+        let masses: Vec<_> = kinds.map(|kind| kind.body.masses()).collect();
+        let mut pulls = vec![Vector3::zeros(); places.len()];
+        self.sort_pairs(&places, &masses, &mut pulls);
+    }
+
+    /// The tiles.
+    pub fn movers(&self) -> Vec<Mover> {
+        self.riders.iter().map(|it| it.mover).collect()
+    }
+
+    /// Kinetic energy that is still to be put right (J).
+    pub fn debt(&self) -> f64 {
+        self.riders.iter().map(|it| it.debt).sum()
+    }
+
+    /// Kinetic energy (J).
+    pub fn kinetic(&self) -> f64 {
+        let each = self.riders.iter().map(|it| it.mover);
+        each.map(|it| self.crowd.kinds[it.kind].body.kinetic_energy(&it.velocity))
+            .sum()
+    }
+
+    /// Energy of all magnets (J).
+    pub fn potential(&mut self) -> f64 {
+        let places = self.references(0.0);
+        let positions: Vec<_> = places.iter().map(|q| q.position()).collect();
+        let (crowd, movers) = (self.crowd, self.movers());
+        let pairs = self.neighbours.within(crowd.range(), &positions);
+        let energy = |&[i, j]: &[usize; 2]| {
+            let two = Two::of([movers[i].kind, movers[j].kind], [i, j]);
+            let [first, second] = [two.first, two.second];
+            let couple = crowd.couple(movers[first].kind, movers[second].kind).0;
+            couple.pull(&relative(&places[first], &places[second])).0
+        };
+        pairs.iter().map(energy).sum()
+    }
+
+    /// The configurations of all tiles, a time (s) from now as they move.
+    fn references(&self, ahead: f64) -> Vec<crate::Configuration> {
+        let ahead = |rider: &Rider| {
+            let mover = rider.mover;
+            let mover = Mover {
+                place: mover.place + mover.velocity * ahead,
+                ..mover
+            };
+            configuration(self.crowd, &mover)
+        };
+        self.riders.iter().map(ahead).collect()
+    }
+
+    /// Pairs of tiles that are near each other, with their poses.
+    pub fn near_pairs(&self) -> impl Iterator<Item = Two> + '_ {
+        self.near.iter().map(|near| near.two)
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// Where a tile is too fast for it.
+    pub fn step(&mut self) -> Result<(), BlowUp> {
+        let h = self.settings.step;
+        self.check_speeds()?;
+        let crowd = self.crowd;
+        let movers = self.movers();
+        let middle: Vec<Vector3<f64>> = movers
+            .iter()
+            .map(|it| it.place + it.velocity * (0.5 * h))
+            .collect();
+        let masses: Vec<_> = movers
+            .iter()
+            .map(|it| crowd.kinds[it.kind].body.masses())
+            .collect();
+        let driven: Vec<Vector2<f64>> = (0..movers.len())
+            .map(|k| {
+                let time = self.time + 0.5 * h;
+                self.drive.push(masses[k].x, middle[k].xy(), time)
+            })
+            .collect();
+        let mut steady: Vec<Vector3<f64>> = driven
+            .iter()
+            .map(|push| Vector3::new(push.x, push.y, 0.0))
+            .collect();
+        self.sort_pairs(&middle, &masses, &mut steady);
+        let happened = self.move_all(&steady);
+        self.account.contact_loss += happened.contact_loss;
+        self.short_steps += happened.steps as u64;
+        for (k, before) in movers.iter().enumerate() {
+            let way = self.riders[k].mover.place - before.place;
+            self.account.work += masses[k].x * driven[k].dot(&way.xy());
+        }
+        self.time += h;
+        self.since_kick += 1;
+        if self.since_kick >= self.settings.steps_between_kicks() {
+            let since = self.since_kick as f64 * h;
+            self.since_kick = 0;
+            for (rider, masses) in self.riders.iter_mut().zip(&masses) {
+                let [work, loss] = self.drive.damp(rider, masses, since);
+                self.account.work += work;
+                self.account.drag_loss += loss;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_speeds(&self) -> Result<(), BlowUp> {
+        let step = self.settings.step;
+        for (tile, rider) in self.riders.iter().enumerate() {
+            let mover = &rider.mover;
+            let reach = self.crowd.kinds[mover.kind].reach;
+            let speed = mover.velocity.xy().norm() + reach * mover.velocity.z.abs();
+            let may_go = speed * step <= SHARE_OF_NEAR * self.least_near;
+            if !(may_go && mover.place.iter().all(|x| x.is_finite())) {
+                return Err(BlowUp {
+                    time: self.time,
+                    tile,
+                    speed,
+                    step,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the near pairs, and adds what the others give to the accelerations.
+    fn sort_pairs(
+        &mut self,
+        middle: &[Vector3<f64>],
+        masses: &[Vector3<f64>],
+        outside: &mut [Vector3<f64>],
+    ) {
+        let crowd = self.crowd;
+        let now = self.references(0.0);
+        let positions: Vec<_> = now.iter().map(|q| q.position()).collect();
+        let pairs = self.neighbours.within(crowd.range(), &positions);
+        let mut known = std::mem::take(&mut self.near).into_iter().peekable();
+        for &[i, j] in pairs {
+            let kinds = [i, j].map(|k| self.riders[k].mover.kind);
+            let two = Two::of(kinds, [i, j]);
+            let key = |two: &Two| [two.first.min(two.second), two.first.max(two.second)];
+            while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
+            let kept = known.next_if(|near| near.two == two);
+            let [first, second] = [two.first, two.second].map(|k| self.riders[k].mover.kind);
+            let couple = crowd.couple(first, second).0;
+            let apart = (positions[i] - positions[j]).norm();
+            let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
+            let is_near = apart <= couple.radii() + near && {
+                let q = relative(&now[two.first], &now[two.second]);
+                couple.contact.clearance_bound(&q) <= near
+            };
+            if is_near {
+                self.near.push(kept.unwrap_or_else(|| NearPair::new(two)));
+                continue;
+            }
+            if apart > couple.cutoff.to + near {
+                continue;
+            }
+            let tiles = [two.first, two.second];
+            let placed = tiles.map(|k| Mover {
+                place: middle[k],
+                ..self.riders[k].mover
+            });
+            let pulls = pull(crowd, couple, [&placed[0], &placed[1]]).1;
+            for (tile, pull) in tiles.into_iter().zip(pulls) {
+                outside[tile] += pull.component_div(&masses[tile]);
+            }
+        }
+    }
+
+    /// Moves every island by itself.
+    fn move_all(&mut self, steady: &[Vector3<f64>]) -> Happened {
+        let n = self.riders.len();
+        let mut roots: Vec<usize> = (0..n).collect();
+        for near in &self.near {
+            let [a, b] = [near.two.first, near.two.second].map(|k| root(&mut roots, k));
+            roots[a.max(b)] = a.min(b);
+        }
+        let mut number = vec![usize::MAX; n];
+        let mut islands: Vec<Island> = Vec::new();
+        let mut members: Vec<Vec<usize>> = Vec::new();
+        let mut local = vec![0; n];
+        let mut is_tied = vec![false; n];
+        for near in &self.near {
+            is_tied[near.two.first] = true;
+            is_tied[near.two.second] = true;
+        }
+        for k in 0..n {
+            if !is_tied[k] && self.is_off_the_rim(k, &steady[k]) {
+                self.glide(k, &steady[k]);
+                continue;
+            }
+            let top = root(&mut roots, k);
+            if number[top] == usize::MAX {
+                number[top] = islands.len();
+                members.push(Vec::new());
+                islands.push(Island {
+                    crowd: self.crowd,
+                    settings: self.settings,
+                    feature: self.feature,
+                    riders: Vec::new(),
+                    steady: Vec::new(),
+                    pairs: Vec::new(),
+                });
+            }
+            let island = number[top];
+            local[k] = members[island].len();
+            members[island].push(k);
+            islands[island].riders.push(self.riders[k].clone());
+            islands[island].steady.push(steady[k]);
+        }
+        for near in &mut self.near {
+            let top = root(&mut roots, near.two.first);
+            let two = Two {
+                first: local[near.two.first],
+                second: local[near.two.second],
+            };
+            islands[number[top]].pairs.push((two, near));
+        }
+        let mut all = Happened::default();
+        for (mut island, members) in islands.into_iter().zip(members) {
+            let happened = island.advance();
+            all.contact_loss += happened.contact_loss;
+            all.steps += happened.steps;
+            for (rider, k) in island.riders.into_iter().zip(members) {
+                self.riders[k] = rider;
+            }
+        }
+        all
+    }
+
+    /// Moves a tile that meets nothing.
+    fn glide(&mut self, tile: usize, a: &Vector3<f64>) {
+        let h = self.settings.step;
+        let mover = &mut self.riders[tile].mover;
+        mover.place += (mover.velocity + a * (0.5 * h)) * h;
+        mover.velocity += a * h;
+    }
+
+    /// Whether a tile cannot come to the rim in a step.
+    fn is_off_the_rim(&self, tile: usize, steady: &Vector3<f64>) -> bool {
+        if !self.settings.walls {
+            return true;
+        }
+        let h = self.settings.step;
+        let rider = &self.riders[tile];
+        let speed = rider.mover.velocity.xy().norm() + h * steady.xy().norm();
+        rim_room(self.crowd, &rider.mover) > 3.0 * speed * h + self.least_near * SHARE_OF_NEAR
+    }
+}
+
+fn root(roots: &mut [usize], mut k: usize) -> usize {
+    while roots[k] != k {
+        roots[k] = roots[roots[k]];
+        k = roots[k];
+    }
+    k
+}

@@ -1,0 +1,374 @@
+//! Many tiles on a table.
+
+use serde_json::{Value, json};
+
+use crate::document::{Document, Drawing, Entries, Table, rows};
+use crate::gsd::{self, Particle};
+use crate::plots::chart::{Chart, Dimension, Look, Point};
+use jobs::table::{About, Found, Interval, Lifetime, Moment, Verdict};
+use physics::table::TableSettings;
+use physics::table::contacts::Tie;
+use physics::table::run::{ACCOUNTED, Run};
+use physics::table::{Mover, Sample};
+use physics::units::{duration, plain, si};
+
+/// What there is to know of a table.
+pub fn document<'a>(about: &About, found: &'a Found, seed: u64) -> Document<'a> {
+    let statistics = &found.statistics;
+    Document {
+        title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
+        answer: format!(
+            "{}: {} tiles hold each other in {} bonds and {} traps after {} ({}; {} of {} seed {seed})",
+            about.name,
+            found.kinds.len(),
+            told(&statistics.bonds),
+            told(&statistics.traps),
+            duration(found.settings.duration, 3),
+            statistics.verdict.name(),
+            found.runs.len(),
+            if found.runs.len() == 1 {
+                "run,"
+            } else {
+                "runs,"
+            },
+        ),
+        remarks: vec![meaning(found)],
+        entries: entries(about, found, seed),
+        pictures: pictures(found),
+        beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
+        notes: notes(found),
+        origin: format!("seed {seed}, {} magnets", about.model.name()),
+        ..Document::default()
+    }
+}
+
+fn told(interval: &Interval) -> String {
+    match (interval.low, interval.high) {
+        (Some(low), Some(high)) => format!(
+            "{} ({} to {})",
+            plain(interval.mean, 3),
+            plain(low.max(0.0), 3),
+            plain(high, 3)
+        ),
+        _ => plain(interval.mean, 3),
+    }
+}
+
+fn meaning(found: &Found) -> String {
+    let kt = found.statistics.kinetic_kt;
+    let has = kt.map(|share| {
+        format!(
+            "tiles move with {} kT each way, where kT / 2 is that of a table in equilibrium",
+            plain(share, 3)
+        )
+    });
+    match (found.statistics.verdict, has) {
+        (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
+        (Verdict::Frozen, Some(has)) => format!(
+            "(frozen: {has}; contact takes out more than shaking gives, so that `bond`, `rates` and `yield`, which take \
+             a table to have a temperature, do not hold)"
+        ),
+        (Verdict::Driven, Some(has)) => format!("(driven: {has})"),
+        (Verdict::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
+        (_, None) => "(driven: without shaking there is no temperature)".to_owned(),
+    }
+}
+
+fn notes(found: &Found) -> Vec<String> {
+    let statistics = &found.statistics;
+    let mut notes = vec![format!(
+        "energy is accounted for within {} of its largest term; steps of {} and shorter",
+        share(statistics.energy_error),
+        si(statistics.step, "s", 3)
+    )];
+    if statistics.halved > 0 {
+        notes.push(format!(
+            "in {} of {} runs steps were halved, since more than {} of energy was not accounted for",
+            statistics.halved,
+            found.runs.len(),
+            share(ACCOUNTED)
+        ));
+    }
+    if statistics.energy_error > ACCOUNTED {
+        notes.push(format!(
+            "warning: {} of energy is not accounted for, more than {}: do not trust this; choose a \
+             shorter --step",
+            share(statistics.energy_error),
+            share(ACCOUNTED)
+        ));
+    }
+    notes
+}
+
+fn share(share: f64) -> String {
+    format!("{} %", plain(100.0 * share, 2))
+}
+
+fn interval(interval: &Interval) -> Value {
+    json!({"mean": interval.mean, "low": interval.low, "high": interval.high})
+}
+
+// One line an entry.
+#[rustfmt::skip]
+fn entries(about: &About, found: &Found, seed: u64) -> Entries {
+    let statistics = &found.statistics;
+    let identity = json!({"name": about.name, "sha256": about.sha256});
+    Entries::default()
+        .data("tilebind", env!("CARGO_PKG_VERSION"))
+        .data("design", identity)
+        .data("model", about.model.name())
+        .data("seed", seed)
+        .data("settings", settings(&found.settings))
+        .fact("tiles", "tiles", found.kinds.len())
+        .fact("runs", "runs", found.runs.len())
+        .fact("time_s", "time", found.settings.duration)
+        .fact("step_s", "step", statistics.step)
+        .data("bonds", interval(&statistics.bonds))
+        .data("traps", interval(&statistics.traps))
+        .fact("", "bonds", told(&statistics.bonds)).in_view().noted("held at the end, mean of the runs with its 95 % interval")
+        .fact("", "traps", told(&statistics.traps)).in_view().noted("every other held pair")
+        .data("clusters", json!(statistics.clusters))
+        .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).noted("of a degree of freedom over kT; 0.5 in equilibrium")
+        .fact("verdict", "verdict", statistics.verdict.name())
+        .fact("energy_error", "energy error", statistics.energy_error).noted("not accounted for, over the largest term")
+        .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
+        .data("cut_off", cut_off(found))
+        .fact("wall_s", "", found.wall_s)
+        .data("threads", found.threads)
+        .table(sizes(found))
+        .table(course(found))
+        .table(energy(found))
+        .table(bonds(found))
+        .table(clusters(found))
+        .table(places(found))
+}
+
+fn settings(settings: &TableSettings) -> Value {
+    json!({
+        "time_s": settings.duration, "drag_per_s": settings.drag, "friction": settings.friction,
+        "restitution": settings.restitution, "shaking_J": settings.shaking,
+        "correlation_s": settings.shaking.map(|_| settings.kicks), "orbital": settings.orbital,
+        "fans": settings.fans, "step_s": settings.step, "sampling_s": settings.sampling,
+        "walls": settings.walls,
+    })
+}
+
+fn lifetime(lifetime: &Lifetime) -> Value {
+    json!({
+        "begun": lifetime.begun, "ended": lifetime.ended, "time_s": lifetime.time,
+        "mean_s": lifetime.mean, "interval_s": lifetime.interval,
+    })
+}
+
+fn cut_off(found: &Found) -> Value {
+    let couples = found.crowd.couples().iter().map(|couple| {
+        let cutoff = &couple.cutoff;
+        json!({"from_m": cutoff.from, "to_m": cutoff.to, "left_out_J": cutoff.left_out})
+    });
+    couples.collect()
+}
+
+fn sizes(found: &Found) -> Table {
+    rows(found.statistics.clusters.clone())
+        .column("size", "tiles", "of a cluster", |it| it.0)
+        .column("count", "clusters", "in a run at the end, mean", |it| it.1)
+        .table("sizes")
+        .titled(
+            "Clusters at the end",
+            "tiles that hold each other, single ones too",
+        )
+        .in_view()
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn course(found: &Found) -> Table {
+    let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low, high]) };
+    rows(found.statistics.moments.clone())
+        .column("time_s", "", "since the start", |it| it.time)
+        .column("bonds", "", "mean of the runs", |it| it.bonds.mean)
+        .column("bonds_interval", "", "95 %", ends(|it| it.bonds))
+        .column("traps", "", "mean of the runs", |it| it.traps.mean)
+        .column("traps_interval", "", "95 %", ends(|it| it.traps))
+        .column("largest", "", "tiles of the largest cluster, mean of the runs", |it| it.largest.mean)
+        .column("largest_interval", "", "95 %", ends(|it| it.largest))
+        .table("over_time")
+        .in_file("course")
+}
+
+fn samples(found: &Found) -> impl Iterator<Item = (&Run, &Sample)> {
+    let runs = found.runs.iter();
+    runs.flat_map(|run| run.samples.iter().map(move |sample| (run, sample)))
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn energy(found: &Found) -> Table {
+    rows(samples(found))
+        .column("run", "", "", |(run, _)| run.index)
+        .column("time_s", "", "", |(_, at)| at.time)
+        .column("kinetic_J", "", "", |(_, at)| at.kinetic)
+        .column("potential_J", "", "", |(_, at)| at.potential)
+        .column("work_J", "", "", |(_, at)| at.account.work)
+        .column("contact_loss_J", "", "", |(_, at)| at.account.contact_loss)
+        .column("drag_loss_J", "", "", |(_, at)| at.account.drag_loss)
+        .table("energy")
+        .in_csv("energy")
+}
+
+// One line a column.
+#[rustfmt::skip]
+fn bonds(found: &Found) -> Table {
+    let kinds = &found.crowd.kinds;
+    let kind = |tile: usize| kinds[found.kinds[tile]].name.clone();
+    let lives = found.runs.iter().flat_map(|run| run.lives.iter().map(move |life| (run, life)));
+    rows(lives)
+        .column("run", "", "", |(run, _)| run.index)
+        .column("first", "", "a tile", |(_, life)| life.tiles[0])
+        .column("second", "", "the tile it holds", |(_, life)| life.tiles[1])
+        .column("first_kind", "", "", |(_, life)| kind(life.tiles[0]))
+        .column("second_kind", "", "", |(_, life)| kind(life.tiles[1]))
+        .column("tie", "", "bond or trap", |(_, life)| life.tie.name())
+        .column("from_s", "", "", |(_, life)| life.from)
+        .column("to_s", "", "empty where it lasts to the end", |(_, life)| life.to)
+        .table("held")
+        .in_csv("bonds")
+}
+
+fn clusters(found: &Found) -> Table {
+    let counted = samples(found).flat_map(|(run, at)| {
+        let sizes = at.clusters.chunk_by(|a, b| a == b);
+        sizes.map(move |equal| (run.index, at.time, equal[0], equal.len()))
+    });
+    rows(counted)
+        .column("run", "", "", |it| it.0)
+        .column("time_s", "", "", |it| it.1)
+        .column("size", "", "tiles of a cluster", |it| it.2)
+        .column("count", "", "clusters of this size", |it| it.3)
+        .table("cluster_sizes")
+        .in_csv("clusters")
+}
+
+/// `trajectory.csv`, where frames are asked for.
+fn places(found: &Found) -> Table {
+    let kinds = &found.crowd.kinds;
+    let kept = samples(found).filter(|_| found.frames);
+    let tiles = kept.flat_map(|(run, at)| {
+        let movers = at.movers.iter().flatten().enumerate();
+        movers.map(move |(tile, mover)| (run.index, at.time, tile, *mover))
+    });
+    let pose = |mover: &Mover| mover.motion(&found.crowd).configuration;
+    let at = |axis: usize| move |it: &(usize, f64, usize, Mover)| pose(&it.3).to_array()[axis];
+    let velocity = |axis: usize| move |it: &(usize, f64, usize, Mover)| it.3.velocity[axis];
+    rows(tiles)
+        .column("run", "", "", |it| it.0)
+        .column("time_s", "", "", |it| it.1)
+        .column("tile", "", "", |it| it.2)
+        .column("kind", "", "", |it| kinds[it.3.kind].name.clone())
+        .column("x", "", "", at(0))
+        .column("y", "", "", at(1))
+        .column("theta", "", "", at(2))
+        .column("vx", "", "", velocity(0))
+        .column("vy", "", "", velocity(1))
+        .column("omega", "", "", velocity(2))
+        .table("trajectory")
+        .in_csv("trajectory")
+}
+
+/// The first run, a frame a sample.
+fn trajectory(found: &Found) -> Vec<u8> {
+    let crowd = &found.crowd;
+    let particle = |mover: &Mover| {
+        let motion = mover.motion(crowd);
+        let body = &crowd.kinds[mover.kind].body;
+        Particle {
+            place: [motion.configuration.x, motion.configuration.y],
+            theta: motion.configuration.theta,
+            velocity: mover.velocity.into(),
+            kind: mover.kind,
+            mass: body.mass,
+            inertia: body.inertia,
+        }
+    };
+    let samples = found.runs.iter().take(1).flat_map(|run| &run.samples);
+    let frames: Vec<Vec<Particle>> = samples
+        .filter_map(|sample| sample.movers.as_ref())
+        .map(|movers| movers.iter().map(particle).collect())
+        .collect();
+    let kinds: Vec<(String, gsd::Polygon)> = crowd
+        .kinds
+        .iter()
+        .map(|kind| {
+            let corners = kind.tile.outline.vertices().iter();
+            (kind.name.clone(), corners.map(|it| [it.x, it.y]).collect())
+        })
+        .collect();
+    gsd::file(&kinds, crowd.half_size.map(|half| 2.0 * half), &frames)
+}
+
+fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
+    let moments = &found.statistics.moments;
+    let chart = |name, title: &str, y: Dimension| Chart {
+        name,
+        title: title.to_owned(),
+        x: Dimension::new("time_s", "time"),
+        y,
+        series: Vec::new(),
+        remark: String::new(),
+    };
+    let line = |of: fn(&Moment) -> Interval| {
+        moments.iter().map(move |it| {
+            let at = of(it);
+            Point {
+                x: it.time,
+                y: at.mean,
+                ends: at.low.zip(at.high).map(|(low, high)| [low, high]),
+            }
+        })
+    };
+    let held = chart(
+        "held",
+        "Bonds and traps over time",
+        Dimension::new("pairs", "held pairs"),
+    )
+    .with("bonds", Look::Line, line(|it| it.bonds))
+    .with("traps", Look::Line, line(|it| it.traps));
+    let largest = chart(
+        "largest",
+        "The largest cluster over time",
+        Dimension::new("tiles", "tiles"),
+    )
+    .with("largest cluster", Look::Line, line(|it| it.largest));
+    let mean = |of: fn(&Sample) -> f64| -> Vec<[f64; 2]> {
+        let runs = found.runs.len() as f64;
+        (0..moments.len())
+            .map(|k| {
+                let sum: f64 = found.runs.iter().map(|run| of(&run.samples[k])).sum();
+                [moments[k].time, sum / runs]
+            })
+            .collect()
+    };
+    let energy = chart(
+        "energy",
+        "Energy over time, mean of the runs",
+        Dimension::new("energy_J", "energy"),
+    )
+    .with("kinetic", Look::Line, mean(|it| it.kinetic))
+    .with("of magnets", Look::Line, mean(|it| it.potential))
+    .with("work of drives", Look::Line, mean(|it| it.account.work))
+    .with(
+        "lost in contact",
+        Look::Line,
+        mean(|it| it.account.contact_loss),
+    )
+    .with("lost to drag", Look::Line, mean(|it| it.account.drag_loss));
+    [held, largest, energy]
+        .into_iter()
+        .map(Into::into)
+        .collect()
+}
+
+/// How many pairs of a run are held in a way at the end.
+pub fn at_end(run: &Run, tie: Tie) -> usize {
+    run.samples.last().map_or(0, |last| last.count(tie))
+}

@@ -1,0 +1,550 @@
+//! Many tiles on a table, by the laws of mechanics and of heat.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use nalgebra::{Vector2, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tilebind::contact::Contact;
+use tilebind::dynamics::docking::MatchRule;
+use tilebind::dynamics::thermal_velocity;
+use tilebind::many_bodies::contacts::Tie;
+use tilebind::many_bodies::run::{Run, RunError, Start, run};
+use tilebind::many_bodies::{Crowd, Kind, Mover, Orbital, StartError, Stepper, TableSettings};
+use tilebind::potential::{Interaction, MagnetModel};
+use tilebind::tile::strength::Strength;
+use tilebind::tile::{Face, Magnet, Outline, Pair, Tile, face_to_face};
+use tilebind::{Configuration, ConfigurationSpace, Problem};
+
+const BAR: [f64; 3] = [0.010, 0.010, 0.003];
+
+/// A square of 100 g with a code on some of its faces, the magnets 4 cm apart.
+fn square(side: f64, code: &str, coded: &[usize]) -> Tile {
+    let corner = |k: usize| {
+        let angle = TAU / 4.0 * (k as f64 - 0.5);
+        Vector2::new(libm::cos(angle), libm::sin(angle)) * (side / libm::sqrt(2.0))
+    };
+    let faces: Vec<Face> = (0..4)
+        .map(|k| Face {
+            name: k.to_string(),
+            start: corner(k),
+            end: corner(k + 1),
+        })
+        .collect();
+    let magnets = coded.iter().flat_map(|&face| {
+        let middle = (code.len() - 1) as f64 / 2.0;
+        let at = &faces[face];
+        code.chars().enumerate().map(move |(k, pole)| {
+            let out = at.normal() * if pole == 'N' { 1.0 } else { -1.0 };
+            Magnet {
+                form: Default::default(),
+                position: at.point((k as f64 - middle) * 0.04, -BAR[0] / 2.0),
+                angle: libm::atan2(out.y, out.x),
+                moment: Strength::Remanence(1.2).moment(Default::default(), BAR),
+                size: BAR,
+                face,
+            }
+        })
+    });
+    Tile {
+        outline: Outline::new((0..4).map(corner).collect()).unwrap(),
+        magnets: magnets.collect(),
+        faces: faces.clone(),
+        mass: 0.1,
+        thickness: 0.013,
+    }
+}
+
+/// Tiles of which face 0 of the first binds face 2 of the second.
+fn problem(tiles: [Tile; 2], model: MagnetModel, table: [f64; 2]) -> Problem {
+    let [fixed, moving] = tiles;
+    let bound = face_to_face(&fixed.faces[0], &moving.faces[2], 0.0, 0.0);
+    let pair = Arc::new(Pair {
+        fixed,
+        moving,
+        target: (0, 2),
+        bound,
+    });
+    let space = ConfigurationSpace {
+        half_size: table.map(|size| size / 2.0),
+        rho: pair.moving.radius_of_gyration(),
+        free_distance: pair.free_distance(),
+    };
+    Problem::new(space, pair, &of(model))
+}
+
+fn of(model: MagnetModel) -> Interaction {
+    Interaction {
+        model,
+        ..Interaction::default()
+    }
+}
+
+fn crowd(problem: &Problem, model: MagnetModel) -> Crowd {
+    let pair = problem.pair.as_ref().unwrap();
+    let kinds = vec![
+        Kind::new("fixed", pair.fixed.clone()),
+        Kind::new("moving", pair.moving.clone()),
+    ];
+    let bonds = |i: usize, j: usize| match (i, j) {
+        (0, 1) => MatchRule::new(problem, None).into_iter().collect(),
+        _ => Vec::new(),
+    };
+    let size = problem.space.half_size;
+    let tolerance = 1e-4 * problem.depth();
+    Crowd::new(kinds, size, tolerance, &|_, _| of(model), bonds).unwrap()
+}
+
+/// One coded face each.
+fn one_face(model: MagnetModel) -> (Problem, Crowd) {
+    let tiles = [square(0.43, "NNNS", &[0]), square(0.43, "NSSS", &[2])];
+    let problem = problem(tiles, model, [2.0; 2]);
+    let crowd = crowd(&problem, model);
+    (problem, crowd)
+}
+
+/// Tiles without magnets.
+fn inert(side: f64, table: [f64; 2]) -> Crowd {
+    let tiles = [square(side, "", &[]), square(side, "", &[])];
+    crowd(
+        &problem(tiles, MagnetModel::Dipole, table),
+        MagnetModel::Dipole,
+    )
+}
+
+/// Nothing drives, damps or rubs.
+fn ideal(duration: f64) -> TableSettings {
+    TableSettings {
+        duration,
+        drag: 0.0,
+        friction: 0.0,
+        restitution: 1.0,
+        shaking: None,
+        kicks: 5e-3,
+        orbital: None,
+        fans: Vec::new(),
+        step: TableSettings::USUAL_STEP,
+        sampling: duration / 100.0,
+        walls: false,
+    }
+}
+
+fn mover(kind: usize, place: [f64; 3], velocity: [f64; 3]) -> Mover {
+    Mover {
+        kind,
+        place: place.into(),
+        velocity: velocity.into(),
+    }
+}
+
+fn stream(k: usize) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(k as u64)
+}
+
+/// Momentum along x and y and about the origin.
+fn momentum(crowd: &Crowd, movers: &[Mover]) -> Vector3<f64> {
+    let of = |it: &Mover| {
+        let body = &crowd.kinds[it.kind].body;
+        let p = it.velocity * body.mass;
+        let turn = it.place.x * p.y - it.place.y * p.x + body.inertia * it.velocity.z;
+        Vector3::new(p.x, p.y, turn)
+    };
+    movers.iter().map(of).sum()
+}
+
+fn totals(run: &Run) -> Vec<f64> {
+    let total = |it: &tilebind::many_bodies::Sample| it.kinetic + it.potential;
+    run.samples.iter().map(total).collect()
+}
+
+/// Two tiles that fly at each other, off centre.
+fn thrown() -> Vec<Mover> {
+    vec![
+        mover(0, [-0.4, 0.0, 0.0], [0.3, 0.02, 0.0]),
+        mover(1, [0.3, 0.05, 0.4], [-0.3, 0.0, 0.5]),
+    ]
+}
+
+#[test]
+fn momentum_is_kept_and_energy_never_rises() {
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+        let (problem, crowd) = one_face(model);
+        for (friction, restitution) in [(0.0, 1.0), (0.3, 0.5), (0.3, 0.01)] {
+            let settings = TableSettings {
+                friction,
+                restitution,
+                ..ideal(3.0)
+            };
+            let mut stepper = Stepper::new(&crowd, &settings, thrown(), &stream);
+            let start = momentum(&crowd, &stepper.movers());
+            let mut energy = stepper.kinetic() + stepper.potential();
+            for _ in 0..3000 {
+                stepper.step().unwrap();
+                let off = momentum(&crowd, &stepper.movers()) - start;
+                assert!(off.xy().norm() < 1e-9 * 0.03, "{off:?}");
+                // Where tiles are held within a step they have moved less than their velocities say.
+                assert!(off.z.abs() < 1e-6 * 0.03, "{off:?}");
+                let now = stepper.kinetic() + stepper.potential();
+                assert!(now < energy + 1e-6 * problem.depth(), "{now} {energy}");
+                energy = now;
+            }
+        }
+    }
+}
+
+#[test]
+fn elastic_knocks_keep_energy_in_a_bond() {
+    let (problem, crowd) = one_face(MagnetModel::Cuboid);
+    let bound = problem.pair.as_ref().unwrap().bound;
+    let mut rng = stream(5);
+    let mut movers = vec![
+        mover(0, [0.0; 3], [0.0; 3]),
+        mover(1, [bound.x + 1e-5, bound.y, bound.theta], [0.0; 3]),
+    ];
+    for it in &mut movers {
+        it.velocity = thermal_velocity(&crowd.kinds[it.kind].body, 3e-3, &mut rng);
+    }
+    let settings = ideal(2.0);
+    let found = run(&crowd, &settings, (1, 0), &Start::Given(movers), false).unwrap();
+    let totals = totals(&found);
+    assert_eq!(found.step, settings.step);
+    for total in &totals {
+        assert!(
+            (total - totals[0]).abs() < 0.02 * 3e-3,
+            "{total} {}",
+            totals[0]
+        );
+    }
+    let last = found.samples.last().unwrap();
+    assert_eq!((last.count(Tie::Bond), last.count(Tie::Trap)), (1, 0));
+    assert_eq!(last.clusters, [2]);
+}
+
+/// Mean kinetic energy per degree of freedom over kT, and its standard error by halves of the runs.
+fn kinetic(crowd: &Crowd, settings: &TableSettings, start: &Start, runs: usize) -> [f64; 2] {
+    let kt = settings.shaking.unwrap();
+    let of = |index| {
+        run(crowd, settings, (3, index), start, false)
+            .unwrap()
+            .kinetic
+            / kt
+    };
+    let all: Vec<f64> = (0..runs).map(of).collect();
+    let n = runs as f64;
+    let mean = all.iter().sum::<f64>() / n;
+    let square: f64 = all.iter().map(|it| (it - mean) * (it - mean)).sum();
+    [mean, libm::sqrt(square / (n - 1.0) / n)]
+}
+
+#[test]
+fn a_gas_has_the_temperature_of_its_shaking() {
+    let crowd = inert(0.12, [2.0; 2]);
+    let settings = TableSettings {
+        shaking: Some(3e-3),
+        drag: 20.0,
+        walls: true,
+        ..ideal(15.0)
+    };
+    let [mean, error] = kinetic(&crowd, &settings, &Start::Random(vec![20, 20]), 4);
+    assert!(
+        error < 0.004 && (mean - 0.5).abs() < 0.01,
+        "{mean} +- {error}"
+    );
+}
+
+#[test]
+fn bound_tiles_have_the_temperature_of_their_shaking() {
+    let (problem, crowd) = one_face(MagnetModel::Dipole);
+    let bound = problem.pair.as_ref().unwrap().bound;
+    let movers = vec![
+        mover(0, [0.0; 3], [0.0; 3]),
+        mover(1, [bound.x + 1e-5, bound.y, bound.theta], [0.0; 3]),
+    ];
+    let settings = TableSettings {
+        shaking: Some(2e-3),
+        drag: 50.0,
+        ..ideal(120.0)
+    };
+    let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), 8);
+    assert!(
+        error < 0.004 && (mean - 0.5).abs() < 0.01,
+        "{mean} +- {error}"
+    );
+}
+
+/// The share of time in which two tiles are bound on a small table, by the method of Metropolis.
+fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
+    let pair = problem.pair.as_ref().unwrap();
+    let rule = MatchRule::new(problem, None).unwrap();
+    let tiles = [&pair.fixed, &pair.moving];
+    let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
+    let half = problem.space.half_size;
+    let is_on_table = |tile: &Tile, q: &Configuration| {
+        tile.outline.vertices().iter().all(|corner| {
+            let p = q.transform(*corner);
+            p.x.abs() <= half[0] && p.y.abs() <= half[1]
+        })
+    };
+    let relative = |[a, b]: [Configuration; 2]| {
+        let p = a.inverse_transform(b.position());
+        Configuration::new(p.x, p.y, b.theta - a.theta)
+    };
+    let mut rng = stream(11);
+    let mut places = [
+        Configuration::new(-0.03, 0.0, 0.0),
+        Configuration::new(0.03, 0.0, 0.0),
+    ];
+    let mut energy = problem.potential().energy(&relative(places));
+    let (mut bound, moves) = (0, 3_000_000);
+    for k in 0..moves {
+        // Small and large moves by turns.
+        let size = [5e-4, 2e-3, 0.01, 0.1][k % 4];
+        let tile = (k / 4) % 2;
+        let mut even = |size: f64| size * (2.0 * rng.random::<f64>() - 1.0);
+        let (x, y, turn) = (even(size), even(size), even(30.0 * size));
+        let mut tried = places;
+        tried[tile] = places[tile].moved(Vector3::new(x, y, turn));
+        let q = relative(tried);
+        if is_on_table(tiles[tile], &tried[tile]) && contact.is_free(&q) {
+            let there = problem.potential().energy(&q);
+            if rng.random::<f64>() < libm::exp((energy - there) / kt) {
+                (places, energy) = (tried, there);
+            }
+        }
+        bound += usize::from(rule.holds(&relative(places)));
+    }
+    bound as f64 / moves as f64
+}
+
+#[test]
+fn two_tiles_are_bound_as_often_as_boltzmann_says() {
+    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles, model, [0.14; 2]);
+    let crowd = crowd(&problem, model);
+    let kt = problem.depth() / 12.5;
+    let expected = share_by_metropolis(&problem, kt);
+    let settings = TableSettings {
+        shaking: Some(kt),
+        drag: 20.0,
+        walls: true,
+        sampling: 0.05,
+        ..ideal(600.0)
+    };
+    let share = |index| {
+        let start = Start::Random(vec![1, 1]);
+        let found = run(&crowd, &settings, (2, index), &start, false).unwrap();
+        let bound = found
+            .samples
+            .iter()
+            .filter(|it| it.count(Tie::Bond) == 1)
+            .count();
+        bound as f64 / found.samples.len() as f64
+    };
+    let shares: Vec<f64> = (0..12).map(share).collect();
+    let mean = shares.iter().sum::<f64>() / 12.0;
+    let square: f64 = shares.iter().map(|it| (it - mean) * (it - mean)).sum();
+    let error = libm::sqrt(square / (11.0 * 12.0));
+    assert!((0.1..0.9).contains(&expected), "{expected}");
+    assert!(
+        error < 0.03 && (mean - expected).abs() < 3.0 * error,
+        "{mean} +- {error}, {expected}"
+    );
+}
+
+#[test]
+fn the_cut_off_leaves_out_no_more_than_it_says() {
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+        let tiles = [square(0.2, "NNN", &[0]), square(0.2, "SNS", &[1, 2])];
+        let problem = problem(tiles, model, [2.0; 2]);
+        let crowd = crowd(&problem, model);
+        let mut rng = stream(1);
+        for couple in crowd.couples() {
+            let cutoff = &couple.cutoff;
+            assert!(cutoff.left_out <= 1e-4 * problem.depth());
+            let mut largest: f64 = 0.0;
+            for _ in 0..4000 {
+                let mut turn = || TAU * rng.random::<f64>();
+                let (bearing, theta) = (turn(), turn());
+                let r = cutoff.from * (1.0 + rng.random::<f64>());
+                let q = Configuration::new(r * libm::cos(bearing), r * libm::sin(bearing), theta);
+                largest = largest.max(couple.potential.energy(&q).abs());
+            }
+            // The poses that it looked at are 20 degrees apart.
+            assert!(largest < 1.1 * cutoff.left_out, "{largest} {cutoff:?}");
+        }
+    }
+}
+
+#[test]
+fn a_run_depends_on_nothing_but_its_seed() {
+    let (_, crowd) = one_face(MagnetModel::Dipole);
+    let settings = TableSettings {
+        shaking: Some(3e-3),
+        drag: 1.0,
+        friction: 0.3,
+        restitution: 0.1,
+        walls: true,
+        ..ideal(1.0)
+    };
+    let start = Start::Random(vec![2, 2]);
+    let last = |seed| {
+        let found = run(&crowd, &settings, (seed, 0), &start, true).unwrap();
+        found.samples.last().unwrap().movers.clone().unwrap()
+    };
+    assert_eq!(last(1), last(1));
+    assert_ne!(last(1), last(2));
+}
+
+#[test]
+fn tiles_stay_on_the_table_and_apart() {
+    let (_, crowd) = one_face(MagnetModel::Cuboid);
+    let settings = TableSettings {
+        shaking: Some(2e-2),
+        drag: 2.0,
+        friction: 0.3,
+        restitution: 0.6,
+        walls: true,
+        ..ideal(4.0)
+    };
+    let found = run(&crowd, &settings, (7, 0), &Start::Random(vec![3, 3]), true).unwrap();
+    assert!(found.energy_error < 1e-3, "{}", found.energy_error);
+    let outlines: Vec<&Outline> = crowd.kinds.iter().map(|kind| &kind.tile.outline).collect();
+    for sample in &found.samples {
+        let movers = sample.movers.as_ref().unwrap();
+        let places: Vec<_> = movers
+            .iter()
+            .map(|it| it.motion(&crowd).configuration)
+            .collect();
+        for (k, a) in places.iter().enumerate() {
+            for vertex in outlines[movers[k].kind].vertices() {
+                let p = a.transform(*vertex);
+                assert!(p.x.abs() < 1.0 + 1e-6 && p.y.abs() < 1.0 + 1e-6, "{p:?}");
+            }
+            for (l, b) in places.iter().enumerate().skip(k + 1) {
+                let contact = Contact::new(outlines[movers[k].kind], outlines[movers[l].kind]);
+                let p = a.inverse_transform(b.position());
+                let q = Configuration::new(p.x, p.y, b.theta - a.theta);
+                assert!(contact.clearance(&q) > -1e-6, "{}", contact.clearance(&q));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_knock_rubs_by_the_coefficient_of_friction() {
+    // Flat against the rim the tile loses its 0.02 m/s towards it, and mu times that along it.
+    let crowd = inert(0.2, [4.0, 1.0]);
+    let settings = TableSettings {
+        friction: 0.2,
+        restitution: 0.0,
+        walls: true,
+        ..ideal(1.0)
+    };
+    let sliding = mover(0, [0.0, -0.395, 0.0], [0.3, -0.02, 0.0]);
+    let found = run(
+        &crowd,
+        &settings,
+        (1, 0),
+        &Start::Given(vec![sliding]),
+        true,
+    )
+    .unwrap();
+    let last = found.samples.last().unwrap().movers.clone().unwrap()[0];
+    assert!(
+        (last.velocity.x - (0.3 - 0.2 * 0.02)).abs() < 1e-6,
+        "{last:?}"
+    );
+    assert!(last.velocity.y.abs() < 1e-3, "{last:?}");
+}
+
+#[test]
+fn on_a_table_that_goes_round_a_free_tile_stands_still() {
+    // Seen from the table it goes round the other way: -A (cos, sin) about where it was.
+    let crowd = inert(0.1, [2.0; 2]);
+    let orbital = Orbital {
+        amplitude: 0.01,
+        frequency: 2.0,
+    };
+    let rate = TAU * orbital.frequency;
+    let settings = TableSettings {
+        orbital: Some(orbital),
+        ..ideal(1.0)
+    };
+    let still = mover(0, [0.3 - 0.01, 0.0, 0.0], [0.0, -0.01 * rate, 0.0]);
+    let found = run(&crowd, &settings, (1, 0), &Start::Given(vec![still]), true).unwrap();
+    for sample in &found.samples {
+        let place = sample.movers.as_ref().unwrap()[0].place;
+        let phase = rate * sample.time;
+        let expected = Vector2::new(0.3 - 0.01 * libm::cos(phase), -0.01 * libm::sin(phase));
+        assert!(
+            (place.xy() - expected).norm() < 1e-5,
+            "{place:?} {expected:?}"
+        );
+    }
+    assert!(found.energy_error < 1e-4, "{}", found.energy_error);
+}
+
+#[test]
+fn drag_takes_what_it_should() {
+    let crowd = inert(0.1, [2.0; 2]);
+    let settings = TableSettings {
+        drag: 0.7,
+        ..ideal(1.0)
+    };
+    let flying = mover(0, [0.0; 3], [0.2, 0.1, 1.0]);
+    let found = run(&crowd, &settings, (1, 0), &Start::Given(vec![flying]), true).unwrap();
+    let last = found.samples.last().unwrap();
+    let expected = flying.velocity * libm::exp(-0.7);
+    let velocity = last.movers.as_ref().unwrap()[0].velocity;
+    assert!((velocity - expected).norm() < 1e-9, "{velocity:?}");
+    assert!(found.energy_error < 1e-9);
+}
+
+#[test]
+fn what_cannot_start_is_told() {
+    let crowd = inert(0.4, [1.0; 2]);
+    let settings = ideal(1.0);
+    let tried = |start| run(&crowd, &settings, (1, 0), &start, false).map(|_| ());
+    let fails = |start, is: &dyn Fn(&StartError) -> bool| match tried(start) {
+        Err(RunError::Start(error)) => assert!(is(&error), "{error}"),
+        other => panic!("{other:?}"),
+    };
+    fails(Start::Random(vec![4, 4]), &|it| {
+        matches!(it, StartError::TooMany { .. })
+    });
+    fails(Start::Random(vec![3, 3]), &|it| {
+        matches!(it, StartError::NoRoom { .. })
+    });
+    let at = |x: f64| mover(0, [x, 0.0, 0.0], [0.0; 3]);
+    fails(Start::Given(vec![at(0.0), at(0.399)]), &|it| {
+        matches!(
+            it,
+            StartError::Overlap {
+                first: 0,
+                second: 1,
+                ..
+            }
+        )
+    });
+    assert_eq!(tried(Start::Given(vec![at(0.0), at(0.4)])), Ok(()));
+    let walled = TableSettings {
+        walls: true,
+        ..ideal(1.0)
+    };
+    let beyond = run(
+        &crowd,
+        &walled,
+        (1, 0),
+        &Start::Given(vec![at(0.31)]),
+        false,
+    );
+    assert!(matches!(
+        beyond,
+        Err(RunError::Start(StartError::BeyondRim { tile: 0, .. }))
+    ));
+    let fast = mover(0, [0.0; 3], [1e4, 0.0, 0.0]);
+    let fast = run(&crowd, &settings, (1, 0), &Start::Given(vec![fast]), false);
+    assert!(matches!(fast, Err(RunError::BlowUp(_))));
+}
