@@ -190,11 +190,7 @@ impl Island<'_> {
             let left = duration - time;
             let longest = self.longest_step(state).min(left);
             let points = self.points(state, longest);
-            let touching = points.iter().any(|hold| hold.gap <= self.travel());
-            let longest = match touching {
-                true => longest.min(self.time_to_travel(state)),
-                false => longest,
-            };
+            let longest = longest.min(self.time_to_travel(state, &points));
             let h = self.until_knock(state, &points, longest);
             happened.contact_loss += self.step(state, points, masses, h);
             happened.steps += 1;
@@ -228,44 +224,63 @@ impl Island<'_> {
         of[tile].xy().norm() + reach * of[tile].z.abs()
     }
 
-    fn fastest_of_all(&self, of: &[Vector3<f64>]) -> f64 {
-        let tiles = 0..self.riders.len();
-        tiles.map(|tile| self.fastest(tile, of)).fold(0.0, f64::max)
+    /// The same of the second tile of a pair as the first one sees it, with which it turns.
+    fn relative(&self, two: Two, of: &[Vector3<f64>]) -> f64 {
+        let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
+        let between = (second.place - first.place).xy();
+        let [a, b] = [of[two.first], of[two.second]];
+        let carried = Vector2::new(-between.y, between.x) * a.z;
+        let reach = self.crowd.kinds[second.kind].reach;
+        (b.xy() - a.xy() - carried).norm() + reach * (b.z - a.z).abs()
     }
 
-    /// The longest step (s) in which forces change little.
+    /// The longest step (s) in which the forces of pairs change little that move against each other.
     fn longest_step(&self, state: &State) -> f64 {
-        if self.fastest_of_all(&state.velocities) < SLOW {
-            return f64::INFINITY;
-        }
-        let pull = self.fastest_of_all(&state.accelerations);
-        SHARE * self.settings.fineness() * (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+        let limit = |two: Two| {
+            if self.relative(two, &state.velocities) < SLOW {
+                return f64::INFINITY;
+            }
+            let pull = self.relative(two, &state.accelerations);
+            (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+        };
+        let limits = self.pairs.iter().map(|(two, _)| limit(*two));
+        SHARE * self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
-    /// How long (s) until a tile has gone as far as it may in contact.
-    fn time_to_travel(&self, state: &State) -> f64 {
-        let speed = self.fastest_of_all(&state.velocities);
-        self.travel() / speed.max(f64::MIN_POSITIVE)
+    /// How long (s) until what touches has gone as far as it may in contact.
+    fn time_to_travel(&self, state: &State, holds: &[Hold]) -> f64 {
+        let speed = |hold: &Hold| match hold.tiles {
+            [Some(first), Some(second)] => self.relative(Two { first, second }, &state.velocities),
+            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &state.velocities)),
+        };
+        let touching = holds.iter().filter(|hold| hold.gap <= self.travel());
+        let fastest = touching.map(speed).fold(0.0, f64::max);
+        self.travel() / fastest.max(f64::MIN_POSITIVE)
     }
 
     /// The points that may be touched in a step of at most this length (s).
     fn points(&mut self, state: &State, h: f64) -> Vec<Hold> {
-        let way: Vec<f64> = (0..self.riders.len())
-            .map(|tile| {
-                let [v, a] =
-                    [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, of));
-                h * (v + 0.5 * h * a)
-            })
-            .collect();
+        let way = |speed: f64, growth: f64| h * (speed + 0.5 * h * growth);
+        let ways = self.pairs.iter().map(|(two, _)| {
+            let [v, a] =
+                [&state.velocities, &state.accelerations].map(|of| self.relative(*two, of));
+            way(v, a)
+        });
+        let ways: Vec<f64> = ways.collect();
+        let own = (0..self.riders.len()).map(|tile| {
+            let [v, a] = [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, of));
+            way(v, a)
+        });
+        let own: Vec<f64> = own.collect();
         let margin = |way: f64| LEAST_MARGIN.max(3.0 * way);
         let mut holds = Vec::new();
         let (crowd, riders) = (self.crowd, &self.riders);
         let centre = |tile: usize| riders[tile].mover.place.xy();
-        for (two, near) in &mut self.pairs {
+        for ((two, near), way) in self.pairs.iter_mut().zip(ways) {
             let tiles = [two.first, two.second];
             let [a, b] = tiles.map(|tile| configuration(crowd, &riders[tile].mover));
             let kinds = tiles.map(|tile| riders[tile].mover.kind);
-            let margin = margin(way[two.first] + way[two.second]);
+            let margin = margin(way);
             for point in near.points(crowd, &relative(&a, &b), kinds, margin) {
                 let at = a.transform(point.on_moving);
                 let axis = a.rotation() * point.normal;
@@ -278,7 +293,7 @@ impl Island<'_> {
                 at_rim(
                     crowd,
                     &rider.mover,
-                    margin(way[tile]),
+                    margin(own[tile]),
                     &mut |point, axis, gap| {
                         holds.push(Hold::new([None, Some(tile)], point, axis, gap, centre));
                     },

@@ -110,6 +110,10 @@ impl Mover {
 fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) -> f64 {
     let (couple, swapped) = crowd.couple(a.0, b.0);
     let [first, second] = if swapped { [&b, &a] } else { [&a, &b] };
+    let apart = (a.1.position() - b.1.position()).norm() - couple.radii();
+    if apart > enough {
+        return apart;
+    }
     let q = super::pair::relative(&first.1, &second.1);
     let bound = couple.contact.clearance_bound(&q);
     if bound > enough {
