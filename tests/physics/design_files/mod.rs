@@ -104,7 +104,7 @@ fn the_paper_s_tile_is_what_its_file_says() {
         (design.name.as_str(), design.sha256.as_str()),
         (
             "flat-nnns",
-            "b80ed904c0b0071175466d563911a5e45a26fd2839b260d3301619e08fe29354"
+            "5d8d9d7286d8f6babba4ed4fc3e3c3335169737d415281edf1f10a2df714d4fa"
         )
     );
     assert_eq!(design.pair.bound, Configuration::new(0.43, 0.0, 0.0));
