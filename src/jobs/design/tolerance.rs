@@ -105,7 +105,11 @@ mod tests {
 
     #[test]
     fn digits_that_differ_are_told() {
-        assert_eq!(told_apart(0.08, 0.080_000_12), ["80 mm", "80.00012 mm"]);
+        assert_eq!(told_apart(0.08, 0.080_000_12), ["80 mm", "80.0001 mm"]);
+        assert_eq!(
+            told_apart(0.08, 0.080_000_000_12),
+            ["80 mm", "80.0000001 mm"]
+        );
         assert_eq!(told_apart(0.1, 0.08), ["100 mm", "80 mm"]);
         assert_eq!(micrometres(1.2e-7), "0.120 um");
     }

@@ -144,7 +144,7 @@ fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
         assert!(error.message.contains("the shape"), "{error}");
     }
     // Not one curve, but thousands of them.
-    let petals = "c900 0 900 900 0 0".repeat(20_000);
+    let petals = "c900 0 900 900 0 0".repeat(60_000);
     let petals = drawn(&format!("<path d=\"M0 0{petals}z\"/>"));
     let error = at_once(move || outlined(&petals, ""));
     assert!(

@@ -15,6 +15,9 @@ const WIDEST_GAP: f64 = 1e-4;
 /// The same as a share of the drawn lines' extent, for very small tiles.
 const WIDEST_SHARE: f64 = 0.01;
 
+/// Longest piece that closes a line and is taken for a gap, in sizes of the segments beside it.
+const SHORT: f64 = 0.1;
+
 /// Most lines that are joined: the ends of all may lie side by side.
 const MOST_LINES: usize = 10_000;
 
@@ -94,12 +97,17 @@ pub(super) fn size(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 /// A line without the piece that closes it, where that is no more than a gap.
 fn opened(line: &Line, widest: f64) -> Line {
     let mut line = line.clone();
-    let [.., before, _] = &line.segments[..] else {
+    let [first, middle @ .., before, _] = &line.segments[..] else {
         return line;
     };
     let from = before.points.last().copied().unwrap_or(line.start);
     let gap = apart(from, line.start);
-    if line.closed && line.closing && gap > SAME_POINT && gap <= widest {
+    // A traced line closes with a step like its others.
+    let begun = middle.last().unwrap_or(first).points.last();
+    let before = begun.into_iter().chain(&before.points).copied();
+    let after = std::iter::once(line.start).chain(first.points.iter().copied());
+    let is_short = gap <= SHORT * extent(before).min(extent(after));
+    if line.closed && line.closing && is_short && gap > SAME_POINT && gap <= widest {
         line.segments.pop();
         line.closed = false;
     }

@@ -12,12 +12,12 @@
 //! stay arcs: `usvg` gives paths without places, in single precision, arcs as cubics, what it cannot
 //! read left out without a word.
 //!
-//! Curves become chords between points on the curve, no chord farther from it than a share of the
-//! size of the curve and of all that is drawn as one shape ([`document::chord_error`]). Arcs go by way
-//! of cubics that leave them by a millionth of their radius; which points lie on an arc is kept for
-//! the workshop. Of lines with very many points, as tracing programs draw them, the points are left
-//! out that lie within half the chord error of the others; curves then are drawn to within the other
-//! half.
+//! Curves become chords, no chord farther from its curve than a share of the size of the curve and of
+//! all that is drawn as one shape ([`document::chord_error`]). Arcs go by way of cubics that leave them
+//! by a millionth of their radius, and the ends of their chords by no more than four; which points lie
+//! on an arc is kept for the workshop. Of lines with very many points, as tracing programs draw them,
+//! the points are left out that lie within half the chord error of the others; curves then are drawn to
+//! within the other half.
 //!
 //! Lines whose ends meet are one line ([`join`]); gaps up to 0.1 mm are closed with a warning. Shapes
 //! without fill and stroke are left out, with a warning, where others have them.

@@ -105,7 +105,9 @@ impl Pen {
             return self.line_to(to);
         };
         let radius = arc.radii.x.abs().max(arc.radii.y.abs());
-        if radius.is_nan() || radius > LARGEST_RADIUS * self.at.distance(to) {
+        // Of what is large or small beyond all measure, there is no centre.
+        let is_placed = arc.center.is_finite() && (arc.start_angle + arc.sweep_angle).is_finite();
+        if !is_placed || radius.is_nan() || radius > LARGEST_RADIUS * self.at.distance(to) {
             self.overdrawn = true;
             return self.line_to(to);
         }
