@@ -124,7 +124,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         .column("tile", "", "", move |_| name).in_csv()
         .column("step", "step", "", |(step, _)| *step)
         .column("pocket", "pocket", "its face, and which magnet of it, counter-clockwise", move |it| pocket(it).name).viewed(told)
-        .column("pole", "pole outwards, or up", "", move |it| pocket(it).pole.letter().to_string())
+        .column("pole", "pole outwards", "", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "on the way in", "the largest push out", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("wall_m", "", "", move |it| pocket(it).wall)
         .column("depth_m", "", "", move |it| pocket(it).depth)

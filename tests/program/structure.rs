@@ -78,7 +78,7 @@ impl Reader {
     }
 
     /// A path as names from the crate's top, if it leads into the crate.
-    fn from_top(&self, path: &[String]) -> Option<Name> {
+    fn absolute(&self, path: &[String]) -> Option<Name> {
         let mut top = match path[0].as_str() {
             "crate" => Vec::new(),
             "self" | "super" => self.module.clone(),
@@ -90,7 +90,7 @@ impl Reader {
                 let (import, _) = imports.find(|(import, known)| {
                     known == name && ["crate", "self", "super"].contains(&import[0].as_str())
                 })?;
-                return self.from_top(&[import, &path[1..]].concat());
+                return self.absolute(&[import, &path[1..]].concat());
             }
         };
         for name in path {
@@ -151,10 +151,10 @@ fn read(module: Name, file: &Path, folder: &Path, modules: &mut BTreeMap<Name, M
         .paths
         .iter()
         .chain(reader.imports.iter().map(|(import, _)| import));
-    let named = paths.filter_map(|path| reader.from_top(path)).collect();
+    let named = paths.filter_map(|path| reader.absolute(path)).collect();
     let imports = reader.imports.iter();
     let known_as = imports
-        .filter_map(|(import, known)| Some((known.clone(), reader.from_top(import)?)))
+        .filter_map(|(import, known)| Some((known.clone(), reader.absolute(import)?)))
         .collect();
     let file = file.to_owned();
     modules.insert(

@@ -11,10 +11,19 @@ use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::TOUCH;
 use crate::dynamics::{Motion, thermal_velocity};
 
-/// Tiles placed at random are at least this far (m) from each other and from the rim.
-const ROOM: f64 = 2e-3;
-/// Places tried for a tile.
-const TRIES: usize = 20_000;
+/// Tiles placed at random are at least so far from each other and from the rim, as a share of the
+/// smallest one's circumradius.
+const ROOM: f64 = 1.0 / 150.0;
+/// Places tried for a tile, before the others are moved about.
+const TRIES: usize = 2_000;
+/// How often they are, and how many steps each makes every time, of up to this share of its
+/// circumradius, and as many radians.
+const SHUFFLES: usize = 500;
+const WANDERED: usize = 5;
+const STRIDE: f64 = 0.3;
+
+/// A tile's kind and where it is.
+type Place = (usize, Configuration);
 
 /// A tile on the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +51,7 @@ pub enum StartError {
     },
     /// No place was found.
     #[error(
-        "no free place was found for tile {tile} of {tiles} in {TRIES} tries: tiles at random places \
+        "no free place was found for tile {tile} of {tiles}, wherever the others went: tiles at random places \
          block each other before a table is full; here they would cover {share:.2} of it"
     )]
     NoRoom {
@@ -143,20 +152,26 @@ pub fn at_random(
         return Err(StartError::TooMany { tiles, area, table });
     }
     // One of each kind in turn, so that no kind has the best places.
-    let mut left = counts.to_vec();
-    let mut placed: Vec<(usize, Configuration)> = Vec::new();
-    while left.iter().any(|count| *count > 0) {
-        for kind in 0..left.len() {
-            if left[kind] > 0 {
-                left[kind] -= 1;
-                let q = free_place(crowd, kind, &placed, rng).ok_or(StartError::NoRoom {
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let turns = (0..most).flat_map(|turn| (0..counts.len()).map(move |kind| (turn, kind)));
+    let mut placed: Vec<Place> = Vec::new();
+    for (_, kind) in turns.filter(|(turn, kind)| *turn < counts[*kind]) {
+        let mut rounds = 0..SHUFFLES;
+        let q = loop {
+            if let Some(q) = free_place(crowd, kind, &placed, rng) {
+                break q;
+            }
+            // Those that are there block each other's gaps: they make room by wandering.
+            if rounds.next().is_none() {
+                return Err(StartError::NoRoom {
                     tile: placed.len(),
                     tiles,
                     share: area / table,
-                })?;
-                placed.push((kind, q));
+                });
             }
-        }
+            shuffle(crowd, &mut placed, rng);
+        };
+        placed.push((kind, q));
     }
     placed.sort_by_key(|(kind, _)| *kind);
     let mover = |(kind, configuration): (usize, Configuration)| {
@@ -176,7 +191,7 @@ pub fn at_random(
 fn free_place(
     crowd: &Crowd,
     kind: usize,
-    placed: &[(usize, Configuration)],
+    placed: &[Place],
     rng: &mut ChaCha8Rng,
 ) -> Option<Configuration> {
     (0..TRIES).find_map(|_| {
@@ -184,16 +199,45 @@ fn free_place(
         let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
         let [x, y] = crowd.half_size;
         let q = Configuration::new(even(x), even(y), wrap_angle(even(0.5 * TAU)));
-        let motion = Motion {
-            configuration: q,
-            velocity: Vector3::zeros(),
-        };
-        let is_free = Mover::new(crowd, kind, &motion).beyond(crowd) <= -ROOM
-            && placed
-                .iter()
-                .all(|other| clearance(crowd, [(kind, q), *other], ROOM) >= ROOM);
-        is_free.then_some(q)
+        is_free(crowd, (kind, q), placed.iter()).then_some(q)
     })
+}
+
+/// Moves each tile in turn a little at random, where that leaves it free: all that is kept of where it was
+/// is that tiles do not overlap.
+fn shuffle(crowd: &Crowd, placed: &mut [Place], rng: &mut ChaCha8Rng) {
+    for _ in 0..WANDERED {
+        for tile in 0..placed.len() {
+            crate::interruption::check();
+            let (kind, q) = placed[tile];
+            let mut even = || 2.0 * rng.random::<f64>() - 1.0;
+            let reach = STRIDE * crowd.kinds[kind].tile.outline.circumradius();
+            let step = Vector3::new(even() * reach, even() * reach, even() * STRIDE);
+            let moved = q.moved(step);
+            let moved = Configuration::new(moved.x, moved.y, wrap_angle(moved.theta));
+            let others = placed.iter().enumerate();
+            let others = others.filter(|(other, _)| *other != tile).map(|(_, it)| it);
+            if is_free(crowd, (kind, moved), others) {
+                placed[tile].1 = moved;
+            }
+        }
+    }
+}
+
+/// Whether a tile is on the table and clear of others.
+fn is_free<'a>(
+    crowd: &Crowd,
+    (kind, q): Place,
+    mut others: impl Iterator<Item = &'a Place>,
+) -> bool {
+    let motion = Motion {
+        configuration: q,
+        velocity: Vector3::zeros(),
+    };
+    let radii = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
+    let room = ROOM * radii.fold(f64::INFINITY, f64::min);
+    Mover::new(crowd, kind, &motion).beyond(crowd) <= -room
+        && others.all(|other| clearance(crowd, [(kind, q), *other], room) >= room)
 }
 
 /// Whether tiles are free of each other and on the table.
