@@ -7,6 +7,7 @@ use crate::Refused;
 use crate::assembly;
 use crate::design::{Design, MagnetModel};
 use crate::request::{Misused, of_keywords};
+use physics::observer::Silent;
 use physics::table::Crowd;
 
 /// What tiles of a set cover of their table.
@@ -63,7 +64,7 @@ impl About {
         })?;
         let asked = assembly::Request { model, ..asked };
         let set = asked.tile_set(file)?;
-        let assembly = asked.build(&set, None, None)?;
+        let assembly = asked.build(&set, None, None, &Silent)?;
         let stage = &assembly.words.stage;
         let tile = &stage.pair.fixed.outline;
         let tiles = request.count.iter().sum::<usize>().max(1);
