@@ -6,6 +6,7 @@ use clap::Args;
 use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
+use tilebind::request;
 use tilebind::table::{self, About, Request};
 
 use super::options::ThreadOption;
@@ -32,7 +33,7 @@ pub struct TableCommand {
     tiles: PathBuf,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
-    #[arg(long, value_name = "MODEL", value_parser = tilebind::request::model(),
+    #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 

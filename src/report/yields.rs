@@ -44,6 +44,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
                 format!("on: {told}; off: {}", detachment(question)),
                 lifetimes(question),
             ])
+            .chain(dissipation(question))
             .collect(),
         origin: format!(
             "{} magnets; {told}, detachment {}; a tile binds one partner at most",
@@ -52,6 +53,18 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         ),
         ..Document::default()
     }
+}
+
+/// What to know where contact takes energy out of knocks.
+fn dissipation(question: &Question) -> Option<String> {
+    let motion = question.effort.motion();
+    let takes = motion.restitution < 1.0 || motion.friction > 0.0;
+    let is_docking = question.effort.source == Source::Docking;
+    (takes && is_docking).then(|| {
+        "contact takes energy out of knocks here, which no temperature knows of, and tiles bind one \
+         partner at most: `tilebind table` puts all of them on one table"
+            .to_owned()
+    })
 }
 
 fn answer(design: &Design, question: &Question, found: &Yields) -> String {
