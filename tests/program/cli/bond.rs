@@ -171,9 +171,9 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
         file.to_str().unwrap(),
         "--tiles=6",
         "--time=600",
-        "--kt=1.7e-3,2.1e-3",
-        "--runs=60",
-        "--duration=4",
+        "--kt=1.6e-3,2.1e-3",
+        "--runs=120",
+        "--duration=6",
         "--simulations=2000",
         "--json",
     ]);
