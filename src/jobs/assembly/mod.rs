@@ -140,6 +140,8 @@ impl TileSet {
     /// # Errors
     /// Where it is none.
     pub fn parse(text: &str, file: &str) -> Result<Self, DesignError> {
+        // Some editors begin a file with a mark of its byte order.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut set = match text.contains("tile edges=") && text.contains("num tile types=") {
             true => xgrow::read(text, file)?,
             false => rgrow::read(text, file)?,

@@ -138,6 +138,8 @@ fn what_only_steers_an_engine_is_noted() {
         TileSet::parse(yaml, "a").unwrap().passed_over,
         ["block", "update_rate"]
     );
+    let marked = format!("\u{feff}{yaml}");
+    assert_eq!(TileSet::parse(&marked, "a").unwrap().passed_over.len(), 2);
     let xgrow = "num tile types=1\nnum binding types=1\ntile edges={\n{00 1 0 1}\n}\nbinding \
                  strengths={1}\nblock=2 % large\nfission\nperiodic=False\nupdate_rate=10\n";
     let set = TileSet::parse(xgrow, "a").unwrap();

@@ -171,9 +171,9 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
         file.to_str().unwrap(),
         "--tiles=6",
         "--time=600",
-        "--kt=1.7e-3,2.1e-3",
+        "--kt=1.6e-3,2.1e-3",
         "--runs=120",
-        "--duration=4",
+        "--duration=6",
         "--simulations=2000",
         "--json",
     ]);
@@ -187,7 +187,7 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
         assert!(offs.len() > 3 && most > 100.0 * least, "{offs:?}");
         let simulated = &setting["yield_simulated"];
         let [mean, error] = ["mean", "standard_error"].map(|key| simulated[key].as_f64().unwrap());
-        assert!((share("yield") - mean).abs() <= 4.0 * error, "{setting}");
+        assert!((share("yield") - mean).abs() < 4.0 * error, "{setting}");
         assert!(
             setting["yield_method"]
                 .as_str()
