@@ -14,7 +14,7 @@
 //!
 //! Curves become chords, no chord farther from its curve than a share of the size of the curve and of
 //! all that is drawn as one shape ([`document::chord_error`]). Arcs go by way of cubics that leave them
-//! by a millionth of their radius, and the ends of their chords by no more than four; which points lie
+//! by a millionth of their radius, and the ends of their chords by less than a hundred-thousandth; which points lie
 //! on an arc is kept for the workshop. Of lines with very many points, as tracing programs draw them,
 //! the points are left out that lie within half the chord error of the others; curves then are drawn to
 //! within the other half.

@@ -8,6 +8,7 @@ use super::super::quantity;
 use super::super::reader::Entry;
 use super::super::source::Source;
 use super::document::Shape;
+use super::join::extent;
 use super::line::apart;
 use super::simplify::{MANY, simplified};
 use super::{SAME_POINT, only_line, with_shape};
@@ -18,8 +19,12 @@ use physics::tile::profile::{Arcs, Polyline};
 /// The keys of `outline`.
 pub(in crate::design) const OUTLINE_KEYS: [&str; 5] = ["file", "unit", "dpi", "id", "corners"];
 
-/// How far a corner may lie from the drawn point that is meant (m).
+/// How far a corner may lie from the drawn point that is meant (m): a curved side moves the centre of
+/// the area.
 const NEAR: f64 = 1e-3;
+
+/// The same as a share of the outline's longer side.
+const NEAR_SHARE: f64 = 0.02;
 
 /// Most faces of a tile.
 const MOST_FACES: usize = 64;
@@ -183,11 +188,13 @@ fn check_size(ring: &[Vector2<f64>]) -> std::result::Result<(), String> {
 /// The segments joined from corner to corner, from the first corner on.
 fn joined(segments: &Segments, corners: &Entry) -> Result<Segments> {
     let items = corners.array()?;
+    let points = segments.iter().flatten().map(|point| [point.x, point.y]);
+    let near = NEAR.max(NEAR_SHARE * extent(points));
     let mut places = Vec::with_capacity(items.len());
     for item in &items {
         let wanted = item.numbers::<2>(quantity::TILE_CORNER, "x and y of a corner")?;
         let (place, nearest) = nearest(segments, wanted);
-        if apart(wanted, nearest) > NEAR {
+        if apart(wanted, nearest) > near {
             let [x, y] = nearest.map(quantity::four_digits);
             return Err(item.error(
                 "no point of the outline is drawn there",
