@@ -400,16 +400,16 @@ mod tests {
             let set = set(weak);
             let grown = grow(&set, 10);
             assert_eq!(grown.tiles.len(), 2);
-            let found = kinetics(&set, &grown, gse, 10.0);
+            let found = kinetics(&set, &grown, gse, 13.0);
             assert_eq!(found.right + found.wrong, found.runs, "{found:?}");
             found.wrong as f64 / found.runs as f64
         };
         // 400 tosses of a coin: 0.025 is a standard error.
         assert!((share(0.9, 30.0) - 0.5).abs() < 0.1, "{}", share(0.9, 30.0));
-        assert_eq!(share(0.5, 14.0), 0.0);
+        assert_eq!(share(0.5, 17.0), 0.0);
         // A wrong tile that stays for t waits is there when the time is over: with the right one
         // coming once a wait it heals with the rate 1/t, half of the time wrongly.
-        assert!(share(0.9, 13.0) < 0.1);
+        assert!(share(0.9, 16.0) < 0.1);
     }
 
     /// Against the exact chain: one free place and one kind of tile is there K / (1 + K) of the time.
@@ -424,7 +424,7 @@ mod tests {
             ..set
         };
         let grown = grow(&set, 10);
-        let kinetics = Kinetics::new(&set, &grown).at(9.0, 9.5);
+        let kinetics = Kinetics::new(&set, &grown).at(12.5, 13.0);
         let mut state = State {
             tiles: vec![None; 9],
             rates: Tree::new(9),
@@ -455,14 +455,14 @@ mod tests {
         assert_eq!(kinetics.adrift(&tiles), [2, 3]);
     }
 
-    /// The colder, the more errors; near standstill a lattice with mismatches of 39 % of a bond
-    /// grows right.
+    /// The colder, the more errors; near standstill a lattice with mismatches of 25 % of a bond grows
+    /// right: two of them are less than Gmc and what nine kinds that fit equally badly count for, ln 9.
     #[test]
     fn cold_growth_makes_errors() {
         let mut set = lattice::unique([3, 3]);
         let n = set.glues.len();
         set.links = (0..n)
-            .flat_map(|a| (a + 1..n).map(move |b| (a, b, 0.39)))
+            .flat_map(|a| (a + 1..n).map(move |b| (a, b, 0.25)))
             .collect();
         set.seed = vec![(5, 5, 4)];
         set.size = Some([11, 11]);
@@ -473,14 +473,14 @@ mod tests {
         let grown = grow(&plain, 100);
         assert_eq!(grown.tiles.len(), 9);
         let at = |gse: f64| kinetics(&set, &grown, gse, 12.0);
-        let [hot, cool, cold] = [13.5, 22.0, 60.0].map(at);
+        let [hot, cool, cold] = [12.6, 22.0, 60.0].map(at);
         let [one, two, three] = [hot, cool, cold].map(|it| it.errors_a_tile);
         assert!(
             one <= two && two < three && three > 0.1,
             "{hot:?} {cool:?} {cold:?}"
         );
         assert!(
-            hot.right > 390 && cold.right < 40,
+            hot.right > 370 && cold.right < 40,
             "{hot:?} {cool:?} {cold:?}"
         );
     }

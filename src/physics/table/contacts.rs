@@ -1,8 +1,8 @@
 //! Bonds, traps and clusters of a moment.
 
 use super::crowd::Crowd;
+use super::mover::Mover;
 use super::pair::{Two, configuration, relative};
-use super::start::Mover;
 use crate::tile::outline::cross;
 
 /// Tiles with a clearance below this (m) touch, as far as being held is concerned.

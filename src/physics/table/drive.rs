@@ -6,8 +6,8 @@ use nalgebra::{Vector2, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use super::mover::Mover;
 use super::settings::TableSettings;
-use super::start::Mover;
 
 /// A tile with what shakes it.
 #[derive(Clone, Debug)]

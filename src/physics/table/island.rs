@@ -20,9 +20,9 @@ use nalgebra::{Vector2, Vector3};
 use super::crowd::Crowd;
 use super::drive::Rider;
 use super::hold::{ERROR, Hold, hold_back, kinetic, share_within};
+use super::mover::Mover;
 use super::pair::{Two, configuration, pull, relative};
 use super::settings::TableSettings;
-use super::start::Mover;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
 

@@ -44,6 +44,7 @@ pub mod crowd;
 mod drive;
 mod hold;
 mod island;
+mod mover;
 mod neighbours;
 mod pair;
 pub mod run;
@@ -52,7 +53,8 @@ pub mod start;
 mod stepper;
 
 pub use crowd::{Crowd, CrowdError, Kind};
+pub use mover::Mover;
 pub use run::{Run, Sample};
 pub use settings::{Orbital, TableSettings};
-pub use start::{Mover, StartError};
+pub use start::StartError;
 pub use stepper::Stepper;

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::crowd::{Couple, Crowd};
-use super::start::Mover;
+use super::mover::Mover;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::outline::cross;
 

@@ -5,8 +5,9 @@ use rand_chacha::ChaCha8Rng;
 
 use super::contacts::{Held, Tie, clusters, held};
 use super::crowd::Crowd;
+use super::mover::Mover;
 use super::settings::TableSettings;
-use super::start::{Mover, StartError, at_random, check};
+use super::start::{StartError, at_random, check};
 use super::stepper::{Account, BlowUp, Stepper};
 
 /// Energy that is not accounted for may be this share of the largest term; else the step is halved.

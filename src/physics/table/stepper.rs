@@ -6,10 +6,10 @@ use rand_chacha::ChaCha8Rng;
 use super::crowd::Crowd;
 use super::drive::{Drive, Rider};
 use super::island::{Happened, Island, NearPair, rim_room};
+use super::mover::Mover;
 use super::neighbours::Neighbours;
 use super::pair::{Two, configuration, pull, relative};
 use super::settings::TableSettings;
-use super::start::Mover;
 
 /// Tiles go no farther in a step than this share of what counts as near.
 const SHARE_OF_NEAR: f64 = 0.25;
