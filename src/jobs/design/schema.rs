@@ -159,6 +159,11 @@ mod tests {
                 .collect();
             let end = format!(" *({}) *$", units.join("|"));
             let pattern = limits["pattern"].as_str().unwrap();
+            // A magnet's axis may be a word, too.
+            let pattern = match name {
+                "axis" => pattern.strip_suffix("|^up$").unwrap(),
+                _ => pattern,
+            };
             assert!(pattern.ends_with(&end), "{name}: {pattern} and {end}");
         }
     }
