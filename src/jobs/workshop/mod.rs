@@ -111,7 +111,12 @@ impl MadeTile {
             let places: Vec<usize> = (0..tile.magnets.len()).filter(own).collect();
             let magnets: Vec<&Magnet> = places.iter().map(|&i| &tile.magnets[i]).collect();
             steps.extend(order::order(&magnets).into_iter().map(|step| {
-                let weight = DENSITY * GRAVITY * magnets[step.magnet].form.shape.volume(magnets[step.magnet].size);
+                let weight = DENSITY
+                    * GRAVITY
+                    * magnets[step.magnet]
+                        .form
+                        .shape
+                        .volume(magnets[step.magnet].size);
                 Filled {
                     pocket: places[step.magnet],
                     push: step.push,
