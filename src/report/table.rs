@@ -18,7 +18,7 @@ pub fn document<'a>(about: &About, found: &'a Found, seed: u64) -> Document<'a> 
     Document {
         title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
         answer: format!(
-            "{}: {} tiles hold each other in {} bonds and {} traps after {} ({}; {} of {} seed {seed})",
+            "{}: {} tiles hold each other in {} bonds and {} traps after {} ({}; {} {} seed {seed})",
             about.name,
             found.kinds.len(),
             told(&statistics.bonds),
@@ -183,7 +183,7 @@ fn sizes(found: &Found) -> Table {
 // One line a column.
 #[rustfmt::skip]
 fn course(found: &Found) -> Table {
-    let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low, high]) };
+    let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
     rows(found.statistics.moments.clone())
         .column("time_s", "", "since the start", |it| it.time)
         .column("bonds", "", "mean of the runs", |it| it.bonds.mean)
@@ -322,7 +322,7 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
             Point {
                 x: it.time,
                 y: at.mean,
-                ends: at.low.zip(at.high).map(|(low, high)| [low, high]),
+                ends: at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]),
             }
         })
     };

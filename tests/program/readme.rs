@@ -193,8 +193,19 @@ fn links_lead_somewhere() {
         let folder = Path::new(ROOT).join(file);
         for link in text.split("](").skip(1) {
             let (target, _) = link.split_once(')').unwrap();
+            let (target, heading) = target.split_once('#').unwrap_or((target, ""));
             let target = folder.parent().unwrap().join(target);
             assert!(target.exists(), "{file}: {}", target.display());
+            if !heading.is_empty() {
+                let of = |line: &str| {
+                    line.trim_matches(['#', ' '])
+                        .to_lowercase()
+                        .replace(' ', "-")
+                };
+                let text = std::fs::read_to_string(&target).unwrap();
+                let mut headings = text.lines().filter(|line| line.starts_with('#')).map(of);
+                assert!(headings.any(|it| it == heading), "{file}: #{heading}");
+            }
         }
     }
 }

@@ -226,23 +226,41 @@ pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
 /// Finishes what killed processes began, or puts back what they had taken out; for when nobody else
 /// writes.
 fn settle_leftovers(folder: &Path) {
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
-    let is_ours = |name: &str| {
-        let inner = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
-        let (process, number) = inner.split_once('-')?;
-        Some(is_number(process) && is_number(number))
-    };
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if is_folder && is_ours(&entry.file_name().to_string_lossy()) == Some(true) {
-            let place = entry.path();
+    for place in folders(folder) {
+        if is_ours(&place) {
             move_where_free(&place.join(OLD), folder);
             if place.join(GONE).exists() {
                 move_where_free(&place.join(NEW), folder);
             }
             let _ = fs::remove_dir_all(place);
+            continue;
+        }
+        // In folders of results it is only tried whether one can write there.
+        let probes = folders(&place).filter(|probe| is_ours(probe));
+        for probe in
+            probes.filter(|probe| ![NEW, OLD, GONE].iter().any(|it| probe.join(it).exists()))
+        {
+            let _ = fs::remove_dir_all(probe);
         }
     }
+}
+
+/// The folders in a folder.
+fn folders(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    folders.map(|entry| entry.path())
+}
+
+/// Whether a folder has the name of those of files on their way.
+fn is_ours(folder: &Path) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let inner = name
+        .strip_prefix(PREFIX)
+        .and_then(|name| name.strip_suffix(SUFFIX));
+    let numbers = inner.and_then(|inner| inner.split_once('-'));
+    numbers.is_some_and(|(process, number)| is_number(process) && is_number(number))
 }
 
 /// Moves all files of a folder into another one, but where something is already.

@@ -90,7 +90,7 @@ impl Document<'_> {
 impl Table {
     /// Whether people have anything to see in it.
     pub(super) fn is_shown(&self) -> bool {
-        self.is_viewed && !self.rows.is_empty()
+        self.is_viewed && !self.rows.is_empty() && self.viewed().next().is_some()
     }
 
     /// What people see on a terminal, its head first.
