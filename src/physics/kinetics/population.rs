@@ -16,7 +16,7 @@
 //!   trap with their mean rates, neither few pairs for long nor many for a moment;
 //! - beyond, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413, whose
 //!   difference equations these are in the limit of short steps): `dn_i/dt = kappa_i a b / S - k_i
-//!   n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their means. They take <ab> for `<a><b>`, which is off by the variance of the
+//!   n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their means. They take `<ab>` for `<a><b>`, which is off by the variance of the
 //!   number of free tiles: by parts of 1/N, and most where tiles are few;
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 

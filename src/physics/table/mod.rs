@@ -8,10 +8,10 @@
 //! contact, c the drag rate (1/s), and R the shaking.
 //!
 //! # Steps
-//! A step of the table ([`stepper`]) sorts the pairs of tiles into those whose outlines are near each
-//! other and the rest. Near pairs tie tiles together to [islands](island), of which each goes through the step in as
+//! A step of the table (`stepper`) sorts the pairs of tiles into those whose outlines are near each
+//! other and the rest. Near pairs tie tiles together to islands (`island`), of which each goes through the step in as
 //! many shorter ones as its forces and contacts need: velocity Verlet, whose steps end where a corner meets an
-//! edge. Knocks are impulses that obey Coulomb's law ([`hold`]). The forces of the other pairs, of fans
+//! edge. Knocks are impulses that obey Coulomb's law (`hold`). The forces of the other pairs, of fans
 //! and of shaking are held for one step, as they are in its middle. Each force acts on both tiles of a
 //! pair, so that momentum is kept to rounding.
 //!

@@ -9,7 +9,7 @@
 //! over the cuts' side of a cell holds for all its free configurations.
 //!
 //! All claims hold for configurations in which no point of a tile and no convex part lies deeper
-//! than [`relaxed`] inside the other, which includes every configuration that counts as free.
+//! than `relaxed` inside the other, which includes every configuration that counts as free.
 
 mod possible;
 mod side;

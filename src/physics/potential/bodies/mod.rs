@@ -12,16 +12,16 @@
 //!
 //! | faces | integral | by |
 //! |---|---|---|
-//! | a disc and any | the other's potential along the disc's axis, at imaginary heights | [`line`] |
-//! | two flat rectangles | over both boundaries | [`edges`] |
+//! | a disc and any | the other's potential along the disc's axis, at imaginary heights | `line` |
+//! | two flat rectangles | over both boundaries | `edges` |
 //! | two upright rectangles | closed forms in lanes | [`super::cuboid`] |
 //! | an upright and a flat one | none: flat faces come in pairs, north and south, at the same distance over and under the tiles' middle plane, which an upright one sees alike | |
 //!
-//! From some three sizes of the magnets on the multipole series takes over ([`series`]), with a bound of
+//! From some three sizes of the magnets on the multipole series takes over (`series`), with a bound of
 //! 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the terms left out. Point dipoles of which any stands are
 //! the first term of it, at every distance.
 //!
-//! Bounds of derivatives are those of [`limits`]; over whole cells none are known.
+//! Bounds of derivatives are those of `limits`; over whole cells none are known.
 
 mod complex;
 mod disc;
