@@ -66,7 +66,7 @@ def test_files_are_those_of_the_program(program, root, tmp_path, name):
     options = [f"--{key.replace('_', '-')}={value}" for key, value in SMALL.items()]
     run = [program, "analyse", str(file), *options, "--quiet"]
     subprocess.run([*run, "--out", str(tmp_path / "program")], check=True)
-    told = " ".join(["tilebind analyse", file.name, *options])
+    told = " ".join(["tilebind analyse", file.name, *options, "--out results"])
     found = tilebind.Design.load(file).analyse(progress=False, **SMALL)
     found.write(tmp_path / "python", command=told)
     theirs, ours = (

@@ -31,7 +31,7 @@ CALLS = {
     "match": "Design.matches",
     "rates": "Design.exits Analysis.rates",
     "sweep": "sweep",
-    "table": "AirTable.__call__",
+    "table": "_AirTable.__call__",
     "words": "words",
     "yield": "Design.yields",
 }

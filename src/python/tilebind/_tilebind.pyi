@@ -1,6 +1,6 @@
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, final
+from typing import Any, Literal, final, type_check_only
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +20,8 @@ _Floats = NDArray[np.float64]
 _Table = NDArray[np.void]
 _Value = float | str | bool | Sequence[Any] | Mapping[str, Any]
 
-class AirTable(tuple[float, float]):
+@type_check_only
+class _AirTable(tuple[float, float]):
     def __call__(
         self,
         time: float,
@@ -76,7 +77,7 @@ class Design:
     @property
     def bound(self) -> _Floats: ...
     @property
-    def table(self) -> AirTable: ...
+    def table(self) -> _AirTable: ...
     def outline(self, tile: _TileName) -> _Floats: ...
     def magnets(self, tile: _TileName) -> _Table: ...
     def energy(self, poses: ArrayLike, *, model: _Model | None = None) -> Any: ...

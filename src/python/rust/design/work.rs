@@ -387,6 +387,7 @@ impl Design {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked: docking::Request = request_with(py, settings, "shaking", shaking)?;
+        crate::fault::positive("shaking", asked.shaking)?;
         let (design, problem) = (&self.content.design, &**self.content.problem(None));
         let settings = asked.settings();
         let beside = overdamped.then(|| {
