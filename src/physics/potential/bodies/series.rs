@@ -23,7 +23,9 @@ use nalgebra::{Complex, Vector2};
 
 use super::Body;
 use crate::potential::cuboid::block::PairEnergy;
-use crate::potential::cuboid::multipole::{Form, product, rising_half};
+use crate::potential::cuboid::multipole::{
+    Form, along, composed, powers, product, rising_half, squares,
+};
 use crate::tile::magnet::Shape;
 use crate::units::MU0_OVER_4PI;
 
@@ -59,57 +61,18 @@ pub struct Coefficients {
 
 /// The terms of degree 0, 2, 4 .. of S, in the magnet's own directions.
 fn average(body: &Body) -> Vec<Form> {
-    // The squares of the derivatives along its first direction, across it, and upwards.
-    let squares: [Form; 3] = [
-        vec![1.0, 2.0, 1.0],
-        vec![-1.0, 2.0, -1.0],
-        vec![0.0, -4.0, 0.0],
-    ];
-    let length = |square: &Form, length: f64| {
-        let ratio = move |k: f64| length * length / 4.0 / (2.0 * k * (2.0 * k + 1.0));
-        powers(square, ratio)
-    };
-    let [first, across, up] = &squares;
+    let [first, across, up] = &squares();
     let [a, b, c] = body.size;
+    let length = |square: &Form, length: f64| along(square, BOUND_TERMS, length);
     let parts = match (body.shape, body.stands) {
         (Shape::Block, _) => vec![length(first, a), length(across, b), length(up, c)],
         (Shape::Disc, stands) => {
-            let (axis, along, diameter) = if stands { (up, c, a) } else { (first, a, b) };
-            let disc = move |k: f64| -diameter * diameter / 16.0 / (k * (k + 1.0));
-            vec![length(axis, along), powers(axis, disc)]
+            let (axis, height, diameter) = if stands { (up, c, a) } else { (first, a, b) };
+            let disc = |k: f64| -diameter * diameter / 16.0 / (k * (k + 1.0));
+            vec![length(axis, height), powers(axis, BOUND_TERMS, disc)]
         }
     };
-    let one = |k: usize| {
-        if k == 0 {
-            vec![1.0]
-        } else {
-            vec![0.0; 2 * k + 1]
-        }
-    };
-    parts.iter().fold(
-        (0..BOUND_TERMS).map(one).collect(),
-        |forms: Vec<Form>, part| {
-            let degree = |k: usize| {
-                let mut sum = vec![0.0; 2 * k + 1];
-                for j in 0..=k {
-                    let of = product(&forms[j], &part[k - j]);
-                    sum.iter_mut().zip(of).for_each(|(total, x)| *total += x);
-                }
-                sum
-            };
-            (0..BOUND_TERMS).map(degree).collect()
-        },
-    )
-}
-
-/// The powers of a square, each times its coefficient, of which `ratio(k)` is that of power k to the one before.
-fn powers(square: &Form, ratio: impl Fn(f64) -> f64) -> Vec<Form> {
-    let mut powers: Vec<Form> = vec![vec![1.0]];
-    for k in 1..BOUND_TERMS {
-        let next = product(&powers[k - 1], square);
-        powers.push(next.iter().map(|x| x * ratio(k as f64)).collect());
-    }
-    powers
+    composed(&parts, BOUND_TERMS)
 }
 
 impl Series {

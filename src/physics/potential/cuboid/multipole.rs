@@ -54,23 +54,37 @@ pub fn product(a: &[f64], b: &[f64]) -> Form {
     out
 }
 
-/// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
-fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
-    let squares: [Form; 3] = [
+/// The squares of the derivatives along a magnet's first direction, across it in the plane, and upwards.
+pub fn squares() -> [Form; 3] {
+    [
         vec![1.0, 2.0, 1.0],
         vec![-1.0, 2.0, -1.0],
         vec![0.0, -4.0, 0.0],
-    ];
+    ]
+}
+
+/// The powers of a square, each times its coefficient, of which `ratio(k)` is that of power k to the
+/// one before.
+pub fn powers(square: &Form, count: usize, ratio: impl Fn(f64) -> f64) -> Vec<Form> {
+    let mut powers: Vec<Form> = vec![vec![1.0]];
+    for k in 1..count {
+        let next = product(&powers[k - 1], square);
+        powers.push(next.iter().map(|x| x * ratio(k as f64)).collect());
+    }
+    powers
+}
+
+/// `sinhc(L d / 2)` for a length L (m), given the square of d.
+pub fn along(square: &Form, count: usize, length: f64) -> Vec<Form> {
+    let ratio = |k: f64| length * length / (4.0 * (2.0 * k) * (2.0 * k + 1.0));
+    powers(square, count, ratio)
+}
+
+/// The terms of degree 0, 2, 4 .. of a product of such operators.
+pub fn composed(parts: &[Vec<Form>], count: usize) -> Vec<Form> {
     let mut forms: Vec<Form> = (0..count).map(|k| vec![0.0; 2 * k + 1]).collect();
     forms[0][0] = 1.0;
-    for (square, length) in squares.iter().zip(size) {
-        let mut powers: Vec<Form> = vec![vec![1.0]];
-        for k in 1..count {
-            let k = k as f64;
-            let factor = length * length / (4.0 * (2.0 * k) * (2.0 * k + 1.0));
-            let next = product(powers.last().expect("never empty"), square);
-            powers.push(next.iter().map(|x| x * factor).collect());
-        }
+    for powers in parts {
         for k in (0..count).rev() {
             let mut sum = vec![0.0; 2 * k + 1];
             for j in 0..=k {
@@ -81,6 +95,16 @@ fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
             forms[k] = sum;
         }
     }
+    forms
+}
+
+/// The terms of degree 1, 3, 5 .. of `S d_a`, in the block's own directions.
+fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
+    let sides = squares().into_iter().zip(size);
+    let parts: Vec<_> = sides
+        .map(|(square, length)| along(&square, count, length))
+        .collect();
+    let forms = composed(&parts, count);
     forms
         .iter()
         .map(|form| product(form, &[1.0, 1.0]))
