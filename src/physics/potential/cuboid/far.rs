@@ -192,6 +192,9 @@ fn real<L: Lanes>(l: L, v: [L::F; 2], re: L::F, im: L::F, sum: L::F) -> L::F {
     l.neg_mul_add(im, v[1], l.mul_add(re, v[0], sum))
 }
 
+/// The squared distance (m^2) of blocks that do not count.
+pub const AWAY: f64 = 1e12;
+
 /// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays filled up to
 /// a multiple of the number of lanes with blocks of no moment.
 #[derive(Clone, Debug)]
@@ -246,7 +249,7 @@ impl Group {
     pub fn fill(&mut self) {
         let length = self.members.len().next_multiple_of(WIDTH);
         // Far from everything, so that the filling is never taken for near.
-        self.x.resize(length, 1e6);
+        self.x.resize(length, AWAY.sqrt());
         self.y.resize(length, 0.0);
         self.moment.resize(length, 0.0);
     }

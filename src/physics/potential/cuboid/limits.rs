@@ -109,9 +109,9 @@ impl Limits {
         motion::bound(&motion::second_derivative(turn), self.dipole, distance)
     }
 
-    /// The same of the fourth derivative (J/m^4).
-    pub fn fourth_derivative(&self, turn: f64, distance: f64) -> f64 {
-        motion::bound(&motion::fourth_derivative(turn), self.dipole, distance)
+    /// `mu0 m1 m2 / (4 pi)` (J m^3).
+    pub(super) fn dipole(&self) -> f64 {
+        self.dipole
     }
 
     /// The same by the pole faces, given how far apart each pair of them is at least (m).

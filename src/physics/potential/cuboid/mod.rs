@@ -25,6 +25,7 @@
 //! logarithm, where edges of pole faces meet. The derivative of an energy computed with
 //! differences is only as good as the energy: at contact use steps of 0.1 mm or so.
 
+mod bend;
 pub mod block;
 mod closed;
 #[cfg(test)]
@@ -46,6 +47,7 @@ use super::batch::Level;
 use super::lever::Lever;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
+use bend::FourthDerivative;
 pub use block::{Block, PairEnergy};
 use far::{Group, STEPS};
 use limits::Limits;
@@ -83,6 +85,8 @@ struct Far {
     series: Multipole,
     /// Bounds for moments of 1 A m^2.
     limits: Limits,
+    /// The sum of the blocks' radii (m).
+    radii: f64,
     /// The squared distances (m^2) from which on 0, 1, 2 .. terms are enough.
     squares: [f64; TERMS + 1],
 }
@@ -94,9 +98,11 @@ impl Far {
             0 => f64::INFINITY,
             terms => series.radius(terms, HAND_OVER).powi(2),
         };
+        let [first, second] = [first, second].map(|size| Block::new(1.0, size));
         Self {
             squares: std::array::from_fn(square),
-            limits: Limits::new(&Block::new(1.0, first), &Block::new(1.0, second)),
+            limits: Limits::new(&first, &second),
+            radii: first.radius() + second.radius(),
             series,
         }
     }
@@ -280,24 +286,11 @@ impl Potential for CuboidPotential {
     /// Known only where all blocks are farther apart than their own size: closer, the second
     /// derivative's bound tells more.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        let (sin, cos) = libm::sincos(q.theta);
-        let turn = self.lever.turn();
-        let mut bound = 0.0;
-        for second in &self.moving {
-            let moved = second.block.moved(cos, sin, q.position());
-            for first in &self.fixed {
-                let r = (moved.position - first.block.position).norm();
-                let radii = first.block.radius() + moved.radius();
-                let distance = r - radii - reach;
-                if distance < radii {
-                    return f64::INFINITY;
-                }
-                let limits = &self.far[first.size][second.size].limits;
-                let strength = (first.block.moment * moved.moment).abs();
-                bound += strength * limits.fourth_derivative(turn, distance);
-            }
-        }
-        bound
+        self.level.run(FourthDerivative {
+            potential: self,
+            q,
+            reach,
+        })
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

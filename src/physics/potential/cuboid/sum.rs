@@ -78,15 +78,8 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
             for from in (0..fixed.x.len()).step_by(WIDTH) {
                 let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                 pairs.arm = arm;
-                let least = l.least(pairs.rr);
-                let terms = far.terms(least);
-                if known < terms {
-                    far.series
-                        .evaluate::<L, SLOPE>(l, turn, known..terms, coefficients);
-                    known = terms;
-                }
+                let mut least = l.least(pairs.rr);
                 if least < far.near() {
-                    let near = l.splat(far.near());
                     let mut squares = [0.0; WIDTH];
                     l.store(pairs.rr, &mut squares);
                     for (lane, square) in squares.iter().enumerate() {
@@ -94,9 +87,17 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                             near_pairs.push([from + lane, j]);
                         }
                     }
-                    let outside = l.sub(pairs.rr, near);
+                    // The near ones, without moments, are as far as need be.
+                    let outside = l.sub(pairs.rr, l.splat(far.near()));
                     pairs.moments = l.select(outside, pairs.moments, l.splat(0.0));
-                    pairs.rr = l.select(outside, pairs.rr, near);
+                    pairs.rr = l.select(outside, pairs.rr, l.splat(far::AWAY));
+                    least = l.least(pairs.rr);
+                }
+                let terms = far.terms(least);
+                if known < terms {
+                    far.series
+                        .evaluate::<L, SLOPE>(l, turn, known..terms, coefficients);
+                    known = terms;
                 }
                 far::add_terms::<L, SLOPE>(l, terms, coefficients, &pairs, &mut sums);
             }

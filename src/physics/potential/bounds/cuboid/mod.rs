@@ -79,6 +79,7 @@
 //! than the distance that their denominators hold. Distances have a spare 1e-8 m for the paper's tile, and in proportion for others. Assumed as
 //! elsewhere: the platform's sine, cosine and arc functions are right to 8 units in the last place.
 
+mod apart;
 mod faces;
 mod nodes;
 #[cfg(test)]
@@ -86,7 +87,7 @@ mod tests;
 
 use nalgebra::Vector2;
 
-use super::dipole::{DipoleBounds, NEAR, Spread};
+use super::dipole::{DipoleBounds, Spread};
 use super::near::SLACK;
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
@@ -97,6 +98,7 @@ use crate::potential::cuboid::correction::Correction;
 use crate::scale::Scale;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
+use apart::Apart;
 use faces::{Left, Motion, Pair};
 use nodes::{Nodes, Sum, Totals};
 
@@ -187,7 +189,8 @@ fn enclosed(tile: &Tile, level: Level) -> Vec<Enclosed> {
         .iter()
         .map(|magnet| {
             let block = Block::from(magnet);
-            let (totals, left) = faces(level, &block, &block, &still(slack), &mut Nodes::new());
+            let motion = still(slack);
+            let (totals, left) = faces(level, [&block; 2], &motion, None, &mut Nodes::new());
             Enclosed {
                 block,
                 inside: inside(magnet),
@@ -210,19 +213,36 @@ fn still(slack: f64) -> Motion {
 }
 
 /// The form of two blocks by their pole faces, in the frame of the first one's axis, and what it
-/// leaves out, rounding included.
+/// leaves out, rounding included: face by face, or together where they stay apart and that says more.
 fn faces(
     level: Level,
-    first: &Block,
-    second: &Block,
+    [first, second]: [&Block; 2],
     motion: &Motion,
+    apart: Option<&Apart>,
     nodes: &mut Nodes,
 ) -> (Totals, Left) {
     let volume = |block: &Block| block.size.iter().product::<f64>();
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
+    let pair = Pair::new(first, second, strength, motion);
     nodes.clear();
-    let left = Pair::new(first, second, strength, motion).append(nodes);
-    nodes.fill();
+    let separate = match apart {
+        Some(apart) if apart.is_coarse => None,
+        _ => Some(pair.append(nodes)),
+    };
+    let left = match (separate, apart) {
+        (Some(left), None) => left,
+        (Some(left), Some(apart)) if left.spread <= apart.remainder => left,
+        (_, apart) => {
+            nodes.clear();
+            let remainder = apart.map_or(0.0, |apart| apart.remainder);
+            let together = Left {
+                spread: remainder,
+                slope: 3.0 * remainder,
+                jump: 0.0,
+            };
+            pair.append_at_rest(nodes) + together
+        }
+    };
     let totals = level.run(Sum {
         nodes,
         half: first.size[1] / 2.0,
@@ -310,18 +330,10 @@ impl CuboidBounds {
         if moment == 0.0 {
             return;
         }
-        let r = (second.position - first.position).norm();
-        let lever = moving.block.position.norm();
-        let reach = cell.reach(lever + second.radius());
-        let radii = first.radius() + second.radius();
-        let gap = r - radii - cell.reach(lever);
-        let dipole = if gap > 0.0 {
-            2.0 * moment / gap.powi(3)
-        } else {
-            f64::INFINITY
-        };
-        let most = dipole.min(fixed.own * moving.own) * (1.0 + ROUNDING);
-        let coarse = reach * NEAR >= r && gap > radii;
+        let reach = cell.reach(moving.block.position.norm() + second.radius());
+        let apart = Apart::of(self.level, [first, &second], [reach, cell.half[2]]);
+        let most = apart.map_or(f64::INFINITY, |apart| apart.energy);
+        let most = most.min(fixed.own * moving.own) * (1.0 + ROUNDING);
         let motion = Motion {
             arm: second.position - cell.centre.position(),
             reach,
@@ -330,18 +342,18 @@ impl CuboidBounds {
             apart: fixed.inside && moving.inside,
             slack: self.slack,
         };
-        let by_faces = (!coarse)
-            .then(|| faces(self.level, first, &second, &motion, nodes))
+        let hopeless = apart.is_some_and(|apart| apart.is_coarse && apart.remainder >= most);
+        let by_faces = (!hopeless)
+            .then(|| faces(self.level, [first, &second], &motion, apart.as_ref(), nodes))
             .filter(|(_, left)| left.spread < most);
         let left = by_faces.map_or_else(
             || {
-                let limits = self.potential.limits(i, j);
-                let rate = cell.half[2] / reach.max(f64::MIN_POSITIVE);
-                let steepest = limits.gradient(rate, gap) * (1.0 + ROUNDING);
+                let steepest = self.potential.limits(i, j).gradient(0.0, 0.0);
                 let strength = (first.moment * second.moment).abs();
+                let slope = strength * steepest * reach * (1.0 + ROUNDING);
                 Left {
                     spread: most,
-                    slope: strength * steepest * reach,
+                    slope: apart.map_or(slope, |apart| slope.min(apart.slope)),
                     ..Left::default()
                 }
             },

@@ -34,23 +34,38 @@ pub(super) struct Node {
 const COLUMNS: usize = 13;
 const SUMS: usize = 12;
 
-/// Nodes as a structure of arrays.
+/// Nodes in blocks of whole vectors, the last one filled up with nodes of no weight.
 #[derive(Clone, Debug)]
-pub(super) struct Nodes([Vec<f64>; COLUMNS]);
+pub(super) struct Nodes {
+    count: usize,
+    blocks: Vec<[[f64; WIDTH]; COLUMNS]>,
+}
 
-/// Nodes for which there is room at first: of most pairs.
-const ROOM: usize = 256;
+/// Blocks for which there is room at first: of most pairs.
+const ROOM: usize = 32;
 
 impl Nodes {
     pub fn new() -> Self {
-        Self(std::array::from_fn(|_| Vec::with_capacity(ROOM)))
+        Self {
+            count: 0,
+            blocks: Vec::with_capacity(ROOM),
+        }
     }
 
     pub fn clear(&mut self) {
-        self.0.iter_mut().for_each(Vec::clear);
+        self.count = 0;
+        self.blocks.clear();
     }
 
     pub fn push(&mut self, node: &Node) {
+        let lane = self.count % WIDTH;
+        if lane == 0 {
+            let mut empty = [[0.0; WIDTH]; COLUMNS];
+            // Off the face, for what fills up.
+            empty[1] = [1.0; WIDTH];
+            self.blocks.push(empty);
+        }
+        self.count += 1;
         let [u, v] = node.arm;
         let entries = [
             node.v,
@@ -67,19 +82,10 @@ impl Nodes {
             u,
             v,
         ];
-        for (column, entry) in self.0.iter_mut().zip(entries) {
-            column.push(entry);
-        }
-    }
-
-    /// Fills up to whole vectors with nodes of no weight.
-    pub fn fill(&mut self) {
-        let none = Node {
-            h: 1.0,
-            ..Node::default()
-        };
-        while !self.0[0].len().is_multiple_of(WIDTH) {
-            self.push(&none);
+        if let Some(block) = self.blocks.last_mut() {
+            for (column, entry) in block.iter_mut().zip(entries) {
+                column[lane] = entry;
+            }
         }
     }
 }
@@ -111,10 +117,8 @@ impl Task for Sum<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Totals {
         let mut sums = [l.splat(0.0); SUMS];
-        let mut from = 0;
-        while from < self.nodes.0[0].len() {
-            self.add(l, from, &mut sums);
-            from += WIDTH;
+        for block in &self.nodes.blocks {
+            self.add(l, block, &mut sums);
         }
         let mut totals = [0.0; SUMS];
         for (total, sum) in totals.iter_mut().zip(sums) {
@@ -133,7 +137,12 @@ impl Task for Sum<'_> {
 
 impl Sum<'_> {
     #[inline(always)]
-    fn add<L: Lanes>(&self, l: L, from: usize, sums: &mut [L::F; SUMS]) {
+    fn add<L: Lanes>(
+        &self,
+        l: L,
+        block: &[[f64; WIDTH]; COLUMNS],
+        sums: &mut [L::F; SUMS],
+    ) {
         let [
             v,
             h,
@@ -148,26 +157,26 @@ impl Sum<'_> {
             turn,
             arm_u,
             arm_v,
-        ] = &self.nodes.0;
+        ] = block;
         let zero = l.splat(0.0);
         let half = l.splat(self.half);
-        let (v, side) = (l.load(&v[from..]), l.load(&side[from..]));
+        let (v, side) = (l.load(v), l.load(side));
         let ends = [l.sub(v, half), l.add(v, half)];
-        let phi: Expansion<L::F> = expansion(l, ends, l.load(&h[from..]), self.heights);
+        let phi: Expansion<L::F> = expansion(l, ends, l.load(h), self.heights);
 
-        let weight = l.load(&slope[from..]);
-        let shift = l.load(&shift[from..]);
-        let arch = l.load(&arch[from..]);
+        let weight = l.load(slope);
+        let shift = l.load(shift);
+        let arch = l.load(arch);
         let arched = l.mul(arch, shift);
         let gu = l.mul(side, l.mul_add(weight, phi.h, arched));
-        let bend = l.load(&bend[from..]);
+        let bend = l.load(bend);
         // Along v at the place that is meant.
         let gv = l.mul_add(weight, phi.x, l.mul(l.mul(bend, shift), phi.xh));
-        let huu = l.mul_add(l.load(&bend_h[from..]), phi.hh, arch);
+        let huu = l.mul_add(l.load(bend_h), phi.hh, arch);
         let hvv = l.mul(bend, phi.xx);
         let huv = l.mul(l.mul(bend, side), phi.xh);
         // A turn moves the node along i arm and bends its way along -arm.
-        let (arm_u, arm_v) = (l.load(&arm_u[from..]), l.load(&arm_v[from..]));
+        let (arm_u, arm_v) = (l.load(arm_u), l.load(arm_v));
         let (tu, tv) = (l.sub(zero, arm_v), arm_u);
         let hut = l.mul_add(huu, tu, l.mul(huv, tv));
         let hvt = l.mul_add(huv, tu, l.mul(hvv, tv));
@@ -176,10 +185,10 @@ impl Sum<'_> {
 
         let steep = l.mul_add(weight, phi.h, l.mul(l.splat(0.5), arched));
         let shifted = l.mul(steep, shift);
-        let value = l.mul_add(l.load(&value[from..]), phi.value, shifted);
+        let value = l.mul_add(l.load(value), phi.value, shifted);
         let steepness = l.add(l.abs(phi.x), l.abs(phi.h));
-        let turned = l.mul(l.load(&turn[from..]), steepness);
-        let uncertain = l.mul(l.load(&spread[from..]), phi.value);
+        let turned = l.mul(l.load(turn), steepness);
+        let uncertain = l.mul(l.load(spread), phi.value);
         let shares = [
             value,
             gu,

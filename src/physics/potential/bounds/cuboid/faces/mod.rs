@@ -15,7 +15,6 @@ use nalgebra::Vector2;
 
 use super::nodes::{Node, Nodes};
 use crate::potential::cuboid::block::Block;
-use crate::potential::cuboid::limits::segment_distance;
 use lengths::hypotenuse;
 use rule::Rule;
 
@@ -156,22 +155,58 @@ impl Pair {
     /// Appends the nodes of all four pairs of pole faces; returns what they leave out, but for the
     /// nodes' own spread.
     pub fn append(&self, nodes: &mut Nodes) -> Left {
+        self.pole_faces()
+            .iter()
+            .map(|face| self.cut(face, nodes))
+            .sum()
+    }
+
+    /// The second block's pole faces, before either of the first one's.
+    fn pole_faces(&self) -> [SheetPanel; 4] {
         let along = Vector2::new(-self.axis.y, self.axis.x);
-        let mut left = Left::default();
-        for (side, pole) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(side, pole)| {
             let offset = self.axis * (pole * self.second[0] / 2.0);
             let middle = self.place + offset;
-            let face = SheetPanel {
+            SheetPanel {
                 middle: Vector2::new(side * middle.x - self.first[0] / 2.0, middle.y),
                 along: Vector2::new(side * along.x, along.y),
                 half: self.second[1] / 2.0,
                 side,
                 strength: side * pole * self.strength,
                 arm: self.motion.arm + offset,
-            };
-            left = left + self.cut(&face, nodes);
+            }
+        })
+    }
+
+    /// The same for blocks that stay apart, at the cell's centre: what is left out is what the rules
+    /// are wrong by, in value, slope and second derivative.
+    pub fn append_at_rest(&self, nodes: &mut Nodes) -> Left {
+        self.pole_faces()
+            .iter()
+            .map(|face| self.cut_at_rest(face, nodes))
+            .sum()
+    }
+
+    /// Cuts a panel until each piece is far enough for a rule.
+    fn cut_at_rest(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
+        let distance = self.distance(panel) - self.motion.slack;
+        let Some(rule) = Rule::at(distance / panel.half) else {
+            let half = panel.half / 2.0;
+            let parts = [-half, half].map(|offset| panel.part(offset, half));
+            return parts.iter().map(|part| self.cut_at_rest(part, nodes)).sum();
+        };
+        self.add_rule(panel, rule, nodes);
+        let error = panel.weight().abs() * self.error(panel, distance, rule);
+        // On the ellipse the n-th derivatives are at most sqrt(2) and 7 times the bound of Phi over
+        // powers of this distance, and no point of the panel is faster than this.
+        let clear = (1.0 - ELLIPSE) * distance;
+        let turn = self.motion.turn;
+        let speed = (self.motion.reach + turn * ELLIPSE * distance) / clear;
+        Left {
+            spread: error * (1.0 + SQRT_2 * speed * (1.0 + 0.5 * turn) + 3.5 * speed * speed),
+            slope: error * (SQRT_2 * speed * (1.0 + turn) + 7.0 * speed * speed),
+            ..Left::default()
         }
-        left
     }
 
     /// Cuts a panel until each piece is far enough for its width, or fine enough.
@@ -199,30 +234,40 @@ impl Pair {
             .sum()
     }
 
-    /// The least distance (m) of a panel's points from the first block's pole face.
+    /// The least distance (m) of a panel's points from the first block's pole face, which lies at
+    /// h = 0 about v = 0.
     fn distance(&self, panel: &SheetPanel) -> f64 {
-        let end = panel.along * panel.half;
-        let half = Vector2::new(0.0, self.first[1] / 2.0);
-        segment_distance([panel.middle - end, panel.middle + end], [-half, half])
+        let half = self.first[1] / 2.0;
+        let way = panel.along * panel.half;
+        let (start, end) = (panel.middle - way, panel.middle + way);
+        if start.x * end.x < 0.0 {
+            let passage = start.y + (end.y - start.y) * start.x / (start.x - end.x);
+            if passage.abs() <= half {
+                return 0.0;
+            }
+        }
+        let of_end = |end: Vector2<f64>| {
+            let beside = (end.y.abs() - half).max(0.0);
+            end.x * end.x + beside * beside
+        };
+        let of_edge = |edge: f64| {
+            let way = Vector2::new(0.0, edge) - panel.middle;
+            let along = way.dot(&panel.along).clamp(-panel.half, panel.half);
+            (way - panel.along * along).norm_squared()
+        };
+        of_end(start)
+            .min(of_end(end))
+            .min(of_edge(-half))
+            .min(of_edge(half))
+            .sqrt()
     }
 
     /// A Gauss rule, its error, and the third-order remainder of its nodes' forms.
     fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> Left {
-        for (place, share) in rule.nodes() {
-            let weight = share * panel.weight();
-            nodes.push(&Node {
-                value: weight,
-                slope: weight,
-                bend: weight,
-                bend_h: weight,
-                ..panel.part(place * panel.half, panel.half).node()
-            });
-        }
+        self.add_rule(panel, rule, nodes);
+        let error = self.error(panel, distance, rule);
         let [width, thin, thick] = self.charge();
         let area = thin * thick;
-        let largest = width * area / ((1.0 - ELLIPSE) * distance);
-        let error = largest * rule.error(ELLIPSE * distance / panel.half);
-
         let (d, v, w) = (distance, self.motion.reach, self.motion.turn);
         let bend = panel.arm.norm() + panel.half;
         let (d2, d3, d4) = (d * d, d * d * d, d * d * d * d);
@@ -245,6 +290,27 @@ impl Pair {
             slope: weight * slope,
             ..Left::default()
         }
+    }
+
+    /// The nodes of a rule, with all derivatives.
+    fn add_rule(&self, panel: &SheetPanel, rule: Rule, nodes: &mut Nodes) {
+        for (place, share) in rule.nodes() {
+            let weight = share * panel.weight();
+            nodes.push(&Node {
+                value: weight,
+                slope: weight,
+                bend: weight,
+                bend_h: weight,
+                ..panel.part(place * panel.half, panel.half).node()
+            });
+        }
+    }
+
+    /// The error (m^2) of an average of Phi by a rule at the distance (m) from the face.
+    fn error(&self, panel: &SheetPanel, distance: f64, rule: Rule) -> f64 {
+        let [width, thin, thick] = self.charge();
+        let largest = width * thin * thick / ((1.0 - ELLIPSE) * distance);
+        largest * rule.error(ELLIPSE * distance / panel.half)
     }
 
     /// How far (m) the points of a panel get from its middle, along h and along v.

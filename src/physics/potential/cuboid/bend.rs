@@ -1,0 +1,73 @@
+//! The bound of the fourth derivative of the energy along a motion, over all pairs of blocks.
+
+use nalgebra::Complex;
+
+use super::CuboidPotential;
+use super::far::{Group, Pairs};
+use crate::configuration::Configuration;
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::motion;
+
+/// The bound (J/m^4) along motions that move no point of the moving blocks by more than `reach` (m),
+/// as [`motion`] derives it. Infinite where blocks may come as close as the sum of their radii.
+pub struct FourthDerivative<'a> {
+    pub potential: &'a CuboidPotential,
+    pub q: &'a Configuration,
+    pub reach: f64,
+}
+
+impl Task for FourthDerivative<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> f64 {
+        let (sin, cos) = libm::sincos(self.q.theta);
+        let rotation = Complex::new(cos, sin);
+        let terms = motion::fourth_derivative(self.potential.lever.turn());
+        let mut bound = 0.0;
+        for moving in &self.potential.moving_groups {
+            for fixed in &self.potential.fixed_groups {
+                match self.of_groups(l, [fixed, moving], rotation, &terms) {
+                    Some(share) => bound += share,
+                    None => return f64::INFINITY,
+                }
+            }
+        }
+        bound
+    }
+}
+
+impl FourthDerivative<'_> {
+    /// The share of two groups, unless two of their blocks may come too close.
+    #[inline(always)]
+    fn of_groups<L: Lanes>(
+        &self,
+        l: L,
+        [fixed, moving]: [&Group; 2],
+        rotation: Complex<f64>,
+        terms: &[f64; 5],
+    ) -> Option<f64> {
+        let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
+        let mut sum = l.splat(0.0);
+        let radii = l.splat(far.radii);
+        let lost = l.splat(far.radii + self.reach);
+        for j in 0..moving.members.len() {
+            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+            for from in (0..fixed.x.len()).step_by(WIDTH) {
+                let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+                let distance = l.sub(l.mul(pairs.rr, l.reciprocal_sqrt(pairs.rr)), lost);
+                if l.least(l.sub(distance, radii)) < 0.0 {
+                    return None;
+                }
+                let inverse = l.reciprocal(distance);
+                let mut series = l.splat(0.0);
+                for term in terms {
+                    series = l.mul_add(series, inverse, l.splat(*term));
+                }
+                let cube = l.mul(inverse, l.mul(inverse, inverse));
+                sum = l.mul_add(l.mul(l.abs(pairs.moments), cube), series, sum);
+            }
+        }
+        Some(l.sum(sum) * far.limits.dipole())
+    }
+}
