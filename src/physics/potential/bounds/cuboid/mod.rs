@@ -225,18 +225,11 @@ fn faces(
     let strength = MU0_OVER_4PI * first.moment * second.moment / (volume(first) * volume(second));
     let pair = Pair::new(first, second, strength, motion);
     nodes.clear();
-    let separate = match apart {
-        Some(apart) if apart.is_coarse => None,
-        _ => Some(pair.append(nodes)),
-    };
-    let left = match (separate, apart) {
-        (Some(left), None) => left,
-        (Some(left), Some(apart)) if left.spread <= apart.remainder => left,
-        (_, apart) => {
-            nodes.clear();
-            let remainder = apart.map_or(0.0, |apart| apart.remainder);
+    let left = match apart.filter(|apart| !pair.says_more_than(apart)) {
+        None => pair.append(nodes),
+        Some(Apart { remainder, .. }) => {
             let together = Left {
-                spread: remainder,
+                spread: *remainder,
                 slope: 3.0 * remainder,
                 jump: 0.0,
             };
@@ -342,9 +335,10 @@ impl CuboidBounds {
             apart: fixed.inside && moving.inside,
             slack: self.slack,
         };
-        let hopeless = apart.is_some_and(|apart| apart.is_coarse && apart.remainder >= most);
-        let by_faces = (!hopeless)
-            .then(|| faces(self.level, [first, &second], &motion, apart.as_ref(), nodes))
+        let is_coarse = apart.is_some_and(|apart| apart.is_coarse);
+        let useful = apart.filter(|apart| apart.remainder < most);
+        let by_faces = (useful.is_some() || !is_coarse)
+            .then(|| faces(self.level, [first, &second], &motion, useful.as_ref(), nodes))
             .filter(|(_, left)| left.spread < most);
         let left = by_faces.map_or_else(
             || {

@@ -13,6 +13,7 @@ use std::ops::Add;
 
 use nalgebra::Vector2;
 
+use super::apart::Apart;
 use super::nodes::{Node, Nodes};
 use crate::potential::cuboid::block::Block;
 use lengths::hypotenuse;
@@ -187,6 +188,21 @@ impl Pair {
             .sum()
     }
 
+    /// Whether the pole faces, one by one, leave out less than the blocks as a whole: only where all
+    /// of them are far enough for third-order forms.
+    pub fn says_more_than(&self, apart: &Apart) -> bool {
+        let mut sum = 0.0;
+        for face in self.pole_faces() {
+            let distance = self.distance(&face) - self.motion.reach - self.motion.slack;
+            if distance < FAR * self.motion.reach {
+                return false;
+            }
+            let [remainder, _] = self.third_order(&face, distance);
+            sum += face.weight().abs() * remainder;
+        }
+        sum < apart.remainder
+    }
+
     /// Cuts a panel until each piece is far enough for a rule.
     fn cut_at_rest(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
         let distance = self.distance(panel) - self.motion.slack;
@@ -266,6 +282,21 @@ impl Pair {
     fn gauss(&self, panel: &SheetPanel, distance: f64, rule: Rule, nodes: &mut Nodes) -> Left {
         self.add_rule(panel, rule, nodes);
         let error = self.error(panel, distance, rule);
+        let [remainder, speed] = self.third_order(panel, distance);
+        // The rule's error for a slope: on the ellipse that of Phi is at most sqrt(2) / ((1 -
+        // ELLIPSE) d) times the bound of Phi.
+        let slope = error * SQRT_2 * speed / ((1.0 - ELLIPSE) * distance) + 3.0 * remainder;
+        let weight = panel.weight().abs();
+        Left {
+            spread: weight * (error + remainder),
+            slope: weight * slope,
+            ..Left::default()
+        }
+    }
+
+    /// The third-order remainder (m^2) of Phi at the points of a panel that keep the distance (m) from
+    /// the face, and the speed (m) of the points of the ellipse about it.
+    fn third_order(&self, panel: &SheetPanel, distance: f64) -> [f64; 2] {
         let [width, thin, thick] = self.charge();
         let area = thin * thick;
         let (d, v, w) = (distance, self.motion.reach, self.motion.turn);
@@ -280,16 +311,7 @@ impl Pair {
             .min(6.0 * PI * thin / d2);
         let bends = bend * w * w;
         let remainder = (third * v * v * v + 3.0 * second * v * bends + first * bends * w) / 6.0;
-        // The rule's error for a slope: on the ellipse that of Phi is at most sqrt(2) / ((1 -
-        // ELLIPSE) d) times the bound of Phi.
-        let speed = v + w * ELLIPSE * d;
-        let slope = error * SQRT_2 * speed / ((1.0 - ELLIPSE) * d) + 3.0 * remainder;
-        let weight = panel.weight().abs();
-        Left {
-            spread: weight * (error + remainder),
-            slope: weight * slope,
-            ..Left::default()
-        }
+        [remainder, v + w * ELLIPSE * d]
     }
 
     /// The nodes of a rule, with all derivatives.
