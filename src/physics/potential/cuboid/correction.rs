@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Vector3};
 
-use super::CuboidPotential;
+use super::{CuboidPotential, Far};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS, index};
 use crate::configuration::Configuration;
@@ -56,7 +56,7 @@ impl Task for Correction<'_> {
                         let near = l.splat(far.near());
                         let outside = l.sub(pairs.rr, near);
                         pairs.rr = l.select(outside, pairs.rr, near);
-                        let terms = far.terms(l.least(pairs.rr));
+                        let terms = Far::terms(&far.squares, l.least(pairs.rr));
                         far::add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
                     }
                 }

@@ -85,7 +85,7 @@ impl<F: Copy> Pairs<F> {
 }
 
 /// How many terms may be summed, rising.
-pub const STEPS: [usize; 5] = [3, 4, 5, 6, TERMS];
+pub const STEPS: [usize; 6] = [2, 3, 4, 5, 6, TERMS];
 
 /// Adds the first `terms` terms of the series, one of [`STEPS`], to the sums.
 #[inline(always)]
@@ -97,6 +97,7 @@ pub fn add_terms<L: Lanes, const SLOPE: bool>(
     sums: &mut Sums<L::F>,
 ) {
     match terms {
+        2 => add::<L, 2, SLOPE>(l, c, pairs, sums),
         3 => add::<L, 3, SLOPE>(l, c, pairs, sums),
         4 => add::<L, 4, SLOPE>(l, c, pairs, sums),
         5 => add::<L, 5, SLOPE>(l, c, pairs, sums),
@@ -192,6 +193,9 @@ fn real<L: Lanes>(l: L, v: [L::F; 2], re: L::F, im: L::F, sum: L::F) -> L::F {
     l.neg_mul_add(im, v[1], l.mul_add(re, v[0], sum))
 }
 
+/// The weakness of blocks that do not count.
+const NO_MOMENT: f64 = 1e60;
+
 /// The squared distance (m^2) of blocks that do not count.
 pub const AWAY: f64 = 1e12;
 
@@ -210,6 +214,11 @@ pub struct Group {
     pub y: Vec<f64>,
     /// Moments (A m^2), negative where a block points against the axis.
     pub moment: Vec<f64>,
+    /// Their magnitudes to the power -2/3, of which times the squared distance is the less the
+    /// stronger a pair is.
+    pub weakness: Vec<f64>,
+    /// The largest magnitude.
+    pub strongest: f64,
 }
 
 impl Group {
@@ -222,6 +231,8 @@ impl Group {
             x: Vec::new(),
             y: Vec::new(),
             moment: Vec::new(),
+            weakness: Vec::new(),
+            strongest: 0.0,
         }
     }
 
@@ -232,6 +243,10 @@ impl Group {
         self.x.push(place.re);
         self.y.push(place.im);
         self.moment.push(moment);
+        // Of a block without moment as much as is far from all others.
+        let weakness = libm::pow(moment.abs(), -2.0 / 3.0);
+        self.weakness.push(weakness.min(NO_MOMENT));
+        self.strongest = self.strongest.max(moment.abs());
     }
 
     /// Block number `at` of the group, of the tile's blocks: with the group's axis and the moment
@@ -252,6 +267,7 @@ impl Group {
         self.x.resize(length, AWAY.sqrt());
         self.y.resize(length, 0.0);
         self.moment.resize(length, 0.0);
+        self.weakness.resize(length, NO_MOMENT);
     }
 }
 

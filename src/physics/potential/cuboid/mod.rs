@@ -9,8 +9,9 @@
 //!   quadrature (`sheet`, `panel`, `quadrature`), with what steps in the gradient's integrands taken out
 //!   (`closed`).
 //! * From some three block sizes on, where closed forms lose digits, the multipole series takes
-//!   over (`multipole`, `far`), eight terms at first and down to three farther out. The bound of the
-//!   terms left out decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`.
+//!   over (`multipole`, `far`), eight terms at first and down to two farther out. The bound of the
+//!   terms left out decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, of that of the strongest pair where
+//!   pairs are summed.
 //!
 //! # Accuracy
 //! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7
@@ -56,7 +57,8 @@ pub use panel::exact;
 use sum::{Each, Sum};
 
 /// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form takes
-/// over from the pole faces, and at which it drops its terms one after the other.
+/// over from the pole faces, and, in units of that of the strongest pair, at which it drops its terms
+/// one after the other.
 const HAND_OVER: f64 = 1e-9;
 
 /// The interaction energy of two sets of uniformly magnetised blocks, one in each tile.
@@ -87,38 +89,62 @@ struct Far {
     limits: Limits,
     /// The sum of the blocks' radii (m).
     radii: f64,
-    /// The squared distances (m^2) from which on 0, 1, 2 .. terms are enough.
-    squares: [f64; TERMS + 1],
+    /// The squared distances (m^2) from which on each of [`STEPS`] is enough, for a pair by itself.
+    squares: [f64; STEPS.len()],
+    /// The same among stronger pairs: row i is for errors of [`HAND_OVER`] times
+    /// `4^(i - WEAKEST) near^-3`, near the distance at which pole faces hand over.
+    among: [[f64; STEPS.len()]; ROWS],
 }
+
+/// How many rows [`Far::among`] has, and which is for pairs at the hand-over itself.
+const ROWS: usize = 20;
+const WEAKEST: i32 = 15;
 
 impl Far {
     fn new(first: [f64; 3], second: [f64; 3]) -> Self {
         let series = Multipole::new(first, second);
-        let square = |terms| match terms {
-            0 => f64::INFINITY,
-            terms => series.radius(terms, HAND_OVER).powi(2),
-        };
+        let squares = STEPS.map(|terms| series.radius(terms, HAND_OVER).powi(2));
+        let near = squares[STEPS.len() - 1].sqrt();
+        let among = std::array::from_fn(|row| {
+            let scale = 4f64.powi(row as i32 - WEAKEST) / near.powi(3);
+            STEPS.map(|terms| series.radius_among(terms, HAND_OVER * scale).powi(2))
+        });
         let [first, second] = [first, second].map(|size| Block::new(1.0, size));
         Self {
-            squares: std::array::from_fn(square),
+            squares,
+            among,
             limits: Limits::new(&first, &second),
             radii: first.radius() + second.radius(),
             series,
         }
     }
 
-    /// How many terms are summed at this squared distance (m^2).
+    /// The squared distances (m^2) from which on each of [`STEPS`] is enough, among pairs of which the
+    /// strongest has `m1 m2 / r^3` = `strongest` times that of the pairs' own moments (m^-3).
     #[inline(always)]
-    fn terms(&self, square: f64) -> usize {
-        let enough = STEPS
-            .into_iter()
-            .find(|&terms| square >= self.squares[terms]);
-        enough.unwrap_or(TERMS)
+    fn steps(&self, strongest: f64) -> &[f64; STEPS.len()] {
+        let near = self.near();
+        let ratio = strongest * near * near.sqrt();
+        // The power of two, halved and rounded down, so that no more than this is allowed.
+        let power = (ratio.to_bits() >> 52) as i32 - 1023;
+        let row = power.div_euclid(2) + WEAKEST;
+        if row < 0 {
+            &self.squares
+        } else {
+            &self.among[(row as usize).min(ROWS - 1)]
+        }
+    }
+
+    /// How many terms are summed at this squared distance (m^2), given what each number needs.
+    #[inline(always)]
+    fn terms(steps: &[f64; STEPS.len()], square: f64) -> usize {
+        let enough = STEPS.iter().zip(steps).find(|(_, least)| square >= **least);
+        enough.map_or(TERMS, |(terms, _)| *terms)
     }
 
     /// The squared distance below which the pole faces are summed.
     fn near(&self) -> f64 {
-        self.squares[TERMS]
+        self.squares[STEPS.len() - 1]
     }
 }
 

@@ -184,18 +184,30 @@ impl Multipole {
     /// The distance (m) from which on the terms from number `terms` on are together below
     /// `tolerance` times `mu0 m1 m2 / (4 pi r^3)`.
     pub fn radius(&self, terms: usize, tolerance: f64) -> f64 {
-        let error = |r: f64| -> f64 {
-            (terms..BOUND_TERMS)
-                .map(|k| self.magnitudes[k] * r.powi(-2 * k as i32))
-                .sum()
+        self.least(terms, |error, _| error > tolerance)
+    }
+
+    /// The same for an error of `tolerance` (m^-3) times `mu0 m1 m2 / (4 pi)`.
+    pub fn radius_among(&self, terms: usize, tolerance: f64) -> f64 {
+        self.least(terms, |error, r| error > tolerance * r.powi(3))
+    }
+
+    /// The least distance r (m) from which on the terms from number `terms` on, in units of that of
+    /// the dipoles, are not too much.
+    fn least(&self, terms: usize, is_much: impl Fn(f64, f64) -> bool) -> f64 {
+        let is_much = |r: f64| {
+            let q = 1.0 / (r * r);
+            let tail = self.magnitudes[terms..].iter().rev();
+            let tail = tail.fold(0.0, |sum, magnitude| sum * q + magnitude);
+            is_much(tail * q.powi(terms as i32), r)
         };
         let (mut low, mut high) = (1e-9, 1e-9);
-        while error(high) > tolerance {
+        while is_much(high) {
             (low, high) = (high, 2.0 * high);
         }
         for _ in 0..40 {
             let middle = (low + high) / 2.0;
-            if error(middle) > tolerance {
+            if is_much(middle) {
                 low = middle;
             } else {
                 high = middle;

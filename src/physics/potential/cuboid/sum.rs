@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Vector2, Vector3};
 
-use super::CuboidPotential;
+use super::{CuboidPotential, Far};
 use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
@@ -24,6 +24,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let (sin, cos) = libm::sincos(self.q.theta);
         let rotation = Complex::new(cos, sin);
+        let strongest = self.strongest(l, rotation);
         let mut sums = Sums::zero(l);
         let mut coefficients = Coefficients::NONE;
         let mut near = Vec::new();
@@ -33,7 +34,7 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
                 self.add_far(
                     l,
                     [fixed, moving],
-                    rotation,
+                    (rotation, strongest),
                     &mut coefficients,
                     &mut sums,
                     &mut near,
@@ -57,6 +58,31 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
 }
 
 impl<const SLOPE: bool> Sum<'_, SLOPE> {
+    /// The greatest `|m1 m2| / r^3` of any pair (A^2 m).
+    #[inline(always)]
+    fn strongest<L: Lanes>(&self, l: L, rotation: Complex<f64>) -> f64 {
+        let mut least = l.splat(f64::MAX);
+        for moving in &self.potential.moving_groups {
+            for fixed in &self.potential.fixed_groups {
+                let (_, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
+                for j in 0..moving.members.len() {
+                    let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+                    let (x, y) = (l.splat(place.re), l.splat(place.im));
+                    let weakness = l.splat(moving.weakness[j]);
+                    for from in (0..fixed.x.len()).step_by(WIDTH) {
+                        let dx = l.sub(x, l.load(&fixed.x[from..]));
+                        let dy = l.sub(y, l.load(&fixed.y[from..]));
+                        let square = l.mul_add(dx, dx, l.mul(dy, dy));
+                        let weakness = l.mul(weakness, l.load(&fixed.weakness[from..]));
+                        least = l.min(least, l.mul(square, weakness));
+                    }
+                }
+            }
+        }
+        let least = l.least(least);
+        1.0 / (least * least.sqrt())
+    }
+
     /// Adds the pairs of two groups that are far enough apart, and lists the others by their
     /// numbers in the groups.
     #[inline(always)]
@@ -64,12 +90,13 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         &self,
         l: L,
         [fixed, moving]: [&Group; 2],
-        rotation: Complex<f64>,
+        (rotation, strongest): (Complex<f64>, f64),
         coefficients: &mut Coefficients,
         total: &mut Sums<L::F>,
         near_pairs: &mut Vec<[usize; 2]>,
     ) {
         let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
+        let steps = far.steps(strongest / (fixed.strongest * moving.strongest));
         let mut sums = Sums::zero(l);
         let mut known = 0;
         for j in 0..moving.members.len() {
@@ -93,7 +120,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     pairs.rr = l.select(outside, pairs.rr, l.splat(far::AWAY));
                     least = l.least(pairs.rr);
                 }
-                let terms = far.terms(least);
+                let terms = Far::terms(steps, least);
                 if known < terms {
                     far.series
                         .evaluate::<L, SLOPE>(l, turn, known..terms, coefficients);
@@ -151,7 +178,7 @@ impl<const SLOPE: bool> Task for Each<'_, SLOPE> {
                     for from in (0..fixed.x.len()).step_by(WIDTH) {
                         let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         let mut sums = Sums::zero(l);
-                        let terms = far.terms(l.least(pairs.rr));
+                        let terms = Far::terms(&far.squares, l.least(pairs.rr));
                         far::add_terms::<L, SLOPE>(l, terms, &coefficients, &pairs, &mut sums);
                         let lanes = fixed.members.len().min(from + WIDTH) - from;
                         let out = Lane::split(l, &sums, pairs.rr, fixed.axis);

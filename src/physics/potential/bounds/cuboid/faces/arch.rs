@@ -1,5 +1,7 @@
 //! Constant second derivatives in place of such as grow like a logarithm near a face.
 
+use super::lengths::{LN_ERROR, ln};
+
 /// The share of the way out at which the second derivative is taken: near it the bounds from both
 /// sides are alike.
 const SHARE: f64 = 0.85;
@@ -14,9 +16,24 @@ pub(super) struct Arch {
     pub off: f64,
 }
 
+/// A bound (m) of `int_0^u ln((low + u) / (low + h)) dh = u - low ln(1 + u / low)`, which it exceeds by
+/// little, for a `low` of at least 0: where that would cancel, by `ln(1 + x) >= x - x^2 / 2`.
+fn integral(low: f64, u: f64) -> f64 {
+    if u < 0.05 * low {
+        u * u / (2.0 * low)
+    } else if low > 0.0 {
+        u - low * (ln(1.0 + u / low) - LN_ERROR)
+    } else {
+        u
+    }
+}
+
+/// The error of L as it is given: that of a logarithm times its factor of 4 at most, and rounding.
+const LEVEL_ERROR: f64 = 5.0 * LN_ERROR;
+
 impl Arch {
     /// For ways of at most `up` between the heights `low`, at least 0, and `high`: `range` gives the
-    /// most and the least that L is at a height.
+    /// most and the least that L is at a height, to [`LEVEL_ERROR`].
     ///
     /// With c = L(low + u), `int (L - c) dh` over a way is at most what it is from low to low + u,
     /// where `L - c <= 4 ln((low + u) / h)` (`u - low ln(1 + u / low)` is the integral of that
@@ -25,13 +42,8 @@ impl Arch {
         let u = SHARE * up;
         let [most, least] = range(low + u);
         let bend = 0.5 * (most + least);
-        let integral = if low > 0.0 {
-            u - low * libm::log1p(u / low)
-        } else {
-            u
-        };
-        let above = 4.0 * integral.max(0.0) + (most - bend) * up;
-        let below = (bend - range(high)[1]) * up;
+        let above = 4.0 * integral(low, u) + (most - bend + LEVEL_ERROR) * up;
+        let below = (bend - range(high)[1] + LEVEL_ERROR) * up;
         Self {
             bend,
             off: above.max(below) * (1.0 + 1e-9),

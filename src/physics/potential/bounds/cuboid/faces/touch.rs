@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::arch::Arch;
-use super::lengths::{asinh, hypotenuse, stretch};
+use super::lengths::{LN_ERROR, asinh, hypotenuse, ln, stretch};
 use super::{Left, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
@@ -78,7 +78,7 @@ impl Pair {
             (Arch::of(floor, up, h + up, range), 1.0)
         } else {
             let level = |height: f64| asinh(sheet, hypotenuse(height, low));
-            let most = 4.0 * (0.5 * level(floor)).min(0.5 * level(up) + 1.75);
+            let most = 4.0 * (0.5 * level(floor)).min(0.5 * level(up) + 1.75) + 4.0 * LN_ERROR;
             let off = 2.0 * most * up;
             (Arch { bend: 0.0, off }, 0.5)
         };
@@ -115,7 +115,7 @@ impl Pair {
             let away = hypotenuse(h, height).max(0.1 * self.motion.slack);
             stretch(sheet + v, away) * stretch(sheet - v, away) / (away * away)
         };
-        2.0 * libm::log(edge(low) / edge(high))
+        2.0 * ln(edge(low) / edge(high))
     }
 
     /// Phi falls with the distance from the face's line and with that from its middle line, so
@@ -143,9 +143,9 @@ impl Pair {
         let near = panel.half / 2.0;
         let log = |z: f64| {
             let root = hypotenuse(z, near);
-            z * libm::log((z + root) / near) - root
+            z * ln((z + root) / near) - root
         };
-        let g = 2.0 * (log(high) - log(low));
+        let g = 2.0 * (log(high) - log(low) + 2.0 * LN_ERROR * high);
         let [fast_up, fast_aside] = self.speeds(panel);
         let slope = 2.0 * PI * thin * fast_up + (g + 2.0 * high) * fast_aside;
         Left {
