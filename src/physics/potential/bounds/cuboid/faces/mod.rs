@@ -23,7 +23,7 @@ use rule::Rule;
 const ELLIPSE: f64 = 0.75;
 
 /// Panels get third-order forms from a distance of this many times their reach on.
-const FAR: f64 = 3.0;
+const FAR: f64 = 2.0;
 
 /// Panels that may touch the face are cut to this share of the reach, those that have no form of
 /// first order to the second one; none finer than the third, a share of the face.
