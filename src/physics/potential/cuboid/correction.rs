@@ -4,7 +4,7 @@ use nalgebra::{Complex, Vector3};
 
 use super::{CuboidPotential, Far};
 use super::far::{self, Group, Pairs, Sums};
-use super::multipole::{Coefficients, TERMS, index};
+use super::multipole::{Coefficients, index};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -34,29 +34,34 @@ impl Task for Correction<'_> {
                 let (far, turn, centre) =
                     self.potential
                         .facing([fixed, moving], self.q, Complex::new(cos, sin));
-                far.series
-                    .evaluate::<L, true>(l, turn, 0..TERMS, &mut coefficients);
-                // Without the dipole.
-                for at in 0..index(1, 0) {
-                    coefficients.re[at] = 0.0;
-                    coefficients.im[at] = 0.0;
-                    coefficients.turn_re[at] = 0.0;
-                    coefficients.turn_im[at] = 0.0;
-                }
                 let mut sums = Sums::zero(l);
+                let mut known = 0;
                 for (j, &second) in moving.members.iter().enumerate() {
                     let arm = turn * Complex::new(moving.x[j], moving.y[j]);
                     let place = centre + arm;
                     for from in (0..fixed.x.len()).step_by(WIDTH) {
                         let mask = self.mask(fixed, from, second);
+                        if mask.iter().all(|weight| *weight == 0.0) {
+                            continue;
+                        }
+                        let mask = l.load(&mask);
                         let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         pairs.arm = arm;
-                        pairs.moments = l.mul(pairs.moments, l.load(&mask));
-                        // Pairs left out must not divide by zero.
-                        let near = l.splat(far.near());
-                        let outside = l.sub(pairs.rr, near);
-                        pairs.rr = l.select(outside, pairs.rr, near);
+                        pairs.moments = l.mul(pairs.moments, mask);
+                        // Pairs left out must not divide by zero, nor ask for terms.
+                        let counts = l.sub(mask, l.splat(0.5));
+                        pairs.rr = l.select(counts, pairs.rr, l.splat(far::AWAY));
                         let terms = Far::terms(&far.squares, l.least(pairs.rr));
+                        if known < terms {
+                            far.series.evaluate::<L, true>(
+                                l,
+                                turn,
+                                known..terms,
+                                &mut coefficients,
+                            );
+                            without_dipole(&mut coefficients);
+                            known = terms;
+                        }
                         far::add_terms::<L, true>(l, terms, &coefficients, &pairs, &mut sums);
                     }
                 }
@@ -67,6 +72,16 @@ impl Task for Correction<'_> {
         let [x, y, turn] = total.gradient;
         let gradient = Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         (l.sum(total.energy) * scale, gradient)
+    }
+}
+
+#[inline(always)]
+fn without_dipole(coefficients: &mut Coefficients) {
+    for at in 0..index(1, 0) {
+        coefficients.re[at] = 0.0;
+        coefficients.im[at] = 0.0;
+        coefficients.turn_re[at] = 0.0;
+        coefficients.turn_im[at] = 0.0;
     }
 }
 

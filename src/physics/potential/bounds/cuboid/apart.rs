@@ -38,6 +38,9 @@ const WHOLE: f64 = 12.0;
 /// cell moves them.
 const COARSE: f64 = 3.0;
 
+/// A form is not worth finer parts where the cell moves blocks by more than their distance over this.
+const HOPELESS: f64 = 2.2;
+
 /// Blocks nearer than this share of their radii count as too close: they touch, or might as well.
 const NEAREST: f64 = 0.5;
 
@@ -74,7 +77,7 @@ impl Apart {
         let longest = sides.into_iter().fold(0.0, f64::max);
         let count = match distance / longest {
             ratio if ratio >= WHOLE => 1.0,
-            ratio if ratio >= WHOLE / 2.0 => 2.0,
+            ratio if ratio >= WHOLE / 2.0 || HOPELESS * reach >= distance => 2.0,
             _ => MOST as f64,
         };
         let [one, other] = [first, second].map(|block| Parts::new(block, longest / count));
