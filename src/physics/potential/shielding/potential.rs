@@ -36,6 +36,8 @@ struct Blocks {
     moving: Vec<Block>,
     /// For each pair, second magnet by second magnet.
     limits: Vec<Limits>,
+    /// For each pair of faces, fixed face by fixed face: the bare blocks of the two.
+    faces: Vec<CuboidPotential>,
 }
 
 impl Blocks {
@@ -50,6 +52,25 @@ impl Blocks {
             limits: limits.collect(),
             fixed: first,
             moving: second,
+            faces: Vec::new(),
+        }
+    }
+
+    /// The same with the blocks of each two faces by themselves.
+    fn by_face(self, fixed: &Tile, moving: &Tile, level: Level) -> Self {
+        let on = |tile: &Tile, face: usize| -> Vec<_> {
+            let magnets = tile.magnets.iter().filter(|magnet| magnet.face == face);
+            magnets.cloned().collect()
+        };
+        let [first, second] = [fixed, moving].map(|tile| {
+            let faces = 0..tile.faces.len();
+            faces.map(|face| on(tile, face)).collect::<Vec<_>>()
+        });
+        let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+        let faces = pairs.map(|(a, b)| CuboidPotential::with_level(a, b, level));
+        Self {
+            faces: faces.collect(),
+            ..self
         }
     }
 
@@ -100,11 +121,15 @@ impl ShieldedPotential {
             MagnetModel::Dipole => None,
             MagnetModel::Cuboid => Some(Blocks::new(fixed, moving, level)),
         };
+        let blocks = match shields.rule {
+            ShieldRule::NearestFace => blocks.map(|blocks| blocks.by_face(fixed, moving, level)),
+            ShieldRule::Smooth => blocks,
+        };
         let first = kernel::magnets(fixed, &[]);
         Self {
             level,
             blocks,
-            rule: ShieldRule::Smooth,
+            rule: shields.rule,
             columns: Columns::new(&first),
             fixed: first,
             moving: kernel::magnets(moving, &[]),
@@ -115,10 +140,10 @@ impl ShieldedPotential {
         .with_shields(shields)
     }
 
-    /// The same with other shields. Faces beyond the ends of the lists have none.
+    /// The same with other shields that act by the same rule. Faces beyond the ends of the lists have
+    /// none.
     pub fn with_shields(&self, shields: &Shields) -> Self {
         let mut changed = self.clone();
-        changed.rule = shields.rule;
         // With the nearest-face rule magnets that act at all act in full.
         let smooth = shields.rule == ShieldRule::Smooth;
         for (magnets, shields) in [
@@ -151,14 +176,22 @@ impl ShieldedPotential {
     }
 
     fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
-        let pairs = self.blocks.as_ref().map(|blocks| {
-            let pairs = blocks.potential.pairs::<SLOPE>(q);
-            PairColumns::new(&pairs, self.fixed.len(), self.columns.len())
-        });
         let faces = match self.rule {
             ShieldRule::Smooth => None,
             ShieldRule::NearestFace => Some(self.nearest_faces(q)),
         };
+        if let (Some((i, j)), Some(blocks)) = (faces, &self.blocks) {
+            let bare = &blocks.faces[i * self.moving_middles.len() + j];
+            return if SLOPE {
+                bare.energy_and_gradient(q)
+            } else {
+                (bare.energy(q), Vector3::zeros())
+            };
+        }
+        let pairs = self.blocks.as_ref().map(|blocks| {
+            let pairs = blocks.potential.pairs::<SLOPE>(q);
+            PairColumns::new(&pairs, self.fixed.len(), self.columns.len())
+        });
         let (energy, gradient) = self.level.run(kernel::Sum::<SLOPE> {
             fixed: &self.columns,
             moving: &self.moving,
