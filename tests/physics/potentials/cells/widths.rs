@@ -65,7 +65,7 @@ fn enclosures_are_as_wide_as_they_were() {
             -5.0,
             (-14.198282429, 400),
         ),
-        ("blocks", &blocks, 0.215, -6.0, (-12.153200535, 400)),
+        ("blocks", &blocks, 0.215, -6.0, (-12.327661205, 400)),
         ("shielded", &shielded, 0.04, -5.0, (-15.650531646, 400)),
     ] {
         let (mean, count) = mean_width(bounds, half_side, smallest);

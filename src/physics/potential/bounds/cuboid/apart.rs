@@ -202,3 +202,115 @@ impl Task for Means<'_> {
         Some(means)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::potential::cuboid::exact;
+
+    fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
+        Block {
+            position: Vector2::new(x, y),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
+            ..Block::new(0.3, size)
+        }
+    }
+
+    /// The energy and its first and third derivatives by time, by differences, all along ways that
+    /// turn the second block about a point and shift it.
+    #[test]
+    fn energies_and_derivatives_stay_within_their_bounds() {
+        let sizes = [[0.010, 0.010, 0.003], [0.006, 0.012, 0.004]];
+        let (mut count, mut closest) = (0, [f64::INFINITY; 3]);
+        for (k, r) in (0..240u32).map(|k| (k, 0.016 + 0.001 * f64::from(k % 60))) {
+            let angle = 0.37 * f64::from(k);
+            let (sin, cos) = libm::sincos(1.3 * f64::from(k));
+            let first = block(0.0, 0.0, 0.2, sizes[0]);
+            let second = block(r * cos, r * sin, angle, sizes[k as usize % 2]);
+            let centre = second.position - Vector2::new(0.02, 0.01);
+            let (turn, half) = (0.04, 0.0012);
+            let radius = (second.position - centre).norm() + second.radius();
+            let reach = half + radius * turn;
+            let Some(apart) = Apart::of(Level::best(), [&first, &second], [reach, turn]) else {
+                continue;
+            };
+            let way = Vector2::new(libm::cos(angle), libm::sin(angle)) * half;
+            let at = |t: f64| {
+                let (sin, cos) = libm::sincos(turn * t);
+                let back = Block {
+                    position: second.position - centre,
+                    ..second
+                };
+                exact(&first, &back.moved(cos, sin, centre + way * t)).energy
+            };
+            let h = 0.1;
+            for t in [-0.7, -0.2, 0.0, 0.4, 0.7] {
+                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(t + k * h));
+                let found = [
+                    at(t).abs(),
+                    (c - b).abs() / (2.0 * h),
+                    (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
+                ];
+                let bounds = [apart.energy, apart.slope, 6.0 * apart.remainder];
+                for i in 0..3 {
+                    // Rounding of the pole faces' sums over the differences.
+                    let lost = 1e-9 * apart.energy / h.powi([0, 1, 3][i]);
+                    assert!(found[i] <= bounds[i] + lost, "{k} {t} {i}: {found:?} {apart:?}");
+                    closest[i] = closest[i].min(bounds[i] / found[i]);
+                }
+                count += 1;
+            }
+        }
+        // The closest are close: a bound that lost its sense would not be.
+        assert!(count > 900, "{count}");
+        let most = [1.5, 3.0, 6.0];
+        assert!(closest.iter().zip(most).all(|(ratio, most)| *ratio < most), "{closest:?}");
+    }
+
+    #[test]
+    fn blocks_that_may_touch_have_no_bound() {
+        let size = [0.010, 0.010, 0.003];
+        let (first, second) = (block(0.0, 0.0, 0.0, size), block(0.012, 0.0, 0.1, size));
+        for reach in [0.001, 0.004, 0.1] {
+            assert!(Apart::of(Level::best(), [&first, &second], [reach, 0.0]).is_none());
+        }
+        let second = block(0.05, 0.0, 0.1, size);
+        assert!(Apart::of(Level::best(), [&first, &second], [0.001, 0.0]).is_some());
+    }
+
+    /// With many parts the means are those of the rays of a fine grid.
+    #[test]
+    fn the_means_are_close_to_those_of_points() {
+        let size = [0.010, 0.010, 0.003];
+        let (first, second) = (block(0.0, 0.0, 0.3, size), block(0.03, 0.01, 1.0, size));
+        let reach = 0.002;
+        let points = |block: &Block| {
+            let across = Vector2::new(-block.axis.y, block.axis.x);
+            let mut list = Vec::new();
+            for (i, j) in (0..20).flat_map(|i| (0..20).map(move |j| (i, j))) {
+                let place = |k: i32| (f64::from(k) + 0.5) / 20.0 - 0.5;
+                list.push(
+                    block.position
+                        + block.axis * (block.size[0] * place(i))
+                        + across * (block.size[1] * place(j)),
+                );
+            }
+            list
+        };
+        let (a, b) = (points(&first), points(&second));
+        let [one, other] = [&first, &second].map(|block| Parts::new(block, 0.0025));
+        for level in Level::available() {
+            let parts = [&one, &other];
+            let means = level.run(Means { parts, reach }).unwrap();
+            for (mean, power) in means.into_iter().zip([3, 4, 5, 6]) {
+                let sum: f64 = a
+                    .iter()
+                    .flat_map(|p| b.iter().map(move |q| (p - q).norm() - reach))
+                    .map(|rho| rho.powi(-power))
+                    .sum();
+                let known = sum / (a.len() * b.len()) as f64;
+                assert!(mean >= known && mean < 1.3 * known, "{power}: {mean} {known}");
+            }
+        }
+    }
+}
