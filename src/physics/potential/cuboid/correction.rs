@@ -2,9 +2,9 @@
 
 use nalgebra::{Complex, Vector3};
 
-use super::{CuboidPotential, Far};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, index};
+use super::{CuboidPotential, Far};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;

@@ -2,11 +2,11 @@
 
 use nalgebra::{Complex, Vector2, Vector3};
 
-use super::{CuboidPotential, Far};
 use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::{self, Near};
+use super::{CuboidPotential, Far};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;

@@ -66,7 +66,9 @@ impl Blocks {
             let faces = 0..tile.faces.len();
             faces.map(|face| on(tile, face)).collect::<Vec<_>>()
         });
-        let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+        let pairs = first
+            .iter()
+            .flat_map(|a| second.iter().map(move |b| (a, b)));
         let faces = pairs.map(|(a, b)| CuboidPotential::with_level(a, b, level));
         Self {
             faces: faces.collect(),

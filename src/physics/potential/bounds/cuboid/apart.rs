@@ -64,11 +64,7 @@ impl Apart {
     /// Of two blocks as the cell's centre places them, in a cell that moves no point of the second
     /// one by more than `reach` (m) and turns it by at most `turn` (rad). `None` where parts of them
     /// may get too close.
-    pub fn of(
-        level: Level,
-        [first, second]: [&Block; 2],
-        [reach, turn]: [f64; 2],
-    ) -> Option<Self> {
+    pub fn of(level: Level, [first, second]: [&Block; 2], [reach, turn]: [f64; 2]) -> Option<Self> {
         let distance = (second.position - first.position).norm() - reach;
         if distance <= NEAREST * (first.radius() + second.radius()) {
             return None;
@@ -255,7 +251,10 @@ mod tests {
                 for i in 0..3 {
                     // Rounding of the pole faces' sums over the differences.
                     let lost = 1e-9 * apart.energy / h.powi([0, 1, 3][i]);
-                    assert!(found[i] <= bounds[i] + lost, "{k} {t} {i}: {found:?} {apart:?}");
+                    assert!(
+                        found[i] <= bounds[i] + lost,
+                        "{k} {t} {i}: {found:?} {apart:?}"
+                    );
                     closest[i] = closest[i].min(bounds[i] / found[i]);
                 }
                 count += 1;
@@ -264,7 +263,10 @@ mod tests {
         // The closest are close: a bound that lost its sense would not be.
         assert!(count > 900, "{count}");
         let most = [1.5, 3.0, 6.0];
-        assert!(closest.iter().zip(most).all(|(ratio, most)| *ratio < most), "{closest:?}");
+        assert!(
+            closest.iter().zip(most).all(|(ratio, most)| *ratio < most),
+            "{closest:?}"
+        );
     }
 
     #[test]
@@ -309,7 +311,10 @@ mod tests {
                     .map(|rho| rho.powi(-power))
                     .sum();
                 let known = sum / (a.len() * b.len()) as f64;
-                assert!(mean >= known && mean < 1.3 * known, "{power}: {mean} {known}");
+                assert!(
+                    mean >= known && mean < 1.3 * known,
+                    "{power}: {mean} {known}"
+                );
             }
         }
     }

@@ -10,8 +10,15 @@
 //! the cell, and the terms beyond the sixteenth, of which at 2.5 sums of the half diagonals less
 //! than 3e-10 is left, 1e-7 is more than enough.
 //!
+//! # Pairs that stay apart
+//! Nearer pairs whose blocks keep some distance throughout the cell have the Taylor form of second
+//! order of their own energy, from Gauss rules over the pole faces at the cell's centre, and as its
+//! remainder that of even spreads of dipoles (see `apart`), wherever that is less than what the pole
+//! faces leave out one by one. The rules are wrong by the bound below in value, and in slope and
+//! second derivative by that of the derivatives on the same ellipse.
+//!
 //! # Near pairs
-//! As charged pole faces: with Phi the potential of a face of the first block, integrated over the
+//! The others as charged pole faces: with Phi the potential of a face of the first block, integrated over the
 //! heights of the second (closed, see `cuboid::sheet`), the energy is the integral of Phi along the
 //! second block's faces. Each face is cut into panels, and the nodes of the panels move with the
 //! cell.
@@ -60,7 +67,7 @@
 //! at the face's upright edges, the panel has an interval: Phi falls with the distance from the
 //! face's line and with that from its middle line.
 //!
-//! A pair of which all that says less than `2 K / d^3` (d the least distance of the blocks) or
+//! A pair of which all that says less than `2 K <d^-3>` (d the least distances of the blocks' dipoles) or
 //! `sqrt(U11 U22)` (Cauchy and Schwarz; Uii the energy of a block's charges with a copy of
 //! themselves, bounded in the same way) has the smaller of these as its interval.
 //!
@@ -338,7 +345,15 @@ impl CuboidBounds {
         let is_coarse = apart.is_some_and(|apart| apart.is_coarse);
         let useful = apart.filter(|apart| apart.remainder < most);
         let by_faces = (useful.is_some() || !is_coarse)
-            .then(|| faces(self.level, [first, &second], &motion, useful.as_ref(), nodes))
+            .then(|| {
+                faces(
+                    self.level,
+                    [first, &second],
+                    &motion,
+                    useful.as_ref(),
+                    nodes,
+                )
+            })
             .filter(|(_, left)| left.spread < most);
         let left = by_faces.map_or_else(
             || {

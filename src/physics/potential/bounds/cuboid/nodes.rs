@@ -137,12 +137,7 @@ impl Task for Sum<'_> {
 
 impl Sum<'_> {
     #[inline(always)]
-    fn add<L: Lanes>(
-        &self,
-        l: L,
-        block: &[[f64; WIDTH]; COLUMNS],
-        sums: &mut [L::F; SUMS],
-    ) {
+    fn add<L: Lanes>(&self, l: L, block: &[[f64; WIDTH]; COLUMNS], sums: &mut [L::F; SUMS]) {
         let [
             v,
             h,
