@@ -82,10 +82,7 @@ fn magnets<'a>(
     }
     let is_known = |pole: &str| letters.iter().any(|letter| pole == letter.to_string());
     if let Some((_, pole)) = magnets.iter().find(|(_, pole)| !is_known(pole)) {
-        let help = format!(
-            "a pole of these magnets is \"{}\" or \"{}\"",
-            letters[0], letters[1]
-        );
+        let help = format!("a pole is \"{}\" or \"{}\"", letters[0], letters[1]);
         return wrong(format!("has the pole `{pole}`"), &help);
     }
     Ok(magnets)
