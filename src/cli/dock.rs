@@ -57,7 +57,7 @@ impl Dock {
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&DOCK, inputs)?;
         self.threads.use_threads()?;
-        let settings = self.request.settings();
+        let settings = self.request.settings(&design.pair);
         if let Some(index) = self.trajectory.filter(|index| *index >= settings.runs) {
             return Err(Failure::Usage(format!(
                 "--trajectory {index}: the {} trajectories are numbered from 0; ask for more --runs",

@@ -40,6 +40,8 @@ use std::fmt::Display;
 use std::io::Write;
 use std::process::ExitCode;
 
+use tilebind::text::with_point;
+
 /// Reads the command line. What begins like a number below 0 belongs to the option before it, which
 /// then says what is wrong with it, if anything is.
 pub fn parse<T: clap::Parser>() -> Result<T, clap::Error> {
@@ -85,11 +87,24 @@ pub fn answer(mut answer: clap::Error) -> ExitCode {
     }
 }
 
-/// Takes away the tip to pass an option that a command does not have as a value, which none wants, and
+/// Says of a value with a decimal comma what is wrong with it. Takes away the tip to pass an option that a command does not have as a value, which none wants, and
 /// says where the model of the magnets is said instead.
 fn correct(answer: &mut clap::Error) {
     use clap::builder::StyledStr;
     use clap::error::{ContextKind, ContextValue, ErrorKind};
+    if answer.kind() == ErrorKind::ValueValidation {
+        let value = match answer.get(ContextKind::InvalidValue) {
+            Some(ContextValue::String(value)) => value,
+            _ => return,
+        };
+        // A pose, which has commas, says it itself.
+        if let Some(meant) = with_point(value).filter(|meant| !meant.contains(',')) {
+            let tip = format!("a decimal number has a point, not a comma: {meant}");
+            let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+            answer.insert(ContextKind::Suggested, tips);
+        }
+        return;
+    }
     if answer.kind() != ErrorKind::UnknownArgument {
         return;
     }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 
-use crate::design::Design;
+use crate::design::{Design, energy, length};
 use crate::rates::diffusion;
 use crate::request;
 use physics::dynamics::docking::{
@@ -15,6 +15,7 @@ use physics::dynamics::{Fan, MotionSettings, Snapshot};
 use physics::kinetics::rates::{Loosening, RatesError};
 use physics::observer::Observer;
 use physics::problem::Problem;
+use physics::tile::Pair;
 
 /// What is asked of a docking experiment.
 #[derive(Clone, Debug, PartialEq, Args)]
@@ -72,13 +73,13 @@ pub struct Request {
 }
 
 impl Request {
-    /// How the experiment is made.
-    pub fn settings(&self) -> DockingSettings {
+    /// How the experiment is made with these tiles.
+    pub fn settings(&self, pair: &Pair) -> DockingSettings {
         DockingSettings {
             runs: self.runs,
             seed: self.seed,
             duration: self.duration,
-            starts: self.starts.starts(Starts::default()),
+            starts: self.starts.starts(Starts::of(pair)),
             motion: MotionSettings {
                 drag: self.drag,
                 friction: self.friction,
@@ -157,8 +158,9 @@ pub fn loosening(
 /// Ranges from which starts are drawn.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct StartOptions {
-    /// Distance between the tiles' reference points at the start, LOW,HIGH (m) [default: 0.62,1]
-    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
+    /// Distance between the tiles' reference points at the start, LOW,HIGH (m)
+    /// [default: 0.62,1 of the paper's tiles, of others in proportion]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = lengths)]
     pub distance: Option<[f64; 2]>,
 
     /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
@@ -199,9 +201,18 @@ impl StartOptions {
 
 /// A range as `LOW,HIGH`, neither negative.
 fn range(text: &str) -> Result<[f64; 2], String> {
+    range_of(text, request::not_negative)
+}
+
+/// A range of lengths (m), also with units.
+fn lengths(text: &str) -> Result<[f64; 2], String> {
+    range_of(text, request::length_or_none)
+}
+
+fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2], String> {
     const FORM: &str = "a range is LOW,HIGH with 0 <= LOW <= HIGH, such as 0.4,0.8";
     let ends = text.split_once(',').ok_or(FORM)?;
-    let [low, high] = [ends.0, ends.1].map(|end| request::not_negative(end.trim()));
+    let [low, high] = [ends.0, ends.1].map(|end| read(end.trim()));
     match (low, high) {
         (Ok(low), Ok(high)) if low <= high => Ok([low, high]),
         _ => Err(FORM.to_owned()),
@@ -210,10 +221,21 @@ fn range(text: &str) -> Result<[f64; 2], String> {
 
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 pub(crate) fn fan(text: &str) -> Result<Fan, String> {
-    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m, S above 0, such as \
-                        0.6,0.6,1e-3,0.2, and perhaps ,A,F: the share by which it swings, and how \
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
+                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\", and perhaps ,A,F: the share by which it swings, and how \
                         often a second";
-    match request::numbers(text).ok_or(FORM)?[..] {
+    let read = |(k, part): (usize, &str)| match k {
+        0 | 1 | 3 => length(part),
+        2 => energy(part),
+        _ => request::numbers(part).map(|one| one[0]),
+    };
+    let parts: Option<Vec<f64>> = text
+        .split(',')
+        .map(str::trim)
+        .enumerate()
+        .map(read)
+        .collect();
+    match parts.ok_or(FORM)?[..] {
         [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
         [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
             amplitude,
@@ -308,6 +330,7 @@ mod tests {
     fn fans() {
         let steady = Fan::steady([0.6, -0.5], 1e-3, 0.2);
         assert_eq!(fan("0.6,-0.5, 1e-3,0.2"), Ok(steady));
+        assert_eq!(fan("60 cm,-500 mm,1 mJ,0.2 m"), Ok(steady));
         let swinging = Fan {
             amplitude: 0.5,
             frequency: 2.0,

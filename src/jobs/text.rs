@@ -34,6 +34,27 @@ pub fn decode(bytes: Vec<u8>) -> Result<String, NoText> {
     }
 }
 
+/// What to write in place of a number with a decimal comma, of a text that holds one: digits, a comma
+/// and digits right behind it.
+///
+/// ```
+/// use tilebind_jobs::text::with_point;
+/// assert_eq!(with_point("0,43 m").as_deref(), Some("0.43 m"));
+/// assert_eq!(with_point("0,43,0,0").as_deref(), Some("0.43,0,0"));
+/// assert_eq!(with_point("0.43, 0"), None);
+/// ```
+pub fn with_point(text: &str) -> Option<String> {
+    let bytes = text.as_bytes();
+    let digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
+    let is_decimal = |at: usize| {
+        let before = bytes[..at].iter().rposition(|b| !b.is_ascii_digit());
+        // Of `0.43,0` the comma stands between two numbers.
+        at > 0 && digit(at - 1) && digit(at + 1) && before.is_none_or(|k| bytes[k] != b'.')
+    };
+    let at = text.match_indices(',').find(|(at, _)| is_decimal(*at))?.0;
+    Some(format!("{}.{}", &text[..at], &text[at + 1..]))
+}
+
 fn utf8(bytes: Vec<u8>, before: usize) -> Result<String, NoText> {
     String::from_utf8(bytes).map_err(|error| NoText {
         at: before + error.utf8_error().valid_up_to(),

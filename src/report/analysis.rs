@@ -72,7 +72,7 @@ pub fn document<'a>(
         entries: report(design, analysis, is_whole, wall).and(shown),
         part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
         pictures: vec![Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page()],
-        notes: summary::notes(analysis),
+        notes: summary::notes(design, analysis),
         beside: beside(analysis, scene, is_whole),
         origin: format!(
             "seed {}, design sha256 {}",
@@ -296,10 +296,16 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
     let (value, note) = match bond.state.block_energy {
         Some(blocks) => {
             let both = [bond.state.energy, blocks].map(|u| energy(u).replace(' ', "\u{a0}"));
-            (both.join(" / "), "as point dipoles / as blocks".to_owned())
+            (
+                both.join(" / "),
+                format!("as point dipoles / as {}", design.pair.bodies()),
+            )
         }
         None => {
-            let magnets = format!("magnets as {}", design.interaction.model.plural());
+            let magnets = format!(
+                "magnets as {}",
+                design.interaction.model.plural(&design.pair)
+            );
             (energy(bond.state.energy), magnets)
         }
     };

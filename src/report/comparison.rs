@@ -11,7 +11,6 @@ use crate::plots::{Figure, PictureError, Sheet, ranking as picture};
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, Request, capture_range, ranking};
 use physics::landscape::minimax::Ordering;
-use physics::potential::MagnetModel;
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]
@@ -147,13 +146,16 @@ impl Comparison {
         }
     }
 
-    /// The model of all, `dipoles` or `blocks`; `None` where they differ.
-    fn model(&self) -> Option<&'static str> {
+    /// What the magnets of all are, such as `dipoles` or `blocks`; `None` where models differ.
+    fn model(&self) -> Option<&str> {
         let first = &self.designs.first()?.model;
         let same = self.designs.iter().all(|design| design.model == *first);
-        let mut known = MagnetModel::NAMES.into_iter();
-        let (_, model) = known.find(|(name, _)| same && name == first)?;
-        Some(model.plural())
+        let mut others = self.designs.iter().map(|design| &design.magnets);
+        let magnets = others.next()?;
+        same.then(|| match others.all(|other| other == magnets) {
+            true => magnets,
+            false => "blocks and discs",
+        })
     }
 
     /// The figures that designs are known by, and for each the design that has most of it.

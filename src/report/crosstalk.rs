@@ -6,7 +6,7 @@ use super::document::{Document, Drawing, Entries, Part, Table, rows};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
 use super::plots::chart::{Chart, Dimension, Look};
-use super::values::{pose, positive_zero};
+use super::values::{pose, positive_zero, read_pose};
 use jobs::design::WordSet;
 use physics::configuration::Configuration;
 use physics::order::Order;
@@ -238,8 +238,6 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
 
 /// A pose for the terminal.
 fn told(q: &Configuration) -> String {
-    // No minus of what rounds to nothing.
-    let tenth = |x: f64| (10.0 * x).round() / 10.0 + 0.0;
-    let [x, y, theta] = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()].map(tenth);
-    format!("{x:.1}, {y:.1} mm, {theta:.1} deg")
+    let [x, y, theta] = read_pose(q);
+    format!("{x}, {y} mm, {theta} deg")
 }

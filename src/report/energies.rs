@@ -23,7 +23,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
         format!(
             "lowest energy {} where the tiles do not overlap (magnets as {})",
             si(it.energy, "J", 4),
-            design.interaction.model.plural()
+            design.interaction.model.plural(&design.pair)
         )
     });
     let drawn = found.iter().take(DRAWN);

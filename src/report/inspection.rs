@@ -14,6 +14,7 @@ use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
 use physics::potential::MagnetModel;
 use physics::tile::Tile;
+use physics::tile::profile::SHALLOWEST;
 use physics::units::si;
 
 /// Significant digits of energies and forces.
@@ -23,12 +24,13 @@ const DIGITS: usize = 4;
 fn answer(design: &Design, inspection: &Inspection) -> String {
     let bond = &inspection.models[0];
     let faces = names(design, design.pair.target).join(" and ");
+    let bodies = design.pair.bodies();
     let magnets = match inspection.models[1] {
-        blocks if bond.model == MagnetModel::Dipole => format!(
-            "(magnets as point dipoles; as blocks {})",
-            si(blocks.energy, "J", DIGITS)
+        real if bond.model == MagnetModel::Dipole => format!(
+            "(magnets as point dipoles; as {bodies} {})",
+            si(real.energy, "J", DIGITS)
         ),
-        _ => "(magnets as blocks)".to_owned(),
+        _ => format!("(magnets as {bodies})"),
     };
     match bond.energy < 0.0 {
         true => format!(
@@ -73,7 +75,7 @@ fn found_entries(design: &Design, found: &Inspection) -> Entries {
         .data("pull_contact_g", bond.contact / GRAM)
         .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(bond)).noted("the largest pull on the way")
         .data("pull_off_g", bond.pull_off / GRAM)
-        .table(models(&found.models))
+        .table(models(design, &found.models))
         .fact("comes_straight_out", "comes straight out", found.comes_straight_out)
         .table(rivals(design, found))
         .table(table("fixed", fixed).in_data().in_file("faces"))
@@ -142,7 +144,7 @@ struct Face {
 
 impl Face {
     fn is_straight(&self) -> bool {
-        self.heights[1] - self.heights[0] < 1e-6
+        self.heights[1] - self.heights[0] <= SHALLOWEST * self.length
     }
 
     fn is_worth_telling(&self) -> bool {

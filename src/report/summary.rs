@@ -9,6 +9,7 @@ use crate::document::{Table, rows};
 use crate::dynamics;
 use crate::figures::percent;
 use crate::names::face_names;
+use crate::values::read_pose;
 use jobs::design::Design;
 use jobs::inspection;
 use jobs::pipeline::Analysis;
@@ -58,6 +59,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
         Some((state, share))
     });
     let mut lines = String::new();
+    let bodies = design.pair.bodies();
     let bond = bond(analysis);
     if let Some((own, blocks)) = bond.and_then(|kind| {
         let bond = kind.first();
@@ -65,7 +67,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     }) {
         let [own, blocks] = [own, blocks].map(|energy| si(energy, "J", DIGITS));
         lines += &format!(
-            "{}: the bond has {own} with magnets as point dipoles, {blocks} as blocks\n",
+            "{}: the bond has {own} with magnets as point dipoles, {blocks} as {bodies}\n",
             design.name
         );
     }
@@ -75,7 +77,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     let worst = off.iter().find(|(_, share)| *share >= 0.99 * most);
     if let Some((state, share)) = worst.filter(|_| most > DOUBTFUL) {
         lines += &format!(
-            "! dipoles are off by {:.0} % at {}: real magnets are blocks (--model cuboid)\n",
+            "! dipoles are off by {:.0} % at {}: real magnets are {bodies} (--model cuboid)\n",
             100.0 * share,
             analysis.catalogue.name_of(Place::State(state.id)),
         );
@@ -103,9 +105,10 @@ pub fn answer(design: &Design, analysis: &Analysis) -> String {
 /// What to know of far starts, and of other faces that bind as well.
 pub fn remarks(design: &Design, analysis: &Analysis) -> Vec<String> {
     let [inner, outer] = analysis.ring;
-    let model = design.interaction.model.plural();
+    let model = design.interaction.model.plural(&design.pair);
     let starts = format!(
-        "({model}, overdamped, from {inner:.2} to {outer:.2} m away, any angle; 95 % intervals in brackets)"
+        "({model}, overdamped, from {} away, any angle; 95 % intervals in brackets)",
+        si_range(inner, outer, "m", 3)
     );
     let rivals = inspection::rivals(analysis.problem.rivals().len());
     [starts].into_iter().chain(rivals).collect()
@@ -160,7 +163,7 @@ fn certified(kind: &Kind, way: Option<&Barrier>) -> String {
 }
 
 /// What else there is to know, a line or two each.
-pub fn notes(analysis: &Analysis) -> Vec<String> {
+pub fn notes(design: &Design, analysis: &Analysis) -> Vec<String> {
     let (bond, traps) = (bond(analysis), traps(analysis));
     let mut notes = Vec::new();
     if traps.len() > LISTED {
@@ -169,7 +172,7 @@ pub fn notes(analysis: &Analysis) -> Vec<String> {
     notes.push(way_in(analysis, bond.as_ref()));
     notes.push(deepest(&analysis.catalogue, bond.as_ref(), &traps));
     notes.extend(completeness(analysis));
-    notes.extend(dipole_error(analysis));
+    notes.extend(dipole_error(design, analysis));
     let uncertified = analysis.uncertified;
     notes.extend(uncertified.map(|why| format!("barriers are not certified: {why}")));
     notes.extend(analysis.certificate_ended.map(|ended| {
@@ -240,16 +243,17 @@ pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String 
 }
 
 /// How far the dipoles' energy is off at the state where it is off most.
-fn dipole_error(analysis: &Analysis) -> Option<String> {
+fn dipole_error(design: &Design, analysis: &Analysis) -> Option<String> {
     let states = analysis.catalogue.states.iter();
     let (state, blocks, error) = states
         .filter(|state| state.id == state.class)
         .filter_map(|state| Some((state, state.block_energy?, state.dipole_error()?)))
         .max_by_key(|(.., error)| OrderedFloat(error.abs()))?;
     Some(format!(
-        "dipoles are off by up to {}: at {}, where blocks have {} (--model cuboid)",
+        "dipoles are off by up to {}: at {}, where {} have {} (--model cuboid)",
         si(error, "J", DIGITS),
         analysis.catalogue.name_of(Place::State(state.id)),
+        design.pair.bodies(),
         si(blocks, "J", DIGITS),
     ))
 }
@@ -337,11 +341,6 @@ fn faces(design: &Design, class: &Kind) -> String {
 }
 
 fn pose(q: &Configuration) -> String {
-    let [x, y] = [q.x, q.y].map(|length| tenths(1e3 * length));
-    format!("{x}, {y}, {}°", tenths(q.theta.to_degrees()))
-}
-
-/// One decimal, without a sign where it is 0.
-fn tenths(value: f64) -> String {
-    format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
+    let [x, y, theta] = read_pose(q);
+    format!("{x}, {y}, {theta}°")
 }

@@ -33,9 +33,9 @@ pub fn force(newtons: f64) -> String {
 /// What holds the tiles, a line for each model of the magnets.
 // One line a column.
 #[rustfmt::skip]
-pub fn models(models: &[Hold]) -> Table {
+pub fn models<'a>(design: &'a Design, models: &'a [Hold]) -> Table {
     rows(models)
-        .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural().to_owned())
+        .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural(&design.pair).to_owned())
         .column("energy_J", "energy", "where the target faces meet", |it| it.energy).digits(DIGITS)
         .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| force(it.contact))
         .column("along_N", "", "", |it| it.along)

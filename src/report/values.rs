@@ -15,6 +15,30 @@ pub(super) fn pose(q: &Configuration) -> [f64; 3] {
     q.to_array().map(positive_zero)
 }
 
+/// A configuration as people read it: x and y in mm, theta in degrees, to a tenth; of small tiles, whose
+/// poses are, lengths to a five-hundredth of the pose's own.
+pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
+    let [x, y] = [1e3 * q.x, 1e3 * q.y];
+    let size = x.abs().max(y.abs());
+    let finest = if size > 0.0 {
+        -libm::log10(size / 500.0)
+    } else {
+        1.0
+    };
+    // Nothing is told below a nanometre.
+    let decimals = (finest - 1e-9).ceil().clamp(1.0, 6.0) as usize;
+    let told = |value: f64, decimals: usize| {
+        let scale = 10f64.powi(decimals as i32);
+        // No minus of what rounds to nothing.
+        format!("{:.decimals$}", (scale * value).round() / scale + 0.0)
+    };
+    [
+        told(x, decimals),
+        told(y, decimals),
+        told(q.theta.to_degrees(), 1),
+    ]
+}
+
 /// A sampled proportion with its 95 % Wilson interval.
 pub(super) fn proportion(proportion: Proportion) -> Value {
     json!({
@@ -24,4 +48,18 @@ pub(super) fn proportion(proportion: Proportion) -> Value {
         "count": proportion.count,
         "of": proportion.of,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_of_small_tiles_are_told_with_more_digits() {
+        let told = |x: f64, y: f64| read_pose(&Configuration::new(x, y, -1e-9)).join(" ");
+        assert_eq!(told(0.43, -0.04), "430.0 -40.0 0.0");
+        assert_eq!(told(0.08, 1e-9), "80.0 0.0 0.0");
+        assert_eq!(told(0.010_66, 0.000_14), "10.66 0.14 0.0");
+        assert_eq!(told(0.0, 0.0), "0.0 0.0 0.0");
+    }
 }

@@ -71,12 +71,17 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
 // One line a column.
 #[rustfmt::skip]
 fn magnets(magnets: &[(Magnet, usize)]) -> Table {
-    let size = |magnet: &Magnet| magnet.axis_first().map(plain).join(" x ");
-    let shape = |magnet: &Magnet| if magnet.form.shape == Shape::Disc { "discs " } else { "" };
+    let told = |magnet: &Magnet| {
+        let size = magnet.axis_first().map(plain);
+        match magnet.form.shape {
+            Shape::Block => format!("{}, magnetised along the first", size.join(" x ")),
+            Shape::Disc => format!("discs, {} across and {} high", size[1], size[0]),
+        }
+    };
     rows(magnets)
         .column("number", "number", "", |(_, count)| *count)
         .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.axis_first())).without_csv()
-            .viewed(move |(magnet, _)| format!("{}{}, magnetised along the first", shape(magnet), size(magnet)))
+            .viewed(move |(magnet, _)| told(magnet))
         .column("length_m", "", "", |(magnet, _)| magnet.axis_first()[0]).in_csv()
         .column("width_m", "", "", |(magnet, _)| magnet.axis_first()[1]).in_csv()
         .column("height_m", "", "", |(magnet, _)| magnet.axis_first()[2]).in_csv()
@@ -124,7 +129,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         .column("tile", "", "", move |_| name).in_csv()
         .column("step", "step", "", |(step, _)| *step)
         .column("pocket", "pocket", "its face, and which magnet of it, counter-clockwise", move |it| pocket(it).name).viewed(told)
-        .column("pole", "pole outwards", "", move |it| pocket(it).pole.letter().to_string())
+        .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "on the way in", "the largest push out", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("wall_m", "", "", move |it| pocket(it).wall)
         .column("depth_m", "", "", move |it| pocket(it).depth)

@@ -12,6 +12,7 @@ fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
         sha256: String::new(),
         drawings: Vec::new(),
         model: model.into(),
+        magnets: String::new(),
         seed: 1,
         target_energy: energy,
         bond: Some(Bond {

@@ -3,6 +3,7 @@
 
 use tilebind::budget::Allowance;
 use tilebind::design::Design;
+use tilebind::dynamics::docking::Starts;
 use tilebind::landscape::Place;
 use tilebind::observer::Silent;
 use tilebind::pipeline;
@@ -138,5 +139,13 @@ fn powers_of_two_change_no_digit() {
     for (a, b) in one.catalogue.states.iter().zip(&other.catalogue.states) {
         assert_eq!(a.energy * cube, b.energy, "{}", a.id);
         assert_eq!(a.configuration.x / 128.0, b.configuration.x, "{}", a.id);
+    }
+}
+
+#[test]
+fn tiles_of_any_size_start_to_dock_as_far_away_in_proportion() {
+    for s in [1.0, 1.0 / 128.0, 16.0] {
+        let starts = Starts::of(&scaled("paper-tile", s).pair);
+        assert_eq!(starts.distance, [0.62 * s, s]);
     }
 }

@@ -43,8 +43,9 @@ def test_a_key_is_replaced_in_another_design(tab):
     assert tab.replace("table.size.0", "250 cm").table == (2.5, 2.0)
     with pytest.raises(DesignError, match="leads nowhere"):
         tab.replace("name.first", 1)
-    with pytest.raises(DesignError):
+    with pytest.raises(DesignError, match="fixed.side = -1: `side` must be above zero") as found:
         tab.replace("fixed.side", -1)
+    assert found.value.line is None
     with pytest.raises(ValueError, match="not a object"):
         tab.replace("fixed.side", object())
 

@@ -221,13 +221,8 @@ impl Assembly<'_> {
             Some(places) => places[k],
             None => (k as f64 - middle) * pitch,
         };
-        let pole = |k: usize| match word.at(k) {
-            1 => Some('N'),
-            -1 => Some('S'),
-            _ => None,
-        };
         (0..word.places())
-            .filter_map(|k| Some((at(k), pole(k)?)))
+            .filter_map(|k| Some((at(k), word.pole(k)?.letter())))
             .collect()
     }
 

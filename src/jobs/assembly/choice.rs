@@ -124,6 +124,7 @@ impl Asked<'_> {
         Task {
             places: self.places,
             magnets,
+            stands: self.bar.form.stands.is_some(),
             lags: Lags::new(self.bar, self.places),
             rules: self.request.rules(),
             constraints: Constraints {

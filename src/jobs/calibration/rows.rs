@@ -4,6 +4,7 @@ use csv::StringRecord;
 
 use super::Row;
 use super::lines::records;
+use crate::text::with_point;
 use physics::configuration::Configuration;
 
 /// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0),
@@ -73,8 +74,13 @@ fn columns(header: &StringRecord) -> Result<Vec<usize>, String> {
 fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, String> {
     let (found, expected) = (entries.len(), columns.len());
     if found != expected {
+        let text = entries.iter().collect::<Vec<_>>().join(",");
+        let meant = with_point(&text).filter(|_| found > expected);
+        let meant = meant.map_or(String::new(), |meant| {
+            format!("; a decimal number has a point, not a comma: {meant}")
+        });
         return Err(format!(
-            "line {line} has {found} entries, the first line names {expected} columns"
+            "line {line} has {found} entries, the first line names {expected} columns{meant}"
         ));
     }
     let mut values = [None; COLUMNS.len()];

@@ -44,6 +44,9 @@ pub struct Assessment {
     pub drawings: Vec<Drawing>,
     /// The magnet model, as design files call it.
     pub model: String,
+    /// What magnets of that model are: dipoles, blocks, discs.
+    #[serde(default)]
+    pub magnets: String,
     /// Of all random numbers.
     pub seed: u64,
     /// Energy with the target faces coinciding (J).
@@ -244,6 +247,7 @@ impl Assessment {
             sha256: design.sha256.clone(),
             drawings: design.drawings.clone(),
             model: design.interaction.model.name().to_owned(),
+            magnets: design.interaction.model.plural(&design.pair).to_owned(),
             seed: analysis.settings.seed,
             target_energy: analysis.bound.1,
             bond: bound.map(|state| bond(analysis, state)),

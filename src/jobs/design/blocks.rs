@@ -8,7 +8,8 @@ use physics::tile::assembly::{face_edges, surface_height};
 use physics::tile::outline::ConvexPart;
 use physics::tile::{Face, Magnet};
 
-/// Depth (m) up to which blocks may overlap or stick out: rounding.
+/// Depth (m) up to which blocks may overlap or stick out: rounding, a ten-thousandth of the thinnest
+/// magnets that are read (10 um).
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// What a magnet covers.

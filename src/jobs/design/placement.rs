@@ -122,15 +122,18 @@ pub(super) fn magnet(
     })
 }
 
-/// Whether a magnet stands, or what is wrong with its pole. Words know N and S only: of magnets that stand they
-/// are U and D.
+/// Whether a magnet stands, or what is wrong with its pole.
 fn standing(listed: &ListedMagnet) -> std::result::Result<Option<Standing>, (String, String)> {
     let up = listed.keys.axis == Some(Axis::Up);
     let letter = listed.pole.letter();
     match (listed.pole, up) {
-        (Pole::Up | Pole::North, true) => Ok(Some(Standing::Up)),
-        (Pole::Down | Pole::South, true) => Ok(Some(Standing::Down)),
+        (Pole::Up, true) => Ok(Some(Standing::Up)),
+        (Pole::Down, true) => Ok(Some(Standing::Down)),
         (Pole::North | Pole::South, false) => Ok(None),
+        (_, true) => Err((
+            format!("`{letter}` turns a pole out of the face, and these magnets stand"),
+            "write U for a north pole up and D for a south pole up".to_owned(),
+        )),
         (_, false) => Err((
             format!("`{letter}` turns a pole up or down, and these magnets lie"),
             "write axis = \"up\" for magnets that stand; lying ones have N and S".to_owned(),

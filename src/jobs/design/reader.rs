@@ -307,14 +307,53 @@ impl<'a> Entry<'a> {
         values.try_into().map_err(|values: Vec<f64>| {
             self.error(
                 format!("`{}` holds {} numbers, not {N}", self.key, values.len()),
-                format!("give {N} numbers: {what}"),
+                match items.len() == 2 * N {
+                    // `[2,0, 2,0]`
+                    true => format!(
+                        "give {N} numbers: {what}; a decimal number has a point, not a comma"
+                    ),
+                    false => format!("give {N} numbers: {what}"),
+                },
             )
         })
     }
 }
 
+/// Words from elsewhere, each with a word that is known where it is meant, and what to write.
+const ELSEWHERE: [(&str, &str, &str); 9] = [
+    ("length", "diameter", DISC_OR_BLOCK),
+    ("thickness", "diameter", DISC_OR_BLOCK),
+    ("width", "diameter", DISC_OR_BLOCK),
+    ("radius", "diameter", "write its diameter, twice the radius"),
+    ("br", "remanence", "write `remanence`, in T"),
+    ("material", "grade", "write grade = \"N42\""),
+    (
+        "strength",
+        "grade",
+        "write grade = \"N42\", or remanence = 1.2 (T)",
+    ),
+    (
+        "cylinder",
+        "disc",
+        "write \"disc\", with `diameter` and `height`",
+    ),
+    (
+        "words",
+        "fixed",
+        "a set of words is no design: `tilebind crosstalk` reads it",
+    ),
+];
+const DISC_OR_BLOCK: &str = "a disc has `diameter` and `height`, the length along its axis that it is \
+                             magnetised through; a block has size = [...]";
+
 /// Names the known word nearest to `word`, or all of them where none is near.
 pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
+    let elsewhere = ELSEWHERE
+        .iter()
+        .find(|(other, own, _)| word.eq_ignore_ascii_case(other) && known.contains(own));
+    if let Some((.., help)) = elsewhere {
+        return (*help).to_owned();
+    }
     // Of numbers none is near another.
     let number = word.bytes().all(|b| b.is_ascii_digit());
     let nearest = known

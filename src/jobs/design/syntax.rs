@@ -8,6 +8,7 @@ use super::error::Result;
 use super::quantity::four_digits;
 use super::source::Source;
 use super::units;
+use crate::text::with_point;
 
 const HELP: &str = "the file is TOML: `key = value` lines under [section] headers";
 
@@ -52,23 +53,22 @@ fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String
     let end = text[at..]
         .find(['\n', '\r', '#'])
         .map_or(text.len(), |end| at + end);
-    let line = &text[begin..end];
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    // `side = 0,43`
-    let (_, value) = line.split_once('=')?;
-    if let Some((whole, part)) = value.trim().split_once(',')
-        && digits(whole.trim_start_matches(['-', '+']))
-        && digits(part)
-    {
-        let from = begin + line.find(value.trim())?;
-        let told = format!("write {whole}.{part}");
-        let range = from..from + value.trim().len();
-        return Some((range, "a decimal number has a point, not a comma", told));
+    // `side = 0,43`, also in a table or an array: the fault is at the comma or behind it.
+    let in_number = |c: char| c.is_ascii_digit() || ",-+".contains(c);
+    let from = last_word(text[begin..at].trim_end_matches([' ', '\t']), |c| {
+        !in_number(c)
+    });
+    let from = begin + from;
+    let number = text[from..end].split(|c: char| !in_number(c)).next()?;
+    let number = number.trim_end_matches(',');
+    let to = from + number.len();
+    if let Some(meant) = with_point(number) {
+        let told = format!("write {meant}");
+        return Some((from..to, "a decimal number has a point, not a comma", told));
     }
     // `code = NNS`, as a value of its own, in a table or in an array.
-    let before = &text[begin..at];
-    let from = before.rfind(|c: char| c.is_whitespace() || "=[,{".contains(c));
-    let from = begin + from.map_or(0, |at| at + 1);
+    let between = |c: char| c.is_whitespace() || "=[,{".contains(c);
+    let from = begin + last_word(&text[begin..at], between);
     let word = &text[from..end];
     let word = &word[..word
         .find(|c: char| c.is_whitespace() || ",]}".contains(c))
@@ -79,4 +79,9 @@ fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String
     let is_word = word.contains(char::is_alphabetic) && word.chars().all(plain);
     let told = format!("write \"{word}\"");
     (is_value && is_word).then(|| (from..from + word.len(), "text goes in quotes", told))
+}
+
+/// Where the last word of a text begins, of words with certain letters between them.
+fn last_word(text: &str, between: impl Fn(char) -> bool) -> usize {
+    text.len() - text.rsplit(between).next().map_or(0, str::len)
 }

@@ -7,20 +7,20 @@ use super::error::Result;
 use super::quantity;
 use super::reader::{Entry, all};
 use physics::order::Order;
-use physics::words::Word;
 use physics::words::word::MOST_PLACES;
+use physics::words::{Bar, Word};
 
-/// Positions closer than this (m) are one.
+/// Positions closer than this (m) are one: a thousandth of the micrometre to which files tell them.
 const SAME: f64 = 1e-9;
 
 /// Places (m along the face, ascending) and words of faces, each with its name and its list of
-/// `magnets`, which are `width` (m) wide, on faces `side` (m) long.
+/// `magnets`, on faces `side` (m) long.
 pub(super) fn common(
     faces: &[(&str, Entry)],
-    width: f64,
+    bar: &Bar,
     side: f64,
 ) -> Result<(Vec<f64>, Vec<Word>)> {
-    let read = faces.iter().map(|face| magnets(face, width, side));
+    let read = faces.iter().map(|face| magnets(face, bar, side));
     let faces_magnets = all(read)?;
     let at = faces_magnets.iter().flatten().map(|(at, _)| *at);
     let mut places: Vec<f64> = at.flat_map(|at| [at, -at]).collect();
@@ -48,9 +48,10 @@ pub(super) fn common(
 /// The magnets of a face, ascending: where along it (m), and their poles.
 fn magnets<'a>(
     (name, entry): &(&str, Entry<'a>),
-    width: f64,
+    bar: &Bar,
     side: f64,
 ) -> Result<Vec<(f64, &'a str)>> {
+    let (width, letters) = (bar.size[1], letters(bar));
     let wrong = |message: String, help: &str| Err(entry.error(format!("`{name}` {message}"), help));
     let one = |magnet: &Entry<'a>| {
         let section = magnet.section("a magnet of `magnets`")?;
@@ -79,8 +80,18 @@ fn magnets<'a>(
             "move them apart",
         );
     }
-    if let Some((_, pole)) = magnets.iter().find(|(_, pole)| !["N", "S"].contains(pole)) {
-        return wrong(format!("has the pole `{pole}`"), "a pole is \"N\" or \"S\"");
+    let is_known = |pole: &str| letters.iter().any(|letter| pole == letter.to_string());
+    if let Some((_, pole)) = magnets.iter().find(|(_, pole)| !is_known(pole)) {
+        let help = format!("a pole is \"{}\" or \"{}\"", letters[0], letters[1]);
+        return wrong(format!("has the pole `{pole}`"), &help);
     }
     Ok(magnets)
+}
+
+/// The letters of both poles of magnets that lie, or that stand.
+pub(super) fn letters(bar: &Bar) -> [char; 2] {
+    match bar.form.stands {
+        Some(_) => ['U', 'D'],
+        None => ['N', 'S'],
+    }
 }

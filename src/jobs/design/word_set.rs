@@ -24,8 +24,8 @@ use super::reader::{Entry, Section};
 use super::source::Source;
 use super::{Design, MagnetModel, file, potential, quantity, syntax, word_places, word_stage};
 use physics::order::Order;
-use physics::words::Word;
 use physics::words::crosstalk::Stage;
+use physics::words::{Bar, Word};
 
 /// A set of words and what carries them.
 #[derive(Clone, Debug)]
@@ -132,7 +132,7 @@ impl WordSet {
                 let message = "it does not say how long its faces are";
                 root.error(message, "write side = 0.43 under [tile]")
             })?;
-            let (places, words) = word_places::common(&spaced, width, side)?;
+            let (places, words) = word_places::common(&spaced, &bar, side)?;
             return Ok(Self {
                 words,
                 names: spaced.iter().map(|(name, _)| (*name).to_owned()).collect(),
@@ -147,7 +147,7 @@ impl WordSet {
                 .map(|(name, code)| (name.to_owned(), code))
                 .unzip(),
         };
-        let words = read_words(&codes)?;
+        let words = read_words(&codes, &bar)?;
         let count = words.first().map_or(0, |word| word.places());
         if words.is_empty() {
             let help = "list them: words = [\"NNSN\", \"NSSN\"]";
@@ -195,13 +195,21 @@ fn faces<'a>(root: &Section<'a>) -> Result<Vec<(&'a str, Section<'a>)>> {
 }
 
 /// Words of one length, each once.
-fn read_words(codes: &[Entry]) -> Result<Vec<Word>> {
+fn read_words(codes: &[Entry], bar: &Bar) -> Result<Vec<Word>> {
     let mut words: Vec<Word> = Vec::new();
+    let [first, second] = word_places::letters(bar);
     for entry in codes {
         let code = entry.string()?;
-        let help = "write it of N, S and .";
+        let help = format!("write it of {first}, {second} and .");
         let word =
-            Word::parse(code).map_err(|found| entry.error(format!("`{code}`: {found}"), help))?;
+            Word::parse(code).map_err(|found| entry.error(format!("`{code}`: {found}"), &help))?;
+        if word.magnets() > 0 && word.standing(bar.form.stands.is_some()) != word {
+            let message = match bar.form.stands {
+                Some(_) => format!("`{code}` is of magnets that lie, and these stand"),
+                None => format!("`{code}` is of magnets that stand (axis = \"up\"), and these lie"),
+            };
+            return Err(entry.error(message, &help));
+        }
         let first = words.first().copied().unwrap_or(word);
         if first.places() != word.places() {
             let (own, others) = (word.places(), first.places());

@@ -44,10 +44,11 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
         model,
     } = bar;
     let (table, model) = (8.0 * side, model.name());
+    let pole = if form.stands.is_some() { 'U' } else { 'N' };
     let tile = |tile: &str, face: &str| {
         format!(
             "[{tile}]\nside = {side:?}\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n{face} = {{ \
-             code = \"N\" }}\n"
+             code = \"{pole}\" }}\n"
         )
     };
     let text = format!(

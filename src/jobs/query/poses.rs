@@ -3,6 +3,7 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::design::{angle, length};
+use crate::text::with_point;
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
@@ -72,6 +73,7 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let mut columns = None;
+    let mut entries = 0;
     let mut poses = Vec::new();
     let mut record = StringRecord::new();
     // Text that is in memory cannot fail to be read.
@@ -80,17 +82,36 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
         if columns.is_none() {
             let names = named(&record).map_err(|wrong| format!("line {line}: {wrong}"))?;
             columns = Some(names.unwrap_or([0, 1, 2]));
+            entries = if names.is_some() { record.len() } else { 3 };
             if names.is_some() {
                 continue;
             }
         }
-        let pose = pose(&record, columns.unwrap_or_default());
+        let pose = not_too_long(&record, entries)
+            .and_then(|()| pose(&record, columns.unwrap_or_default()));
         poses.push(pose.map_err(|wrong| format!("line {line}: {wrong}"))?);
     }
     if poses.is_empty() {
         return Err("there are no poses in it; write a line x,y,theta and one for each".to_owned());
     }
     Ok(poses)
+}
+
+/// A line with more entries than it should have is no pose: where commas are decimal, its numbers are
+/// others than meant.
+fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
+    let text = record.iter().collect::<Vec<_>>().join(",");
+    match record.iter().skip(entries).any(|entry| !entry.is_empty()) {
+        false => Ok(()),
+        true => Err(match with_point(&text) {
+            Some(meant) => format!(
+                "it has {} entries where {entries} are wanted; a decimal number has a point, not a comma: \
+                 {meant}",
+                record.len()
+            ),
+            None => format!("it has {} entries where {entries} are wanted", record.len()),
+        }),
+    }
 }
 
 /// Where x, y and theta stand, if the line names columns.
@@ -123,7 +144,12 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
     };
     let wrong = |k: usize, text: &str, unit: &str| {
         let [name, _] = COLUMNS[k];
-        format!("{name} is `{text}`, which is no number in {unit}")
+        match with_point(text) {
+            Some(meant) => {
+                format!("{name} is `{text}`: a decimal number has a point, not a comma: {meant}")
+            }
+            None => format!("{name} is `{text}`, which is no number in {unit}"),
+        }
     };
     let metres = |k: usize| {
         let text = entry(k)?;

@@ -1,6 +1,7 @@
 //! What users type: poses, numbers with limits.
 
 use crate::design;
+use crate::text::with_point;
 use physics::configuration::Configuration;
 
 /// A pose as `X,Y,THETA` (m, m, rad), or each with a unit: `43 cm,0,90 deg`.
@@ -9,7 +10,10 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
                         such as \"43 cm,0,90 deg\"";
     let parts: Vec<&str> = text.split(',').collect();
     let [x, y, theta] = parts[..] else {
-        return Err(FORM.to_owned());
+        return Err(match with_point(text).filter(|_| parts.len() > 3) {
+            Some(meant) => format!("a decimal number has a point, not a comma: {meant}; {FORM}"),
+            None => FORM.to_owned(),
+        });
     };
     let numbers = [design::length(x), design::length(y), design::angle(theta)];
     let [Some(x), Some(y), Some(theta)] = numbers else {

@@ -236,7 +236,11 @@ impl Plan {
             match self.design(point) {
                 Ok(_) => return Ok(()),
                 Err(reason) => {
-                    first.get_or_insert(reason);
+                    // By the keys as they were asked for.
+                    let values = self.axes.iter().zip(&point.values);
+                    let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
+                    let values: Vec<String> = values.collect();
+                    first.get_or_insert_with(|| format!("{}: {reason}", values.join(", ")));
                 }
             }
         }

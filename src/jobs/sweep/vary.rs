@@ -174,7 +174,13 @@ fn value(word: &str) -> Result<Value, String> {
         return Err("a value of the list is missing".to_owned());
     }
     if let Ok(whole) = word.parse() {
-        return Ok(Value::Whole(whole));
+        // Nobody writes `04` but for what stands behind a decimal comma.
+        return match word.len() > 1 && word.starts_with('0') {
+            true => Err(format!(
+                "`{word}` begins with 0: a decimal number has a point, not a comma: 0.{word}"
+            )),
+            false => Ok(Value::Whole(whole)),
+        };
     }
     Ok(match (word, word.parse::<f64>()) {
         ("true", _) => Value::Truth(true),

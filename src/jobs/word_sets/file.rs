@@ -21,12 +21,12 @@ pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64) -> String 
 /// Words with magnets anywhere along the face.
 pub fn of_spaced(headline: &str, words: &[SpacedWord], bar: &Bar, side: f64) -> String {
     let magnets = |word: &SpacedWord| {
-        let letters = word.magnets.iter().map(|(at, pole)| {
-            let pole = if *pole > 0 { 'N' } else { 'S' };
-            // No minus of nothing.
-            format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0)
-        });
-        format!("magnets = [{}]", letters.collect::<Vec<_>>().join(", "))
+        let letters = word.code(bar.form.stands.is_some());
+        let magnets = word.magnets.iter().zip(letters.chars());
+        // No minus of nothing.
+        let magnets =
+            magnets.map(|((at, _), pole)| format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0));
+        format!("magnets = [{}]", magnets.collect::<Vec<_>>().join(", "))
     };
     let faces = words
         .iter()
@@ -57,7 +57,7 @@ fn text(
     let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
     let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
     text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
-             face\n# (east = { ... }); X* is the mate of X. Of magnets that stand N is north up (U).\n[faces]\n";
+             face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
     for (k, [word, mate]) in faces.enumerate() {
         let name = name(k);
         let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");

@@ -30,6 +30,8 @@ pub struct Sought {
     pub design: Option<String>,
     /// The magnets.
     pub bar: Bar,
+    /// Length (m) of the design's target face, or of the paper's.
+    pub face: f64,
     /// What words are wanted.
     pub task: Task,
     /// The same, as it is answered.
@@ -44,6 +46,18 @@ impl Sought {
     /// Side (m) of square tiles whose faces hold the words' magnets.
     pub fn side(&self) -> f64 {
         side(&self.bar, self.task.places)
+    }
+
+    /// How long (m) a face is from the first to the last place of its magnets.
+    pub fn needed(&self) -> f64 {
+        (self.task.places as f64 - 1.0) * self.bar.pitch + self.bar.size[1]
+    }
+
+    /// The greatest pitch (m) with which the words fit on the face, if they do not with theirs.
+    pub fn pitch_that_fits(&self) -> Option<f64> {
+        let places = self.task.places as f64 - 1.0;
+        let pitch = (self.face - self.bar.size[1]) / places;
+        (self.needed() > self.face * (1.0 + 1e-9)).then_some(pitch)
     }
 
     /// The strongest wrong meeting of two words, with their mates, by energies.

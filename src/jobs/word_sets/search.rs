@@ -16,6 +16,9 @@ pub enum Found {
     Anywhere(Box<Spaced>),
 }
 
+const UPSIDE_DOWN: &str = "--flip: magnets that stand exchange their poles when their tile lies upside down, \
+                           so that every face is its own mate and no such words exist; leave it out";
+
 impl Request {
     /// Searches the words, of the magnets of a design's target face or of the paper's.
     ///
@@ -24,6 +27,9 @@ impl Request {
     pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
         let (places, magnets) = self.places()?;
         let (bar, face) = bar(design, self.pitch, self.model)?;
+        if self.flip && bar.form.stands.is_some() {
+            return Err(UPSIDE_DOWN.to_owned().into());
+        }
         let effort = Effort::new(self.seed, Budget::seconds(self.seconds));
         if self.continuous {
             let wanted = Wanted {
@@ -52,6 +58,7 @@ impl Request {
         let task = Task {
             places,
             magnets,
+            stands: bar.form.stands.is_some(),
             lags,
             rules: Rules {
                 faces: self.faces,
@@ -66,6 +73,7 @@ impl Request {
             request: self.clone(),
             design: design.map(|design| design.name.clone()),
             bar,
+            face: face.unwrap_or(PAPER_FACE),
             task,
             question,
             energies,

@@ -16,7 +16,7 @@ const FOR_A_WORD: f64 = 0.2;
 /// for by the first of these, or else by the second.
 const MARGINS: [f64; 2] = [0.01, 0.05];
 
-/// Positions are told to so many metres.
+/// Positions are told to so many metres: finer than anything is placed.
 const STEP: f64 = 1e-6;
 
 /// The set as its file tells it, and its crosstalk; `None` of no words.

@@ -6,7 +6,7 @@ use super::Making;
 use super::rim::{Corner, rim};
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
-use physics::tile::{Face, Magnet, Tile};
+use physics::tile::{Face, Magnet, Outline, Tile};
 
 /// A wall (m) between pocket and rim that is thinner than this does not stand.
 const THINNEST: f64 = 5e-4;
@@ -146,7 +146,7 @@ fn pocket(
     if cut.size[0] <= 0.0 || cut.size[1] <= 0.0 {
         return Err(PartError::Pocket(making.kerf));
     }
-    let hole = grown(making.clearance).outline();
+    let hole = grown(making.clearance);
     Ok(Pocket {
         name: format!("{} {number}", face.name),
         pole: magnet.pole(face.normal()),
@@ -154,11 +154,19 @@ fn pocket(
         north: magnet.moment_vector() / magnet.moment * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
-        wall: -hole
-            .iter()
-            .map(|p| tile.outline.signed_distance(*p))
-            .fold(f64::NEG_INFINITY, f64::max),
+        wall: -reach(&tile.outline, &hole),
     })
+}
+
+/// How far (m) a hole reaches beyond the rim, below 0 where it leaves a wall.
+fn reach(rim: &Outline, hole: &Magnet) -> f64 {
+    match hole.is_round() {
+        true => rim.signed_distance(hole.position) + hole.size[0] / 2.0,
+        false => {
+            let corners = hole.corners().map(|p| rim.signed_distance(p));
+            corners.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        }
+    }
 }
 
 /// The line around a magnet.
@@ -174,4 +182,31 @@ fn pocket_rim(magnet: &Magnet) -> Vec<Corner> {
     }
     let corners = magnet.corners();
     corners.map(|point| Corner { point, bulge: 0.0 }).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use physics::tile::magnet::{Form, Shape, Standing};
+
+    /// A wall that lies between two corners of any polygon about the disc.
+    #[test]
+    fn the_wall_beside_a_disc_that_stands_is_that_of_a_circle() {
+        let turn = |k: u8| std::f64::consts::PI * (f64::from(k) / 2.0 + 1.0 / 32.0);
+        let corner = |k: u8| Vector2::new(libm::cos(turn(k)), libm::sin(turn(k))) * 2f64.sqrt();
+        let away = std::f64::consts::FRAC_PI_4;
+        let rim = Outline::new([0, 1, 2, 3].map(corner).to_vec()).unwrap();
+        let disc = Magnet {
+            position: Vector2::zeros(),
+            angle: away,
+            moment: 1.0,
+            size: [1.0, 1.0, 0.5],
+            form: Form {
+                shape: Shape::Disc,
+                stands: Some(Standing::Up),
+            },
+            face: 0,
+        };
+        assert!((reach(&rim, &disc) + 0.5).abs() < 1e-12);
+    }
 }

@@ -1,7 +1,7 @@
 //! How magnets are modelled.
 
-use crate::tile::Magnet;
 use crate::tile::magnet::Form;
+use crate::tile::{Magnet, Pair};
 
 /// How magnets are modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,11 +18,11 @@ impl MagnetModel {
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
 
-    /// What a reader calls magnets of this model: `dipoles`, `blocks`.
-    pub fn plural(self) -> &'static str {
+    /// What a reader calls a pair's magnets of this model: `dipoles`, `blocks`, `discs`.
+    pub fn plural(self, pair: &Pair) -> &'static str {
         match self {
             Self::Dipole => "dipoles",
-            Self::Cuboid => "blocks",
+            Self::Cuboid => pair.bodies(),
         }
     }
 

@@ -5,7 +5,8 @@ use super::mover::Mover;
 use super::pair::{Two, configuration, relative};
 use crate::tile::outline::cross;
 
-/// Tiles with a clearance below this (m) touch, as far as being held is concerned.
+/// Tiles with a clearance below this (m, told for the paper's tile) touch, as far as being held is
+/// concerned.
 pub const HELD_WITHIN: f64 = 2e-3;
 
 /// How two tiles hold each other.
@@ -64,12 +65,12 @@ fn tie(crowd: &Crowd, movers: &[Mover], two: Two) -> Option<Held> {
             energy,
         });
     }
-    if couple.contact.clearance_bound(&q) > HELD_WITHIN {
+    let within = couple.contact.scaled(HELD_WITHIN);
+    if couple.contact.clearance_bound(&q) > within {
         return None;
     }
     let energy = couple.pull(&q).0;
-    let is_held =
-        || energy + inner(crowd, tiles) < 0.0 && couple.contact.clearance(&q) <= HELD_WITHIN;
+    let is_held = || energy + inner(crowd, tiles) < 0.0 && couple.contact.clearance(&q) <= within;
     is_held().then_some(Held {
         tiles: pair,
         tie: Tie::Trap,

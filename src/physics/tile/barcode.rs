@@ -28,6 +28,17 @@ pub enum Pole {
 }
 
 impl Pole {
+    /// North or up of a positive sign, south or down of a negative one; none of 0.
+    pub fn of(sign: i32, stands: bool) -> Option<Self> {
+        match (sign.signum(), stands) {
+            (0, _) => None,
+            (1, false) => Some(Self::North),
+            (1, true) => Some(Self::Up),
+            (_, false) => Some(Self::South),
+            (_, true) => Some(Self::Down),
+        }
+    }
+
     /// The pole that it attracts.
     pub fn opposite(self) -> Self {
         match self {

@@ -15,6 +15,16 @@ pub struct Form {
     pub stands: Option<Standing>,
 }
 
+impl Form {
+    /// With the other pole up, where it stands.
+    pub fn reversed(self) -> Self {
+        Self {
+            stands: self.stands.map(Standing::opposite),
+            ..self
+        }
+    }
+}
+
 /// The shape of a magnet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
@@ -128,7 +138,8 @@ impl Magnet {
     }
 
     /// What it covers of the tiles' plane (m), counter-clockwise; of a disc that stands a polygon whose
-    /// corners lie on its rim.
+    /// corners lie on its rim: straight towards the face and along it, where neighbours are, it is exact, in
+    /// between up to 0.5 % of the radius too small.
     pub fn outline(&self) -> Vec<Vector2<f64>> {
         if !self.is_round() {
             return self.corners().to_vec();
@@ -143,8 +154,8 @@ impl Magnet {
     /// The same magnet with its poles exchanged.
     pub fn reversed(&self) -> Self {
         let mut other = self.clone();
-        match &mut other.form.stands {
-            Some(stands) => *stands = stands.opposite(),
+        match self.form.stands {
+            Some(_) => other.form = self.form.reversed(),
             None => other.angle = wrap_angle(self.angle + std::f64::consts::PI),
         }
         other

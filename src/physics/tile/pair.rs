@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 
+use super::magnet::Shape;
 use super::{Face, Tile};
 use crate::configuration::{Configuration, wrap_angle};
 
@@ -21,6 +22,18 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// What the magnets of both tiles are: blocks, discs or both.
+    pub fn bodies(&self) -> &'static str {
+        let magnets = self.fixed.magnets.iter().chain(&self.moving.magnets);
+        let [discs, blocks] = [Shape::Disc, Shape::Block]
+            .map(|shape| magnets.clone().any(|magnet| magnet.form.shape == shape));
+        match (discs, blocks) {
+            (true, false) => "discs",
+            (true, true) => "blocks and discs",
+            _ => "blocks",
+        }
+    }
+
     /// The fixed tile's target face.
     pub fn target_face(&self) -> &Face {
         &self.fixed.faces[self.target.0]

@@ -44,11 +44,11 @@ impl Candidates {
         }
         let words: Vec<Word> = match task.magnets == task.places {
             true => parallel::flat_map(0..1 << task.places, |set| {
-                let word = Word::new(set as u64, !set as u64, task.places);
+                let word = task.word(set as u64, !set as u64);
                 Some(word).filter(|word| sound(task, limit, word))
             }),
             false => parallel::flat_map(&places_of(task.places, task.magnets), |places| {
-                let words = with_poles(*places, task.places);
+                let words = with_poles(*places, |north, south| task.word(north, south));
                 words.filter(|word| sound(task, limit, word))
             }),
         };
@@ -106,14 +106,14 @@ fn places_of(places: usize, magnets: usize) -> Vec<u64> {
 }
 
 /// All words with magnets in these places.
-fn with_poles(set: u64, places: usize) -> impl Iterator<Item = Word> {
+fn with_poles(set: u64, word: impl Fn(u64, u64) -> Word) -> impl Iterator<Item = Word> {
     let mut north = Some(0u64);
     std::iter::from_fn(move || {
         let now = north?;
         // The next subset.
         let next = now.wrapping_sub(set) & set;
         north = (next != 0).then_some(next);
-        Some(Word::new(now, set & !now, places))
+        Some(word(now, set & !now))
     })
 }
 
@@ -126,7 +126,7 @@ fn drawn(task: &Task, seed: u64, chunk: usize) -> impl Iterator<Item = Word> {
         let chosen = sample(&mut rng, places, magnets).into_iter();
         let set = chosen.fold(0u64, |set, k| set | 1 << k);
         let north = rng.random::<u64>() & set;
-        Word::new(north, set & !north, places)
+        task.word(north, set & !north)
     })
 }
 
@@ -138,7 +138,10 @@ mod tests {
     fn sets_of_places_are_all_there() {
         assert_eq!(places_of(6, 3).len(), 20);
         assert_eq!(number(28, 4), 327_600.0);
-        assert_eq!(with_poles(0b1011, 4).count(), 8);
+        assert_eq!(
+            with_poles(0b1011, |north, south| Word::new(north, south, 4)).count(),
+            8
+        );
         assert_eq!(places_of(64, 1).len(), 64);
     }
 }

@@ -58,6 +58,8 @@ pub struct Task {
     pub places: usize,
     /// Magnets of a word: as many as places, or fewer where spacing is part of the code.
     pub magnets: usize,
+    /// Whether they stand: north is up.
+    pub stands: bool,
     /// Energies of magnets.
     pub lags: Lags,
     /// Which meetings are wrong.
@@ -67,6 +69,11 @@ pub struct Task {
 }
 
 impl Task {
+    /// The word with these north and south poles.
+    fn word(&self, north: u64, south: u64) -> Word {
+        Word::new(north, south, self.places).standing(self.stands)
+    }
+
     /// Whether a word and its mate may be exchanged for one another: then one of the two is enough.
     fn exchangeable(&self) -> bool {
         self.rules.exchangeable() && self.constraints.exchangeable()
@@ -146,7 +153,7 @@ impl Task {
         };
         let codes = codes::of(self.places, distance).into_iter();
         let word = |bits: u64| {
-            let word = Word::new(bits, !bits, self.places);
+            let word = self.word(bits, !bits);
             match self.exchangeable() {
                 true => word.min(word.mate()),
                 false => word,

@@ -1,21 +1,22 @@
 //! Words: barcodes as two sets of bits, for millions of them at once.
 
 use std::cmp::Ordering;
-use std::fmt;
+use std::fmt::{self, Write};
 
-use crate::tile::barcode::{Barcode, BarcodeError};
+use crate::tile::barcode::{Barcode, BarcodeError, Pole};
 
 /// Most places of a word.
 pub const MOST_PLACES: usize = 64;
 
 /// A barcode of at most [`MOST_PLACES`] places, read counter-clockwise: place k is bit k of the set
-/// of north poles or of the set of south poles, or of neither where there is no magnet. Words are
-/// ordered as their texts are.
+/// of north poles or of the set of south poles, or of neither where there is no magnet. Of magnets
+/// that stand north is up, and the letters are `U` and `D`. Words are ordered as texts of N and S are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Word {
     north: u64,
     south: u64,
     places: u8,
+    stands: bool,
 }
 
 /// Why a text is no word.
@@ -27,6 +28,9 @@ pub enum WordError {
     /// It has no places, or too many.
     #[error("a word has from 1 to {MOST_PLACES} places, not {0}")]
     Places(usize),
+    /// N or S beside U or D.
+    #[error("magnets of a word lie (N, S) or stand (U, D), all of them")]
+    Mixed,
 }
 
 impl Word {
@@ -37,18 +41,30 @@ impl Word {
             north: north & mask,
             south: south & mask & !north,
             places: places as u8,
+            stands: false,
         }
     }
 
-    /// Reads a word such as `NN.S`.
+    /// The same word of magnets that stand, or that lie.
+    pub fn standing(self, stands: bool) -> Self {
+        Self { stands, ..self }
+    }
+
+    /// Reads a word such as `NN.S`, or `UU.D` of magnets that stand.
     ///
     /// # Errors
-    /// Where a character is none of `N`, `S` and `.`, or there are none or too many.
+    /// Where a character is none of `N`, `S`, `U`, `D` and `.`, there are none or too many, or some are
+    /// of magnets that lie and some of magnets that stand.
     pub fn parse(text: &str) -> Result<Self, WordError> {
-        Barcode::parse(text)?;
+        let code = Barcode::parse(text)?;
         let places = text.len();
         if !(1..=MOST_PLACES).contains(&places) {
             return Err(WordError::Places(places));
+        }
+        let mut stand = code.places(0.0).map(|(_, _, pole)| pole.stands());
+        let stands = stand.next().unwrap_or(false);
+        if stand.any(|other| other != stands) {
+            return Err(WordError::Mixed);
         }
         let set = |pole: u8| {
             let here = text.bytes().enumerate().filter(|(_, c)| *c == pole);
@@ -56,7 +72,7 @@ impl Word {
         };
         let [north, south] =
             [[b'N', b'U'], [b'S', b'D']].map(|poles| set(poles[0]) | set(poles[1]));
-        Ok(Self::new(north, south, places))
+        Ok(Self::new(north, south, places).standing(stands))
     }
 
     /// How many places it has, empty ones included.
@@ -67,6 +83,11 @@ impl Word {
     /// How many magnets it has.
     pub fn magnets(self) -> u32 {
         (self.north | self.south).count_ones()
+    }
+
+    /// The pole in a place, if it holds a magnet.
+    pub fn pole(self, k: usize) -> Option<Pole> {
+        Pole::of(self.at(k), self.stands)
     }
 
     /// 1 for a north pole, -1 for a south pole, 0 for no magnet.
@@ -190,12 +211,8 @@ impl Ord for Word {
 
 impl fmt::Display for Word {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let letter = |k| match self.at(k) {
-            1 => "N",
-            -1 => "S",
-            _ => ".",
-        };
-        (0..self.places()).try_for_each(|k| f.write_str(letter(k)))
+        let letter = |k| self.pole(k).map_or('.', Pole::letter);
+        (0..self.places()).try_for_each(|k| f.write_char(letter(k)))
     }
 }
 
@@ -205,7 +222,7 @@ mod tests {
 
     #[test]
     fn words_are_their_texts() {
-        for text in ["N", "NNSN", "N..S.SN", &"NS.".repeat(21)] {
+        for text in ["N", "NNSN", "N..S.SN", "UUDU", ".U.D", &"NS.".repeat(21)] {
             let word = Word::parse(text).unwrap();
             assert_eq!(word.to_string(), text);
             assert_eq!(
@@ -217,6 +234,11 @@ mod tests {
         assert_eq!(Word::parse(""), Err(WordError::Places(0)));
         assert_eq!(Word::parse(&"N".repeat(65)), Err(WordError::Places(65)));
         assert!(matches!(Word::parse("NXS"), Err(WordError::Character(_))));
+        assert_eq!(Word::parse("N.U"), Err(WordError::Mixed));
+        assert_eq!(
+            Word::parse("NS.").unwrap().standing(true).to_string(),
+            "UD."
+        );
     }
 
     #[test]

@@ -55,8 +55,8 @@ pub fn dock(
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Docking> {
-    let settings = request::<Request>(settings)?.settings();
     let content = design.get().content.clone();
+    let settings = request::<Request>(settings)?.settings(&content.design.pair);
     let found = job::answer(py, progress, |told| {
         docked(content.problem(None), &settings, told)
     })?;

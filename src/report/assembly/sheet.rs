@@ -3,6 +3,7 @@
 use crate::document::rows;
 use crate::markdown::markdown_table;
 use jobs::assembly::{Assembly, Axis, TileType};
+use physics::tile::magnet::Shape;
 use physics::units::si;
 
 /// Which magnets on which face of which tile, and how many of each.
@@ -11,7 +12,17 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
     let (set, grown) = (&built.set, &built.grown);
     let counts = grown.counts(set.tiles.len());
     let magnet = assembly.magnet();
-    let [length, width, thickness] = magnet.size.map(|x| (1e5 * x).round() / 100.0);
+    let [length, width, thickness] = magnet.axis_first().map(|x| (1e5 * x).round() / 100.0);
+    let bought = match magnet.form.shape {
+        Shape::Block => {
+            format!("of {length} x {width} x {thickness} mm (magnetised along the first")
+        }
+        Shape::Disc => format!("(discs of {width} mm and {length} mm high"),
+    };
+    let letters = match magnet.form.stands {
+        Some(_) => "U for a north pole up, D for a south pole up",
+        None => "N for a north pole out, S for a south pole",
+    };
     let magnets = |tile: usize| -> usize {
         let faces = (0..4).filter_map(|side| built.face(tile, side));
         let magnets = faces.map(|face| built.matrix.code(face).magnets() as usize);
@@ -21,9 +32,9 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
     let all = counts.iter().enumerate();
     let all: usize = all.map(|(tile, count)| count * magnets(tile)).sum();
     let text = format!(
-        "# {}: to be made\n\n{tiles} tiles with {all} magnets of {length} x {width} x {thickness} mm \
-         (magnetised along the first, {} each){}.\n\nTiles are squares of {} seen from above; a code is \
-         read counter-clockwise along its face, N for a north pole out, S for a south pole, . for an \
+        "# {}: to be made\n\n{tiles} tiles with {all} magnets {bought}, \
+         {} each){}.\n\nTiles are squares of {} seen from above; a code is \
+         read counter-clockwise along its face, {letters}, . for an \
          empty place, places {} apart, the middle of the code in the middle of the face. `tilebind make` \
          draws the tiles of any file in `designs/` for a cutter.\n\n## Tiles\n\n",
         set.name,

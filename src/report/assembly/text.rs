@@ -125,6 +125,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
         Some(grown_at(built.shaking.kt, &assembly.growth)),
         Some(proposal(assembly)),
         strengths(assembly),
+        repelled(assembly),
         passed_over(assembly),
         canvas(assembly),
         slid,
@@ -177,6 +178,27 @@ fn strengths(assembly: &Assembly) -> Option<String> {
         built.set.glues[glue].name,
         assembly.face(bond),
     ))
+}
+
+/// That glues which bind nothing are no magnets, though the file has them repel.
+fn repelled(assembly: &Assembly) -> Option<String> {
+    let set = &assembly.built.set;
+    let binds_none = |strengths: &Vec<f64>| {
+        strengths.iter().all(|it| *it <= 0.0) && strengths.iter().any(|it| *it < 0.0)
+    };
+    let strengths = set.strengths();
+    let glues = set.glues.iter().zip(&strengths);
+    let names: Vec<_> = glues
+        .filter(|it| binds_none(it.1))
+        .map(|it| format!("`{}`", it.0.name))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "their strengths in the file are below 0, so these glues bind nothing, have no magnets and do \
+             not repel either: {}",
+            names.join(", ")
+        )
+    })
 }
 
 /// What the file says and is not followed.

@@ -8,7 +8,7 @@ use super::Unit;
 use super::unit::told;
 use crate::figures::percent;
 use crate::names::{place, place_name};
-use crate::values::{pose, positive_zero, proportion};
+use crate::values::{pose, positive_zero, proportion, read_pose};
 use physics::configuration::Configuration;
 use physics::landscape::{Place, Proportion};
 use physics::units::si_range;
@@ -61,10 +61,8 @@ impl Cell {
             Self::Interval([None, Some(high)]) => format!("at most {}", told(*high, unit, digits)),
             Self::Interval([None, None]) => "-".to_owned(),
             Self::Pose(q) => {
-                let parts = [1e3 * q.x, 1e3 * q.y, q.theta.to_degrees()];
-                // To a tenth, and none of them -0.
-                let [x, y, theta] = parts.map(|part| (10.0 * part).round() / 10.0 + 0.0);
-                format!("{x:.1}, {y:.1}, {theta:.1}\u{b0}")
+                let [x, y, theta] = read_pose(q);
+                format!("{x}, {y}, {theta}\u{b0}")
             }
             Self::Place(place) => place_name(*place),
             Self::Sampled(sampled) => percent(sampled),

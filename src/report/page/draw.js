@@ -164,6 +164,30 @@ function drawTile(pen, tile, pose, at, fill) {
       pen.fill();
     };
     const half = magnet.size[0] / 2;
+    if (magnet.stands) {
+      // The pole that is up, and which it is.
+      pen.fillStyle = magnet.stands.up === "N" ? theme.north : theme.south;
+      const [x, y] = at(placed(magnet.position, pose));
+      const [ex, ey] = at(placed([magnet.position[0] + half, magnet.position[1]], pose));
+      const radius = Math.hypot(ex - x, ey - y);
+      if (magnet.stands.round) {
+        pen.beginPath();
+        pen.arc(x, y, radius, 0, 2 * Math.PI);
+        pen.fill();
+      } else {
+        block(-half, half);
+      }
+      if (radius > 6) {
+        pen.save();
+        pen.fillStyle = "#fff";
+        pen.font = `bold ${Math.min(14, 1.2 * radius)}px sans-serif`;
+        pen.textAlign = "center";
+        pen.textBaseline = "middle";
+        pen.fillText(magnet.stands.up === "N" ? "U" : "D", x, y);
+        pen.restore();
+      }
+      continue;
+    }
     pen.fillStyle = theme.south;
     block(-half, 0);
     pen.fillStyle = theme.north;

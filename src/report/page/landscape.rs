@@ -17,8 +17,9 @@ use physics::landscape::approach::Approach;
 use physics::landscape::grid::evenly;
 use physics::landscape::volume::{InFront, Volume, around};
 use physics::landscape::{Place, State};
-use physics::potential::{DipolePotential, Potential};
+use physics::potential::{DipolePotential, MagnetModel, Potential};
 use physics::tile::Tile;
+use physics::tile::magnet::{Form, Shape, Standing};
 
 /// Orientations to a full turn of the moving tile, and to its part after which it repeats.
 const ORIENTATIONS: [usize; 2] = [144, 72];
@@ -69,6 +70,28 @@ pub(super) struct DrawnMagnet {
     size: [f64; 2],
     /// A m^2.
     moment: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stands: Option<Stands>,
+}
+
+/// Of a magnet that stands: which pole is up, and whether it is a disc.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) struct Stands {
+    up: char,
+    round: bool,
+}
+
+impl Stands {
+    /// `None` of magnets that lie.
+    pub(super) fn of(form: Form) -> Option<Self> {
+        form.stands.map(|stands| Self {
+            up: match stands {
+                Standing::Up => 'N',
+                Standing::Down => 'S',
+            },
+            round: form.shape == Shape::Disc,
+        })
+    }
 }
 
 /// The frame of the map in front of the target face.
@@ -118,7 +141,7 @@ impl Landscape {
             landing: in_front
                 .landing
                 .iter()
-                .map(|distance| distance.map(|d| fixed(d, 5)))
+                .map(|distance| distance.map(fixed))
                 .collect(),
             states: scene
                 .states()
@@ -169,6 +192,13 @@ pub fn in_front(scene: &Scene) -> InFront {
 
 /// Whether the plain sum over point dipoles gives the states' energies.
 fn is_sum_of_dipoles(design: &Design, scene: &Scene) -> bool {
+    let magnets = [&design.pair.fixed.magnets, &design.pair.moving.magnets];
+    if magnets
+        .iter()
+        .any(|magnets| MagnetModel::Dipole.is_of_bodies(magnets))
+    {
+        return false;
+    }
     let dipoles = DipolePotential::new(&design.pair.fixed.magnets, &design.pair.moving.magnets);
     scene.states().iter().all(|state| {
         let energy = dipoles.energy(&state.configuration);
@@ -177,7 +207,7 @@ fn is_sum_of_dipoles(design: &Design, scene: &Scene) -> bool {
 }
 
 fn pair([a, b]: [f64; 2]) -> [f64; 2] {
-    [fixed(a, 7), fixed(b, 7)]
+    [fixed(a), fixed(b)]
 }
 
 fn point(p: Vector2<f64>) -> [f64; 2] {
@@ -185,7 +215,7 @@ fn point(p: Vector2<f64>) -> [f64; 2] {
 }
 
 pub(super) fn pose(q: &Configuration) -> [f64; 3] {
-    q.to_array().map(|value| fixed(value, 7))
+    q.to_array().map(fixed)
 }
 
 impl Drawn {
@@ -200,6 +230,7 @@ impl Drawn {
                     angle: rounded(magnet.angle, 9),
                     size: pair([magnet.size[0], magnet.size[1]]),
                     moment: rounded(magnet.moment, 9),
+                    stands: Stands::of(magnet.form),
                 })
                 .collect(),
         }

@@ -3,12 +3,14 @@
 use nalgebra::Vector2;
 use serde::Serialize;
 
+use super::landscape::Stands;
 use super::{finite, fixed};
 use crate::document::rows;
 use crate::plots::Drawing;
 use crate::plots::matrix::Matrix;
 use physics::configuration::Configuration;
 use physics::tile::Magnet;
+use physics::tile::magnet::Form;
 use physics::words::Word;
 
 /// A map of all faces, words and then their mates, against all: the strongest wrong meeting of each
@@ -52,6 +54,8 @@ struct Block {
     position: [f64; 2],
     angle: f64,
     size: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stands: Option<Stands>,
 }
 
 /// One meeting of two faces.
@@ -78,6 +82,8 @@ pub struct Carrier {
     pub size: [f64; 2],
     /// From the face to a magnet's outer end (m).
     pub inset: f64,
+    /// What they are, north up where they stand.
+    pub form: Form,
 }
 
 impl Carrier {
@@ -89,13 +95,17 @@ impl Carrier {
         magnets
             .filter(|(k, _)| word.at(*k) != 0)
             .map(|(k, at)| Block {
-                position: [fixed(sign * depth, 6), fixed(sign * at, 6)],
+                position: [fixed(sign * depth), fixed(sign * at)],
                 // A north pole outwards.
                 angle: match (word.at(k) > 0) == east {
                     true => 0.0,
                     false => std::f64::consts::PI,
                 },
                 size: self.size,
+                stands: Stands::of(match word.at(k) > 0 {
+                    true => self.form,
+                    false => self.form.reversed(),
+                }),
             })
             .collect()
     }
@@ -120,6 +130,7 @@ impl Carrier {
             places,
             inset: side / 2.0 - out - size[0] / 2.0,
             size,
+            form: first.map_or(Form::default(), |magnet| magnet.form),
         }
     }
 }
@@ -159,9 +170,7 @@ impl Meetings {
                 true => table(&all, |met| met.and_then(|met| finite(met.lower?, 5))),
                 false => Vec::new(),
             },
-            poses: table(&all, |met| {
-                met.map(|met| met.pose.to_array().map(|x| fixed(x, 6)))
-            }),
+            poses: table(&all, |met| met.map(|met| met.pose.to_array().map(fixed))),
             over: or_none(
                 any(|met| met.over),
                 table(&all, |met| met.is_some_and(|met| met.over)),

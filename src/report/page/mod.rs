@@ -206,9 +206,9 @@ fn rounded(value: f64, digits: usize) -> f64 {
     }
 }
 
-/// A length or an angle with `decimals` decimals.
-fn fixed(value: f64, decimals: i32) -> f64 {
-    let scale = 10f64.powi(decimals);
+/// A length (m) or an angle to 8 decimals: ten nanometres, a hundred-thousandth of a tile of 1 mm.
+fn fixed(value: f64) -> f64 {
+    let scale = 1e8;
     super::values::positive_zero((value * scale).round() / scale)
 }
 
@@ -251,7 +251,7 @@ mod tests {
         assert_eq!(rounded(0.123_456_78, 4), 0.1235);
         assert_eq!(rounded(-0.0, 4).to_bits(), 0);
         assert_eq!(finite(f64::INFINITY, 4), None);
-        assert_eq!(fixed(-1.3e-17, 6).to_bits(), 0);
-        assert_eq!(fixed(0.477_512_9, 6), 0.477_513);
+        assert_eq!(fixed(-1.3e-17).to_bits(), 0);
+        assert_eq!(fixed(0.477_512_902_9), 0.477_512_9);
     }
 }

@@ -39,7 +39,7 @@ impl Packed {
             axes: volume
                 .axes
                 .clone()
-                .map(|axis| axis.into_iter().map(|value| fixed(value, 7)).collect()),
+                .map(|axis| axis.into_iter().map(fixed).collect()),
             steps: STEPS,
             data: STANDARD.encode(deflated(&bytes)),
         }

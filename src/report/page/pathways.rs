@@ -43,7 +43,7 @@ impl Played {
             let q = snapshot.motion.configuration;
             let clearance = problem.clearance(&q).max(0.0);
             let [t, x, y, theta, clearance] =
-                [snapshot.time, q.x, q.y, q.theta, clearance].map(|v| fixed(v, 5));
+                [snapshot.time, q.x, q.y, q.theta, clearance].map(fixed);
             let [potential, kinetic] =
                 [snapshot.potential, snapshot.kinetic].map(|e| rounded(e, 4));
             [t, x, y, theta, potential, clearance, kinetic]
@@ -83,7 +83,7 @@ impl Played {
             bounds: None,
             by,
             work: rounded(climbs.filter(|climb| *climb > 0.0).sum(), 6),
-            length: ends.map_or(0.0, |(first, last)| fixed(last.s - first.s, 6)),
+            length: ends.map_or(0.0, |(first, last)| fixed(last.s - first.s)),
             places: Some([from, to]),
             points: points(pathway),
         }
@@ -185,7 +185,7 @@ fn points(pathway: &Pathway) -> Vec<[f64; 7]> {
         .map(|point| {
             let q = point.configuration;
             let [s, x, y, theta, clearance] =
-                [point.s, q.x, q.y, q.theta, point.clearance.max(0.0)].map(|v| fixed(v, 6));
+                [point.s, q.x, q.y, q.theta, point.clearance.max(0.0)].map(fixed);
             [s, x, y, theta, rounded(point.energy, 6), clearance, 0.0]
         })
         .collect()

@@ -81,6 +81,7 @@ pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) ->
     };
     let draw = |canvas: &mut Canvas, [left, top, right, _]: Box4| {
         let (columns, [wide, high]) = film.layout(right - left);
+        let touching = scene.problem.scaled(TOUCHING);
         for (k, point) in film.frames.iter().enumerate() {
             let left = left + GAP + (k % columns) as f64 * (wide + GAP);
             let top = top + (k / columns) as f64 * (high + CAPTION + GAP);
@@ -88,7 +89,7 @@ pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) ->
             canvas.frame(place, GRID);
             let view = View::filling(place, film.seen);
             view.tiles(canvas, scene.pair, &point.configuration);
-            caption(canvas, scale, place, k + 1, point);
+            caption(canvas, scale, place, (k + 1, touching), point);
         }
     };
     Composition {
@@ -101,12 +102,15 @@ pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) ->
     }
 }
 
-/// Number, energy and gap below a frame.
+/// Tiles that are no farther apart (m, told for the paper's tile) are told to touch.
+const TOUCHING: f64 = 1e-5;
+
+/// Number, energy and gap below a frame; a gap below `touching` (m) is none.
 fn caption(
     canvas: &mut Canvas,
     scale: &EnergyScale,
     [left, _, right, bottom]: Box4,
-    number: usize,
+    (number, touching): (usize, f64),
     point: &PathwayPoint,
 ) {
     let (middle, soft) = ((left + right) / 2.0, SMALL.colour(SOFT));
@@ -114,7 +118,7 @@ fn caption(
     canvas.write(soft.bold(), &number.to_string(), at, Anchor::TopLeft);
     let energy = format!("U = {}", scale.label(point.energy, 4));
     canvas.write(LABEL.bold(), &energy, (middle, bottom + 8.0), Anchor::Top);
-    let gap = if point.clearance.abs() < 1e-5 {
+    let gap = if point.clearance.abs() < touching {
         "touching".into()
     } else {
         format!("{} apart", minus(&si(point.clearance, "m", 3)))

@@ -51,7 +51,7 @@ pub fn draw(
     Ok(Figure {
         name: "tiles".to_owned(),
         pictures: vec![("tiles".to_owned(), picture)],
-        data: models(&inspection.models).csv(),
+        data: models(design, &inspection.models).csv(),
     })
 }
 
@@ -65,7 +65,7 @@ fn whole(design: &Design, inspection: &Inspection) -> Canvas {
         canvas.write(text, line, (middle, height), Anchor::Middle);
     }
     tiles(&mut canvas, design, [0.0, HEAD, SIZE[0], SIZE[1] - FOOT]);
-    figures(&mut canvas, inspection);
+    figures(&mut canvas, design, inspection);
     faults(&mut canvas, design, inspection);
     canvas
 }
@@ -130,7 +130,7 @@ fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
 }
 
 /// What holds the tiles, a line for each model.
-fn figures(canvas: &mut Canvas, inspection: &Inspection) {
+fn figures(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     let top = SIZE[1] - FOOT + 10.0;
     let columns = [MARGIN, 200.0, 380.0, 640.0];
     let head = [
@@ -142,7 +142,7 @@ fn figures(canvas: &mut Canvas, inspection: &Inspection) {
     let mut rows = vec![(head.map(str::to_owned), SMALL.colour(SOFT))];
     for hold in &inspection.models {
         let row = [
-            hold.model.plural().to_owned(),
+            hold.model.plural(&design.pair).to_owned(),
             minus(&si(hold.energy, "J", 4)),
             minus(&force(hold.contact)),
             minus(&force(hold.pull_off)),

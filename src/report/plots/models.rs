@@ -34,6 +34,8 @@ pub struct Curves {
     gaps: Vec<f64>,
     dipoles: Vec<f64>,
     blocks: Vec<f64>,
+    /// What these are called.
+    bodies: &'static str,
     /// Of dipoles and of blocks in the bond, which need not lie on the way of the curves.
     bond: Option<[f64; 2]>,
 }
@@ -74,6 +76,7 @@ impl Curves {
         let curves = Self {
             dipoles: energies(&*dipoles),
             blocks: energies(&*blocks),
+            bodies: pair.bodies(),
             bond: bond.map(|bond| {
                 [&dipoles, &blocks].map(|potential| potential.energy(&bond.configuration))
             }),
@@ -102,7 +105,7 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
         };
         let series = [
             Series::new("dipoles", Look::Steps, DIPOLES, line(&curves.dipoles)),
-            Series::new("blocks", Look::Steps, BLOCKS, line(&curves.blocks)),
+            Series::new(curves.bodies, Look::Steps, BLOCKS, line(&curves.blocks)),
         ];
         let y = Dimension::new("energy_J", "energy U");
         let plot = plotted(canvas, place, MARGIN, [&gap_dimension(), &y], &series);
@@ -120,11 +123,17 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
     let note = curves.bond.map(|[dipoles, blocks]| {
         let off = 100.0 * (dipoles - blocks).abs() / blocks.abs();
         let [dipoles, blocks] = [dipoles, blocks].map(|u| minus(&si(u, "J", 4)));
-        format!("in the bond: dipoles {dipoles}, blocks {blocks}, {off:.1} % off")
+        format!(
+            "in the bond: dipoles {dipoles}, {} {blocks}, {off:.1} % off",
+            curves.bodies
+        )
     });
     Composition {
         name: "models".to_owned(),
-        title: format!("{}: magnets as point dipoles and as blocks", scene.name),
+        title: format!(
+            "{}: magnets as point dipoles and as {}",
+            scene.name, curves.bodies
+        ),
         note: note.unwrap_or_default(),
         width: WIDTH,
         panels: vec![energy, error],

@@ -67,7 +67,7 @@ fn of_sought(sought: &Sought) -> Document<'_> {
     Document {
         title: format!("{} words of {} magnets", words.len(), sought.task.magnets),
         answer: headline,
-        remarks: faulty.into_iter().collect(),
+        remarks: faulty.into_iter().chain(too_long(sought)).collect(),
         entries: entries(sought),
         pictures,
         part: map.map(Part::Meetings),
@@ -82,6 +82,31 @@ fn of_sought(sought: &Sought) -> Document<'_> {
         ),
         ..Document::default()
     }
+}
+
+/// That the words have no room on the face, and what pitch gives them room.
+fn too_long(sought: &Sought) -> Option<String> {
+    let fits = sought.pitch_that_fits()?;
+    let [needed, face, pitch] =
+        [sought.needed(), sought.face, sought.bar.pitch].map(|length| si(length, "m", 4));
+    let whose = match sought.design {
+        Some(_) => "the design's target face",
+        None => "the paper's face",
+    };
+    let width = sought.bar.size[1];
+    let slots = sought.task.magnets < sought.task.places;
+    let way_out = match fits * (1.0 + 1e-9) >= width || (slots && fits > 0.0) {
+        // Rounded down, so that it fits.
+        true => format!(
+            "give --pitch {:.4} or less, fewer places, or make tiles that long",
+            (fits * 1e4 + 1e-6).floor() / 1e4
+        ),
+        false => "give fewer places, or make tiles that long".to_owned(),
+    };
+    Some(format!(
+        "! {} places {pitch} apart take {needed} of face, and {whose} has {face}: {way_out}",
+        sought.task.places
+    ))
 }
 
 // One line an entry.
@@ -134,6 +159,7 @@ fn entries(sought: &Sought) -> Entries {
             "magnet_moment_Am2": bar.moment,
             "inset_m": bar.inset,
             "pitch_m": bar.pitch,
+            "face_needed_m": sought.needed(),
             "balanced": request.balanced,
             "longest_run": request.max_run,
             "mismatches": request.min_mismatch.unwrap_or_default(),
@@ -182,7 +208,7 @@ fn list(sought: &Sought) -> Table {
     let all = all.map(|(k, word)| -> Row { (k, *word, sought.worst(*word)) });
     rows(all)
         .column("name", "name", "of the word; its mate is marked with *", |it| name(it.0))
-        .column("word", "word", "read counter-clockwise: N a north pole out, S a south pole", |it| it.1.to_string())
+        .column("word", "word", "read counter-clockwise: N or S out of the face, U or D north up or down", |it| it.1.to_string())
         .column("mate", "mate", "the word that it binds", |it| it.1.mate().to_string())
         .column("bond_J", "bond", "depth of its bond, flush, at contact", |it| sought.task.rules.bond(&sought.energies, it.1)).digits(4)
         .column("worst_J", "worst meeting", "energy of the wrong meeting that attracts most", |it| it.2.map(|it| it.energy)).digits(4)
@@ -255,6 +281,7 @@ fn map(sought: &Sought) -> Meetings {
         places: (0..task.places).map(place).collect(),
         size: [bar.size[0], bar.size[1]],
         inset: bar.inset,
+        form: bar.form,
     };
     let named = words.iter().enumerate();
     let own = named.clone().map(|(k, word)| (name(k), *word));

@@ -64,7 +64,7 @@ fn entries(spaced: &Spaced) -> Entries {
     let entries = Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         // Poles in order; where they lie along the face is in positions_m.
-        .data("words", spaced.words.iter().map(SpacedWord::code).collect::<Vec<_>>())
+        .data("words", spaced.words.iter().map(|it| it.code(stands(spaced))).collect::<Vec<_>>())
         .data("positions_m", json!(spaced.words.iter().map(SpacedWord::positions).collect::<Vec<_>>()))
         .fact("count", "words", spaced.words.len())
         // None is known: positions are numbers without end.
@@ -75,7 +75,7 @@ fn entries(spaced: &Spaced) -> Entries {
         .fact("worst", "strongest wrong meeting", told)
             .viewed(worst.map_or(String::new(), |it| si(it.2.energy, "J", 4)))
             .noted(worst.map_or(String::new(), |(set, found, it)| crosstalk::met(set, found, &it)))
-        .table(words(&spaced.words).in_view())
+        .table(words(spaced).in_view())
         .data("seed", spaced.request.seed)
         .data("settings", json!({
             "continuous": true,
@@ -95,15 +95,21 @@ fn entries(spaced: &Spaced) -> Entries {
     })
 }
 
+fn stands(spaced: &Spaced) -> bool {
+    spaced.bar.form.stands.is_some()
+}
+
 /// The words, and every magnet of each.
 #[rustfmt::skip]
-fn words(words: &[SpacedWord]) -> Table {
+fn words(spaced: &Spaced) -> Table {
+    let stands = stands(spaced);
     let magnets = |word: &SpacedWord| {
-        let code = word.code();
-        rows(word.magnets.clone())
+        let code = word.code(stands);
+        let poles: Vec<char> = code.chars().collect();
+        rows(word.positions().into_iter().zip(poles))
             .column("word", "", "", move |_| code.clone())
             .column("at_m", "", "", |it| it.0)
-            .column("pole", "", "", |it| if it.1 > 0 { "N" } else { "S" })
+            .column("pole", "", "", |it| it.1.to_string())
             .table("magnets")
             .in_file("words")
     };
@@ -111,9 +117,9 @@ fn words(words: &[SpacedWord]) -> Table {
         let places = word.magnets.iter().map(|it| format!("{:.1}", 1e3 * it.0));
         places.collect::<Vec<_>>().join(", ") + " mm"
     };
-    rows(words.iter().enumerate())
+    rows(spaced.words.iter().enumerate())
         .column("name", "name", "of the word; its mate is marked with *", |it| name(it.0))
-        .column("word", "word", "its poles in order: N a north pole out, S a south pole", |it| it.1.code())
+        .column("word", "word", "its poles in order: N or S out of the face, U or D north up or down", |it| it.1.code(stands))
         .column("positions", "magnets at", "along the face, from its middle", move |it| places(it.1))
         .column("magnets", "", "", move |it| magnets(it.1))
         .table("words")

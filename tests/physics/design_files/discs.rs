@@ -22,6 +22,34 @@ fn text(magnet: &str, codes: [&str; 2]) -> String {
     )
 }
 
+/// What people write who know magnets by other words, and what they are told to write.
+#[test]
+fn keys_of_discs_by_other_names_are_answered_with_ours() {
+    for (from, to, help) in [
+        ("height", "length", "`diameter` and `height`"),
+        ("height", "thickness", "`diameter` and `height`"),
+        ("diameter", "width", "`diameter` and `height`"),
+        ("diameter", "radius", "twice the radius"),
+        ("\"disc\"", "\"cylinder\"", "write \"disc\""),
+    ] {
+        let text = text(&DISC.replace(from, to), ["NNNS", "NSSS"]);
+        let told = Design::parse(&text, "disc.toml").unwrap_err().to_string();
+        assert!(told.contains(help), "{to}: {told}");
+    }
+}
+
+#[test]
+fn codes_have_the_letters_of_their_magnets() {
+    let up = format!("{DISC}\naxis = \"up\"");
+    for (magnet, codes, help) in [
+        (&*up, ["NNNS", "NSSS"], "write U for a north pole up"),
+        (DISC, ["UUUD", "UDDD"], "write axis = \"up\""),
+    ] {
+        let told = Design::parse(&text(magnet, codes), "disc.toml").unwrap_err();
+        assert!(told.to_string().contains(help), "{told}");
+    }
+}
+
 fn design(magnet: &str, codes: [&str; 2]) -> Design {
     Design::parse(&text(magnet, codes), "disc.toml").unwrap_or_else(|error| panic!("{error}"))
 }

@@ -92,6 +92,59 @@ fn wrong_poses() {
     refused(&["energy", "shapes/paper-tile.toml"], &["--pose"]);
 }
 
+/// Nothing is read that was not meant, and the message says what to write.
+#[test]
+fn decimal_commas_are_named() {
+    let paper = "shapes/paper-tile.toml";
+    for (arguments, meant) in [
+        (["energy", paper, "--pose", "0,43,0,0"], "0.43,0,0"),
+        (["energy", paper, "--pose", "0,43 m,0,0"], "0.43 m,0,0"),
+        (["bond", paper, "--kt", "0,003"], "0.003"),
+        (["bond", paper, "--coverage", "0,3"], "0.3"),
+        (["rates", paper, "--drag", "0,5"], "0.5"),
+    ] {
+        let said = format!("a decimal number has a point, not a comma: {meant}");
+        refused(&arguments, &[&said]);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("poses.csv");
+    let poses = file.to_str().unwrap();
+    for text in [
+        "x,y,theta\n0,43,0,0\n",
+        "0,43,0,0\n",
+        "0.43,0,0\n0,44,0,0\n",
+        "x,y,theta\n\"0,43\",0,0\n",
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let said = ["line", "a decimal number has a point, not a comma: 0.4"];
+        refused(&["energy", paper, "--poses", poses], &said);
+    }
+    // An empty entry behind the last comma, as spreadsheets write it.
+    std::fs::write(&file, "x,y,theta\n0.43,0,0,\n").unwrap();
+    assert!(
+        tilebind(&["energy", paper, "--poses", poses])
+            .status
+            .success()
+    );
+    let design = folder.path().join("design.toml");
+    let text = std::fs::read_to_string(format!("{}/{paper}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    for (from, to, said) in [
+        ("side = 0.43", "side = 0,43", "write 0.43"),
+        (
+            "[0.010, 0.010, 0.003]",
+            "[0,010, 0,010, 0,003]",
+            "write 0.010",
+        ),
+        ("[2.0, 2.0]", "[2,0, 2,0]", "a point, not a comma"),
+        ("{ code", "{ magnet = { pitch = 0,04 }, code", "write 0.04"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        std::fs::write(&design, text.replace(from, to)).unwrap();
+        let path = design.to_str().unwrap();
+        refused(&["show", path], &[said, "design.toml:"]);
+    }
+}
+
 #[test]
 fn ends_of_a_barrier_that_overlap_or_lie_off_the_table() {
     let design = "shapes/paper-tile.toml";

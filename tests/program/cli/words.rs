@@ -331,3 +331,97 @@ fn outlines_match_longest_contact_first() {
         assert!(one["gap_m2"].as_f64().unwrap() >= 0.0);
     }
 }
+
+/// A design with magnets that stand, blocks or discs, on faces of 10 cm.
+fn standing(folder: &Path, magnet: &str) -> String {
+    let text = format!(
+        "name = \"standing\"\n[table]\nsize = [0.6, 0.6]\n[magnet]\n{magnet}\naxis = \"up\"\nremanence = 1.3\n\
+         pitch = 0.02\n[fixed]\nside = 0.1\nthickness = 0.013\nmass = 0.1\n[fixed.faces]\n\
+         all = {{ code = \"UUDU\" }}\n[moving]\nside = 0.1\nthickness = 0.013\nmass = 0.1\n\
+         [moving.faces]\nwest = {{ mates = \"east\" }}\n[target]\nfixed = \"east\"\nmoving = \"west\"\n"
+    );
+    let path = folder.join("standing.toml");
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn words_of_magnets_that_stand_are_written_u_and_d_everywhere() {
+    for magnet in [
+        "size = [0.005, 0.01, 0.006]",
+        "shape = \"disc\"\ndiameter = 0.01\nheight = 0.005",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let design = standing(folder.path(), magnet);
+        for asked in [
+            &["--length", "4", "--gap", "0.4"][..],
+            &[
+                "--continuous",
+                "--magnets",
+                "2",
+                "--count",
+                "1",
+                "--seconds",
+                "0.1",
+            ],
+        ] {
+            let out = folder.path().join(asked[0]);
+            let out = out.to_str().unwrap();
+            let asked = [&["words", design.as_str()][..], asked, &["--out", out]].concat();
+            let told = stdout(&tilebind(&asked));
+            assert!(told.contains("UU") || told.contains("UD"), "{told}");
+            let set = format!("{out}/words.toml");
+            for file in [
+                &set,
+                &format!("{out}/report.json"),
+                &format!("{out}/words.csv"),
+            ] {
+                let text = std::fs::read_to_string(file).unwrap();
+                assert!(
+                    !text.contains("NN") && !text.contains("NS"),
+                    "{file}\n{text}"
+                );
+                assert!(
+                    !text.contains("\"N\"") && text.contains('U'),
+                    "{file}\n{text}"
+                );
+            }
+            let page = std::fs::read_to_string(format!("{out}/report.html")).unwrap();
+            assert!(page.contains("\"stands\":{\"up\":"), "{magnet}");
+        }
+        let set = folder.path().join("--length/words.toml");
+        let found = json(&["crosstalk", set.to_str().unwrap(), "--json"]);
+        let letters = found["faces"].to_string();
+        assert!(letters.contains('U') && !letters.contains('N'), "{letters}");
+    }
+}
+
+#[test]
+fn turned_over_magnets_that_stand_are_their_own_mates() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = standing(folder.path(), "size = [0.005, 0.01, 0.006]");
+    super::refused(
+        &["words", &design, "--length", "4", "--gap", "0.4", "--flip"],
+        &["its own mate"],
+    );
+}
+
+#[test]
+fn words_longer_than_the_face_are_remarked_on() {
+    let length = ["--length", "14", "--gap", "0.99"];
+    for design in [None, Some("shapes/paper-tile.toml")] {
+        let words: Vec<&str> = ["words"].into_iter().chain(design).chain(length).collect();
+        let told = stdout(&tilebind(&words)).replace('\n', " ");
+        assert!(
+            told.contains("! 14 places 40.00 mm apart take 530.0 mm of face"),
+            "{told}"
+        );
+        assert!(
+            told.contains("430.0 mm: give --pitch 0.0323 or less"),
+            "{told}"
+        );
+        let fits = [&words[..], &["--pitch", "0.0323"]].concat();
+        let told = stdout(&tilebind(&fits));
+        assert!(!told.contains("of face"), "{told}");
+    }
+}

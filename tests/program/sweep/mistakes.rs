@@ -26,7 +26,7 @@ fn wrong_axes_designs_and_parts_are_refused() {
         ),
         (
             &[DESIGN, "--vary", "magnet.pitch=0.001,0.002"],
-            "none of the 2 points is possible",
+            "none of the 2 points is possible; the first: magnet.pitch = 0.001: ",
         ),
         (
             &[

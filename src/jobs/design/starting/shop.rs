@@ -37,7 +37,13 @@ impl ShopMagnet {
             .replace(',', " ");
         let parts: Vec<&str> = plain.splitn(3, 'x').map(str::trim).collect();
         let &[first, second, rest] = parts.as_slice() else {
-            return Err(wrong("a block has three lengths"));
+            return Err(wrong(match parts.len() {
+                2 => {
+                    "a block has three lengths; for discs write shape = \"disc\" with `diameter` and \
+                     `height` into [magnet] of the design made for a block of that size"
+                }
+                _ => "a block has three lengths",
+            }));
         };
         let (third, unit, rest) = last_length(rest).ok_or_else(|| {
             wrong("the lengths have no unit, or one that is not known (mm, cm, in)")

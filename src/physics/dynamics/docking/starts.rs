@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::configuration::Configuration;
 use crate::dynamics::Motion;
+use crate::scale::Scale;
 use crate::tile::Pair;
 
 /// The distribution of starts; every range is drawn from uniformly.
@@ -27,7 +28,7 @@ pub struct Starts {
 }
 
 impl Default for Starts {
-    /// Distance 0.62 to 1.0 m within 45 degrees of the face, aimed within 0.3 rad at the fixed
+    /// For the paper's tile: distance 0.62 to 1.0 m within 45 degrees of the face, aimed within 0.3 rad at the fixed
     /// tile, orientation within 1.5 rad of the bound one, 0 to 1.3 m/s, no spin.
     fn default() -> Self {
         Self {
@@ -60,6 +61,16 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
 }
 
 impl Starts {
+    /// The usual ones for tiles of any size: as far away, in proportion, as the paper's.
+    pub fn of(pair: &Pair) -> Self {
+        let scale = Scale::of([pair.free_distance() / 2.0; 2]);
+        let usual = Self::default();
+        Self {
+            distance: usual.distance.map(|told| scale.length(told)),
+            ..usual
+        }
+    }
+
     pub(super) fn draw(&self, pair: &Pair, rng: &mut ChaCha8Rng) -> Start {
         let mut uniform = |low: f64, high: f64| low + (high - low) * rng.random::<f64>();
         let distance = uniform(self.distance[0], self.distance[1]);

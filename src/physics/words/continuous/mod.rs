@@ -16,12 +16,13 @@ mod pose;
 pub use anneal::{Annealed, search};
 
 use super::Bar;
+use crate::tile::barcode::Pole;
 
 /// A word whose magnets lie anywhere along the face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacedWord {
     /// Where along the face (m, counter-clockwise from its middle), ascending, and 1 for a north
-    /// pole out, -1 for a south pole.
+    /// pole out (or up), -1 for a south pole.
     pub magnets: Vec<(f64, i32)>,
 }
 
@@ -36,10 +37,11 @@ impl SpacedWord {
         self.mirrored(1)
     }
 
-    /// Its poles in order, as a code.
-    pub fn code(&self) -> String {
-        let letter = |(_, pole): &(f64, i32)| if *pole > 0 { 'N' } else { 'S' };
-        self.magnets.iter().map(letter).collect()
+    /// Its poles in order, of magnets that lie or that stand, as a code.
+    pub fn code(&self, stands: bool) -> String {
+        let poles = self.magnets.iter();
+        let poles = poles.filter_map(|(_, pole)| Pole::of(*pole, stands));
+        poles.map(Pole::letter).collect()
     }
 
     /// Where its magnets lie (m).

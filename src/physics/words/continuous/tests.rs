@@ -91,8 +91,12 @@ fn words_keep_their_distance_and_annealing_widens_the_gap() {
         assert!(wanted.allows(word) && wanted.allows(&word.mate()));
         assert_eq!(word.mate().mate(), *word);
         assert_eq!(
-            word.turned_over().code().chars().rev().collect::<String>(),
-            word.code()
+            word.turned_over()
+                .code(false)
+                .chars()
+                .rev()
+                .collect::<String>(),
+            word.code(false)
         );
     }
     assert_eq!(search(&wanted, 3, &[], 0.0, &mut effort(1.0)), Some(long));

@@ -24,6 +24,7 @@ fn task(places: usize, rules: Rules) -> Task {
     Task {
         places,
         magnets: places,
+        stands: false,
         lags: Lags::new(&Bar::paper(), places),
         rules,
         constraints: Constraints::default(),

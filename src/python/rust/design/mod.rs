@@ -78,7 +78,7 @@ pub struct Design {
 }
 
 impl Design {
-    fn read(
+    pub(super) fn read(
         py: Python<'_>,
         read: Result<(Source, Whole), tilebind::design::DesignError>,
     ) -> PyResult<Self> {

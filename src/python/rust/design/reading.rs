@@ -6,6 +6,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use tilebind::checksum::sha256;
+use tilebind::design::DesignError;
 use tilebind::start;
 use tilebind::sweep::Source;
 
@@ -131,11 +132,18 @@ impl Design {
     fn replace(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let source = &self.content.source;
         let value = convert::toml(value)?;
+        let asked = format!("{key} = {value}");
         let with = source.with(key, value).map_err(|reason| {
             let help = "name a key by its dotted path, such as fixed.faces.east.profile.depth";
             fault::of_design(py, &source.file, reason, help)
         })?;
-        Self::of_source(py, with)
+        // The place is one of a text that nobody has seen.
+        let design = with.design().map_err(|found| DesignError {
+            message: format!("{asked}: {}", found.message),
+            place: None,
+            ..found
+        });
+        Self::read(py, design.map(|design| (with, design)))
     }
 
     /// The design as nested dictionaries.

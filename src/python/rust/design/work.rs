@@ -389,7 +389,7 @@ impl Design {
         let asked: docking::Request = request_with(py, settings, "shaking", shaking)?;
         crate::fault::positive("shaking", asked.shaking)?;
         let (design, problem) = (&self.content.design, &**self.content.problem(None));
-        let settings = asked.settings();
+        let settings = asked.settings(&design.pair);
         let beside = overdamped.then(|| {
             let posed = (design, problem);
             job::answer(py, progress, |told| loosening(posed, &settings, told))
