@@ -17,8 +17,9 @@ use nalgebra::{Vector2, Vector3};
 use super::union::{join, root};
 use crate::tile::outline::cross;
 
-/// Velocities (m/s) are found with this error: over a step of 1 ms it moves a tile by 10 pm.
-pub const ERROR: f64 = 1e-8;
+/// Sweeps end with one that changes no velocity (m/s) by more than this. Some ten times as much may be
+/// wrong then: over a step of 1 ms that moves a tile by 1 nm.
+pub const ERROR: f64 = 1e-7;
 /// Sweeps over the points, at most.
 const SWEEPS: usize = 1000;
 /// The last so many are plain ones, which always go on towards the solution.
@@ -192,13 +193,6 @@ impl Point {
     }
 }
 
-/// Velocities and impulses, or a change of them.
-#[derive(Clone, Default)]
-struct Values {
-    velocities: Vec<Vector3<f64>>,
-    impulses: Vec<[f64; 2]>,
-}
-
 /// Changes velocities by the impulses that all points ask for, which are kept in the holds; the search
 /// begins with those that are there.
 pub fn hold_back(
@@ -276,70 +270,66 @@ fn solve(
     for point in points.iter() {
         point.push(point.impulses, velocities);
     }
-    let mut before = Values::default();
-    let mut direction = Values {
-        velocities: vec![Vector3::zeros(); velocities.len()],
-        impulses: vec![[0.0; 2]; points.len()],
-    };
+    let (mut velocities_before, mut impulses_before) = (Vec::new(), Vec::new());
+    let mut direction = vec![[0.0; 2]; points.len()];
     let mut last = f64::INFINITY;
     for sweep in 0..SWEEPS {
-        before.velocities.clear();
-        before.velocities.extend_from_slice(velocities);
-        before.impulses.clear();
-        before.impulses.extend(points.iter().map(|it| it.impulses));
+        velocities_before.clear();
+        velocities_before.extend_from_slice(velocities);
+        impulses_before.clear();
+        impulses_before.extend(points.iter().map(|it| it.impulses));
         for point in points.iter_mut() {
             point.solve(velocities, friction);
         }
         // Points that ask for all but the same may go on correcting each other: what counts is the sweep.
-        let changes = velocities.iter().zip(&before.velocities).zip(inverse);
+        let changes = velocities.iter().zip(&velocities_before).zip(inverse);
         let squares = changes.map(|((now, before), inverse)| {
             let change = now - before;
-            change.component_div(inverse).dot(&change) * inverse.x
+            (change.component_div(inverse).dot(&change), inverse.x)
         });
-        if squares.fold(0.0, f64::max) < ERROR * ERROR {
+        let [mut size, mut fastest] = [0.0; 2];
+        for (square, inverse) in squares {
+            size += square;
+            fastest = f64::max(fastest, square * inverse);
+        }
+        if fastest < ERROR * ERROR {
             return sweep + 1;
         }
         if sweep + PLAIN < SWEEPS {
-            last = go_on(inverse, velocities, points, &before, &mut direction, last);
+            let share = if size <= last { size / last } else { 0.0 };
+            go_on(
+                velocities,
+                points,
+                &impulses_before,
+                &mut direction,
+                (share, friction),
+            );
+            last = size;
         }
     }
     SWEEPS
 }
 
-/// After a sweep: goes on along the direction of all sweeps before, and makes the next one. The size of
-/// a sweep's change is the energy of its velocities; `last` is that of the one before.
+/// After a sweep: goes on by a share of the direction of all sweeps before, within the cones of friction,
+/// and makes the next direction. (The share is that of the energies of the sweeps' changes.)
 fn go_on(
-    inverse: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
     points: &mut [Point],
-    before: &Values,
-    direction: &mut Values,
-    last: f64,
-) -> f64 {
-    let changes = velocities.iter().zip(&before.velocities).zip(inverse);
-    let size: f64 = changes
-        .map(|((now, before), inverse)| {
-            let change = now - before;
-            change.component_div(inverse).dot(&change)
-        })
-        .sum();
-    let share = size / last;
-    let share = if share <= 1.0 { share } else { 0.0 };
-    let each = velocities.iter_mut().zip(&before.velocities);
-    for ((now, before), along) in each.zip(&mut direction.velocities) {
-        let change = *now - before;
-        *now += *along * share;
-        *along = *along * share + change;
+    before: &[[f64; 2]],
+    direction: &mut [[f64; 2]],
+    (share, friction): (f64, f64),
+) {
+    let each = points.iter_mut().zip(before);
+    for ((point, before), along) in each.zip(direction) {
+        let now = point.impulses;
+        let [push, rub] = [0, 1].map(|row| now[row] + along[row] * share);
+        let push = push.max(0.0);
+        let most = friction * push;
+        point.impulses = [push, rub.clamp(-most, most)];
+        let on = [0, 1].map(|row| point.impulses[row] - now[row]);
+        point.push(on, velocities);
+        *along = [0, 1].map(|row| along[row] * share + now[row] - before[row]);
     }
-    let each = points.iter_mut().zip(&before.impulses);
-    for ((point, before), along) in each.zip(&mut direction.impulses) {
-        for row in 0..2 {
-            let change = point.impulses[row] - before[row];
-            point.impulses[row] += along[row] * share;
-            along[row] = along[row] * share + change;
-        }
-    }
-    size
 }
 
 /// Kinetic energy (J) of velocities.
@@ -430,9 +420,13 @@ mod tests {
                 hold_back(&inverse, &mut now, &mut holds, friction);
                 for hold in &holds {
                     let [push, rub] = hold.impulses;
-                    assert!(hold.rate(&now) > -1e-6, "{}", hold.rate(&now));
+                    assert!(hold.rate(&now) > -50.0 * ERROR, "{}", hold.rate(&now));
                     assert!(push >= 0.0 && rub.abs() <= friction * push * (1.0 + 1e-9));
-                    assert!(push * hold.rate(&now) < 1e-7, "{push} {}", hold.rate(&now));
+                    assert!(
+                        push == 0.0 || hold.rate(&now) < 50.0 * ERROR,
+                        "{push} {}",
+                        hold.rate(&now)
+                    );
                 }
                 // From the impulses of the solution it is found at once.
                 let again = solve(&inverse, &mut start.clone(), &mut points, friction);

@@ -2,14 +2,15 @@
 //!
 //! # Steps
 //! Velocity Verlet, with the forces of the other tiles and the drives held as they are. A step is short
-//! enough for forces to change little: `h <= 0.05 sqrt(l / a)`, l half the shortest side of a magnet and a the largest
-//! acceleration, and for tiles in contact to move no more than 0.1 mm, all in proportion to the step of
-//! the table. (Tiles that hardly move need no short steps.)
+//! enough for the forces of pairs that move against each other to change little: `h <= 0.05 sqrt(l / a)`, l half
+//! the shortest side of a magnet and a the acceleration that the pair gives itself; four times as long where
+//! tiles touch and hardly bounce. Tiles in contact move no more than 0.1 mm. All this is in proportion to the
+//! step of the table. (Tiles that hardly move need no short steps.)
 //!
 //! # Knocks
 //! The gap of a point goes as `g + u t + a t^2 / 2`. Where it closes with a velocity u1 that gives back so much
-//! that the tiles fly on for longer than the shortest step, the step ends there, and the impulse acts on the velocities
-//! of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
+//! that the tiles fly on for longer than the shortest step, and not slowly, the step ends there, and the
+//! impulse acts on the velocities of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
 //! are moved to end at contact and not beyond, and of what they touch their velocities are freed. From shorter
 //! flights they come back with the velocity of the parabola, so that elastic contact keeps its
 //! energy there too. Where many points or friction would let energy grow (Kane and Levinson 1985), so
@@ -49,7 +50,7 @@ const SHARE_TOGETHER: f64 = 0.2;
 /// A longest step has so many shortest.
 const SHORTEST: f64 = 16.0;
 /// Bounces slower than this (m/s) are none.
-const LEAST_BOUNCE: f64 = 1e-5;
+const LEAST_BOUNCE: f64 = 2e-4;
 /// Points of contact closer than this (m) to one of the step before are the same.
 const SAME: f64 = 1e-3;
 /// The pairs of edges and corners that may touch are looked for so much farther (m) than they are
