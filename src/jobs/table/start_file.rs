@@ -15,7 +15,7 @@ const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omeg
 pub struct StartFileError {
     /// Which line, from 1.
     pub line: u64,
-    /// What is wrong, and how to mend it.
+    /// What is wrong, and how to fix it.
     pub message: String,
 }
 

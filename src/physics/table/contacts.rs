@@ -3,6 +3,7 @@
 use super::crowd::Crowd;
 use super::mover::Mover;
 use super::pair::{Two, configuration, relative};
+use super::union::{join, root};
 use crate::tile::outline::cross;
 
 /// Tiles with a clearance below this (m, told for the paper's tile) touch, as far as being held is
@@ -98,21 +99,13 @@ fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
 pub fn clusters(tiles: usize, held: &[Held]) -> Vec<usize> {
     let mut cluster: Vec<usize> = (0..tiles).collect();
     for held in held {
-        let [a, b] = held.tiles.map(|k| top(&cluster, k));
-        cluster[a.max(b)] = a.min(b);
+        join(&mut cluster, held.tiles[0], held.tiles[1]);
     }
     let mut sizes = vec![0; tiles];
     for k in 0..tiles {
-        sizes[top(&cluster, k)] += 1;
+        sizes[root(&mut cluster, k)] += 1;
     }
     sizes.retain(|size| *size > 0);
     sizes.sort_unstable_by(|a, b| b.cmp(a));
     sizes
-}
-
-fn top(cluster: &[usize], mut k: usize) -> usize {
-    while cluster[k] != k {
-        k = cluster[k];
-    }
-    k
 }

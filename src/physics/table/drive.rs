@@ -9,12 +9,11 @@ use rand_chacha::ChaCha8Rng;
 use super::mover::Mover;
 use super::settings::TableSettings;
 
-/// A tile with what shakes it.
-#[derive(Clone, Debug)]
+/// A tile under way.
+#[derive(Clone, Copy, Debug)]
 pub struct Rider {
     /// Where it is and how it moves.
     pub mover: Mover,
-    rng: ChaCha8Rng,
     /// Its share of kinetic energy that is still to be put right (J).
     pub debt: f64,
 }
@@ -25,17 +24,6 @@ pub struct Drive<'a> {
     settings: &'a TableSettings,
 }
 
-impl Rider {
-    /// A tile when a run begins, with its own random numbers.
-    pub fn new(mover: Mover, rng: ChaCha8Rng) -> Self {
-        Self {
-            mover,
-            rng,
-            debt: 0.0,
-        }
-    }
-}
-
 impl<'a> Drive<'a> {
     pub fn new(settings: &'a TableSettings) -> Self {
         Self { settings }
@@ -44,12 +32,17 @@ impl<'a> Drive<'a> {
     /// Drag over a time h (s), and with it the kick of shaking: an Ornstein-Uhlenbeck step of the
     /// velocity, exact, `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit variance, for each
     /// degree of freedom with its mass or moment of inertia. The work done, and what is lost to drag (J).
-    pub fn damp(&self, rider: &mut Rider, masses: &Vector3<f64>, h: f64) -> [f64; 2] {
+    pub fn damp(
+        &self,
+        velocity: &mut Vector3<f64>,
+        rng: &mut ChaCha8Rng,
+        masses: &Vector3<f64>,
+        h: f64,
+    ) -> [f64; 2] {
         let TableSettings { drag, shaking, .. } = self.settings;
         if *drag == 0.0 {
             return [0.0; 2];
         }
-        let velocity = &mut rider.mover.velocity;
         let kinetic = |v: &Vector3<f64>| 0.5 * masses.component_mul(v).dot(v);
         let before = kinetic(velocity);
         let decay = libm::exp(-drag * h);
@@ -58,7 +51,7 @@ impl<'a> Drive<'a> {
         let mut work = 0.0;
         if let Some(kt) = shaking {
             let spread = masses.map(|mass| (kt / mass * (1.0 - decay * decay)).sqrt());
-            *velocity += spread.component_mul(&normals(&mut rider.rng));
+            *velocity += spread.component_mul(&normals(rng));
             work = kinetic(velocity) - slowed;
         }
         [work, before - slowed]

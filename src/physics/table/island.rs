@@ -2,14 +2,15 @@
 //!
 //! # Steps
 //! Velocity Verlet, with the forces of the other tiles and the drives held as they are. A step is short
-//! enough for forces to change little: `h <= 0.05 sqrt(l / a)`, l half the shortest side of a magnet and a the largest
-//! acceleration, and for tiles in contact to move no more than 0.1 mm, all in proportion to the step of
-//! the table. (Tiles that hardly move need no short steps.)
+//! enough for the forces of pairs that move against each other to change little: `h <= 0.05 sqrt(l / a)`, l half
+//! the shortest side of a magnet and a the acceleration that the pair gives itself; four times as long where
+//! tiles touch and hardly bounce. Tiles in contact move no more than 0.1 mm. All this is in proportion to the
+//! step of the table. (Tiles that hardly move need no short steps.)
 //!
 //! # Knocks
 //! The gap of a point goes as `g + u t + a t^2 / 2`. Where it closes with a velocity u1 that gives back so much
-//! that the tiles fly on for longer than the shortest step, the step ends there, and the impulse acts on the velocities
-//! of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
+//! that the tiles fly on for longer than the shortest step, and not slowly, the step ends there, and the
+//! impulse acts on the velocities of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
 //! are moved to end at contact and not beyond, and of what they touch their velocities are freed. From shorter
 //! flights they come back with the velocity of the parabola, so that elastic contact keeps its
 //! energy there too. Where many points or friction would let energy grow (Kane and Levinson 1985), so
@@ -19,7 +20,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::crowd::Crowd;
 use super::drive::Rider;
-use super::hold::{ERROR, Hold, hold_back, kinetic, share_within};
+use super::hold::{Hold, hold_back, kinetic, share_within};
 use super::mover::Mover;
 use super::pair::{Two, configuration, pull, relative};
 use super::settings::TableSettings;
@@ -44,8 +45,14 @@ const TRAVEL: f64 = 1e-4;
 const SHARE: f64 = 0.05;
 /// Tiles slower than this (m/s) need no short steps.
 const SLOW: f64 = 2e-3;
+/// Tiles that touch and give back less than that go on together for longer.
+const SHARE_TOGETHER: f64 = 0.2;
 /// A longest step has so many shortest.
 const SHORTEST: f64 = 16.0;
+/// Bounces slower than this (m/s) are none.
+const LEAST_BOUNCE: f64 = 2e-4;
+/// Points of contact closer than this (m) to one of the step before are the same.
+const SAME: f64 = 1e-3;
 /// The pairs of edges and corners that may touch are looked for so much farther (m) than they are
 /// needed, and so less often.
 const AHEAD: f64 = 4e-3;
@@ -61,6 +68,8 @@ pub struct NearPair {
     /// The tiles are apart by at least this (m) at `room_at`.
     room: f64,
     room_at: Configuration,
+    /// Points that were touched last, in the frame of the first tile, and what held them (N).
+    held: Vec<(Vector2<f64>, [f64; 2])>,
 }
 
 impl NearPair {
@@ -72,7 +81,14 @@ impl NearPair {
             at: Configuration::new(0.0, 0.0, 0.0),
             room: f64::NEG_INFINITY,
             room_at: Configuration::new(0.0, 0.0, 0.0),
+            held: Vec::new(),
         }
+    }
+
+    /// The forces (N) that held a point last, of the first tile's frame.
+    fn force(&self, at: &Vector2<f64>) -> [f64; 2] {
+        let same = |it: &&(Vector2<f64>, _)| (it.0 - at).norm_squared() < SAME * SAME;
+        self.held.iter().find(same).map_or([0.0; 2], |it| it.1)
     }
 
     /// The points of contact within a margin (m), if there may be any.
@@ -131,12 +147,16 @@ pub struct Island<'a> {
     pub steady: Vec<Vector3<f64>>,
     /// Pairs, by numbers of this island's tiles.
     pub pairs: Vec<(Two, &'a mut NearPair)>,
+    /// What happened to them.
+    pub happened: Happened,
 }
 
 /// What is at hand at a moment.
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
+    /// Of each pair, by which it pulls its tiles against each other (m/s^2).
+    pulls: Vec<f64>,
     /// Of the pairs (J).
     potential: f64,
     /// Kinetic energy that is still to be put right (J).
@@ -145,17 +165,18 @@ struct State {
 
 impl Island<'_> {
     /// Goes on for a step of the table.
-    pub fn advance(&mut self) -> Happened {
+    pub fn advance(&mut self) {
         let masses: Vec<_> = self
             .riders
             .iter()
             .map(|it| self.crowd.kinds[it.mover.kind].body.masses())
             .collect();
         let inverse: Vec<_> = masses.iter().map(|it| it.map(|mass| 1.0 / mass)).collect();
-        let (accelerations, potential) = self.accelerations(&masses);
+        let (accelerations, pulls, potential) = self.accelerations(&masses);
         let mut state = State {
             velocities: self.riders.iter().map(|it| it.mover.velocity).collect(),
             accelerations,
+            pulls,
             potential,
             debt: self.riders.iter().map(|it| it.debt).sum(),
         };
@@ -173,7 +194,7 @@ impl Island<'_> {
         for rider in &mut self.riders {
             rider.debt = share;
         }
-        happened
+        self.happened = happened;
     }
 
     /// Goes on for a time (s) with steady forces from outside.
@@ -198,20 +219,26 @@ impl Island<'_> {
         }
     }
 
-    /// All accelerations, and the energy of the pairs (J).
-    fn accelerations(&self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, f64) {
+    /// All accelerations, that of the fastest points of each pair by its own force (m/s^2), and the energy
+    /// of the pairs (J).
+    fn accelerations(&self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, Vec<f64>, f64) {
         let mut all = self.steady.clone();
+        let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
         for (two, _) in &self.pairs {
             let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
             let couple = self.crowd.couple(first.kind, second.kind).0;
             let (energy, pulls) = pull(self.crowd, couple, [first, second]);
             potential += energy;
+            let mut strength = 0.0;
             for (tile, pull) in [two.first, two.second].into_iter().zip(pulls) {
-                all[tile] += pull.component_div(&masses[tile]);
+                let own = pull.component_div(&masses[tile]);
+                all[tile] += own;
+                strength += self.fastest(tile, &own);
             }
+            strengths.push(strength);
         }
-        (all, potential)
+        (all, strengths, potential)
     }
 
     fn travel(&self) -> f64 {
@@ -219,9 +246,9 @@ impl Island<'_> {
     }
 
     /// Speed or acceleration of a tile's fastest point, at most.
-    fn fastest(&self, tile: usize, of: &[Vector3<f64>]) -> f64 {
+    fn fastest(&self, tile: usize, of: &Vector3<f64>) -> f64 {
         let reach = self.crowd.kinds[self.riders[tile].mover.kind].reach;
-        of[tile].xy().norm() + reach * of[tile].z.abs()
+        of.xy().norm() + reach * of.z.abs()
     }
 
     /// The same of the second tile of a pair as the first one sees it, with which it turns.
@@ -236,22 +263,25 @@ impl Island<'_> {
 
     /// The longest step (s) in which the forces of pairs change little that move against each other.
     fn longest_step(&self, state: &State) -> f64 {
-        let limit = |two: Two| {
-            if self.relative(two, &state.velocities) < SLOW {
+        let limit = |(two, near): &(Two, &mut NearPair), pull: f64| {
+            let speed = self.relative(*two, &state.velocities);
+            if speed < SLOW {
                 return f64::INFINITY;
             }
-            let pull = self.relative(two, &state.accelerations);
-            (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+            let are_together = !near.held.is_empty() && self.settings.restitution * speed < SLOW;
+            let share = if are_together { SHARE_TOGETHER } else { SHARE };
+            share * (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
         };
-        let limits = self.pairs.iter().map(|(two, _)| limit(*two));
-        SHARE * self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
+        let pairs = self.pairs.iter().zip(&state.pulls);
+        let limits = pairs.map(|(pair, pull)| limit(pair, *pull));
+        self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
     /// How long (s) until what touches has gone as far as it may in contact.
     fn time_to_travel(&self, state: &State, holds: &[Hold]) -> f64 {
         let speed = |hold: &Hold| match hold.tiles {
             [Some(first), Some(second)] => self.relative(Two { first, second }, &state.velocities),
-            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &state.velocities)),
+            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &state.velocities[tile])),
         };
         let touching = holds.iter().filter(|hold| hold.gap <= self.travel());
         let fastest = touching.map(speed).fold(0.0, f64::max);
@@ -268,7 +298,8 @@ impl Island<'_> {
         });
         let ways: Vec<f64> = ways.collect();
         let own = (0..self.riders.len()).map(|tile| {
-            let [v, a] = [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, of));
+            let [v, a] =
+                [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, &of[tile]));
             way(v, a)
         });
         let own: Vec<f64> = own.collect();
@@ -276,7 +307,7 @@ impl Island<'_> {
         let mut holds = Vec::new();
         let (crowd, riders) = (self.crowd, &self.riders);
         let centre = |tile: usize| riders[tile].mover.place.xy();
-        for ((two, near), way) in self.pairs.iter_mut().zip(ways) {
+        for (k, ((two, near), way)) in self.pairs.iter_mut().zip(ways).enumerate() {
             let tiles = [two.first, two.second];
             let [a, b] = tiles.map(|tile| configuration(crowd, &riders[tile].mover));
             let kinds = tiles.map(|tile| riders[tile].mover.kind);
@@ -285,7 +316,10 @@ impl Island<'_> {
                 let at = a.transform(point.on_moving);
                 let axis = a.rotation() * point.normal;
                 let gap = point.gap - SKIN;
-                holds.push(Hold::new(tiles.map(Some), at, axis, gap, centre));
+                let mut hold = Hold::new(tiles.map(Some), at, axis, gap, centre);
+                hold.pair = Some(k);
+                hold.impulses = near.force(&point.on_moving);
+                holds.push(hold);
             }
         }
         if self.settings.walls {
@@ -313,8 +347,9 @@ impl Island<'_> {
             let Some((time, speed)) = closes(hold.gap, u, a) else {
                 continue;
             };
-            let back = 2.0 * self.settings.restitution * speed;
-            let is_resolved = back > shortest * (-a).max(0.0);
+            // Slow bounces, and those that end within the shortest step, are left to `step`.
+            let back = self.settings.restitution * speed;
+            let is_resolved = back > SLOW.max(0.5 * shortest * -a);
             if time < first && is_resolved {
                 first = time;
             }
@@ -340,6 +375,7 @@ impl Island<'_> {
         let mut way = free.clone();
         for hold in &mut holds {
             hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
+            hold.impulses = hold.impulses.map(|force| force * 0.5 * h);
         }
         hold_back(inverse, &mut way, &mut holds, friction);
         // The velocities with which what is touched is come back to; held all along the step or not.
@@ -360,13 +396,27 @@ impl Island<'_> {
             }
             touched.push((hold, back));
         }
-        if !held.is_empty() {
+        if held.iter().any(|hold| hold.rate(&way).abs() > LEAST_BOUNCE) {
             hold_back(inverse, &mut free, &mut held, friction);
+        } else if !held.is_empty() {
+            free.copy_from_slice(&way);
+        }
+        for (_, near) in &mut self.pairs {
+            near.held.clear();
+        }
+        for (hold, _) in &touched {
+            if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
+                let q = configuration(self.crowd, &self.riders[first].mover);
+                let force = hold.impulses.map(|impulse| impulse / (0.5 * h));
+                let (_, near) = &mut self.pairs[pair];
+                near.held.push((q.inverse_transform(hold.point), force));
+            }
         }
         for (rider, way) in self.riders.iter_mut().zip(&way) {
             rider.mover.place += way * h;
         }
-        let (accelerations, potential) = self.accelerations(masses);
+        let (accelerations, pulls, potential) = self.accelerations(masses);
+        state.pulls = pulls;
         let mut velocities = free;
         for (v, a) in velocities.iter_mut().zip(&accelerations) {
             *v += a * (0.5 * h);
@@ -405,7 +455,7 @@ impl Island<'_> {
         let free = stopped.clone();
         hold_back(inverse, &mut stopped, &mut holds, friction);
         let restitution = self.settings.restitution;
-        if restitution > 0.0 && approaches.iter().any(|u| *u > ERROR) {
+        if approaches.iter().any(|u| restitution * u > LEAST_BOUNCE) {
             for (hold, approach) in holds.iter_mut().zip(&approaches) {
                 hold.least = restitution * approach.max(0.0);
             }

@@ -1,5 +1,7 @@
 //! Runs of a table: what is seen of them, and whether energy is accounted for.
 
+use std::collections::BTreeMap;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -122,7 +124,7 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
     rng
 }
 
-/// One run. `frames` keeps the tiles in every sample;
+/// One run. `frames` keeps the tiles in every sample.
 ///
 /// # Errors
 /// Where it cannot begin, or steps are too long by far.
@@ -170,7 +172,8 @@ fn once(
     let mut samples = vec![sample(crowd, &mut stepper, frames)];
     let mut sums = (0.0, 0u64);
     let mut lives: Vec<Life> = Vec::new();
-    follow(&mut lives, &samples[0]);
+    let mut open = BTreeMap::new();
+    follow(&mut lives, &mut open, &samples[0]);
     for step in 1..=steps {
         stepper.step()?;
         if 2 * step >= steps {
@@ -178,7 +181,7 @@ fn once(
         }
         if step % between == 0 || step == steps {
             samples.push(sample(crowd, &mut stepper, frames));
-            follow(&mut lives, &samples[samples.len() - 1]);
+            follow(&mut lives, &mut open, &samples[samples.len() - 1]);
         }
     }
     let missing = samples.iter().map(|it| it.missing(&samples[0]).abs());
@@ -213,28 +216,23 @@ fn sample(crowd: &Crowd, stepper: &mut Stepper, frames: bool) -> Sample {
     }
 }
 
-/// Begins and ends lives as a sample says.
-fn follow(lives: &mut Vec<Life>, sample: &Sample) {
-    for life in lives.iter_mut().filter(|life| life.to.is_none()) {
-        let lasts = sample
-            .held
-            .iter()
-            .any(|it| it.tiles == life.tiles && it.tie == life.tie);
-        if !lasts {
-            life.to = Some(sample.time);
-        }
-    }
+/// Begins and ends lives as a sample says; `open` are the numbers of those that last.
+fn follow(lives: &mut Vec<Life>, open: &mut BTreeMap<([usize; 2], Tie), usize>, sample: &Sample) {
+    let mut last = std::mem::take(open);
     for held in &sample.held {
-        let is_known = lives
-            .iter()
-            .any(|it| it.to.is_none() && it.tiles == held.tiles && it.tie == held.tie);
-        if !is_known {
+        let key = (held.tiles, held.tie);
+        let known = last.remove(&key).unwrap_or_else(|| {
             lives.push(Life {
                 tiles: held.tiles,
                 tie: held.tie,
                 from: sample.time,
                 to: None,
             });
-        }
+            lives.len() - 1
+        });
+        open.insert(key, known);
+    }
+    for ended in last.into_values() {
+        lives[ended].to = Some(sample.time);
     }
 }

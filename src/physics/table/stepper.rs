@@ -10,7 +10,13 @@ use super::mover::Mover;
 use super::neighbours::Neighbours;
 use super::pair::{Two, configuration, pull, relative};
 use super::settings::TableSettings;
+use super::union::{join, root};
+use crate::parallel;
 
+/// A thread takes so many islands at once.
+const TOGETHER: usize = 8;
+/// And so many pairs that are not near.
+const FAR_TOGETHER: usize = 64;
 /// Tiles go no farther in a step than this share of what counts as near.
 const SHARE_OF_NEAR: f64 = 0.25;
 
@@ -31,6 +37,8 @@ pub struct Stepper<'a> {
     settings: &'a TableSettings,
     drive: Drive<'a>,
     riders: Vec<Rider>,
+    /// The random numbers of each tile.
+    random: Vec<ChaCha8Rng>,
     /// Since the start (s).
     pub time: f64,
     /// What became of energy.
@@ -70,8 +78,9 @@ impl<'a> Stepper<'a> {
         random: &dyn Fn(usize) -> ChaCha8Rng,
     ) -> Self {
         let drive = Drive::new(settings);
-        let movers = movers.into_iter().enumerate();
-        let riders = movers.map(|(k, mover)| Rider::new(mover, random(k)));
+        let random = (0..movers.len()).map(random).collect();
+        let movers = movers.into_iter();
+        let riders = movers.map(|mover| Rider { mover, debt: 0.0 });
         let magnets = crowd.kinds.iter().flat_map(|kind| &kind.tile.magnets);
         let sides = magnets.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
         let nears = crowd.couples().iter().map(|couple| couple.near);
@@ -80,6 +89,7 @@ impl<'a> Stepper<'a> {
             settings,
             drive,
             riders: riders.collect(),
+            random,
             time: 0.0,
             account: Account::default(),
             short_steps: 0,
@@ -193,8 +203,10 @@ impl<'a> Stepper<'a> {
         if self.since_kick >= self.settings.steps_between_kicks() {
             let since = self.since_kick as f64 * h;
             self.since_kick = 0;
-            for (rider, masses) in self.riders.iter_mut().zip(&masses) {
-                let [work, loss] = self.drive.damp(rider, masses, since);
+            let tiles = self.riders.iter_mut().zip(&mut self.random).zip(&masses);
+            for ((rider, random), masses) in tiles {
+                let velocity = &mut rider.mover.velocity;
+                let [work, loss] = self.drive.damp(velocity, random, masses, since);
                 self.account.work += work;
                 self.account.drag_loss += loss;
             }
@@ -233,6 +245,7 @@ impl<'a> Stepper<'a> {
         let positions: Vec<_> = now.iter().map(|q| q.position()).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let mut known = std::mem::take(&mut self.near).into_iter().peekable();
+        let mut far: Vec<Two> = Vec::new();
         for &[i, j] in pairs {
             let kinds = [i, j].map(|k| self.riders[k].mover.kind);
             let two = Two::of(kinds, [i, j]);
@@ -254,13 +267,23 @@ impl<'a> Stepper<'a> {
             if apart > couple.cutoff.to + near {
                 continue;
             }
-            let tiles = [two.first, two.second];
-            let placed = tiles.map(|k| Mover {
-                place: middle[k],
-                ..self.riders[k].mover
-            });
-            let pulls = pull(crowd, couple, [&placed[0], &placed[1]]).1;
-            for (tile, pull) in tiles.into_iter().zip(pulls) {
+            far.push(two);
+        }
+        let riders = &self.riders;
+        let parts: Vec<&[Two]> = far.chunks(FAR_TOGETHER).collect();
+        let pulls = parallel::flat_map(&parts, |part| {
+            let pull_of = |two: &Two| {
+                let [first, second] = [two.first, two.second].map(|k| Mover {
+                    place: middle[k],
+                    ..riders[k].mover
+                });
+                let couple = crowd.couple(first.kind, second.kind).0;
+                pull(crowd, couple, [&first, &second]).1
+            };
+            part.iter().map(pull_of).collect::<Vec<_>>()
+        });
+        for (two, pulls) in far.iter().zip(pulls) {
+            for (tile, pull) in [two.first, two.second].into_iter().zip(pulls) {
                 outside[tile] += pull.component_div(&masses[tile]);
             }
         }
@@ -271,8 +294,7 @@ impl<'a> Stepper<'a> {
         let n = self.riders.len();
         let mut roots: Vec<usize> = (0..n).collect();
         for near in &self.near {
-            let [a, b] = [near.two.first, near.two.second].map(|k| root(&mut roots, k));
-            roots[a.max(b)] = a.min(b);
+            join(&mut roots, near.two.first, near.two.second);
         }
         let mut number = vec![usize::MAX; n];
         let mut islands: Vec<Island> = Vec::new();
@@ -299,12 +321,13 @@ impl<'a> Stepper<'a> {
                     riders: Vec::new(),
                     steady: Vec::new(),
                     pairs: Vec::new(),
+                    happened: Happened::default(),
                 });
             }
             let island = number[top];
             local[k] = members[island].len();
             members[island].push(k);
-            islands[island].riders.push(self.riders[k].clone());
+            islands[island].riders.push(self.riders[k]);
             islands[island].steady.push(steady[k]);
         }
         for near in &mut self.near {
@@ -316,8 +339,10 @@ impl<'a> Stepper<'a> {
             islands[number[top]].pairs.push((two, near));
         }
         let mut all = Happened::default();
-        for (mut island, members) in islands.into_iter().zip(members) {
-            let happened = island.advance();
+        let mut parts: Vec<&mut [Island]> = islands.chunks_mut(TOGETHER).collect();
+        parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
+        for (island, members) in islands.into_iter().zip(members) {
+            let happened = island.happened;
             all.contact_loss += happened.contact_loss;
             all.steps += happened.steps;
             for (rider, k) in island.riders.into_iter().zip(members) {
@@ -345,12 +370,4 @@ impl<'a> Stepper<'a> {
         let speed = rider.mover.velocity.xy().norm() + h * steady.xy().norm();
         rim_room(self.crowd, &rider.mover) > 3.0 * speed * h + self.least_near * SHARE_OF_NEAR
     }
-}
-
-fn root(roots: &mut [usize], mut k: usize) -> usize {
-    while roots[k] != k {
-        roots[k] = roots[roots[k]];
-        k = roots[k];
-    }
-    k
 }

@@ -9,6 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::contact::Contact;
 use tilebind::dynamics::docking::MatchRule;
 use tilebind::dynamics::thermal_velocity;
+use tilebind::interruption::Interruption;
 use tilebind::many_bodies::contacts::Tie;
 use tilebind::many_bodies::run::{Run, RunError, Start, run};
 use tilebind::many_bodies::{Crowd, Kind, Mover, Orbital, StartError, Stepper, TableSettings};
@@ -230,11 +231,7 @@ fn kinetic(crowd: &Crowd, settings: &TableSettings, start: &Start, runs: usize) 
             .kinetic
             / kt
     };
-    let all: Vec<f64> = (0..runs).map(of).collect();
-    let n = runs as f64;
-    let mean = all.iter().sum::<f64>() / n;
-    let square: f64 = all.iter().map(|it| (it - mean) * (it - mean)).sum();
-    [mean, libm::sqrt(square / (n - 1.0) / n)]
+    mean(&(0..runs).map(of).collect::<Vec<_>>())
 }
 
 #[test]
@@ -255,22 +252,24 @@ fn a_gas_has_the_temperature_of_its_shaking() {
 
 #[test]
 fn bound_tiles_have_the_temperature_of_their_shaking() {
-    let (problem, crowd) = one_face(MagnetModel::Dipole);
-    let bound = problem.pair.as_ref().unwrap().bound;
-    let movers = vec![
-        mover(0, [0.0; 3], [0.0; 3]),
-        mover(1, [bound.x + 1e-5, bound.y, bound.theta], [0.0; 3]),
-    ];
-    let settings = TableSettings {
-        shaking: Some(2e-3),
-        drag: 50.0,
-        ..ideal(120.0)
-    };
-    let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), 8);
-    assert!(
-        error < 0.004 && (mean - 0.5).abs() < 0.01,
-        "{mean} +- {error}"
-    );
+    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+        let (problem, crowd) = one_face(model);
+        let bound = problem.pair.as_ref().unwrap().bound;
+        let movers = vec![
+            mover(0, [0.0; 3], [0.0; 3]),
+            mover(1, [bound.x + 1e-5, bound.y, bound.theta], [0.0; 3]),
+        ];
+        let settings = TableSettings {
+            shaking: Some(2e-3),
+            drag: 100.0,
+            ..ideal(30.0)
+        };
+        let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), 8);
+        assert!(
+            error < 0.005 && (mean - 0.5).abs() < 0.01,
+            "{mean} +- {error} {model:?}"
+        );
+    }
 }
 
 /// The share of time in which two tiles are bound on a small table, by the method of Metropolis.
@@ -342,10 +341,7 @@ fn two_tiles_are_bound_as_often_as_boltzmann_says() {
             .count();
         bound as f64 / found.samples.len() as f64
     };
-    let shares: Vec<f64> = (0..12).map(share).collect();
-    let mean = shares.iter().sum::<f64>() / 12.0;
-    let square: f64 = shares.iter().map(|it| (it - mean) * (it - mean)).sum();
-    let error = libm::sqrt(square / (11.0 * 12.0));
+    let [mean, error] = mean(&(0..12).map(share).collect::<Vec<_>>());
     assert!((0.1..0.9).contains(&expected), "{expected}");
     assert!(
         error < 0.03 && (mean - expected).abs() < 3.0 * error,
@@ -395,6 +391,8 @@ fn a_run_depends_on_nothing_but_its_seed() {
     };
     assert_eq!(last(1), last(1));
     assert_ne!(last(1), last(2));
+    let on = |threads| Interruption::default().run(threads, || last(1)).unwrap();
+    assert_eq!(on(1), on(3));
 }
 
 #[test]
@@ -547,4 +545,52 @@ fn what_cannot_start_is_told() {
     let fast = mover(0, [0.0; 3], [1e4, 0.0, 0.0]);
     let fast = run(&crowd, &settings, (1, 0), &Start::Given(vec![fast]), false);
     assert!(matches!(fast, Err(RunError::BlowUp(_))));
+}
+
+/// Mean and standard error.
+fn mean(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square: f64 = values.iter().map(|it| (it - mean) * (it - mean)).sum();
+    [mean, libm::sqrt(square / (n - 1.0) / n)]
+}
+
+#[test]
+fn halving_the_step_changes_nothing_that_seeds_do_not() {
+    // Sticky tiles: all faces bind, so that clusters grow with friction in them.
+    let tiles = [
+        square(0.1, "NN", &[0, 1, 2, 3]),
+        square(0.1, "SS", &[0, 1, 2, 3]),
+    ];
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles, model, [0.7, 0.7]);
+    let crowd = crowd(&problem, model);
+    let held = |step: f64| {
+        let settings = TableSettings {
+            shaking: Some(3e-3),
+            drag: 0.5,
+            friction: 0.3,
+            restitution: 0.01,
+            walls: true,
+            step,
+            ..ideal(4.0)
+        };
+        let run = |index| {
+            let start = Start::Random(vec![6, 6]);
+            let found = run(&crowd, &settings, (9, index), &start, false).unwrap();
+            let last = found.samples.last().unwrap();
+            [last.held.len() as f64, last.clusters.len() as f64]
+        };
+        let all: Vec<[f64; 2]> = (0..16).map(run).collect();
+        [0, 1].map(|k| mean(&all.iter().map(|it| it[k]).collect::<Vec<_>>()))
+    };
+    let [usual, half] = [1e-3, 5e-4].map(held);
+    println!("{usual:?} {half:?}");
+    for ([a, e], [b, f]) in usual.into_iter().zip(half) {
+        assert!(
+            (a - b).abs() < 3.0 * libm::hypot(e, f),
+            "{a} +- {e}, {b} +- {f}"
+        );
+    }
+    assert!(usual[0][0] > 4.0, "{usual:?}");
 }
