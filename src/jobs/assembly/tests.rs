@@ -154,10 +154,11 @@ fn names_stay_in_their_lines() {
     let text = "tiles:\n- {name: \"a % }\", edges: [0, \"g h\", 0, \"}\"], color: red}\n";
     let set = TileSet::parse(text, "a\n}.yaml").unwrap();
     assert_eq!(set.name, "a\u{fffd}}");
-    let again = TileSet::parse(&xgrow::write(&set, &[set.name.clone()]), "a").unwrap();
+    let remarks = [set.name.clone()];
+    let again = TileSet::parse(&xgrow::write(&set, &remarks), "a").unwrap();
     assert_eq!(again.tiles[0].glues, set.tiles[0].glues);
     assert_eq!(again.tiles[0].color, set.tiles[0].color);
-    let again = TileSet::parse(&rgrow::write(&set, &[set.name.clone()]), "a").unwrap();
+    let again = TileSet::parse(&rgrow::write(&set, &remarks), "a").unwrap();
     assert_eq!((again.tiles, again.glues), (set.tiles, set.glues));
 }
 
