@@ -113,8 +113,9 @@
 //! What the program gives differs after a change that is meant to change it: `results/make.py PART`
 //! makes that part of `results` anew, and the tables and the block of output in the READMEs with it.
 //!
-//! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour, `drawing` that of
-//! drawings, and `bounds` compares the energies' bounds over cells with interval arithmetic of
+//! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour, `drawing`, `tileset`,
+//! `words`, `plan` and `table` those of drawings, tile sets, sets of words, manifests of sweeps and
+//! tables, and `bounds` compares the energies' bounds over cells with interval arithmetic of
 //! `inari`; it is built apart, with compiler flags of its own. `cargo mutants --file
 //! 'src/physics/roadmap/**'` asks which changes of the code no test notices (`.cargo/mutants.toml`).
 //! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the

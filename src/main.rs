@@ -64,6 +64,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    if let Err(failure) = cli::prepare() {
+        return failure.report();
+    }
     let arguments = match cli::parse::<Arguments>() {
         Ok(arguments) => arguments,
         Err(answer) => return cli::answer(answer),

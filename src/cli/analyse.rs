@@ -69,7 +69,6 @@ pub struct Analyse {
 impl Analyse {
     pub fn run(self) -> Result<(), Failure> {
         let start = Instant::now();
-        interrupt::prepare()?;
         let design = self.design.load()?;
         let sheet = self.figures.sheet()?;
         let extent = match self.compact {
@@ -91,7 +90,7 @@ impl Analyse {
         let scene = Scene::new(&design, &analysis.problem, &analysis.catalogue);
         let wall = start.elapsed().as_secs_f64();
         let document = document(&design, &analysis, &scene, extent, wall);
-        let files = files(&document, extent, &sheet, &command_line())?;
+        let (files, drawn) = files(&document, extent, &sheet, &command_line());
         interrupt::without(|| output.write(&files))?;
         progress.finish();
         self.print.results(&document.report(), || {
@@ -101,6 +100,7 @@ impl Analyse {
                 self.out.display()
             )
         })?;
+        drawn?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))
     }
 }

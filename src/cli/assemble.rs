@@ -10,7 +10,7 @@ use tilebind::report::files::ASSEMBLE;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// Build a tile set of magnets: a word for every glue, and files for the engines of tile assembly
 #[derive(Args)]
@@ -54,7 +54,6 @@ pub struct Assemble {
 
 impl Assemble {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let (name, design) = self.named();
         let tiles = self.request.tile_set(name)?;
         let design = input::if_given(design)?;
@@ -66,7 +65,8 @@ impl Assemble {
         let progress = self.results.progress();
         let words = self.words.as_ref().map(|path| -> Result<_, Failure> {
             let set = WordSet::load(path, self.request.model)?;
-            let text = input::text(path).map_err(|error| Failure::Run(error.to_string()))?;
+            let text =
+                tilebind::text::read(path).map_err(|error| Failure::Run(error.to_string()))?;
             Ok((set, text))
         });
         let design = design.as_ref().map(|it| &it.0);

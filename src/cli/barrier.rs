@@ -51,7 +51,6 @@ pub struct Barrier {
 
 impl Barrier {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = self.design.load()?;
         input::doubt_pose(&design, &self.request.from);
         if let End::At(to) = &self.request.to {

@@ -6,9 +6,9 @@ use tilebind::report::bond::document;
 use tilebind::report::files::BOND;
 use tilebind::{Settings, pipeline};
 
+use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
-use super::{Failure, interrupt};
 
 /// How strongly bond and traps hold shaken tiles: depths, docking costs and ln K at kT
 #[derive(Args)]
@@ -38,7 +38,6 @@ pub struct BondCommand {
 
 impl BondCommand {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&BOND, self.design.inputs(&design))?;
         self.threads.use_threads()?;

@@ -13,7 +13,7 @@ use tilebind::report::files::COMPARE;
 use super::failure::tell_refuted;
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt, memory, workload};
+use super::{Failure, input, memory, workload};
 use tilebind::request::{self, Word};
 
 /// Set designs side by side: bond, traps, barriers with bounds, capture range
@@ -49,7 +49,6 @@ pub struct Compare {
 
 impl Compare {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let designs = self.load()?;
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));

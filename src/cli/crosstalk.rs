@@ -10,7 +10,7 @@ use tilebind::word_sets::CrosstalkRequest;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, interrupt, tell};
+use super::{Failure, tell};
 
 /// The strongest attraction of every two words of a set over all poses, with their mates
 #[derive(Args)]
@@ -40,7 +40,6 @@ pub struct Crosstalk {
 
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let set = WordSet::load(&self.set, self.request.model)?;
         let output = self.results.output(&CROSSTALK, vec![self.set.clone()])?;
         self.threads.use_threads()?;

@@ -9,7 +9,7 @@ use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// Send the moving tile towards the fixed one many times and count how it ends
 #[derive(Args)]
@@ -51,7 +51,6 @@ pub struct Dock {
 
 impl Dock {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = input::load(&self.design)?;
         let problem = design.problem();
         let inputs = input::files_of(&self.design, &design);

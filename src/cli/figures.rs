@@ -68,7 +68,8 @@ const ELSEWHERE: [(&str, usize); 5] = [
 
 /// The command line that gives the same results, wherever they are to go: files by their names alone.
 pub fn command_line() -> String {
-    told(std::env::args().skip(1))
+    let words = std::env::args_os().skip(1);
+    told(words.map(|word| word.to_string_lossy().into_owned()))
 }
 
 fn told(words: impl Iterator<Item = String>) -> String {

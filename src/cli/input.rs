@@ -1,13 +1,11 @@
 //! What users type: designs, poses, numbers with limits.
 
 use std::fmt::Display;
-use std::fs;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use tilebind::Configuration;
 use tilebind::design::{Design, MagnetModel};
-use tilebind::text::{decode, with_commas};
+use tilebind::text::{self, with_commas};
 
 use super::{Failure, tell};
 use tilebind::request::Unanswered;
@@ -67,29 +65,13 @@ pub fn doubt_pose(design: &Design, q: &Configuration) {
     }
 }
 
-/// Largest table or manifest that is read (bytes).
-const LARGEST: u64 = 256 << 20;
-
-/// The text of a table or manifest named on the command line; a pipe may be, too.
-pub fn text(path: &Path) -> io::Result<String> {
-    let mut bytes = Vec::new();
-    fs::File::open(path)?
-        .take(LARGEST + 1)
-        .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST {
-        let message = format!("it is larger than {} MB", LARGEST >> 20);
-        return Err(io::Error::other(message));
-    }
-    decode(bytes).map_err(io::Error::other)
-}
-
 /// What is read from a table named on the command line; what is wrong with it is told with its name.
 pub fn table<T, E: Unanswered>(
     file: &Path,
     read: impl FnOnce(&str) -> Result<T, E>,
 ) -> Result<T, Failure> {
     let wrong = |error: &dyn Display| Failure::usage(format!("{}: {error}", file.display()));
-    let text = text(file).map_err(|error| wrong(&error))?;
+    let text = text::read(file).map_err(|error| wrong(&error))?;
     read(&with_commas(&text)).map_err(|error| match error.is_of_the_question() {
         true => wrong(&error),
         false => Failure::run(error),

@@ -1,5 +1,6 @@
 //! Ctrl-C and SIGTERM: the command ends with status 75, results whole or not there at all.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 use std::time::Duration;
@@ -22,28 +23,45 @@ pub fn keep(what: &str) {
     what.clone_into(&mut known);
 }
 
-/// From now on an interruption ends the program cleanly.
+/// Whether what is finished is kept.
+static RESUMABLE: AtomicBool = AtomicBool::new(false);
+
+/// From now on what is finished is kept, and the same command goes on from there.
+pub fn is_resumable() {
+    RESUMABLE.store(true, Ordering::Relaxed);
+}
+
+/// From now on an interruption ends the program cleanly, and files that grow beyond a limit are errors
+/// like those of a full disk.
 pub fn prepare() -> Result<(), Failure> {
-    end_with("interrupted: nothing was written; the same command starts again")
-}
-
-/// The same for commands that keep what they have.
-pub fn prepare_resumable() -> Result<(), Failure> {
-    end_with("interrupted: what is finished is kept; the same command goes on from there")
-}
-
-fn end_with(message: &'static str) -> Result<(), Failure> {
-    ctrlc::set_handler(move || {
+    block_limit_signal();
+    let prepared = ctrlc::set_handler(|| {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
         let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let message = match RESUMABLE.load(Ordering::Relaxed) {
+            true => "interrupted: what is finished is kept; the same command goes on from there",
+            false => "interrupted: nothing was written; the same command starts again",
+        };
         tell_soon(match known.is_empty() {
             true => message.to_owned(),
             false => format!("{message}; {known}"),
         });
         std::process::exit(INTERRUPTED.into());
-    })
-    .map_err(|error| Failure::Run(format!("cannot prepare for interruptions: {error}")))
+    });
+    prepared.map_err(|error| Failure::Run(format!("cannot prepare for interruptions: {error}")))
 }
+
+/// Blocks the signal of a file that grows beyond `ulimit -f`, on this thread and all that it starts:
+/// the write then fails instead.
+#[cfg(unix)]
+fn block_limit_signal() {
+    use nix::sys::signal::{SigSet, Signal};
+    // Known signals are always blocked.
+    let _ = SigSet::from(Signal::SIGXFSZ).thread_block();
+}
+
+#[cfg(not(unix))]
+fn block_limit_signal() {}
 
 /// Tells the user, but does not wait for ever: a pipe that is full and that nobody reads takes
 /// nothing.

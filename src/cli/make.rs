@@ -8,7 +8,7 @@ use tilebind::report::workshop::document;
 use tilebind::workshop::{Made, Making};
 
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// Write both tiles for the workshop: DXF and SVG to scale, and a sheet for the magnets
 #[derive(Args)]
@@ -34,7 +34,6 @@ pub struct Make {
 
 impl Make {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = input::load(&self.design)?;
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&MAKE, inputs)?;

@@ -8,7 +8,7 @@ use tilebind::report::files::MATCH;
 use tilebind::report::matching::document;
 
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// List how the two outlines, magnets aside, fit together, longest contact first
 #[derive(Args)]
@@ -32,7 +32,6 @@ pub struct Match {
 
 impl Match {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = input::load(&self.design)?;
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&MATCH, inputs)?;

@@ -34,6 +34,7 @@ pub mod yields;
 
 pub use failure::Failure;
 use failure::WRONG;
+pub use interrupt::prepare;
 
 use std::ffi::OsString;
 use std::fmt::Display;

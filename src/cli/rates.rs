@@ -9,7 +9,7 @@ use tilebind::{Settings, pipeline};
 
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt, memory};
+use super::{Failure, input, memory};
 
 /// Print how fast shaken tiles bind, come off and change between states
 #[derive(Args)]
@@ -54,7 +54,6 @@ pub struct Rates {
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&RATES, self.design.inputs(&design))?;
         let (problem, request) = (design.problem(), &self.request);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::output::{Command, Output};
 use tilebind::report::document::Document;
+use tilebind::report::plots::PictureError;
 
 use super::figures::{FigureOptions, command_line};
 use super::options::{ForceOption, PrintOptions};
@@ -39,10 +40,18 @@ impl FolderOptions {
         folder.transpose()
     }
 
-    fn write(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
-        let Some(output) = output else { return Ok(()) };
-        let files = document.files(&self.figures.sheet()?, &command_line())?;
-        Ok(interrupt::without(|| output.write(&files))?)
+    /// Writes what is found; whether all pictures could be drawn is told last.
+    fn write(
+        &self,
+        document: &Document,
+        output: Option<Output>,
+    ) -> Result<Result<(), PictureError>, Failure> {
+        let Some(output) = output else {
+            return Ok(Ok(()));
+        };
+        let (files, drawn) = document.files(&self.figures.sheet()?, &command_line());
+        interrupt::without(|| output.write(&files))?;
+        Ok(drawn)
     }
 
     /// What people read on a terminal.
@@ -100,10 +109,11 @@ impl ResultOptions {
         output: Option<Output>,
         progress: &Progress,
     ) -> Result<(), Failure> {
-        self.folder.write(document, output)?;
+        let drawn = self.folder.write(document, output)?;
         progress.finish();
         self.print
-            .results(&document.printed(), || self.folder.told(document))
+            .results(&document.printed(), || self.folder.told(document))?;
+        Ok(drawn?)
     }
 }
 
@@ -140,11 +150,12 @@ impl NumberOptions {
 
     /// See [`ResultOptions::deliver`].
     pub fn deliver(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
-        self.folder.write(document, output)?;
+        let drawn = self.folder.write(document, output)?;
         print(&match self.text {
             true => self.folder.told(document),
             false => document.printed(),
-        })
+        })?;
+        Ok(drawn?)
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use tilebind::design::Design;
 use tilebind::inspection::Inspection;
 use tilebind::report::document::Document;
@@ -37,7 +38,7 @@ pub struct Show {
 
     /// File for the picture, .svg, .png or .pdf by its ending; or folder for report.html, report.json,
     /// tables and pictures
-    #[arg(long, short, value_name = "FILE|DIR", value_parser = place)]
+    #[arg(long, short, value_name = "FILE|DIR", value_parser = PathBufValueParser::new().try_map(place))]
     out: Option<PathBuf>,
 
     #[command(flatten)]
@@ -60,7 +61,6 @@ impl Show {
         if !self.watch {
             return self.show();
         }
-        interrupt::prepare()?;
         loop {
             let seen = self.changes();
             if style::is_terminal() {
@@ -110,8 +110,9 @@ impl Show {
         let sheet = self.figures.sheet()?;
         let Some(ending) = ending(place) else {
             let output = self.force.folder(&SHOW, place, inputs)?;
-            let files = document.files(&sheet, &command_line())?;
-            return Ok(interrupt::without(|| output.write(&files))?);
+            let (files, drawn) = document.files(&sheet, &command_line());
+            interrupt::without(|| output.write(&files))?;
+            return Ok(drawn?);
         };
         let output = self.force.file(&SHOW, place, inputs)?;
         let sheet = match ending == "pdf" && sheet == Sheet::SCREEN {
@@ -149,8 +150,7 @@ fn ending(place: &Path) -> Option<&str> {
 }
 
 /// A file for a picture, or a folder.
-fn place(text: &str) -> Result<PathBuf, String> {
-    let place = PathBuf::from(text);
+fn place(place: PathBuf) -> Result<PathBuf, String> {
     match place.extension() {
         Some(_) if ending(&place).is_none() => Err(
             "a picture is a .svg, .png or .pdf file, such as design.svg; a name without an ending is a \

@@ -115,13 +115,13 @@ impl Sweep {
         if let Some(file) = &self.merge {
             let (plan, folder) = self.read(file)?;
             let output = self.output(&plan, &folder, Some(file))?;
-            interrupt::prepare_resumable()?;
+            interrupt::is_resumable();
             return self.merge(&plan, &folder, &output);
         }
         if let Some(file) = &self.run {
             let (plan, folder) = self.read(file)?;
             Store::new(&folder).check()?;
-            interrupt::prepare_resumable()?;
+            interrupt::is_resumable();
             self.check_memory(&plan)?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
@@ -136,13 +136,13 @@ impl Sweep {
         let plan = plan.map_err(Failure::usage)?;
         let file = self.plan_file()?;
         let manifest = self.force.file(&SWEEP, &file, inputs(&plan, None))?;
-        interrupt::prepare_resumable()?;
+        interrupt::is_resumable();
         if self.plan.is_some() {
             interrupt::without(|| manifest.write_file(plan.to_text()))?;
             if self.print.quiet {
                 return Ok(());
             }
-            let count = plan.points().len();
+            let count = plan.count();
             return print(&format!("{count} points planned in {}\n", file.display()));
         }
         let folder = folder_of(&file);
@@ -204,7 +204,7 @@ impl Sweep {
             file.to_owned()
         };
         let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
-        let text = input::text(&file)
+        let text = tilebind::text::read(&file)
             .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
@@ -213,7 +213,7 @@ impl Sweep {
 
     /// Refuses points for which the machine has not the memory, as many as are worked on at once.
     fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
-        let at_once = self.threads.count().min(plan.points().len());
+        let at_once = self.threads.count().min(plan.count());
         let survey = &plan.settings.survey;
         memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
@@ -243,12 +243,7 @@ impl Sweep {
 
     fn status(&self, plan: &Plan, folder: &Path) -> Result<(), Failure> {
         let store = Store::new(folder);
-        let outcomes: Vec<_> = plan
-            .points()
-            .iter()
-            .map(|point| store.load(point))
-            .collect();
-        let progress = Counts::new(outcomes.iter().map(Option::as_ref));
+        let progress = Counts::of(plan, &store);
         if self.print.json {
             return print(&json::text(&json!(progress)));
         }
@@ -264,13 +259,14 @@ impl Sweep {
             ))
         })?;
         let document = report.document();
-        let mut files = document.files(&self.figures.sheet()?, AGAIN)?;
+        let (mut files, drawn) = document.files(&self.figures.sheet()?, AGAIN);
         if !output.reads(PLAN) {
             files.insert(PLAN.to_owned(), plan.to_text().into_bytes());
         }
         interrupt::without(|| output.write(&files))?;
         self.print
             .results(&document.report(), || told_of(&document, folder))?;
+        drawn?;
         match report.progress().failed {
             0 => {
                 let point = |index| Some((format!("point {index}"), report.assessment(index)?));

@@ -8,10 +8,11 @@ use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
 use tilebind::request;
 use tilebind::table::{self, About, Request};
+use tilebind::text::{self, with_commas};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// Put many tiles on one table, with contact, friction and drives, and count what they hold
 #[derive(Args)]
@@ -53,7 +54,6 @@ pub struct TableCommand {
 
 impl TableCommand {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         self.request.check().map_err(Failure::Usage)?;
         let is_design = self.tiles.extension().is_some_and(|it| it == "toml");
         let design = is_design.then(|| input::load_as(&self.tiles, self.model));
@@ -71,10 +71,10 @@ impl TableCommand {
         };
         let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
             let name = path.display().to_string();
-            let text = input::text(path).map_err(|error| {
+            let text = text::read(path).map_err(|error| {
                 Failure::Usage(format!("cannot read the start {name}: {error}"))
             })?;
-            Ok((name, text))
+            Ok((name, with_commas(&text).into_owned()))
         });
         let file = file.transpose()?;
         let start = self.request.start(

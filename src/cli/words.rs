@@ -9,7 +9,7 @@ use tilebind::word_sets::Request;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, interrupt};
+use super::{Failure, input};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
@@ -46,7 +46,6 @@ pub struct Words {
 
 impl Words {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = input::if_given(self.design.as_deref())?;
         let inputs = design.as_ref().map(|(_, files)| files.clone());
         let output = self.results.output(&WORDS, inputs.unwrap_or_default())?;

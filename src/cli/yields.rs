@@ -5,9 +5,9 @@ use tilebind::report::files::YIELD;
 use tilebind::report::yields::document;
 use tilebind::yields::{Question, yields};
 
+use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
-use super::{Failure, interrupt};
 
 /// How many pairs are bound after a time on a shaken table, and at which shaking most are
 #[derive(Args)]
@@ -39,7 +39,6 @@ pub struct YieldCommand {
 
 impl YieldCommand {
     pub fn run(self) -> Result<(), Failure> {
-        interrupt::prepare()?;
         let design = self.design.load()?;
         let output = self.results.output(&YIELD, self.design.inputs(&design))?;
         self.threads.use_threads()?;

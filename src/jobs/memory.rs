@@ -4,10 +4,13 @@ use physics::roadmap;
 
 /// What is taken to be free where the machine does not say (bytes).
 const SUPPOSED: f64 = 8e9;
+/// What an analysis takes besides roadmaps, its threads and pictures among it (bytes): with less than a
+/// sixth of it the program does not start, with four fifths the analysis of a shipped design ends.
+const BESIDES: f64 = 1.2e8;
 /// Requests for more are told of (bytes).
 const WORTH_TELLING: f64 = 1e9;
 
-/// What memory roadmaps take of which `at_once` are built at the same time, where that is worth telling.
+/// What memory work on roadmaps takes of which `at_once` are built at the same time, where that is worth telling.
 ///
 /// # Errors
 /// Where the machine does not have it.
@@ -16,25 +19,49 @@ pub fn check(
     neighbours: Option<usize>,
     at_once: usize,
 ) -> Result<Option<String>, String> {
-    let needed = at_once as f64 * roadmap::memory(milestones, neighbours);
-    let free = available().unwrap_or(SUPPOSED);
-    let roadmaps = match at_once {
-        1 => "the roadmap takes".to_owned(),
-        _ => format!("{at_once} roadmaps at once take"),
+    let work = match at_once {
+        1 => "the work takes".to_owned(),
+        _ => format!("work on {at_once} roadmaps at once takes"),
     };
+    let needed = BESIDES + at_once as f64 * roadmap::memory(milestones, neighbours);
+    let told = fits(needed).map_err(|told| {
+        format!(
+            "{work} about {told}: ask for fewer --milestones or --neighbours, or work on fewer \
+             --threads"
+        )
+    })?;
+    Ok((needed > WORTH_TELLING).then(|| format!("{work} about {told}")))
+}
+
+/// Refuses what takes so many bytes.
+///
+/// # Errors
+/// Where the machine does not have them.
+pub fn check_bytes(needed: f64) -> Result<(), String> {
+    fits(needed)
+        .map(drop)
+        .map_err(|told| format!("this takes {told}"))
+}
+
+/// So many bytes and what is free, in words.
+///
+/// # Errors
+/// The same, where less is free.
+fn fits(needed: f64) -> Result<String, String> {
+    let free = available().unwrap_or(SUPPOSED);
     let gigabytes = |bytes: f64| match bytes / 1e9 {
         many if many >= 1e6 => format!("{many:.1e} GB"),
         some => format!("{some:.1} GB"),
     };
-    let (takes, free_now) = (gigabytes(needed), gigabytes(free));
-    if needed > free {
-        return Err(format!(
-            "{roadmaps} about {takes} of memory, and {free_now} are free: \
-             ask for fewer --milestones or --neighbours, or work on fewer --threads"
-        ));
+    let told = format!(
+        "{} of memory; {} are free",
+        gigabytes(needed),
+        gigabytes(free)
+    );
+    match needed <= free {
+        true => Ok(told),
+        false => Err(told),
     }
-    let told = || format!("{roadmaps} about {takes} of memory; {free_now} are free");
-    Ok((needed > WORTH_TELLING).then(told))
 }
 
 /// Memory that can be had without swapping (bytes), as Linux tells it: the machine's, or what the

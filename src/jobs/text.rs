@@ -2,6 +2,29 @@
 //! where commas are decimal, with semicolons.
 
 use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use csv::StringRecord;
+
+/// Largest table or manifest that is read (bytes).
+const LARGEST: u64 = 256 << 20;
+
+/// The text of a table or manifest; its file may be a pipe, too.
+///
+/// # Errors
+/// Where it cannot be read, is too large or is no text.
+pub fn read(path: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    let file = File::open(path)?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("it is larger than {} MB", LARGEST >> 20);
+        return Err(io::Error::other(message));
+    }
+    decode(bytes).map_err(io::Error::other)
+}
 
 /// Bytes that are no text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -107,6 +130,18 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
         points.replace(between, ",")
     });
     Cow::Owned(changed.collect())
+}
+
+/// Where the column stands that a table's first line names by one of some names, if it does.
+///
+/// # Errors
+/// Where two columns are named so.
+pub(crate) fn column(header: &StringRecord, names: &[&str]) -> Result<Option<usize>, String> {
+    let mut named = (0..header.len()).filter(|place| names.contains(&&header[*place]));
+    match (named.next(), named.next()) {
+        (_, Some(second)) => Err(format!("the column `{}` is there twice", &header[second])),
+        (first, None) => Ok(first),
+    }
 }
 
 #[cfg(test)]

@@ -82,23 +82,20 @@ pub fn document<'a>(
     }
 }
 
-/// All files of an analysis that took so long (s), made by `command`.
-///
-/// # Errors
-/// Where a picture cannot be drawn.
+/// All files of an analysis that took so long (s), made by `command`; see [`Document::files`].
 pub fn files(
     document: &Document,
     extent: Extent,
     sheet: &Sheet,
     command: &str,
-) -> Result<Files, PictureError> {
+) -> (Files, Result<(), PictureError>) {
     let sheet = match extent {
         Extent::Full => *sheet,
         Extent::Compact => sheet.without_bitmaps(),
     };
-    let mut files = document.files(&sheet, command)?;
+    let (mut files, drawn) = document.files(&sheet, command);
     files.retain(|name, _| extent.may_hold(name));
-    Ok(files)
+    (files, drawn)
 }
 
 /// What `report.json` has; `is_whole` says whether escapes of copies name their pathways.

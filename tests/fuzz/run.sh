@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Fuzzes the readers of designs and of drawings, and the energies' bounds over cells, for the given
-# seconds each [20], from the shipped files, the tests' and what was found before (cases/). A finding
+# Fuzzes the readers (of designs, drawings, tile sets, sets of words, manifests of sweeps, tables) and
+# the energies' bounds over cells, for the given seconds each [20], from the shipped files, the tests' and what was found before (cases/). A finding
 # is left in target/fuzz/found; it belongs into cases/, which ordinary tests replay. With names of
 # targets after the seconds, only these. Skips where the fuzzer cannot be built.
 set -euo pipefail
 cd "$(dirname "$0")"
 seconds="${1:-20}"
 targets=("${@:2}")
-((${#targets[@]})) || targets=(design drawing bounds)
+((${#targets[@]})) || targets=(design drawing tileset words plan table bounds)
 root=../..
 export CARGO_TARGET_DIR="$PWD/$root/target/fuzz"
 
@@ -24,6 +24,10 @@ cargo build --release --quiet
 declare -A seeds=(
     [design]="$root/shapes $root/tests/designs/good $root/tests/designs/bad"
     [drawing]="$root/shapes $root/tests/designs/drawings"
+    [tileset]="$root/shapes/assemblies"
+    [words]="$root/shapes"
+    [plan]=""
+    [table]=""
     [bounds]=""
 )
 for target in "${targets[@]}"; do

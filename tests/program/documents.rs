@@ -10,7 +10,7 @@ use tilebind::dynamics::docking::{DockingSettings, dock};
 use tilebind::observer::Silent;
 use tilebind::report::analysis::{self, Extent};
 use tilebind::report::comparison::Comparison;
-use tilebind::report::document::{Document, Table, Unit};
+use tilebind::report::document::{Document, Drawing, Table, Unit};
 use tilebind::report::plots::{Scene, Sheet};
 use tilebind::report::{docking, yields as of_yields};
 use tilebind::request::of_keywords;
@@ -142,7 +142,8 @@ fn check(document: &Document) {
     }
     // Pictures have all their forms, and numbers.
     let sheet = Sheet::for_print(120.0, 7.0).unwrap();
-    let drawn = document.files(&sheet, "tilebind").unwrap();
+    let (drawn, whole) = document.files(&sheet, "tilebind");
+    whole.unwrap();
     let mut forms: HashMap<&str, Vec<&str>> = HashMap::new();
     for name in drawn
         .keys()
@@ -154,6 +155,52 @@ fn check(document: &Document) {
     for (stem, mut forms) in forms {
         forms.sort_unstable();
         assert_eq!(forms, ["csv", "pdf", "png", "svg"], "{stem}");
+    }
+}
+
+/// What was computed is worth more than its pictures.
+#[test]
+fn a_picture_that_breaks_down_takes_nothing_else_along() {
+    let (design, problem) = (design(), design().problem());
+    let settings = DockingSettings {
+        runs: 5,
+        duration: 0.5,
+        ..DockingSettings::default()
+    };
+    let found = dock(&problem, &settings, &|| ()).unwrap();
+    let paths = Paths::new(&problem, &found, None).unwrap();
+    let mut document = docking::document((&design, &problem), &found, Some(&paths));
+    let (all, _) = document.files(&Sheet::SCREEN, "tilebind");
+    let broken = Drawing::new("broken", |_| panic!("as it should"));
+    document.pictures.insert(0, broken);
+    let (files, whole) = document.files(&Sheet::SCREEN, "tilebind");
+    assert!(whole.unwrap_err().to_string().contains("(broken)"));
+    assert_eq!(files, all);
+}
+
+/// All trajectories may start alike.
+#[test]
+fn starts_of_one_value_are_drawn() {
+    let (design, problem) = (design(), design().problem());
+    for (orientation, speed) in [
+        (0.5, [0.5, 0.5]),
+        (0.5, [0.0, 0.0]),
+        (0.0, [0.2, 0.6]),
+        (0.0, [0.5; 2]),
+    ] {
+        let mut settings = DockingSettings {
+            runs: 40,
+            duration: 0.5,
+            ..DockingSettings::default()
+        };
+        settings.starts.orientation = orientation;
+        settings.starts.speed = speed;
+        let found = dock(&problem, &settings, &|| ()).unwrap();
+        let paths = Paths::new(&problem, &found, None).unwrap();
+        let document = docking::document((&design, &problem), &found, Some(&paths));
+        let (files, whole) = document.files(&Sheet::SCREEN, "tilebind");
+        whole.unwrap();
+        assert!(files.keys().any(|name| name.ends_with("chances.svg")));
     }
 }
 

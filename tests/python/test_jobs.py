@@ -250,6 +250,27 @@ def test_words_and_crosstalk(design):
         tilebind.words(0)
 
 
+def test_what_has_no_end_is_refused(design, root):
+    for refused in (
+        lambda: design.analyse(far_starts=10**12),
+        lambda: design.analyse(far_starts=10**18),
+        lambda: design.analyse(milestones=10**14),
+        lambda: design.dock(runs=10**12),
+        lambda: design.yields([3e-3], tiles=4, time=60, runs=10**12),
+        lambda: design.barrier(design.bound, milestones=10**14),
+        lambda: tilebind.assemble(root / "shapes/assemblies/spiral.yaml", kt=5e-3, length=0),
+        lambda: tilebind.assemble(root / "shapes/assemblies/spiral.yaml", kt=5e-3, proofread=7),
+        lambda: design.dock(runs=2, duration=1).trajectory(0, interval=1e-300),
+    ):
+        with pytest.raises((ValueError, MemoryError)):
+            refused()
+
+
+def test_starts_that_are_alike_are_drawn(design):
+    for starts in ({"speed": (0.5, 0.5)}, {"speed": (0, 0)}, {"orientation": 0}):
+        assert "</svg>" in design.dock(runs=10, duration=1, **starts).svg()
+
+
 def test_wrong_arguments_are_told(design):
     with pytest.raises(TypeError, match="milestones"):
         design.analyse(milestone=3)

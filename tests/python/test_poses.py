@@ -55,6 +55,15 @@ def test_what_is_not_finite_is_not_known(design):
     assert abs(design.energy([1e30, 0, 0])) < 1e-100 and np.isnan(design.energy([1e300, 0, 0]))
 
 
+def test_rows_that_no_memory_holds_are_refused(design):
+    """One row may stand for any number of them."""
+    for count in (10**10, 10**14):
+        with pytest.raises(MemoryError, match="GB"):
+            design.energy(np.broadcast_to([0.5, 0.0, 0.0], (count, 3)))
+    with pytest.raises(MemoryError):
+        design.is_free(np.broadcast_to([0.5, 0.0, 0.0], (10**12, 3)))
+
+
 def test_clearances_tell_what_is_free(design, poses):
     clearance, free = design.clearance(poses), design.is_free(poses)
     assert free.dtype == bool and np.array_equal(free, clearance >= 0)

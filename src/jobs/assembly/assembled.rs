@@ -49,8 +49,9 @@ impl Request {
     ///
     /// # Errors
     /// Where there is none, or it is not asked for as it can be.
-    pub fn tile_set(&self, name: &Path) -> Result<TileSet, Refused> {
-        let name = name.to_str().unwrap_or("lattice");
+    pub fn tile_set(&self, file: &Path) -> Result<TileSet, Refused> {
+        // Of a file whose name is no text this is some other text.
+        let name = &file.to_string_lossy()[..];
         let wrong = match (name, self.lattice, self.side) {
             ("lattice", Some(size), None) => return Ok(lattice::unique(size)),
             ("homogeneous", Some(size), None) => return Ok(lattice::homogeneous(size)),
@@ -69,7 +70,7 @@ impl Request {
                                 homogeneous in place of a file"
                 .to_owned(),
             (_, _, Some(_)) => "--side goes with square".to_owned(),
-            (file, None, None) => return Ok(TileSet::load(Path::new(file))?),
+            (_, None, None) => return Ok(TileSet::load(file)?),
         };
         Err(wrong.into())
     }
@@ -85,7 +86,7 @@ impl Request {
         design: Option<&'a Design>,
         observer: &dyn Observer,
     ) -> Result<Assembly<'a>, Refused> {
-        let set = proofread::blocks(tiles, self.proofread.into());
+        let set = proofread::blocks(tiles, self.proofread.into())?;
         let shaking = Shaking {
             kt: self.kt,
             coverage: self.coverage,

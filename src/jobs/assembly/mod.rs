@@ -39,10 +39,12 @@ pub mod slides;
 pub mod square;
 pub mod wiring;
 pub mod xgrow;
+mod yaml;
 
 #[cfg(test)]
 mod tests;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use crate::design::{DesignError, Place};
@@ -147,7 +149,9 @@ impl TileSet {
             false => rgrow::read(text, file)?,
         };
         let stem = Path::new(file).file_stem();
-        set.name = stem.map_or(file.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let name = stem.map_or(file.into(), |stem| stem.to_string_lossy());
+        // It stands in comments of the files that are written.
+        set.name = name.replace(char::is_control, "\u{fffd}");
         set.check(text, file)?;
         Ok(set)
     }
@@ -206,10 +210,32 @@ impl TileSet {
             let message = format!("it has more than {MOST} tiles or glues");
             return wrong("", message, "split the set");
         }
-        for (i, tile) in self.tiles.iter().enumerate() {
-            if self.tiles[..i].iter().any(|other| other.name == tile.name) {
-                let message = format!("the tile `{}` is there twice", tile.name);
-                return wrong(&tile.name, message, "give every tile a name of its own");
+        let glues = self.glues.iter().map(|glue| &glue.name);
+        let tiles = self.tiles.iter().map(|tile| &tile.name);
+        let mut names = glues.clone().chain(tiles.clone());
+        if let Some(name) = names.find(|name| name.contains(char::is_control)) {
+            let message = format!("the name {name:?} is not a single line of text");
+            return wrong("", message, "take what is no letter out of it");
+        }
+        let mut seen = HashSet::new();
+        if let Some(name) = glues.clone().find(|name| !seen.insert(*name)) {
+            let message = format!("the glue `{name}` is there twice");
+            return wrong(name, message, "give every glue a name of its own");
+        }
+        let mut seen = HashSet::new();
+        if let Some(name) = tiles.clone().find(|name| !seen.insert(*name)) {
+            let message = format!("the tile `{name}` is there twice");
+            return wrong(name, message, "give every tile a name of its own");
+        }
+        for tile in &self.tiles {
+            let ends = |c: char| c.is_control() || c == ')';
+            if let Some(color) = tile.color.as_ref().filter(|color| color.contains(ends)) {
+                let message = format!("the tile `{}` has the colour {color:?}", tile.name);
+                return wrong(
+                    &tile.name,
+                    message,
+                    "name a colour as X11 does: red, or #ff0000",
+                );
             }
             if !(tile.stoic.is_finite() && tile.stoic >= 0.0) {
                 let message = format!("the tile `{}` has a share of {}", tile.name, tile.stoic);
@@ -233,7 +259,27 @@ impl TileSet {
                 "give one at least a share (stoic) above 0",
             );
         }
+        let numbers = [("tau", self.tau), ("Gse", self.gse), ("Gmc", self.gmc)];
+        let negative =
+            |(key, value): &(_, Option<f64>)| value.filter(|x| *x < 0.0).map(|x| (*key, x));
+        if let Some((key, x)) = numbers.iter().find_map(negative) {
+            let message = format!("{key} is {x:?}, and none is below 0");
+            return wrong(key, message, "write a number above 0");
+        }
+        if let Some(size) = self
+            .size
+            .filter(|size| size.iter().any(|n| !(1..=MOST_CANVAS).contains(n)))
+        {
+            let message =
+                format!("its canvas has {size:?} rows and columns, not 1 to {MOST_CANVAS}");
+            return wrong("size", message, "write size: [32, 32]");
+        }
+        let mut places = HashSet::new();
         for (row, column, tile) in &self.seed {
+            if !places.insert((row, column)) {
+                let message = format!("two seeds are at {row}, {column}");
+                return wrong("seed", message, "take one away");
+            }
             if (*row).max(*column) >= MOST_CANVAS {
                 let message =
                     format!("the seed at {row}, {column} is farther out than {MOST_CANVAS}");

@@ -6,12 +6,22 @@
 //! (strength tau) it does so in the first of the K rows or columns, and the block's own glues there
 //! are as strong: along that row or column the block grows, and the others follow with two bonds.
 
-use super::{Axis, TileSet, TileType};
+use super::{Axis, MOST, TileSet, TileType};
 
 /// The set of blocks; of K = 1 the set itself.
-pub fn blocks(set: &TileSet, k: usize) -> TileSet {
+///
+/// # Errors
+/// Where it has more tiles than a set may have.
+pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
     if k < 2 {
-        return set.clone();
+        return Ok(set.clone());
+    }
+    let count = set.tiles.len() * k * k;
+    if count > MOST {
+        return Err(format!(
+            "{} blocks of {k} x {k} are {count} tiles, more than {MOST}: ask for a smaller --proofread",
+            set.tiles.len()
+        ));
     }
     let tau = set.tau();
     let strengths = set.strengths();
@@ -84,5 +94,5 @@ pub fn blocks(set: &TileSet, k: usize) -> TileSet {
     for (row, column, tile) in set.seed.iter().take(1) {
         out.seed.push((row * k + k - 1, column * k, tile * k * k));
     }
-    out
+    Ok(out)
 }

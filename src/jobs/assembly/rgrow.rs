@@ -8,124 +8,24 @@
 
 use std::fmt::Write;
 
-use serde::Deserialize;
-use serde_yaml_ng::Value;
+use super::yaml::{FORM, Node, Source};
+use super::{MOST, TileSet, TileType};
+use crate::design::{DesignError, nearest_help};
 
-use super::{TileSet, TileType, fault};
-use crate::design::{DesignError, Place, nearest_help};
-
-#[derive(Clone, Deserialize)]
-#[serde(untagged)]
-enum Ident {
-    Number(usize),
-    Name(String),
-}
-
-impl Ident {
-    fn text(&self) -> String {
-        match self {
-            Self::Number(number) => number.to_string(),
-            Self::Name(name) => name.clone(),
-        }
-    }
-}
-
-#[derive(Deserialize)]
-struct TileEntry {
-    name: Option<Ident>,
-    edges: Vec<Ident>,
-    stoic: Option<f64>,
-    color: Option<String>,
-    shape: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct BondEntry {
-    name: Ident,
-    strength: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum SeedEntry {
-    One(usize, usize, Ident),
-    Many(Vec<(usize, usize, Ident)>),
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum SizeEntry {
-    Square(usize),
-    Both([usize; 2]),
-}
-
-#[derive(Deserialize)]
-struct Entries {
-    #[serde(default)]
-    tiles: Vec<TileEntry>,
-    #[serde(default)]
-    bonds: Vec<BondEntry>,
-    #[serde(default)]
-    glues: Vec<(Ident, Ident, f64)>,
-    seed: Option<SeedEntry>,
-    size: Option<SizeEntry>,
-    #[serde(alias = "threshold")]
-    tau: Option<f64>,
-    #[serde(alias = "Gse")]
-    gse: Option<f64>,
-    #[serde(alias = "Gmc")]
-    gmc: Option<f64>,
-    #[serde(alias = "doubletiles")]
-    hdoubletiles: Option<Value>,
-    vdoubletiles: Option<Value>,
-    #[serde(alias = "xgrowargs", alias = "params")]
-    options: Option<Box<Entries>>,
-}
-
-const DOUBLE: &str = "write the two halves as tiles that share a strong glue";
+const HALVES: &str = "write the two halves as tiles that share a strong glue";
 
 /// Reads a set; its name is left empty.
 ///
 /// # Errors
 /// Where the text is no such set.
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
-    let wrong = |error: serde_yaml_ng::Error| {
-        let at = error.location().map(|it| it.index()..it.index() + 1);
-        let place = at.map(|at| Place::of(text, at));
-        let message = format!("it is no tile set: {error}");
-        let help = "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow has it, or \
-                    a .tiles file of xgrow";
-        DesignError::new(file, place, message, help)
-    };
-    let mut entries: Entries = serde_yaml_ng::from_str(text).map_err(wrong)?;
-    let value: Value = serde_yaml_ng::from_str(text).map_err(wrong)?;
-    if let Some(more) = entries.options.take() {
-        entries.tiles.extend(more.tiles);
-        entries.bonds.extend(more.bonds);
-        entries.glues.extend(more.glues);
-        entries.seed = more.seed.or(entries.seed);
-        entries.size = more.size.or(entries.size);
-        entries.tau = more.tau.or(entries.tau);
-        entries.gse = more.gse.or(entries.gse);
-        entries.gmc = more.gmc.or(entries.gmc);
-        entries.hdoubletiles = more.hdoubletiles.or(entries.hdoubletiles);
-        entries.vdoubletiles = more.vdoubletiles.or(entries.vdoubletiles);
-    }
-    let some = |tiles: &Option<Value>| {
-        let none =
-            |tiles: &Value| tiles.is_null() || tiles.as_sequence().is_some_and(Vec::is_empty);
-        tiles.as_ref().is_some_and(|tiles| !none(tiles))
-    };
-    if some(&entries.hdoubletiles) || some(&entries.vdoubletiles) {
-        let message = "it has double tiles, which magnetic squares are not".to_owned();
-        return Err(fault(text, file, "doubletiles", message, DOUBLE));
-    }
-    let passed_over = check(&value, text, file)?;
-    let set = made_of(entries, text, file)?;
-    Ok(TileSet { passed_over, ..set })
+    let source = Source { text, file };
+    let mut parts = Parts::default();
+    parts.gather(source, &source.tree()?, &MORE)?;
+    parts.set(source)
 }
 
-/// Keys that are read; those of tiles and of bonds.
+/// Keys that are read, those that lead to more of them, and those of tiles and of bonds.
 const READ: [&str; 15] = [
     "tiles",
     "bonds",
@@ -182,132 +82,264 @@ const STEERING: [&str; 32] = [
     "info",
 ];
 
-/// What steers the engine only.
-///
-/// # Errors
-/// Where there are keys that say nothing, or a canvas that is no table.
-fn check(value: &Value, text: &str, file: &str) -> Result<Vec<String>, DesignError> {
-    let mut steering = Vec::new();
-    let name = |key: &Value| match key {
-        Value::String(name) => name.clone(),
-        other => format!("{other:?}"),
-    };
-    let known = |map: &serde_yaml_ng::Mapping, known: &[&str]| -> Result<(), DesignError> {
-        let unknown = map.keys().map(name).find(|key| !known.contains(&&key[..]));
-        let Some(key) = unknown else { return Ok(()) };
-        let message = format!("nothing is known of the key `{key}`");
-        Err(fault(text, file, &key, message, &nearest_help(&key, known)))
-    };
-    let Some(whole) = value.as_mapping() else {
-        return Ok(steering);
-    };
-    let parts = MORE.iter().filter_map(|key| whole.get(*key)?.as_mapping());
-    for (map, more) in [(whole, &MORE[..])]
-        .into_iter()
-        .chain(parts.map(|map| (map, &[][..])))
-    {
-        known(map, &[&READ[..], more, &STEERING].concat())?;
-        for (entries, keys) in [("tiles", &OF_TILE[..]), ("bonds", &OF_BOND)] {
-            let entries = map.get(entries).and_then(Value::as_sequence);
-            for entry in entries.into_iter().flatten().filter_map(Value::as_mapping) {
-                known(entry, keys)?;
-            }
-        }
-        let canvas = map.get("canvas_type").and_then(Value::as_str);
-        if let Some(canvas) = canvas.filter(|it| !it.to_lowercase().starts_with("square")) {
-            let message = format!("its canvas is `{canvas}`, and a table is flat and has edges");
-            let help = "take canvas_type away, or write square; a seed and a size that fit in the \
-                        plane go with it";
-            return Err(fault(text, file, "canvas_type", message, help));
-        }
-        let model = map.get("model").and_then(Value::as_str);
-        if let Some(model) = model.filter(|it| !it.to_lowercase().ends_with("tam")) {
-            let message = format!("its model `{model}` is not that of square tiles with glues");
-            return Err(fault(text, file, "model", message, "write model: kTAM"));
-        }
-        let own = |key: &String, value: &Value| key == "fission" && value == "keep-seeded";
-        let passed = map.iter().map(|(key, value)| (name(key), value));
-        let passed = passed.filter(|(key, value)| STEERING.contains(&&key[..]) && !own(key, value));
-        steering.extend(passed.map(|it| it.0));
-    }
-    Ok(steering)
+/// What a file says, wherever it says it.
+#[derive(Default)]
+struct Parts {
+    tiles: Vec<Node>,
+    bonds: Vec<Node>,
+    glues: Vec<Node>,
+    seed: Option<Node>,
+    size: Option<Node>,
+    numbers: [Option<f64>; 3],
+    passed_over: Vec<String>,
 }
 
-fn made_of(entries: Entries, text: &str, file: &str) -> Result<TileSet, DesignError> {
-    let mut set = TileSet {
-        size: entries.size.map(|size| match size {
-            SizeEntry::Square(n) => [n, n],
-            SizeEntry::Both(both) => both,
-        }),
-        tau: entries.tau,
-        gse: entries.gse,
-        gmc: entries.gmc,
-        ..TileSet::default()
+/// Names of the numbers.
+const NUMBERS: [[&str; 2]; 3] = [["tau", "threshold"], ["gse", "Gse"], ["gmc", "Gmc"]];
+
+impl Parts {
+    /// Takes what a mapping says, and those that `more` keys lead to, which have the last word.
+    fn gather(&mut self, source: Source, node: &Node, more: &[&str]) -> Result<(), DesignError> {
+        let entries = source.entries(node, "a tile set")?;
+        for names in NUMBERS {
+            let mut both = entries.iter().filter(|entry| names.contains(&entry.1));
+            if let (Some(_), Some((key, ..))) = (both.next(), both.next()) {
+                let message = format!("`{}` and `{}` are one", names[0], names[1]);
+                return Err(source.wrong(key, message, "take one away"));
+            }
+        }
+        for (key, name, value) in &entries {
+            let number = NUMBERS.iter().position(|names| names.contains(name));
+            match *name {
+                name if more.contains(&name) => {}
+                name if !READ.contains(&name) && !STEERING.contains(&name) => {
+                    let known = [&READ[..], more, &STEERING].concat();
+                    return Err(unknown(source, key, name, &known));
+                }
+                _ if value.is_null() => {}
+                "tiles" => self.tiles.extend_from_slice(list(source, value)?),
+                "bonds" => self.bonds.extend_from_slice(list(source, value)?),
+                "glues" => self.glues.extend_from_slice(list(source, value)?),
+                "seed" => self.seed = Some((*value).clone()),
+                "size" => self.size = Some((*value).clone()),
+                "hdoubletiles" | "doubletiles" | "vdoubletiles" => {
+                    if !list(source, value)?.is_empty() {
+                        let message = "it has double tiles, which magnetic squares are not";
+                        return Err(source.wrong(key, message, HALVES));
+                    }
+                }
+                name => match number {
+                    Some(at) => self.numbers[at] = Some(numeral(source, value)?),
+                    None => self.steer(source, name, value)?,
+                },
+            }
+        }
+        for (_, name, value) in entries {
+            if more.contains(&name) && !value.is_null() {
+                self.gather(source, value, &[])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Passes over what only steers the engine; a canvas that no table is, and a model that is none of
+    /// squares, are faults.
+    fn steer(&mut self, source: Source, name: &str, value: &Node) -> Result<(), DesignError> {
+        let text = value.text().unwrap_or_default();
+        let low = text.to_lowercase();
+        match name {
+            "canvas_type" if !low.starts_with("square") => {
+                let message = format!("its canvas is `{text}`, and a table is flat and has edges");
+                let help = "take canvas_type away, or write square; a seed and a size that fit in the \
+                            plane go with it";
+                return Err(source.wrong(value, message, help));
+            }
+            "canvas_type" => {}
+            "model" if !low.ends_with("tam") => {
+                let message = format!("its model `{text}` is not that of square tiles with glues");
+                return Err(source.wrong(value, message, "write model: kTAM"));
+            }
+            // As in files that this writes.
+            "fission" if text == "keep-seeded" => {}
+            _ => self.passed_over.push(name.to_owned()),
+        }
+        Ok(())
+    }
+
+    fn set(self, source: Source) -> Result<TileSet, DesignError> {
+        let [tau, gse, gmc] = self.numbers;
+        let mut set = TileSet {
+            size: self.size.map(|node| size(source, &node)).transpose()?,
+            tau,
+            gse,
+            gmc,
+            passed_over: self.passed_over,
+            ..TileSet::default()
+        };
+        for (list, what) in [(&self.tiles, "tiles"), (&self.bonds, "bonds")] {
+            if let Some(node) = list.get(MOST) {
+                let message = format!("it has more than {MOST} {what}");
+                return Err(source.wrong(node, message, "split the set"));
+            }
+        }
+        for node in &self.bonds {
+            bond(source, node, &mut set)?;
+        }
+        for node in &self.tiles {
+            let tile = tile(source, node, &mut set)?;
+            set.tiles.push(tile);
+        }
+        for node in &self.glues {
+            link(source, node, &mut set)?;
+        }
+        if let Some(node) = &self.seed {
+            let items = list(source, node)?;
+            let is_one = items.first().is_some_and(|first| first.list().is_none());
+            let seeds = if is_one {
+                std::slice::from_ref(node)
+            } else {
+                items
+            };
+            for node in seeds {
+                let seed = seed(source, node, &set)?;
+                set.seed.push(seed);
+            }
+        }
+        Ok(set)
+    }
+}
+
+fn unknown(source: Source, key: &Node, name: &str, known: &[&str]) -> DesignError {
+    let message = format!("nothing is known of the key `{name}`");
+    source.wrong(key, message, &nearest_help(name, known))
+}
+
+fn list<'n>(source: Source, node: &'n Node) -> Result<&'n [Node], DesignError> {
+    let message = "a list is needed here";
+    node.list().ok_or_else(|| source.wrong(node, message, FORM))
+}
+
+fn numeral(source: Source, node: &Node) -> Result<f64, DesignError> {
+    let message = "a finite number is needed here";
+    let help = "write it as 1 or 0.5";
+    node.number()
+        .ok_or_else(|| source.wrong(node, message, help))
+}
+
+/// A name, or the number of a nameless one.
+fn ident(source: Source, node: &Node) -> Result<String, DesignError> {
+    let number = node.whole().map(|number| number.to_string());
+    let is_other = node.number().is_some() || node.is_null();
+    let name = || node.text().filter(|_| !is_other).map(str::to_owned);
+    let message = "a name, or a whole number from 0 on, is needed here";
+    let help = "put a name that looks like a number into quotes";
+    let found = number.or_else(name);
+    found.ok_or_else(|| source.wrong(node, message, help))
+}
+
+fn size(source: Source, node: &Node) -> Result<[usize; 2], DesignError> {
+    let square = node.whole().map(|n| [n, n]);
+    let both = || match node.list()? {
+        [rows, columns] => Some([rows.whole()?, columns.whole()?]),
+        _ => None,
     };
-    for bond in &entries.bonds {
-        let name = bond.name.text();
-        if set.glues.iter().any(|glue| glue.name == name) {
-            let message = format!("the bond `{name}` is there twice");
-            return Err(fault(text, file, &name, message, "take one away"));
-        }
-        set.glue(&name, bond.strength);
-    }
-    for (i, tile) in entries.tiles.iter().enumerate() {
-        let name = tile.name.as_ref().map_or((i + 1).to_string(), Ident::text);
-        let single = tile
-            .shape
-            .as_deref()
-            .is_none_or(|it| ["single", "Single", "s", "S"].contains(&it));
-        if !single {
-            let message = format!("the tile `{name}` is no single square");
-            return Err(fault(text, file, &name, message, DOUBLE));
-        }
-        let &[n, e, s, w] = &tile.edges.iter().collect::<Vec<_>>()[..] else {
-            let message = format!("the tile `{name}` has {} edges", tile.edges.len());
-            let help = "a tile has four: north, east, south, west";
-            return Err(fault(text, file, &name, message, help));
-        };
-        let glues = [n, e, s, w].map(|edge| {
-            let name = edge.text();
-            (name != "0").then(|| set.glue(&name, 1.0))
-        });
-        set.tiles.push(TileType {
-            name,
-            glues,
-            stoic: tile.stoic.unwrap_or(1.0),
-            color: tile.color.clone(),
-        });
-    }
-    for (a, b, strength) in &entries.glues {
-        let place = |ident: &Ident| {
-            let name = ident.text();
-            let known = set.glues.iter().position(|glue| glue.name == name);
-            known.ok_or_else(|| {
-                let message = format!("no tile and no bond has the glue `{name}`");
-                let help = "name glues of tiles, or list it under bonds";
-                fault(text, file, "glues", message, help)
-            })
-        };
-        let (a, b) = (place(a)?, place(b)?);
-        match a == b {
-            true => set.glues[a].strength = *strength,
-            false => set.links.push((a, b, *strength)),
+    let message = "a size is one whole number, or rows and columns";
+    let found = square.or_else(both);
+    found.ok_or_else(|| source.wrong(node, message, "write size: [32, 32]"))
+}
+
+fn bond(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
+    let (mut name, mut strength) = (None, None);
+    for (key, word, value) in source.entries(node, "a bond")? {
+        match word {
+            "name" => name = Some(ident(source, value)?),
+            "strength" => strength = Some(numeral(source, value)?),
+            _ => return Err(unknown(source, key, word, &OF_BOND)),
         }
     }
-    let seeds = match entries.seed {
-        None => Vec::new(),
-        Some(SeedEntry::One(row, column, tile)) => vec![(row, column, tile)],
-        Some(SeedEntry::Many(many)) => many,
+    let (Some(name), Some(strength)) = (name, strength) else {
+        let help = "write {name: a, strength: 1}";
+        return Err(source.wrong(node, "a bond has a name and a strength", help));
     };
-    for (row, column, tile) in seeds {
-        let by_name = |name: &String| set.tiles.iter().position(|tile| tile.name == *name);
-        let tile = match &tile {
-            Ident::Number(number) => number.checked_sub(1),
-            Ident::Name(name) => by_name(name),
-        };
-        set.seed.push((row, column, tile.unwrap_or(usize::MAX)));
+    if set.glues.iter().any(|glue| glue.name == name) {
+        let message = format!("the bond `{name}` is there twice");
+        return Err(source.wrong(node, message, "take one away"));
     }
-    Ok(set)
+    set.glue(&name, strength);
+    Ok(())
+}
+
+fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, DesignError> {
+    let mut tile = TileType::new((set.tiles.len() + 1).to_string(), [None; 4]);
+    let mut edges = None;
+    for (key, word, value) in source.entries(node, "a tile")? {
+        match word {
+            _ if !OF_TILE.contains(&word) => return Err(unknown(source, key, word, &OF_TILE)),
+            _ if value.is_null() => {}
+            "name" => tile.name = ident(source, value)?,
+            "edges" => edges = Some(value),
+            "stoic" => tile.stoic = numeral(source, value)?,
+            "color" => tile.color = Some(ident(source, value)?),
+            _ => {
+                let shape = value.text().unwrap_or_default();
+                if !["single", "Single", "s", "S"].contains(&shape) {
+                    let message = format!("the tile `{}` is no single square", tile.name);
+                    return Err(source.wrong(value, message, HALVES));
+                }
+            }
+        }
+    }
+    let Some([n, e, s, w]) = edges.and_then(Node::list) else {
+        let count = edges.and_then(Node::list).map_or(0, <[Node]>::len);
+        let message = format!("the tile `{}` has {count} edges", tile.name);
+        let help = "a tile has four: edges: [north, east, south, west]";
+        return Err(source.wrong(edges.unwrap_or(node), message, help));
+    };
+    for (glue, edge) in tile.glues.iter_mut().zip([n, e, s, w]) {
+        let name = ident(source, edge)?;
+        *glue = (name != "0").then(|| set.glue(&name, 1.0));
+    }
+    Ok(tile)
+}
+
+/// With what two glues hold each other, or one itself.
+fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
+    let Some([first, second, strength]) = node.list() else {
+        let help = "write glues: [[a, b, 0.5]]";
+        return Err(source.wrong(node, "two glues and a strength are needed", help));
+    };
+    let place = |node: &Node| {
+        let name = ident(source, node)?;
+        let known = set.glues.iter().position(|glue| glue.name == name);
+        known.ok_or_else(|| {
+            let message = format!("no tile and no bond has the glue `{name}`");
+            let help = "name glues of tiles, or list it under bonds";
+            source.wrong(node, message, help)
+        })
+    };
+    let (a, b, strength) = (place(first)?, place(second)?, numeral(source, strength)?);
+    match a == b {
+        true => set.glues[a].strength = strength,
+        false => set.links.push((a, b, strength)),
+    }
+    Ok(())
+}
+
+/// Row, column and tile.
+fn seed(source: Source, node: &Node, set: &TileSet) -> Result<(usize, usize, usize), DesignError> {
+    let read = || {
+        let [row, column, tile] = node.list()? else {
+            return None;
+        };
+        let named = |name: &str| set.tiles.iter().position(|tile| tile.name == name);
+        let number = match tile.whole() {
+            Some(number) => number.checked_sub(1).filter(|at| *at < set.tiles.len()),
+            None => named(tile.text()?),
+        };
+        Some((row.whole()?, column.whole()?, number?))
+    };
+    let message = "a seed is a row, a column and a tile of the set";
+    read().ok_or_else(|| source.wrong(node, message, "write seed: [row, column, tile]"))
 }
 
 /// The text of a set, with `remarks` as comments above it.

@@ -89,7 +89,7 @@ fn faults_are_told_with_their_place() {
         (tiles("]}"), Some(2)),
         (tiles(", a], stoic: -1}"), Some(2)),
         (tiles(", a], stoic: much}"), Some(2)),
-        (tiles(", a]}") + "glues:\n- [a, b, 1]", Some(3)),
+        (tiles(", a]}") + "glues:\n- [a, b, 1]", Some(4)),
         (tiles(", a]}") + "seed: [1, 1, u]", Some(3)),
         (tiles(", a]}") + "hdoubletiles: [[t, t]]", Some(3)),
         (
@@ -110,11 +110,30 @@ fn faults_are_told_with_their_place() {
         (tiles(", a], stoic: 0}"), Some(2)),
         (tiles(", a]}") + "bonds: [{name: a, strength: 1e308}]", None),
         (tiles(", a]}") + "seed: [4294967296, 0, t]", Some(3)),
+        (tiles(", a]}") + "seed: [[1, 1, t], [1, 1, t]]", Some(3)),
+        (tiles(", a]}") + "tau: -1", Some(3)),
+        (tiles(", a]}") + "tau: 1\nthreshold: 2", Some(4)),
+        (tiles(", a]}") + "options: {Gmc: -1}", Some(3)),
+        (tiles(", a]}") + "size: [8, 0]", Some(3)),
+        (tiles(", a]}") + "size: 8.5", Some(3)),
+        (tiles(", a]}") + "bonds: [{name: a}]", Some(3)),
+        (tiles(", 1.5]}"), Some(2)),
+        (tiles(", null]}"), Some(2)),
+        (tiles(", a], name: u}"), Some(2)),
+        (tiles(", a], color: \"x) % y\"}"), Some(2)),
+        (tiles(", a]}").replace("t,", "\"t\\n}\","), None),
+        (tiles(", a]}") + &"{a: ".repeat(40_000), None),
         (one("importfile=corner.seed"), Some(8)),
         (one("periodic"), Some(8)),
         (one("stoic=1[0.5]"), Some(8)),
         (one("sed=1,1,1"), Some(8)),
         (one("size=8,9"), Some(8)),
+        (
+            "num tile types=1\nnum binding types=2\nbinding type names={a a}\ntile edges={\n{a 0 0 \
+             0}\n}"
+            .to_owned(),
+            Some(3),
+        ),
         ("[1, 2".to_owned(), None),
         (String::new(), None),
     ] {
@@ -128,6 +147,19 @@ fn faults_are_told_with_their_place() {
             );
         }
     }
+}
+
+#[test]
+fn names_stay_in_their_lines() {
+    let text = "tiles:\n- {name: \"a % }\", edges: [0, \"g h\", 0, \"}\"], color: red}\n";
+    let set = TileSet::parse(text, "a\n}.yaml").unwrap();
+    assert_eq!(set.name, "a\u{fffd}}");
+    let remarks = [set.name.clone()];
+    let again = TileSet::parse(&xgrow::write(&set, &remarks), "a").unwrap();
+    assert_eq!(again.tiles[0].glues, set.tiles[0].glues);
+    assert_eq!(again.tiles[0].color, set.tiles[0].color);
+    let again = TileSet::parse(&rgrow::write(&set, &remarks), "a").unwrap();
+    assert_eq!((again.tiles, again.glues), (set.tiles, set.glues));
 }
 
 #[test]
@@ -304,7 +336,7 @@ fn blocks_grow_into_the_same_pattern() {
         let set = shipped(name);
         let plain = grow(&set, 300);
         for k in [2, 3] {
-            let blocks = proofread::blocks(&set, k);
+            let blocks = proofread::blocks(&set, k).unwrap();
             assert_eq!(blocks.tiles.len(), set.tiles.len() * k * k);
             let grown = grow(&blocks, 6000);
             assert_eq!(grown.choices, 0, "{name} {k}");
@@ -317,6 +349,17 @@ fn blocks_grow_into_the_same_pattern() {
             }
         }
     }
+}
+
+#[test]
+fn blocks_of_a_large_set_are_refused() {
+    let set = super::lattice::unique([30, 30]);
+    assert!(proofread::blocks(&set, 2).is_ok());
+    assert!(
+        proofread::blocks(&set, 3)
+            .unwrap_err()
+            .contains("--proofread")
+    );
 }
 
 fn words(set: &TileSet, places: usize) -> WordSet {

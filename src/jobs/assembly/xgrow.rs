@@ -337,7 +337,12 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
         set.tiles.len(),
         set.glues.len()
     );
-    let is_name = |glue: &Glue| !glue.name.starts_with(|c: char| c.is_ascii_digit());
+    // What the reader takes as a name and nothing else.
+    let is_name = |glue: &Glue| {
+        let name = &glue.name;
+        let is_plain = |c: char| c.is_alphanumeric() || "*_-.".contains(c);
+        name.starts_with(char::is_alphabetic) && name != "null" && name.chars().all(is_plain)
+    };
     let named = set.glues.iter().all(is_name);
     if named && !set.glues.is_empty() {
         let names: Vec<&str> = set.glues.iter().map(|glue| glue.name.as_str()).collect();

@@ -4,6 +4,7 @@ use csv::StringRecord;
 
 use super::Row;
 use super::lines::records;
+use crate::request::FARTHEST;
 use crate::text::with_point;
 use physics::configuration::Configuration;
 
@@ -88,9 +89,10 @@ fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, St
         if column >= NEEDED && entry.is_empty() {
             continue;
         }
-        let number = entry.parse().ok().filter(|number: &f64| number.is_finite());
+        let number = entry.parse().ok();
+        let number = number.filter(|number: &f64| number.abs() <= FARTHEST);
         let name = COLUMNS[column];
-        let wrong = || format!("line {line}: `{entry}` is no finite number for {name}");
+        let wrong = || format!("line {line}: `{entry}` is no number for {name} up to {FARTHEST:e}");
         values[column] = Some(number.ok_or_else(wrong)?);
     }
     let [x, y, theta, iron] = [0, 1, 2, 3].map(|column| values[column].unwrap_or_default());

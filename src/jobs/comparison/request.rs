@@ -2,10 +2,11 @@
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::design::Design;
 use crate::pipeline::{Check, Settings, Survey};
-use crate::request;
+use crate::request::{self, Misused, of_keywords};
 use physics::budget::Allowance;
 use physics::landscape::{Claims, CompletenessSettings};
 
@@ -75,6 +76,26 @@ impl Request {
             complete_cells: self.complete_cells.or(Some(complete)),
             ..self.clone()
         }
+    }
+
+    /// Refuses what no command line could ask for: it may have been read from a file.
+    ///
+    /// # Errors
+    /// Which setting has a value that it cannot have.
+    pub fn check(&self) -> Result<(), Misused> {
+        let Value::Object(settings) = json!(self) else {
+            return Ok(());
+        };
+        let given = settings.into_iter().filter(|(_, value)| !value.is_null());
+        let option = |(key, value): (String, Value)| {
+            let option = match &key[..] {
+                "tolerance_J" => "tolerance",
+                "most_kinds" => "kinds",
+                other => other,
+            };
+            (option.to_owned(), vec![value.to_string()])
+        };
+        of_keywords::<Self>(given.map(option)).map(drop)
     }
 
     /// The settings of the main job.

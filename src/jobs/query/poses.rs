@@ -2,8 +2,9 @@
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use crate::design::{angle, length};
-use crate::text::with_point;
+use crate::design::angle;
+use crate::request::{FARTHEST, coordinate};
+use crate::text::{column, with_point};
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
@@ -118,14 +119,13 @@ fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
 fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
     if record
         .iter()
-        .all(|entry| length(entry).is_some() || angle(entry).is_some())
+        .all(|entry| coordinate(entry).is_some() || angle(entry).is_some())
     {
         return Ok(None);
     }
     let mut places = [0; 3];
     for (place, names) in places.iter_mut().zip(COLUMNS) {
-        let found = record.iter().position(|entry| names.contains(&entry));
-        *place = found.ok_or_else(|| {
+        *place = column(record, &names)?.ok_or_else(|| {
             format!(
                 "there is no column `{}`; name the columns x,y,theta",
                 names[0]
@@ -148,15 +148,41 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
             Some(meant) => {
                 format!("{name} is `{text}`: a decimal number has a point, not a comma: {meant}")
             }
-            None => format!("{name} is `{text}`, which is no number in {unit}"),
+            None => format!("{name} is `{text}`, which is no number in {unit} up to {FARTHEST:e}"),
         }
     };
     let metres = |k: usize| {
         let text = entry(k)?;
-        length(text).ok_or_else(|| wrong(k, text, "m"))
+        coordinate(text).ok_or_else(|| wrong(k, text, "m"))
     };
     let [x, y] = [metres(0)?, metres(1)?];
     let text = entry(2)?;
-    let theta = angle(text).ok_or_else(|| wrong(2, text, "rad"))?;
+    let theta = angle(text).filter(|angle| angle.abs() <= FARTHEST);
+    let theta = theta.ok_or_else(|| wrong(2, text, "rad"))?;
     Ok(Configuration::from([x, y, theta]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read;
+
+    #[test]
+    fn what_is_no_pose_is_refused() {
+        for (text, told) in [
+            (
+                "x,x,y,theta\n0,0,0,0\n",
+                "line 1: the column `x` is there twice",
+            ),
+            (
+                "x,y,x_m,theta\n0,0,0,0\n",
+                "line 1: the column `x_m` is there twice",
+            ),
+            ("x,y\n0,0\n", "no column `theta`"),
+            ("x,y,theta\n1e308,0,0\n", "line 2: x is `1e308`"),
+            ("x,y,theta\n0,0,1e308\n", "line 2: theta is `1e308`"),
+        ] {
+            let found = read(text).unwrap_err();
+            assert!(found.contains(told), "{found}");
+        }
+    }
 }

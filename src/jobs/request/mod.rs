@@ -12,8 +12,8 @@ mod word;
 pub use keywords::{Misused, of_keywords, options};
 pub use unanswered::Unanswered;
 pub use values::{
-    angle_or_none, binding, count, count_or_none, energy, energy_or_none, fraction, length,
-    length_or_none, not_negative, numbers, pose, positive, runs, runs_of_a_mean, runs_or_none,
-    seed, shaking, share, time, time_or_none, whole,
+    FARTHEST, angle_or_none, binding, coordinate, count, count_or_none, energy, energy_or_none,
+    fraction, length, length_or_none, not_negative, numbers, pose, positive, runs, runs_of_a_mean,
+    runs_or_none, seed, shaking, share, time, time_or_none, whole,
 };
 pub use word::{Word, model};

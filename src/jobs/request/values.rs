@@ -4,6 +4,14 @@ use crate::design;
 use crate::text::with_point;
 use physics::configuration::Configuration;
 
+/// Coordinates (m, rad) beyond this, whose powers would be infinite, are none.
+pub const FARTHEST: f64 = 1e30;
+
+/// A coordinate (m), or with a unit.
+pub fn coordinate(text: &str) -> Option<f64> {
+    design::length(text).filter(|x| x.abs() <= FARTHEST)
+}
+
 /// A pose as `X,Y,THETA` (m, m, rad), or each with a unit: `43 cm,0,90 deg`.
 pub fn pose(text: &str) -> Result<Configuration, String> {
     const FORM: &str = "a pose is X,Y,THETA in m, m and rad, such as 0.43,0,0, or with units, \
@@ -15,13 +23,13 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
             None => FORM.to_owned(),
         });
     };
-    let numbers = [design::length(x), design::length(y), design::angle(theta)];
+    let numbers = [coordinate(x), coordinate(y), design::angle(theta)];
     let [Some(x), Some(y), Some(theta)] = numbers else {
         return Err(FORM.to_owned());
     };
     if theta.abs() > 2.0 * std::f64::consts::TAU {
         return Err(format!(
-            "theta = {theta} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
+            "theta = {theta:?} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
         ));
     }
     Ok(Configuration::from([x, y, theta]))
@@ -207,7 +215,15 @@ mod tests {
             pose("43cm,5 mm,90 deg").unwrap().to_array(),
             [0.43, 0.005, turn]
         );
-        for wrong in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,NaN", "1,inf,0"] {
+        for wrong in [
+            "",
+            "1,2",
+            "1,2,3,4",
+            "a,b,c",
+            "1,2,NaN",
+            "1,inf,0",
+            "1e308,0,0",
+        ] {
             assert!(pose(wrong).is_err(), "{wrong}");
         }
     }

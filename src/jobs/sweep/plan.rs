@@ -14,6 +14,7 @@ use super::vary::{Axis, Value, number};
 use super::{document, drawings};
 use crate::comparison::Request;
 use crate::design::Design;
+use physics::parallel;
 
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
@@ -124,6 +125,9 @@ impl Plan {
             return Err(PlanError::Twice(key.clone()));
         }
         let lengths = self.axes.iter().map(|axis| axis.values.len() as u128);
+        if let Err(error) = self.settings.check() {
+            return malformed(error.to_string());
+        }
         let count = lengths.fold(self.designs.len() as u128, u128::saturating_mul);
         match count <= MOST_POINTS as u128 {
             true => Ok(()),
@@ -165,16 +169,32 @@ impl Plan {
         Ok(plan)
     }
 
-    /// All points, in order.
-    pub fn points(&self) -> Vec<Point> {
-        let grid: usize = self.axes.iter().map(|axis| axis.values.len()).product();
-        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
-        (0..self.designs.len() * grid)
-            .map(|index| self.point(&documents, index, grid))
-            .collect()
+    /// How many points there are.
+    pub fn count(&self) -> usize {
+        self.designs.len() * self.grid()
     }
 
-    fn point(&self, documents: &[Table], index: usize, grid: usize) -> Point {
+    /// How many points there are of each design.
+    fn grid(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// All points, in order.
+    pub fn points(&self) -> Vec<Point> {
+        self.each(|point| point)
+    }
+
+    /// What comes of each point, in order; of a million the points alone would take gigabytes.
+    pub fn each<T: Send>(&self, of: impl Fn(Point) -> T + Sync) -> Vec<T> {
+        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
+        let settings = json!({"settings": self.settings, "seed": self.seed}).to_string();
+        parallel::map(0..self.count(), |index| {
+            of(self.point(&documents, &settings, index))
+        })
+    }
+
+    fn point(&self, documents: &[Table], settings: &str, index: usize) -> Point {
+        let grid = self.grid();
         let (design, mut place) = (index / grid, index % grid);
         let mut values: Vec<Value> = Vec::with_capacity(self.axes.len());
         for axis in self.axes.iter().rev() {
@@ -190,7 +210,8 @@ impl Plan {
         let held = &self.designs[design].drawings;
         let drawings = drawings::named(&document).into_iter();
         let drawings = drawings.filter_map(|name| held.get_key_value(name));
-        let name = self.name(text.as_ref().unwrap_or_else(|reason| reason), drawings);
+        let named = text.as_ref().unwrap_or_else(|reason| reason);
+        let name = self.name(settings, named, drawings);
         Point {
             index,
             seed: u64::from_str_radix(&name[..SEED], 16).unwrap_or(0),
@@ -203,11 +224,11 @@ impl Plan {
 
     fn name<'a>(
         &self,
+        settings: &str,
         text: &str,
         drawings: impl Iterator<Item = (&'a String, &'a String)>,
     ) -> String {
-        let settings = json!({"settings": self.settings, "seed": self.seed}).to_string();
-        let parts = [self.tilebind.as_str(), &settings, text].into_iter();
+        let parts = [self.tilebind.as_str(), settings, text].into_iter();
         let drawings = drawings.flat_map(|(name, drawing)| [name.as_str(), drawing]);
         let mut hash = Sha256::new();
         for part in parts.chain(drawings) {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::plan::Plan;
 use super::point::Point;
 use crate::checksum::sha256;
 use crate::comparison::Assessment;
@@ -93,6 +94,20 @@ impl Progress {
             } += 1;
         }
         progress
+    }
+
+    /// Counts what came of all points of a plan.
+    pub fn of(plan: &Plan, store: &Store) -> Self {
+        let of_points = plan.each(|point| Self::new([store.load(&point).as_ref()]));
+        of_points
+            .into_iter()
+            .fold(Self::default(), |all, one| Self {
+                points: all.points + one.points,
+                done: all.done + one.done,
+                impossible: all.impossible + one.impossible,
+                failed: all.failed + one.failed,
+                missing: all.missing + one.missing,
+            })
     }
 }
 

@@ -144,7 +144,8 @@ impl Request {
                 kinds.join(", ")
             ));
         }
-        if !(1..=MOST_TILES).contains(&self.count.iter().sum::<usize>()) {
+        let all = self.count.iter().copied().fold(0, usize::saturating_add);
+        if !(1..=MOST_TILES).contains(&all) {
             return Err(format!("from 1 to {MOST_TILES} tiles can be on a table"));
         }
         Ok(Start::Random(self.count.clone()))

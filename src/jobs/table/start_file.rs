@@ -2,6 +2,8 @@
 
 use csv::{ReaderBuilder, Trim};
 
+use crate::request::FARTHEST;
+use crate::text::column;
 use physics::configuration::Configuration;
 use physics::dynamics::Motion;
 use physics::table::{Crowd, Mover};
@@ -34,8 +36,10 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         .headers()
         .map_err(|it| wrong(1, it.to_string()))?
         .clone();
-    let place = |name: &str| headers.iter().position(|it| it == name);
-    let places = COLUMNS.map(place);
+    let mut places = [None; COLUMNS.len()];
+    for (place, name) in places.iter_mut().zip(COLUMNS) {
+        *place = column(&headers, &[name]).map_err(|it| wrong(1, it))?;
+    }
     if let Some(missing) = places.iter().position(Option::is_none) {
         let message = format!(
             "there is no column `{}`: the first line names the columns {}",
@@ -70,7 +74,7 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         let mut numbers = [0.0; 6];
         for (k, number) in numbers.iter_mut().enumerate() {
             let text = entry(k + 2);
-            let read: Option<f64> = text.parse().ok().filter(|it: &f64| it.is_finite());
+            let read: Option<f64> = text.parse().ok().filter(|it: &f64| it.abs() <= FARTHEST);
             *number = read.ok_or_else(|| {
                 wrong(
                     line,

@@ -86,5 +86,9 @@ pub fn assemble<'py>(
         let assembly = asked.build(&tiles, words, design, told)?;
         Ok(document(&assembly).files(&Sheet::SCREEN, "tilebind assemble"))
     })?;
-    convert::files(py, files.map_err(refused)?.map_err(fault::value)?)
+    let (files, drawn) = files.map_err(refused)?;
+    if let Err(error) = drawn {
+        fault::warn(py, error)?;
+    }
+    convert::files(py, files)
 }

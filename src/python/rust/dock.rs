@@ -63,6 +63,9 @@ pub fn dock(
     Ok(Docking { found, content })
 }
 
+/// Most points of a trajectory, which are all held in memory.
+const MOST_POINTS: f64 = 1e7;
+
 /// How tiles ended that were sent towards each other. It never changes.
 #[pyclass(frozen, module = "tilebind")]
 pub struct Docking {
@@ -162,6 +165,12 @@ impl Docking {
             )));
         }
         fault::positive("interval", Some(interval))?;
+        let duration = self.found.settings.duration;
+        if duration / interval > MOST_POINTS {
+            return Err(fault::value(format!(
+                "of {duration} s every {interval:e} s are more than {MOST_POINTS:e} points"
+            )));
+        }
         let snapshots = job::answer(py, Some(false), |_| {
             let problem = self.content.problem(None);
             trajectory(problem, &self.found.settings, index, interval)

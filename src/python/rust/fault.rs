@@ -1,10 +1,11 @@
 //! Exceptions: what is wrong and how to mend it.
 
+use std::ffi::CString;
 use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyRuntimeWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tilebind::request::Unanswered;
@@ -71,6 +72,12 @@ pub fn value(message: impl Display) -> PyErr {
 /// A `RuntimeError`: the work did not come to a result.
 pub fn run(message: impl Display) -> PyErr {
     PyRuntimeError::new_err(message.to_string())
+}
+
+/// A `RuntimeWarning`: there is a result all the same.
+pub fn warn(py: Python<'_>, message: impl Display) -> PyResult<()> {
+    let text = CString::new(message.to_string())?;
+    PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &text, 1)
 }
 
 /// A `ValueError` unless a number is positive (and finite).

@@ -3,10 +3,11 @@
 use numpy::{
     AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods,
 };
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use tilebind::potential::Potential;
-use tilebind::{Configuration, interruption};
+use tilebind::{Configuration, interruption, memory};
 
 use crate::{fault, job};
 
@@ -92,12 +93,15 @@ fn evaluate<T: Copy + Send + Sync>(
     let numbers = match poses.as_slice() {
         Ok(numbers) if poses.is_c_contiguous() => numbers,
         _ => {
-            copy = poses.as_array().iter().copied().collect();
+            let mut all = room(poses.len())?;
+            all.extend(poses.as_array().iter());
+            copy = all;
             &copy
         }
     };
     let (rows, _) = numbers.as_chunks::<3>();
-    let mut out = vec![unknown; rows.len()];
+    let mut out = room(rows.len())?;
+    out.resize(rows.len(), unknown);
     if rows.len() <= FEW {
         some(rows, &mut out, &kernel);
     } else if rows.len() < MANY {
@@ -113,6 +117,17 @@ fn evaluate<T: Copy + Send + Sync>(
         })?;
     }
     Ok(out)
+}
+
+/// Room for so many. Arrays of NumPy need not hold what they say that they hold: one row may stand for
+/// any number.
+fn room<T>(count: usize) -> PyResult<Vec<T>> {
+    let bytes = count as f64 * size_of::<T>() as f64;
+    let too_many = |_| PyMemoryError::new_err(format!("no memory for {:.1} GB", bytes / 1e9));
+    memory::check_bytes(bytes).map_err(PyMemoryError::new_err)?;
+    let mut room = Vec::new();
+    room.try_reserve_exact(count).map_err(too_many)?;
+    Ok(room)
 }
 
 /// Leaves `out` as it is where a pose is not finite.
@@ -139,7 +154,8 @@ pub fn kernel_seconds(
     potential: &dyn Potential,
 ) -> PyResult<f64> {
     outer_shape(poses)?;
-    let numbers: Vec<f64> = poses.as_array().iter().copied().collect();
+    let mut numbers: Vec<f64> = room(poses.len())?;
+    numbers.extend(poses.as_array().iter());
     let qs: Vec<Configuration> = numbers
         .as_chunks::<3>()
         .0

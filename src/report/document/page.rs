@@ -10,12 +10,17 @@ use physics::parallel;
 
 impl Document<'_> {
     /// The report, tables, pictures with their numbers, and the page that shows them all, made by
-    /// `command`.
-    ///
-    /// # Errors
-    /// Where a picture cannot be drawn.
-    pub fn files(&self, sheet: &Sheet, command: &str) -> Result<Files, PictureError> {
-        let figures = self.figures(sheet)?;
+    /// `command`; and what went wrong where a picture could not be drawn, which the others do without.
+    pub fn files(&self, sheet: &Sheet, command: &str) -> (Files, Result<(), PictureError>) {
+        let mut whole = Ok(());
+        let figures: Vec<Vec<Figure>> = (self.drawn(sheet).into_iter())
+            .map(|drawn| {
+                drawn.unwrap_or_else(|error| {
+                    whole = Err(error);
+                    Vec::new()
+                })
+            })
+            .collect();
         let page = self.page(sheet, &figures);
         let mut files = self.numbers();
         files.extend(self.beside.clone());
@@ -26,7 +31,7 @@ impl Document<'_> {
         let linked = files.keys().filter(|name| !name.starts_with("pathways/"));
         let page = page.made_by(command).beside(linked).to_html();
         files.insert(PAGE.to_owned(), page.into_bytes());
-        Ok(files)
+        (files, whole)
     }
 
     /// The page by itself, made by `command`.
@@ -44,8 +49,11 @@ impl Document<'_> {
     /// # Errors
     /// Where one cannot be drawn.
     pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Vec<Figure>>, PictureError> {
-        let figures = parallel::map(&self.pictures[..], |picture| (picture.draw)(sheet));
-        figures.into_iter().collect()
+        self.drawn(sheet).into_iter().collect()
+    }
+
+    fn drawn(&self, sheet: &Sheet) -> Vec<Result<Vec<Figure>, PictureError>> {
+        parallel::map(&self.pictures[..], |picture| picture.drawn(sheet))
     }
 
     fn page(&self, sheet: &Sheet, figures: &[Vec<Figure>]) -> Page {

@@ -50,9 +50,10 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis of multiples of a unit with about `count` marks at round numbers.
+    /// An axis of multiples of a unit with about `count` marks at round numbers. A range without a
+    /// width is widened about what it is, to where marks can be told apart.
     pub fn even(range: [f64; 2], unit: f64, count: usize, name: impl Into<String>) -> Self {
-        let ends = range.map(|end| end / unit);
+        let ends = widened(range.map(|end| end / unit));
         let numbers = round_numbers(ends, count + 1);
         let steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
         let step = steps.fold(ends[1] - ends[0], f64::min);
@@ -86,6 +87,29 @@ impl Axis {
     /// As plotters has it.
     fn spaced(&self) -> RangedCoordf64 {
         (self.ends[0]..self.ends[1]).into()
+    }
+}
+
+/// Numbers beyond this stand at the end: the width of an axis is to be finite.
+const FARTHEST: f64 = 1e300;
+
+/// Ends that are apart, of a range whose ends may be one number or none.
+fn widened(range: [f64; 2]) -> [f64; 2] {
+    let [low, high] = range.map(|end| match end.is_nan() {
+        true => 0.0,
+        false => end.clamp(-FARTHEST, FARTHEST),
+    });
+    let size = low.abs().max(high.abs());
+    match high - low > 1e-9 * size {
+        true => [low, high],
+        false => {
+            let half = if size > 1.0 / FARTHEST {
+                0.1 * size
+            } else {
+                0.5
+            };
+            [low - half, low + half]
+        }
     }
 }
 
@@ -214,6 +238,31 @@ impl Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_axis_always_has_a_width() {
+        for range in [
+            [0.0, 0.0],
+            [0.5, 0.5],
+            [-3e-9, -3e-9],
+            [0.5, 0.5 + f64::EPSILON],
+            [1.0, 0.0],
+            [5e-324, 5e-324],
+            [-f64::MAX, f64::MAX],
+            [f64::MAX, f64::MAX],
+            [f64::NEG_INFINITY, f64::INFINITY],
+            [f64::NAN, 1.0],
+            [f64::NAN, f64::NAN],
+        ] {
+            for unit in [1.0, 1e-3, 1e3] {
+                let Axis { ends, marks, .. } = Axis::even(range, unit, 7, "x");
+                assert!(ends[1] > ends[0], "{range:?}: {ends:?}");
+                assert!((ends[1] - ends[0]).is_finite(), "{range:?}: {ends:?}");
+                assert!(marks.len() < 30, "{range:?}: {marks:?}");
+            }
+            Axis::quantity(range, "m", 7, "x");
+        }
+    }
 
     #[test]
     fn ticks_are_round_numbers_within_the_range() {

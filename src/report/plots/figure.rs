@@ -1,8 +1,11 @@
 //! Pictures with the numbers that they show, drawn and yet to be drawn.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
 use super::composition::Composition;
 use super::picture::{Picture, PictureError};
 use super::sheet::Sheet;
+use physics::interruption;
 
 /// Pictures with the numbers that they show.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,8 +64,7 @@ pub struct Drawing<'a> {
     pub title: String,
     /// Whether the page has it; where a part of the page shows the same, it does not.
     pub is_shown: bool,
-    /// Draws it.
-    pub draw: Box<Draw<'a>>,
+    draw: Box<Draw<'a>>,
 }
 
 impl<'a> Drawing<'a> {
@@ -84,6 +86,18 @@ impl<'a> Drawing<'a> {
             is_shown: true,
             draw: Box::new(draw),
         }
+    }
+
+    /// The pictures; a fault in drawing them is an error like others, for the results are worth more.
+    ///
+    /// # Errors
+    /// Where they cannot be drawn.
+    pub fn drawn(&self, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
+        let drawn = catch_unwind(AssertUnwindSafe(|| (self.draw)(sheet)));
+        drawn.unwrap_or_else(|fault| match interruption::is_interrupted(fault.as_ref()) {
+            true => resume_unwind(fault),
+            false => Err(PictureError::Fault(self.title.clone())),
+        })
     }
 
     /// In a file only: a part of the page shows the same.

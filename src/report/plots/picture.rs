@@ -37,6 +37,9 @@ pub enum PictureError {
     /// The bitmap could not be encoded.
     #[error("could not write a picture as PNG: {0}")]
     Png(#[from] png::EncodingError),
+    /// Its drawing broke down.
+    #[error("a picture ({0}) could not be drawn, by a fault of tilebind; all else is there")]
+    Fault(String),
 }
 
 impl Picture {

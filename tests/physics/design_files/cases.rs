@@ -42,3 +42,30 @@ fn every_drawing_of_the_fuzzer_has_an_answer() {
         }
     }
 }
+
+#[test]
+fn every_tile_set_of_the_fuzzer_has_an_answer() {
+    cases("tileset")
+        .iter()
+        .for_each(|text| answers::tile_set(text));
+}
+
+#[test]
+fn every_set_of_words_of_the_fuzzer_has_an_answer() {
+    cases("words")
+        .iter()
+        .for_each(|text| answers::word_set(text));
+}
+
+#[test]
+fn every_manifest_of_the_fuzzer_has_an_answer() {
+    cases("plan").iter().for_each(|text| answers::plan(text));
+}
+
+#[test]
+fn every_table_of_the_fuzzer_has_an_answer() {
+    let pair = Design::load("shapes/tab-20mm.toml".as_ref()).unwrap();
+    for text in cases("table") {
+        answers::table(&text, &pair);
+    }
+}

@@ -83,7 +83,7 @@ fn negative_numbers_are_told_in_our_words() {
 
 #[test]
 fn wrong_poses() {
-    for pose in ["1,2", "1,2,three", "1,2,nan", "1,2,3,4", ""] {
+    for pose in ["1,2", "1,2,three", "1,2,nan", "1,2,3,4", "1e308,0,0", ""] {
         refused(
             &["energy", "shapes/paper-tile.toml", "--pose", pose],
             &["X,Y,THETA"],

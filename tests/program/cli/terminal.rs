@@ -57,6 +57,24 @@ fn interruptions_work_where_nobody_reads_messages() {
     assert!(!folder.path().join("results").exists());
 }
 
+/// Commands that take no time wait for what they read, too.
+#[test]
+fn every_command_can_be_interrupted() {
+    for line in [
+        "energy shapes/paper-tile.toml --poses /dev/stdin",
+        "calibrate shapes/paper-tile.toml /dev/stdin",
+        "calibrate shapes/paper-tile.toml --bonds /dev/stdin",
+        "sweep --status /dev/stdin",
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let mut command = command(&words);
+        let command = command.stdin(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        let _unwritten = child.stdin.take();
+        assert_eq!(interrupted(child, "-TERM"), Some(75), "{line}");
+    }
+}
+
 /// As behind a pager that shows the first page.
 #[test]
 fn interruptions_work_where_the_pipe_is_full() {

@@ -125,9 +125,10 @@ fn names_need_not_be_text() {
         .unwrap();
     assert_eq!(barrier.status.code(), Some(0), "{}", stderr(&barrier));
     assert!(content(b"a\xff.csv").starts_with(b"s,x,y,theta"));
-    // `show` wants an ending that it knows, in text.
-    assert_eq!(show(b"b\xff.svg"), Some(2));
-    assert_eq!(show(b"b.svg"), Some(0));
+    // `show` wants an ending that it knows.
+    assert_eq!(show(b"b.\xff"), Some(2));
+    assert_eq!(show(b"b\xff.svg"), Some(0));
+    assert!(content(b"b\xff.svg").starts_with(b"<svg"));
 }
 
 /// Only regular files are replaced. A link is, if it must be; what it leads to is not touched.

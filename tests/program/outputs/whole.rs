@@ -43,7 +43,7 @@ fn where_files_may_not_grow_the_old_set_stays() {
         let largest = old.values().map(Vec::len).max().unwrap();
         let line = format!("{line} {other}");
         for blocks in [0, largest * 3 / 4 / 512] {
-            let limit = format!("trap '' XFSZ; ulimit -f {blocks}");
+            let limit = format!("ulimit -f {blocks}");
             let output = limited(here, &limit, &words(&line));
             let message = stderr(&output);
             assert_eq!(output.status.code(), Some(1), "{line} {blocks}: {message}");
@@ -243,4 +243,42 @@ fn where_a_renaming_fails_all_is_as_it_was() {
     assert!(message.contains("cannot write R/sheet.md"), "{message}");
     assert!(results(&out) == old);
     assert!(fs::read(out.join(RECORD)).unwrap() == record);
+}
+
+/// On Unix a name is any bytes.
+#[test]
+fn names_that_are_no_text_are_names() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let desk = desk();
+    let design = desk.path().join(OsStr::from_bytes(b"d\xff.toml"));
+    fs::copy(desk.path().join("d.toml"), &design).unwrap();
+    let name = OsStr::from_bytes(b"R\xff");
+    for line in [
+        "words --length 3 --gap 0.2 --quiet --out",
+        "show d\u{fffd}.toml --force --out",
+        "make d\u{fffd}.toml --force --out",
+        "sweep d\u{fffd}.toml --vary fixed.mass=0.1,0.2 --milestones 100 --far-starts 1 \
+         --certify-cells 0 --complete-cells 0 --quiet --force --out",
+        "show d\u{fffd}.toml --out P\u{fffd}.svg",
+    ] {
+        let mut command = command(&[]);
+        command.current_dir(desk.path());
+        for word in words(line) {
+            let word = word.replace('\u{fffd}', "\u{1}").into_bytes();
+            let word: Vec<u8> = word
+                .iter()
+                .map(|b| if *b == 1 { 0xff } else { *b })
+                .collect();
+            command.arg(OsStr::from_bytes(&word));
+        }
+        if line.ends_with("--out") {
+            command.arg(name);
+        }
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+    }
+    assert!(desk.path().join(name).join("report.json").exists());
+    assert!(desk.path().join(OsStr::from_bytes(b"P\xff.svg")).exists());
+    assert!(!desk.path().join("R\u{fffd}").exists());
 }

@@ -114,6 +114,18 @@ fn manifests_and_parts_are_checked() {
             &with("/axes", [0, 0].map(axis).into_iter().collect()),
             "varied twice",
         ),
+        (
+            &with("/settings/tolerance_J", serde_json::json!(-1)),
+            "tolerance = -1",
+        ),
+        (
+            &with("/settings/far_starts", serde_json::json!(1e12 as u64)),
+            "far_starts = 1000000000000",
+        ),
+        (
+            &with("/settings/milestones", serde_json::json!(0)),
+            "milestones = 0",
+        ),
         ("{}", "no manifest"),
     ] {
         std::fs::write(&file, content).unwrap();

@@ -24,11 +24,15 @@ pub struct DockingMap {
 }
 
 impl DockingMap {
-    /// The trajectories of an experiment sorted into `size` cells over the range of its starts.
+    /// The trajectories of an experiment sorted into `size` cells over the range of its starts: into one
+    /// where that is a single number.
     pub fn new(docking: &Docking, size: [usize; 2]) -> Self {
         let starts = &docking.settings.starts;
         let across = [-starts.orientation, starts.orientation];
         let up = starts.speed;
+        let is_range = |[low, high]: [f64; 2]| high - low > 1e-9 * high.abs();
+        let cells = |range, n| if is_range(range) { n } else { 1 };
+        let size = [cells(across, size[0]), cells(up, size[1])];
         let cell = |value: f64, [low, high]: [f64; 2], n: usize| {
             let t = (value - low) / (high - low).max(f64::MIN_POSITIVE) * n as f64;
             (t.max(0.0) as usize).min(n - 1)

@@ -122,12 +122,12 @@ impl Analysis {
             .check(|name| extent.may_hold(name))
             .map_err(not_written)?;
         let scene = self.scene();
-        let files = job::quietly(py, || {
+        let (files, drawn) = job::quietly(py, || {
             let document = self.document(extent, &scene);
             analysis::files(&document, extent, &Sheet::SCREEN, &command)
         })?;
-        let files = files.map_err(fault::run)?;
-        output.write(&files).map_err(not_written)
+        output.write(&files).map_err(not_written)?;
+        drawn.map_err(fault::run)
     }
 
     /// Draw the lowest energy about the fixed tile with the states on it.

@@ -130,6 +130,7 @@ impl Design {
         }
         let design = &self.content.design;
         let query = request::<query::Request>(Some(&settings))?.query(design);
+        job::check_memory(query.settings.milestones, None)?;
         let answer = job::answer(py, progress, |told| query::barrier(design, &query, told))?;
         let barrier = &answer.barrier;
         let fields = PyDict::new(py);
@@ -266,7 +267,7 @@ impl Design {
             request_with(py, settings, "time", time)?,
         );
         let asked: Request = asked;
-        let text = start.map(std::fs::read_to_string).transpose()?;
+        let text = start.as_deref().map(text_of).transpose()?;
         let found = job::answer(py, progress, |told| {
             let (about, crowd) = About::of_design(design)?;
             let start = asked.start(&crowd, text.as_deref().map(|text| ("start", text)))?;
@@ -409,6 +410,11 @@ fn text(table: &Bound<'_, PyAny>) -> PyResult<String> {
         return table.call_method("to_csv", (), Some(&keywords))?.extract();
     }
     let path: std::path::PathBuf = table.extract()?;
-    let text = tilebind::text::decode(std::fs::read(path)?).map_err(crate::fault::value)?;
+    text_of(&path)
+}
+
+/// A table's file, whatever program saved it.
+fn text_of(path: &std::path::Path) -> PyResult<String> {
+    let text = tilebind::text::read(path)?;
     Ok(tilebind::text::with_commas(&text).into_owned())
 }

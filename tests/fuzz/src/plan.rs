@@ -1,0 +1,7 @@
+//! Manifests of sweeps of any bytes.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| tilebind_fuzz::plan(text));

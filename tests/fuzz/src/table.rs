@@ -1,0 +1,15 @@
+//! Tables, of poses and of all that is measured, of any bytes.
+
+#![no_main]
+
+use std::sync::LazyLock;
+
+use libfuzzer_sys::fuzz_target;
+use tilebind::Design;
+
+static PAIR: LazyLock<Design> = LazyLock::new(|| {
+    let text = include_str!("../../../shapes/tab-20mm.toml");
+    Design::parse(text, "tab-20mm.toml").expect("a shipped design")
+});
+
+fuzz_target!(|text: &str| tilebind_fuzz::table(text, &PAIR));

@@ -1,0 +1,7 @@
+//! Sets of words of any bytes.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| tilebind_fuzz::word_set(text));
