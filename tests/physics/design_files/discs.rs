@@ -106,11 +106,8 @@ fn discs_lie_or_stand_as_far_behind_the_face_as_is_said() {
 #[test]
 fn a_mate_of_standing_magnets_binds() {
     let standing = format!("{DISC}\naxis = \"up\"");
-    for codes in [["UUUD", "UDDD"], ["NNNS", "NSSS"]] {
-        let design = design(&standing, codes);
-        let bound = design.pair.bound;
-        assert!(design.problem().energy(&bound) < -0.05);
-    }
+    let mates = design(&standing, ["UUUD", "UDDD"]);
+    assert!(mates.problem().energy(&mates.pair.bound) < -0.05);
     let alike = design(&standing, ["UUUU", "UUUU"]);
     assert!(alike.problem().energy(&alike.pair.bound) > 0.05);
 }

@@ -280,7 +280,7 @@ fn files_for_the_workshop_are_to_scale() {
     let sheet = read("sheet.md");
     for said in [
         "N35 (1.19 T",
-        "| pole outwards |",
+        "| pole |",
         "east 1",
         "kerf of 0.2 mm",
     ] {
