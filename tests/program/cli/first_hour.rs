@@ -278,12 +278,7 @@ fn files_for_the_workshop_are_to_scale() {
         read("fixed.svg")
     );
     let sheet = read("sheet.md");
-    for said in [
-        "N35 (1.19 T",
-        "| pole |",
-        "east 1",
-        "kerf of 0.2 mm",
-    ] {
+    for said in ["N35 (1.19 T", "| pole |", "east 1", "kerf of 0.2 mm"] {
         assert!(sheet.contains(said), "{said} in\n{sheet}");
     }
     let wrong = tilebind(&["make", "shapes/tab-20mm.toml", "-o", out, "--kerf", "0.2"]);
