@@ -112,8 +112,8 @@ use nodes::{Nodes, Sum, Totals};
 /// Blocks closer than this many sums of their radii are taken by their pole faces.
 const CLOSE: f64 = 3.0;
 
-/// A cell of blocks takes as long as about this many of dipoles.
-const CELLS_OF_DIPOLES: u64 = 30;
+/// A cell of blocks takes as long as about this many of dipoles: 12 to 28 over the shipped designs.
+const CELLS_OF_DIPOLES: u64 = 18;
 
 /// The error of the multipole series, in value and in what its gradient and turn do over a cell, as
 /// a share of `mu0 m1 m2 / (4 pi r^3)`.
