@@ -41,6 +41,16 @@ impl Block {
         }
     }
 
+    /// A block of 0.3 A m^2 at a place (m) with its axis in a direction (rad), for tests.
+    #[cfg(test)]
+    pub fn placed([x, y]: [f64; 2], angle: f64, size: [f64; 3]) -> Self {
+        Self {
+            position: Vector2::new(x, y),
+            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
+            ..Self::new(0.3, size)
+        }
+    }
+
     /// The block moved by a rotation (cos, sin) and a shift.
     pub fn moved(&self, cos: f64, sin: f64, shift: Vector2<f64>) -> Self {
         let turn = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);

@@ -314,20 +314,15 @@ mod tests {
         }
     }
 
-    fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
-        Block {
-            position: Vector2::new(x, y),
-            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
-            ..Block::new(0.3, size)
-        }
-    }
-
     #[test]
     fn the_first_term_is_the_point_dipole() {
         let size = [0.01, 0.02, 0.03];
         let series = Multipole::new(size, size);
         for level in Level::available() {
-            let (first, second) = (block(0.1, 0.2, 0.4, size), block(0.3, -0.1, 2.0, size));
+            let (first, second) = (
+                Block::placed([0.1, 0.2], 0.4, size),
+                Block::placed([0.3, -0.1], 2.0, size),
+            );
             let got = level.run(Terms::<1>(&series, &first, &second));
             let (energy, force, slope) = dipole::pair(
                 first.axis * first.moment,
@@ -345,9 +340,9 @@ mod tests {
         let series = Multipole::new(one, two);
         let radius = series.radius(N, tolerance);
         for i in 0..10 {
-            let first = block(0.0, 0.0, 0.5, one);
+            let first = Block::placed([0.0, 0.0], 0.5, one);
             let (sin, cos) = libm::sincos(0.37 * i as f64);
-            let second = block(radius * cos, radius * sin, 1.1 * i as f64, two);
+            let second = Block::placed([radius * cos, radius * sin], 1.1 * i as f64, two);
             let got = Level::best().run(Terms::<N>(&series, &first, &second));
             let exact = cloud::energy_and_gradient::<10>(&first, &second);
             let scale = MU0_OVER_4PI * 0.3 * 0.3 / radius.powi(3);

@@ -204,14 +204,6 @@ mod tests {
     use super::*;
     use crate::potential::cuboid::exact;
 
-    fn block(x: f64, y: f64, angle: f64, size: [f64; 3]) -> Block {
-        Block {
-            position: Vector2::new(x, y),
-            axis: Vector2::new(libm::cos(angle), libm::sin(angle)),
-            ..Block::new(0.3, size)
-        }
-    }
-
     /// The energy and its first and third derivatives by time, by differences, all along ways that
     /// turn the second block about a point and shift it.
     #[test]
@@ -221,8 +213,8 @@ mod tests {
         for (k, r) in (0..240u32).map(|k| (k, 0.016 + 0.001 * f64::from(k % 60))) {
             let angle = 0.37 * f64::from(k);
             let (sin, cos) = libm::sincos(1.3 * f64::from(k));
-            let first = block(0.0, 0.0, 0.2, sizes[0]);
-            let second = block(r * cos, r * sin, angle, sizes[k as usize % 2]);
+            let first = Block::placed([0.0, 0.0], 0.2, sizes[0]);
+            let second = Block::placed([r * cos, r * sin], angle, sizes[k as usize % 2]);
             let centre = second.position - Vector2::new(0.02, 0.01);
             let (turn, half) = (0.04, 0.0012);
             let radius = (second.position - centre).norm() + second.radius();
@@ -272,11 +264,14 @@ mod tests {
     #[test]
     fn blocks_that_may_touch_have_no_bound() {
         let size = [0.010, 0.010, 0.003];
-        let (first, second) = (block(0.0, 0.0, 0.0, size), block(0.012, 0.0, 0.1, size));
+        let (first, second) = (
+            Block::placed([0.0, 0.0], 0.0, size),
+            Block::placed([0.012, 0.0], 0.1, size),
+        );
         for reach in [0.001, 0.004, 0.1] {
             assert!(Apart::of(Level::best(), [&first, &second], [reach, 0.0]).is_none());
         }
-        let second = block(0.05, 0.0, 0.1, size);
+        let second = Block::placed([0.05, 0.0], 0.1, size);
         assert!(Apart::of(Level::best(), [&first, &second], [0.001, 0.0]).is_some());
     }
 
@@ -284,7 +279,10 @@ mod tests {
     #[test]
     fn the_means_are_close_to_those_of_points() {
         let size = [0.010, 0.010, 0.003];
-        let (first, second) = (block(0.0, 0.0, 0.3, size), block(0.03, 0.01, 1.0, size));
+        let (first, second) = (
+            Block::placed([0.0, 0.0], 0.3, size),
+            Block::placed([0.03, 0.01], 1.0, size),
+        );
         let reach = 0.002;
         let points = |block: &Block| {
             let across = Vector2::new(-block.axis.y, block.axis.x);
