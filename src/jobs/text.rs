@@ -132,6 +132,15 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
     Cow::Owned(changed.collect())
 }
 
+/// What is wrong with a text that holds a number with a decimal comma, and what to write (see
+/// [`with_point`]).
+pub fn decimal_comma(text: &str) -> Option<String> {
+    let meant = with_point(text)?;
+    Some(format!(
+        "a decimal number has a point, not a comma: {meant}"
+    ))
+}
+
 /// Where the column stands that a table's first line names by one of some names, if it does.
 ///
 /// # Errors

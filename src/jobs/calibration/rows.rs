@@ -5,7 +5,7 @@ use csv::StringRecord;
 use super::Row;
 use super::lines::records;
 use crate::request::FARTHEST;
-use crate::text::with_point;
+use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
 /// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0),
@@ -76,12 +76,10 @@ fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, St
     let (found, expected) = (entries.len(), columns.len());
     if found != expected {
         let text = entries.iter().collect::<Vec<_>>().join(",");
-        let meant = with_point(&text).filter(|_| found > expected);
-        let meant = meant.map_or(String::new(), |meant| {
-            format!("; a decimal number has a point, not a comma: {meant}")
-        });
+        let comma = decimal_comma(&text).filter(|_| found > expected);
+        let comma = comma.map_or(String::new(), |comma| format!("; {comma}"));
         return Err(format!(
-            "line {line} has {found} entries, the first line names {expected} columns{meant}"
+            "line {line} has {found} entries, the first line names {expected} columns{comma}"
         ));
     }
     let mut values = [None; COLUMNS.len()];

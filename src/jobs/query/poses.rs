@@ -4,7 +4,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::design::angle;
 use crate::request::{FARTHEST, coordinate};
-use crate::text::{column, with_point};
+use crate::text::{column, decimal_comma};
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
@@ -104,14 +104,13 @@ fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
     let text = record.iter().collect::<Vec<_>>().join(",");
     match record.iter().skip(entries).any(|entry| !entry.is_empty()) {
         false => Ok(()),
-        true => Err(match with_point(&text) {
-            Some(meant) => format!(
-                "it has {} entries where {entries} are wanted; a decimal number has a point, not a comma: \
-                 {meant}",
-                record.len()
-            ),
-            None => format!("it has {} entries where {entries} are wanted", record.len()),
-        }),
+        true => {
+            let comma = decimal_comma(&text).map_or(String::new(), |comma| format!("; {comma}"));
+            let found = record.len();
+            Err(format!(
+                "it has {found} entries where {entries} are wanted{comma}"
+            ))
+        }
     }
 }
 
@@ -144,10 +143,8 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
     };
     let wrong = |k: usize, text: &str, unit: &str| {
         let [name, _] = COLUMNS[k];
-        match with_point(text) {
-            Some(meant) => {
-                format!("{name} is `{text}`: a decimal number has a point, not a comma: {meant}")
-            }
+        match decimal_comma(text) {
+            Some(comma) => format!("{name} is `{text}`: {comma}"),
             None => format!("{name} is `{text}`, which is no number in {unit} up to {FARTHEST:e}"),
         }
     };

@@ -1,7 +1,7 @@
 //! What users type: poses, numbers with limits.
 
 use crate::design;
-use crate::text::with_point;
+use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
 /// Coordinates (m, rad) beyond this, whose powers would be infinite, are none.
@@ -18,8 +18,8 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
                         such as \"43 cm,0,90 deg\"";
     let parts: Vec<&str> = text.split(',').collect();
     let [x, y, theta] = parts[..] else {
-        return Err(match with_point(text).filter(|_| parts.len() > 3) {
-            Some(meant) => format!("a decimal number has a point, not a comma: {meant}; {FORM}"),
+        return Err(match decimal_comma(text).filter(|_| parts.len() > 3) {
+            Some(comma) => format!("{comma}; {FORM}"),
             None => FORM.to_owned(),
         });
     };

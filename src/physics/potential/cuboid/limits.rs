@@ -137,7 +137,7 @@ pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
     ]
 }
 
-pub(in crate::potential) type Segment = [Vector2<f64>; 2];
+type Segment = [Vector2<f64>; 2];
 
 fn pole_faces(block: &Block) -> [Segment; 2] {
     let across = Vector2::new(-block.axis.y, block.axis.x) * (block.size[1] / 2.0);
@@ -147,7 +147,7 @@ fn pole_faces(block: &Block) -> [Segment; 2] {
     })
 }
 
-pub(in crate::potential) fn segment_distance(a: Segment, b: Segment) -> f64 {
+fn segment_distance(a: Segment, b: Segment) -> f64 {
     let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
     let (across, back) = (b[0] - a[0], b[1] - a[0]);
     // On which side of each the other's ends are.

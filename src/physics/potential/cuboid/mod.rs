@@ -290,9 +290,8 @@ impl Potential for CuboidPotential {
         for second in &self.moving {
             let moved = second.block.moved(cos, sin, q.position());
             for first in &self.fixed {
-                let limits = &self.far[first.size][second.size].limits;
+                let Far { limits, radii, .. } = &self.far[first.size][second.size];
                 let r = (moved.position - first.block.position).norm();
-                let radii = first.block.radius() + moved.radius();
                 let distance = r - radii - reach;
                 let apart = limits.curvature(turn, distance);
                 let strength = (first.block.moment * moved.moment).abs();
