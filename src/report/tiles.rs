@@ -1,7 +1,7 @@
 //! What tiles carry and what holds them, in words.
 
 use crate::document::{Table, rows};
-use jobs::design::Design;
+use jobs::design::{Design, DesignError};
 use jobs::inspection::{Hold, Inspection};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
@@ -14,8 +14,7 @@ const DIGITS: usize = 4;
 
 /// What is wrong with a design, its reader's doubts first; empty where nothing is.
 pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
-    let doubts = design.warnings.iter();
-    let doubts = doubts.map(|doubt| format!("{}; {}", doubt.message, doubt.help));
+    let doubts = design.warnings.iter().map(DesignError::sentence);
     doubts.chain(inspection.faults(design)).collect()
 }
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Fuzzes the readers (of designs, drawings, tile sets, sets of words, manifests of sweeps, tables) and
-# the energies' bounds over cells, for the given seconds each [20], from the shipped files, the tests' and what was found before (cases/). A finding
-# is left in target/fuzz/found; it belongs into cases/, which ordinary tests replay. With names of
-# targets after the seconds, only these. Skips where the fuzzer cannot be built.
+# the energies' bounds over cells, for the given seconds each [20], from the shipped files, the tests'
+# and what was found before (cases/). With `same` in place of the seconds the same inputs as ever are
+# tried, a few thousand. A finding is left in target/fuzz/found; it belongs into cases/, which ordinary
+# tests replay. With names of targets after the seconds, only these. Skips where the fuzzer cannot be
+# built.
 set -euo pipefail
 cd "$(dirname "$0")"
-seconds="${1:-20}"
+effort="${1:-20}"
 targets=("${@:2}")
 ((${#targets[@]})) || targets=(design drawing tileset words plan table bounds)
 root=../..
@@ -30,10 +32,20 @@ declare -A seeds=(
     [table]=""
     [bounds]=""
 )
+# As many as end in about ten seconds.
+declare -A inputs=(
+    [design]=15000 [drawing]=20000 [tileset]=40000 [words]=10000 [plan]=60000 [table]=1000 [bounds]=200
+)
 for target in "${targets[@]}"; do
     grown="$CARGO_TARGET_DIR/corpus/$target" found="$CARGO_TARGET_DIR/found/$target"
+    if [[ "$effort" == same ]]; then
+        rm -rf "$grown"
+        limit=(-seed=1 -runs="${inputs[$target]}")
+    else
+        limit=(-max_total_time="$effort")
+    fi
     mkdir -p "$grown" "$found"
-    options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=32768
+    options=("${limit[@]}" -timeout=20 -rss_limit_mb=2048 -max_len=32768
         -artifact_prefix="$found/" -print_final_stats=1)
     [[ -f "$target.dict" ]] && options+=(-dict="$target.dict")
     cases=()
@@ -46,5 +58,5 @@ for target in "${targets[@]}"; do
         exit 1
     fi
     executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$found/log")
-    echo "fuzz: $target: $executed inputs in $seconds s, no finding"
+    echo "fuzz: $target: $executed inputs, no finding"
 done

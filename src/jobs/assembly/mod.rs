@@ -228,7 +228,7 @@ impl TileSet {
             return wrong(name, message, "give every tile a name of its own");
         }
         for tile in &self.tiles {
-            let ends = |c: char| c.is_control() || c == ')';
+            let ends = |c: char| c.is_control() || ")%".contains(c);
             if let Some(color) = tile.color.as_ref().filter(|color| color.contains(ends)) {
                 let message = format!("the tile `{}` has the colour {color:?}", tile.name);
                 return wrong(

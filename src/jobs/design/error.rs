@@ -103,10 +103,13 @@ impl fmt::Display for DesignError {
         if let more @ 1.. = self.also.len().saturating_sub(MOST_TOLD - 1) {
             write!(told, "\n\nand {more} more")?;
         }
-        // Of the file's lines and names; a terminal would obey it.
-        let obeyed = |c: char| c.is_control() && c != '\n';
-        f.write_str(&told.replace(obeyed, "\u{fffd}"))
+        f.write_str(&harmless(&told))
     }
+}
+
+/// Without what stands in a file's lines and names, and a terminal or a page would obey.
+fn harmless(told: &str) -> String {
+    told.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
 impl DesignError {
@@ -124,6 +127,11 @@ impl DesignError {
             help: help.into(),
             also: Vec::new(),
         }
+    }
+
+    /// The fault and its help in a sentence, without the place.
+    pub fn sentence(&self) -> String {
+        harmless(&format!("{}; {}", self.message, self.help))
     }
 
     /// The fault without the further ones.

@@ -244,9 +244,7 @@ impl Plan {
     pub fn design(&self, point: &Point) -> Result<Design, String> {
         let source = &self.designs[point.design];
         let text = point.text.as_ref().map_err(Clone::clone)?;
-        source
-            .parse(text)
-            .map_err(|error| format!("{}; {}", error.message, error.help))
+        source.parse(text).map_err(|error| error.sentence())
     }
 
     /// Refuses a sweep of which no point is possible.

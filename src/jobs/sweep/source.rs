@@ -123,6 +123,6 @@ impl Source {
             return Some(reason);
         }
         let error = self.parse(&document.to_string()).err()?;
-        Some(format!("{}; {}", error.message, error.help))
+        Some(error.sentence())
     }
 }
