@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
+use serde_json::Value;
 use tilebind::potential::batch::Level;
 
-use crate::folder::{assert_same, untimed};
+use crate::folder::{assert_same, contents, untimed};
 use crate::program::{command, stderr};
 
 /// Ten designs, and the model that they are computed with.
@@ -97,5 +98,60 @@ fn a_level_that_is_not_there_is_told() {
     for word in ["avx512", "avx2", "portable"] {
         let expected = if there.contains(&word) { 0 } else { 2 };
         assert_eq!(energy(word).status.code(), Some(expected), "{word}");
+    }
+}
+
+#[test]
+fn a_table_is_the_same_with_every_level_and_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ran: Option<Files> = None;
+    for level in Level::available() {
+        for threads in ["1", "2"] {
+            let out = folder.path().join(format!("{level}-{threads}"));
+            let mut table = command(&[
+                "table",
+                "shapes/paper-tile.toml",
+                "--count",
+                "4,4",
+                "--time",
+                "3",
+                "--runs",
+                "2",
+                "--shaking",
+                "3e-3",
+                "--drag",
+                "0.5",
+                "--model",
+                "cuboid",
+                "--frames",
+                "0.5",
+                "--quiet",
+                "--threads",
+                threads,
+                "--out",
+            ]);
+            table.arg(&out).env("TILEBIND_KERNEL", level.word());
+            let output = table.output().expect("it starts");
+            assert!(output.status.success(), "{}", stderr(&output));
+            let mut files = contents(&out);
+            let text = files.remove("report.json").expect("a report");
+            let mut report: Value = serde_json::from_slice(&text).expect("JSON");
+            for varies in ["wall_s", "threads"] {
+                report[varies] = Value::Null;
+            }
+            files.insert("report.json".to_owned(), report.to_string().into_bytes());
+            // The command line, which the page tells, has the folder's name.
+            let page = files.remove("report.html").expect("a page");
+            let page = String::from_utf8(page).expect("UTF-8");
+            let told = |page: &str| {
+                page.replace(&format!("{level}-{threads}"), "")
+                    .replace(&format!("--threads {threads}"), "")
+            };
+            files.insert("report.html".to_owned(), told(&page).into_bytes());
+            match &ran {
+                None => ran = Some(files),
+                Some(first) => assert_same(&files, first, &format!("{level} on {threads}")),
+            }
+        }
     }
 }

@@ -8,6 +8,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::mover::Mover;
+use super::neighbours::Neighbours;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::TOUCH;
 use crate::dynamics::{Motion, thermal_velocity};
@@ -22,6 +23,9 @@ const TRIES: usize = 2_000;
 const SHUFFLES: usize = 500;
 const WANDERED: usize = 5;
 const STRIDE: f64 = 0.3;
+
+/// Most squares along a side of the table by which tiles are looked up.
+const MOST_SQUARES: f64 = 1e3;
 
 /// A tile's kind and where it is.
 type Place = (usize, Configuration);
@@ -111,25 +115,26 @@ pub fn at_random(
     // One of each kind in turn, so that no kind has the best places.
     let most = counts.iter().copied().max().unwrap_or(0);
     let turns = (0..most).flat_map(|turn| (0..counts.len()).map(move |kind| (turn, kind)));
-    let mut placed: Vec<Place> = Vec::new();
+    let mut placed = Placed::new(crowd);
     for (_, kind) in turns.filter(|(turn, kind)| *turn < counts[*kind]) {
         let mut rounds = 0..SHUFFLES;
         let q = loop {
-            if let Some(q) = free_place(crowd, kind, &placed, rng) {
+            if let Some(q) = free_place(&placed, kind, rng) {
                 break q;
             }
             // Those that are there block each other's gaps: they make room by wandering.
             if rounds.next().is_none() {
                 return Err(StartError::NoRoom {
-                    tile: placed.len(),
+                    tile: placed.tiles.len(),
                     tiles,
                     share: area / table,
                 });
             }
-            shuffle(crowd, &mut placed, rng);
+            shuffle(&mut placed, rng);
         };
-        placed.push((kind, q));
+        placed.add((kind, q));
     }
+    let mut placed = placed.tiles;
     placed.sort_by_key(|(kind, _)| *kind);
     let mover = |(kind, configuration): (usize, Configuration)| {
         let velocity = match kt {
@@ -145,56 +150,111 @@ pub fn at_random(
     Ok(placed.into_iter().map(mover).collect())
 }
 
-fn free_place(
-    crowd: &Crowd,
-    kind: usize,
-    placed: &[Place],
-    rng: &mut ChaCha8Rng,
-) -> Option<Configuration> {
+/// Tiles that have a place, and by squares of the table who is where.
+struct Placed<'a> {
+    crowd: &'a Crowd,
+    tiles: Vec<Place>,
+    /// How far apart they are at least (m).
+    room: f64,
+    /// Squares along x and y, at least as wide as tiles reach to each other.
+    squares: [usize; 2],
+    /// The tiles whose reference points lie in each.
+    there: Vec<Vec<usize>>,
+}
+
+impl<'a> Placed<'a> {
+    fn new(crowd: &'a Crowd) -> Self {
+        let radii = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
+        let room = ROOM * radii.clone().fold(f64::INFINITY, f64::min);
+        let widest = 2.0 * radii.fold(0.0, f64::max) + room;
+        let squares = crowd
+            .half_size
+            .map(|half| (2.0 * half / widest).floor().clamp(1.0, MOST_SQUARES) as usize);
+        Self {
+            crowd,
+            tiles: Vec::new(),
+            room,
+            squares,
+            there: vec![Vec::new(); squares[0] * squares[1]],
+        }
+    }
+
+    /// The square along x and y that a point lies in.
+    fn square(&self, q: &Configuration) -> [usize; 2] {
+        [0, 1].map(|axis| {
+            let (half, count) = (self.crowd.half_size[axis], self.squares[axis]);
+            let share = (q.position()[axis] + half) / (2.0 * half);
+            (share * count as f64).clamp(0.0, count as f64 - 1.0) as usize
+        })
+    }
+
+    fn in_square(&mut self, q: &Configuration) -> &mut Vec<usize> {
+        let [column, row] = self.square(q);
+        &mut self.there[row * self.squares[0] + column]
+    }
+
+    fn add(&mut self, (kind, q): Place) {
+        let tile = self.tiles.len();
+        self.in_square(&q).push(tile);
+        self.tiles.push((kind, q));
+    }
+
+    fn shift(&mut self, tile: usize, to: Configuration) {
+        let from = self.tiles[tile].1;
+        self.in_square(&from).retain(|other| *other != tile);
+        self.in_square(&to).push(tile);
+        self.tiles[tile].1 = to;
+    }
+
+    /// Whether a tile would be on the table there and clear of all others but one.
+    fn is_free(&self, (kind, q): Place, but: Option<usize>) -> bool {
+        let motion = Motion {
+            configuration: q,
+            velocity: Vector3::zeros(),
+        };
+        if Mover::new(self.crowd, kind, &motion).beyond(self.crowd) > -self.room {
+            return false;
+        }
+        let [columns, rows] = [0, 1].map(|axis| {
+            let at = self.square(&q)[axis];
+            at.saturating_sub(1)..(at + 2).min(self.squares[axis])
+        });
+        let squares = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
+        let others = squares.flat_map(|(row, column)| &self.there[row * self.squares[0] + column]);
+        others.filter(|other| Some(**other) != but).all(|other| {
+            clearance(self.crowd, [(kind, q), self.tiles[*other]], self.room) >= self.room
+        })
+    }
+}
+
+fn free_place(placed: &Placed, kind: usize, rng: &mut ChaCha8Rng) -> Option<Configuration> {
     (0..TRIES).find_map(|_| {
         crate::interruption::check();
         let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
-        let [x, y] = crowd.half_size;
+        let [x, y] = placed.crowd.half_size;
         let q = Configuration::new(even(x), even(y), wrap_angle(even(0.5 * TAU)));
-        is_free(crowd, (kind, q), placed.iter()).then_some(q)
+        placed.is_free((kind, q), None).then_some(q)
     })
 }
 
 /// Moves each tile in turn a little at random, where that leaves it free: all that is kept of where it was
 /// is that tiles do not overlap.
-fn shuffle(crowd: &Crowd, placed: &mut [Place], rng: &mut ChaCha8Rng) {
+fn shuffle(placed: &mut Placed, rng: &mut ChaCha8Rng) {
     for _ in 0..WANDERED {
-        for tile in 0..placed.len() {
+        for tile in 0..placed.tiles.len() {
             crate::interruption::check();
-            let (kind, q) = placed[tile];
+            let (kind, q) = placed.tiles[tile];
             let mut even = || 2.0 * rng.random::<f64>() - 1.0;
-            let reach = STRIDE * crowd.kinds[kind].tile.outline.circumradius();
+            let outline = &placed.crowd.kinds[kind].tile.outline;
+            let reach = STRIDE * outline.circumradius();
             let step = Vector3::new(even() * reach, even() * reach, even() * STRIDE);
             let moved = q.moved(step);
             let moved = Configuration::new(moved.x, moved.y, wrap_angle(moved.theta));
-            let others = placed.iter().enumerate();
-            let others = others.filter(|(other, _)| *other != tile).map(|(_, it)| it);
-            if is_free(crowd, (kind, moved), others) {
-                placed[tile].1 = moved;
+            if placed.is_free((kind, moved), Some(tile)) {
+                placed.shift(tile, moved);
             }
         }
     }
-}
-
-/// Whether a tile is on the table and clear of others.
-fn is_free<'a>(
-    crowd: &Crowd,
-    (kind, q): Place,
-    mut others: impl Iterator<Item = &'a Place>,
-) -> bool {
-    let motion = Motion {
-        configuration: q,
-        velocity: Vector3::zeros(),
-    };
-    let radii = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
-    let room = ROOM * radii.fold(f64::INFINITY, f64::min);
-    Mover::new(crowd, kind, &motion).beyond(crowd) <= -room
-        && others.all(|other| clearance(crowd, [(kind, q), *other], room) >= room)
 }
 
 /// Whether tiles are free of each other and on the table.
@@ -212,31 +272,21 @@ pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartEr
             return Err(StartError::BeyondRim { tile, beyond });
         }
     }
-    // Sorted along x, so that few are compared.
     let places: Vec<_> = movers.iter().map(place).collect();
+    let positions: Vec<_> = places.iter().map(|it| it.1.position()).collect();
     let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
     let widest = 2.0 * widest.fold(0.0, f64::max);
-    let mut order: Vec<usize> = (0..movers.len()).collect();
-    order.sort_by(|&i, &j| places[i].1.x.total_cmp(&places[j].1.x).then(i.cmp(&j)));
-    let mut worst: Option<StartError> = None;
-    for (k, &i) in order.iter().enumerate() {
-        for &j in &order[k + 1..] {
-            if places[j].1.x - places[i].1.x > widest {
-                break;
-            }
-            let depth = -clearance(crowd, [places[i], places[j]], 0.0);
-            let deepest = match &worst {
-                Some(StartError::Overlap { depth, .. }) => *depth,
-                _ => TOUCH,
+    let mut worst = (TOUCH, None);
+    for &[first, second] in Neighbours::default().within(widest, &positions) {
+        let depth = -clearance(crowd, [places[first], places[second]], 0.0);
+        if depth > worst.0 {
+            let overlap = StartError::Overlap {
+                first,
+                second,
+                depth,
             };
-            if depth > deepest {
-                worst = Some(StartError::Overlap {
-                    first: i.min(j),
-                    second: i.max(j),
-                    depth,
-                });
-            }
+            worst = (depth, Some(overlap));
         }
     }
-    worst.map_or(Ok(()), Err)
+    worst.1.map_or(Ok(()), Err)
 }

@@ -7,13 +7,18 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::contact::Contact;
-use tilebind::dynamics::docking::MatchRule;
-use tilebind::dynamics::thermal_velocity;
+use tilebind::dynamics::docking::{DockingSettings, End, MatchRule, Starts, dock};
+use tilebind::dynamics::{Motion, MotionSettings, thermal_velocity};
 use tilebind::interruption::Interruption;
+use tilebind::kinetics::Well;
+use tilebind::landscape::Proportion;
 use tilebind::many_bodies::contacts::Tie;
 use tilebind::many_bodies::run::{Run, RunError, Start, run};
-use tilebind::many_bodies::{Crowd, Kind, Mover, Orbital, StartError, Stepper, TableSettings};
+use tilebind::many_bodies::{
+    Crowd, Kind, Mover, Orbital, Sample, StartError, Stepper, TableSettings,
+};
 use tilebind::potential::{Interaction, MagnetModel};
+use tilebind::roadmap::Point;
 use tilebind::tile::strength::Strength;
 use tilebind::tile::{Face, Magnet, Outline, Pair, Tile, face_to_face};
 use tilebind::{Configuration, ConfigurationSpace, Problem};
@@ -112,6 +117,16 @@ fn inert(side: f64, table: [f64; 2]) -> Crowd {
         &problem(tiles, MagnetModel::Dipole, table),
         MagnetModel::Dipole,
     )
+}
+
+/// Elastic and without friction, shaken with kT (J) at a drag rate (1/s), within the rim.
+fn shaken(duration: f64, kt: f64, drag: f64) -> TableSettings {
+    TableSettings {
+        shaking: Some(kt),
+        drag,
+        walls: true,
+        ..ideal(duration)
+    }
 }
 
 /// Nothing drives, damps or rubs.
@@ -237,12 +252,7 @@ fn kinetic(crowd: &Crowd, settings: &TableSettings, start: &Start, runs: usize) 
 #[test]
 fn a_gas_has_the_temperature_of_its_shaking() {
     let crowd = inert(0.12, [2.0; 2]);
-    let settings = TableSettings {
-        shaking: Some(3e-3),
-        drag: 20.0,
-        walls: true,
-        ..ideal(15.0)
-    };
+    let settings = shaken(15.0, 3e-3, 20.0);
     let [mean, error] = kinetic(&crowd, &settings, &Start::Random(vec![20, 20]), 4);
     assert!(
         error < 0.004 && (mean - 0.5).abs() < 0.01,
@@ -260,9 +270,8 @@ fn bound_tiles_have_the_temperature_of_their_shaking() {
             mover(1, [bound.x + 1e-5, bound.y, bound.theta], [0.0; 3]),
         ];
         let settings = TableSettings {
-            shaking: Some(2e-3),
-            drag: 100.0,
-            ..ideal(30.0)
+            walls: false,
+            ..shaken(30.0, 2e-3, 100.0)
         };
         let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), 8);
         assert!(
@@ -324,29 +333,163 @@ fn two_tiles_are_bound_as_often_as_boltzmann_says() {
     let crowd = crowd(&problem, model);
     let kt = problem.depth() / 12.5;
     let expected = share_by_metropolis(&problem, kt);
-    let settings = TableSettings {
-        shaking: Some(kt),
-        drag: 20.0,
-        walls: true,
-        sampling: 0.05,
-        ..ideal(600.0)
-    };
-    let share = |index| {
-        let start = Start::Random(vec![1, 1]);
-        let found = run(&crowd, &settings, (2, index), &start, false).unwrap();
-        let bound = found
-            .samples
-            .iter()
-            .filter(|it| it.count(Tie::Bond) == 1)
-            .count();
-        bound as f64 / found.samples.len() as f64
-    };
-    let [mean, error] = mean(&(0..12).map(share).collect::<Vec<_>>());
+    let [mean, error] = share_bound(&crowd, kt);
     assert!((0.1..0.9).contains(&expected), "{expected}");
     assert!(
         error < 0.03 && (mean - expected).abs() < 3.0 * error,
         "{mean} +- {error}, {expected}"
     );
+}
+
+/// The share of time in which two tiles of a table are bound, with its standard error.
+fn share_bound(crowd: &Crowd, kt: f64) -> [f64; 2] {
+    let settings = TableSettings {
+        sampling: 0.05,
+        ..shaken(600.0, kt, 20.0)
+    };
+    let share = |index| {
+        let start = Start::Random(vec![1, 1]);
+        let found = run(crowd, &settings, (2, index), &start, false).unwrap();
+        let is_bound = |it: &&Sample| it.count(Tie::Bond) == 1;
+        let bound = found.samples.iter().filter(is_bound).count();
+        bound as f64 / found.samples.len() as f64
+    };
+    mean(&(0..12).map(share).collect::<Vec<_>>())
+}
+
+/// How much likelier than far from the rim and from each other tiles are bound where there are both:
+/// the share of places of a bound pair on the table, over the mean of `exp(-U / kT)` of all places of
+/// two tiles that are not bound, 0 where they overlap or are not on the table.
+fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
+    let pair = problem.pair.as_ref().unwrap();
+    let rule = MatchRule::new(problem, None).unwrap();
+    let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
+    let tiles = [&pair.fixed, &pair.moving];
+    let half = problem.space.half_size;
+    let is_on_table = |tile: usize, q: &Configuration| {
+        tiles[tile].outline.vertices().iter().all(|corner| {
+            let p = q.transform(*corner);
+            p.x.abs() <= half[0] && p.y.abs() <= half[1]
+        })
+    };
+    let couple = crowd.couple(0, 1).0;
+    let mut rng = stream(12);
+    let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
+    let [mut bound, mut apart] = [0.0; 2];
+    for _ in 0..400_000 {
+        let mut place = || Configuration::from([even(half[0]), even(half[1]), even(TAU / 2.0)]);
+        let [a, b] = [place(), place()];
+        let partner = a.transform(pair.bound.position());
+        let partner = Configuration::new(partner.x, partner.y, a.theta + pair.bound.theta);
+        if !is_on_table(0, &a) {
+            continue;
+        }
+        bound += f64::from(u8::from(is_on_table(1, &partner)));
+        let p = a.inverse_transform(b.position());
+        let q = Configuration::new(p.x, p.y, b.theta - a.theta);
+        if is_on_table(1, &b) && contact.is_free(&q) && !rule.holds(&q) {
+            apart += libm::exp(-couple.potential.energy(&q) / kt);
+        }
+    }
+    bound / apart
+}
+
+#[test]
+fn two_tiles_are_bound_as_often_as_ln_k_says() {
+    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles, model, [0.16; 2]);
+    let crowd = crowd(&problem, model);
+    let minimum = Point::new(&problem, problem.pair.as_ref().unwrap().bound);
+    let kt = -minimum.energy / 14.0;
+    // ln K of one partner on the table, as `tilebind bond` has it.
+    let volume = Well::new(&problem, &minimum, 0.0, &[]).volume(kt, 1e-3);
+    let ln_k = 14.0 + libm::log(volume.value / TAU / crowd.area());
+    let odds = libm::exp(ln_k) * crowding(&problem, &crowd, kt);
+    let expected = odds / (1.0 + odds);
+    let [mean, error] = share_bound(&crowd, kt);
+    println!("{mean} +- {error}, {expected}");
+    assert!((0.1..0.9).contains(&expected), "{expected}");
+    assert!(
+        error < 0.04 && (mean - expected).abs() < 3.0 * error,
+        "{mean} +- {error}, {expected}"
+    );
+}
+
+#[test]
+fn two_tiles_dock_as_often_as_one_at_a_fixed_one() {
+    let (runs, duration) = (120, 6.0);
+    for (model, friction, restitution) in [
+        (MagnetModel::Dipole, 0.3, 0.01),
+        (MagnetModel::Cuboid, 0.0, 0.6),
+    ] {
+        // The fixed tile is so heavy that it stays where it is.
+        let mut tiles = [
+            square(0.43, "NNNS", &[0, 1, 2, 3]),
+            square(0.43, "NSSS", &[0, 1, 2, 3]),
+        ];
+        tiles[0].mass = 1e7;
+        let problem = problem(tiles, model, [2.0; 2]);
+        let crowd = crowd(&problem, model);
+        let docking = DockingSettings {
+            runs,
+            duration,
+            motion: MotionSettings {
+                drag: 0.5,
+                friction,
+                restitution,
+                walls: false,
+                ..MotionSettings::default()
+            },
+            starts: Starts {
+                orientation: 0.6,
+                ..Starts::default()
+            },
+            ..DockingSettings::default()
+        };
+        let docked = dock(&problem, &docking, &|| ()).unwrap();
+        let settings = TableSettings {
+            drag: 0.5,
+            friction,
+            restitution,
+            ..ideal(duration)
+        };
+        // Bound, trapped, free: how many in docking runs, how many on the table, how many that differ.
+        let mut counts = [[0usize; 2]; 3];
+        let mut others = 0;
+        for docked in &docked.runs {
+            let still = Motion {
+                configuration: Configuration::new(0.0, 0.0, 0.0),
+                velocity: Vector3::zeros(),
+            };
+            let movers = [(0, still), (1, docked.start.motion)];
+            let movers = movers.map(|(kind, motion)| Mover::new(&crowd, kind, &motion));
+            let start = Start::Given(movers.to_vec());
+            let found = run(&crowd, &settings, (1, docked.index), &start, false).unwrap();
+            let last = found.samples.last().unwrap();
+            let there = match (last.count(Tie::Bond), last.count(Tie::Trap)) {
+                (1, _) => 0,
+                (_, 1) => 1,
+                _ => 2,
+            };
+            let by_dock = match docked.end {
+                End::Bound { .. } => 0,
+                End::Trapped { .. } => 1,
+                End::Free => 2,
+            };
+            counts[by_dock][0] += 1;
+            counts[there][1] += 1;
+            others += usize::from(by_dock != there);
+        }
+        println!("{counts:?}, {others} end otherwise");
+        for [by_dock, there] in counts {
+            let [by_dock, there] = [by_dock, there].map(|count| Proportion::new(count, runs));
+            let overlap = by_dock.low <= there.high && there.low <= by_dock.high;
+            assert!(overlap, "{by_dock:?} {there:?}");
+        }
+        assert!(counts[0][0] > runs / 16, "{counts:?}");
+        assert!(others < runs / 20, "{others} of {runs}");
+    }
 }
 
 #[test]
@@ -377,12 +520,9 @@ fn the_cut_off_leaves_out_no_more_than_it_says() {
 fn a_run_depends_on_nothing_but_its_seed() {
     let (_, crowd) = one_face(MagnetModel::Dipole);
     let settings = TableSettings {
-        shaking: Some(3e-3),
-        drag: 1.0,
         friction: 0.3,
         restitution: 0.1,
-        walls: true,
-        ..ideal(1.0)
+        ..shaken(1.0, 3e-3, 1.0)
     };
     let start = Start::Random(vec![2, 2]);
     let last = |seed| {
@@ -399,12 +539,9 @@ fn a_run_depends_on_nothing_but_its_seed() {
 fn tiles_stay_on_the_table_and_apart() {
     let (_, crowd) = one_face(MagnetModel::Cuboid);
     let settings = TableSettings {
-        shaking: Some(2e-2),
-        drag: 2.0,
         friction: 0.3,
         restitution: 0.6,
-        walls: true,
-        ..ideal(4.0)
+        ..shaken(4.0, 2e-2, 2.0)
     };
     let found = run(&crowd, &settings, (7, 0), &Start::Random(vec![3, 3]), true).unwrap();
     assert!(found.energy_error < 1e-3, "{}", found.energy_error);
@@ -567,13 +704,10 @@ fn halving_the_step_changes_nothing_that_seeds_do_not() {
     let crowd = crowd(&problem, model);
     let held = |step: f64| {
         let settings = TableSettings {
-            shaking: Some(3e-3),
-            drag: 0.5,
             friction: 0.3,
             restitution: 0.01,
-            walls: true,
             step,
-            ..ideal(4.0)
+            ..shaken(4.0, 3e-3, 0.5)
         };
         let run = |index| {
             let start = Start::Random(vec![6, 6]);
