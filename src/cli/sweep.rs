@@ -8,6 +8,7 @@ use tilebind::output::{Output, OutputError};
 use tilebind::report::files::{REPORT, SWEEP};
 use tilebind::report::json;
 use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::request;
 use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shard, Source, Store};
 
 use super::failure::tell_refuted;
@@ -83,7 +84,7 @@ pub struct Sweep {
     run: Option<PathBuf>,
 
     /// Part i of n, from 1/n to n/n: every nth point
-    #[arg(long, value_name = "i/n", requires = "run", value_parser = shard)]
+    #[arg(long, value_name = "i/n", requires = "run", value_parser = request::shard)]
     shard: Option<Shard>,
 
     /// Write the tables and pictures of a finished sweep
@@ -220,7 +221,10 @@ impl Sweep {
 
     fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {
         let store = Store::new(folder);
-        let mine = plan.points().into_iter().filter(|p| shard.contains(p));
+        let mine = plan
+            .points()
+            .into_iter()
+            .filter(|p| shard.contains(p.index));
         let (known, missing): (Vec<Point>, Vec<Point>) =
             mine.partition(|point| store.load(point).is_some());
         let bar = PointBar::new(known.len(), missing.len(), self.print.quiet);
@@ -303,15 +307,5 @@ fn folder_of(file: &Path) -> PathBuf {
     match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
-    }
-}
-
-/// A part as `i/n`.
-fn shard(text: &str) -> Result<Shard, String> {
-    let (number, of) = text.split_once('/').ok_or("a part is i/n, such as 1/4")?;
-    let parse = |part: &str| part.trim().parse().ok();
-    match (parse(number), parse(of)) {
-        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok(Shard { number, of }),
-        _ => Err("parts of n are 1/n, 2/n, ... n/n".to_owned()),
     }
 }

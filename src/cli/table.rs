@@ -7,7 +7,7 @@ use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
 use tilebind::request;
-use tilebind::table::{self, About, Request};
+use tilebind::table::{self, About, Request, compared};
 use tilebind::text::{self, with_commas};
 
 use super::options::ThreadOption;
@@ -21,17 +21,22 @@ All tiles move, the pair's fixed one too: --count 12,12 is twelve of either kind
 places, or as --start says: a table with the columns tile,kind,x,y,theta,vx,vy,omega (m, rad, m/s, rad/s). A bond
 is a pair whose target faces' magnets have met; a trap is any other pair in touch that has not the energy to
 come apart. Energy is accounted for in every run; where more than 1 % is missing, the run is made again with
-half the step.
+half the step. Of several designs all tiles are on one table, the first design's; their kinds are `NAME fixed` and
+`NAME moving`, and whatever tiles of two designs hold is a trap. With --compare the share of the target stands
+beside what `tilebind yield` says: that differs where contact takes energy out, and where tiles hold more than one.
 
 Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --runs 20 --shaking 3e-3 --drag 0.5 \\
     --out target/table
+  tilebind table shapes/tab-10mm.toml shapes/arc-20mm.toml --count 3,3 --time 60 --shaking 3e-3 --drag 0.5
+  tilebind table lattice --count 2,2,2,2 --time 60 --shaking 7e-3 --drag 0.5
+  tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
-    /// The design file, or a tile set as `tilebind assemble` takes it
-    #[arg(value_name = "DESIGN|TILESET")]
-    tiles: PathBuf,
+    /// Design files, whose tiles share the first one's table, or one tile set as `tilebind assemble` takes it
+    #[arg(value_name = "DESIGN|TILESET", required = true)]
+    tiles: Vec<PathBuf>,
 
     /// Model of the magnets, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
@@ -55,19 +60,22 @@ pub struct TableCommand {
 impl TableCommand {
     pub fn run(self) -> Result<(), Failure> {
         self.request.check().map_err(Failure::Usage)?;
-        let is_design = self.tiles.extension().is_some_and(|it| it == "toml");
-        let design = is_design.then(|| input::load_as(&self.tiles, self.model));
-        let design = design.transpose()?;
-        let mut inputs = match &design {
-            Some(design) => input::files_of(&self.tiles, design),
-            None => vec![self.tiles.clone()],
+        let set = match &self.tiles[..] {
+            [one] if one.extension().is_none_or(|it| it != "toml") => Some(one),
+            _ => None,
         };
-        inputs.extend(self.start.clone());
+        let mut designs = Vec::new();
+        let mut inputs: Vec<PathBuf> = set.into_iter().chain(&self.start).cloned().collect();
+        for path in self.tiles.iter().filter(|_| set.is_none()) {
+            let design = input::load_as(path, self.model)?;
+            inputs.extend(input::files_of(path, &design));
+            designs.push(design);
+        }
         let output = self.results.output(&TABLE, inputs)?;
         self.threads.use_threads()?;
-        let (about, crowd) = match &design {
-            Some(design) => About::of_design(design).map_err(Failure::Usage)?,
-            None => About::of_set(&self.tiles, &self.request, self.model)?,
+        let (about, crowd) = match set {
+            None => About::of_designs(&designs).map_err(Failure::Usage)?,
+            Some(set) => About::of_set(set, &self.request, self.model)?,
         };
         let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
             let name = path.display().to_string();
@@ -78,14 +86,15 @@ impl TableCommand {
         });
         let file = file.transpose()?;
         let start = self.request.start(
-            &crowd,
+            (&about, &crowd),
             file.as_ref().map(|it| (it.0.as_str(), it.1.as_str())),
         );
         let start = start.map_err(Failure::Usage)?;
         let progress = self.results.progress();
-        let found = table::table(crowd, &self.request, &start, &progress);
+        let found = table::table((&about, crowd), &self.request, &start, &progress);
         let found = found.map_err(Failure::of)?;
-        let document = document(&about, &found, self.request.seed);
+        let beside = compared(&designs, &self.request, &found, &progress);
+        let document = document(&about, &found, &self.request, beside.as_ref());
         self.results.deliver(&document, output, &progress)
     }
 }

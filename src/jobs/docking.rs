@@ -4,14 +4,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 
-use crate::design::{Design, energy, length};
+use crate::design::Design;
 use crate::rates::diffusion;
-use crate::request;
+use crate::request::{self, MotionOptions};
 use physics::dynamics::docking::{
     Docking, DockingError, DockingRun, DockingSettings, End, Release, Starts, dock, releases,
     trajectory,
 };
-use physics::dynamics::{Fan, MotionSettings, Snapshot};
+use physics::dynamics::{MotionSettings, Snapshot};
 use physics::kinetics::rates::{Loosening, RatesError};
 use physics::observer::Observer;
 use physics::problem::Problem;
@@ -30,20 +30,9 @@ pub struct Request {
           value_parser = request::time)]
     pub duration: f64,
 
-    /// Drag rate (1/s)
-    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = request::not_negative)]
-    pub drag: f64,
-
-    /// Coefficient of friction between the tiles and of a tile and the rim
-    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = request::not_negative)]
-    pub friction: f64,
-
-    /// Share of the approach velocity that a knock gives back
-    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = request::share)]
-    pub restitution: f64,
+    /// How tiles move.
+    #[command(flatten)]
+    pub motion: MotionOptions,
 
     /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
     /// a magnet]
@@ -57,11 +46,6 @@ pub struct Request {
     /// Lets tiles leave the table
     #[arg(long)]
     pub no_walls: bool,
-
-    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m);
-    /// the energy may swing by the share A at the frequency F (Hz)
-    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
-    pub fan: Vec<Fan>,
 
     /// Effective energy kT (J) of a random shaking force
     #[arg(long, value_name = "E_J", value_parser = request::energy_or_none)]
@@ -81,13 +65,9 @@ impl Request {
             duration: self.duration,
             starts: self.starts.starts(Starts::of(pair)),
             motion: MotionSettings {
-                drag: self.drag,
-                friction: self.friction,
-                restitution: self.restitution,
                 walls: !self.no_walls,
-                fans: self.fan.clone(),
                 shaking: self.shaking,
-                ..MotionSettings::default()
+                ..self.motion.settings()
             },
             threshold: self.threshold,
         }
@@ -219,33 +199,6 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
     }
 }
 
-/// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
-pub(crate) fn fan(text: &str) -> Result<Fan, String> {
-    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
-                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\", and perhaps ,A,F: the share by which it swings, and how \
-                        often a second";
-    let read = |(k, part): (usize, &str)| match k {
-        0 | 1 | 3 => length(part),
-        2 => energy(part),
-        _ => request::numbers(part).map(|one| one[0]),
-    };
-    let parts: Option<Vec<f64>> = text
-        .split(',')
-        .map(str::trim)
-        .enumerate()
-        .map(read)
-        .collect();
-    match parts.ok_or(FORM)?[..] {
-        [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
-        [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
-            amplitude,
-            frequency,
-            ..Fan::steady([x, y], energy, width)
-        }),
-        _ => Err(FORM.to_owned()),
-    }
-}
-
 /// Paths that are drawn over each other.
 const DRAWN: usize = 60;
 /// Time between two points of a path (s).
@@ -323,22 +276,6 @@ mod tests {
         assert_eq!(range("0, 1.3"), Ok([0.0, 1.3]));
         for wrong in ["", "1", "1,0", "-1,1", "a,b", "0,1,2", "0,inf"] {
             assert!(range(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn fans() {
-        let steady = Fan::steady([0.6, -0.5], 1e-3, 0.2);
-        assert_eq!(fan("0.6,-0.5, 1e-3,0.2"), Ok(steady));
-        assert_eq!(fan("60 cm,-500 mm,1 mJ,0.2 m"), Ok(steady));
-        let swinging = Fan {
-            amplitude: 0.5,
-            frequency: 2.0,
-            ..steady
-        };
-        assert_eq!(fan("0.6,-0.5,1e-3,0.2,0.5,2"), Ok(swinging));
-        for wrong in ["", "1,2,3", "0,0,1,0", "0,0,1,-1", "0,0,1,1,1", "0,0,NaN,1"] {
-            assert!(fan(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -2,10 +2,13 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Document, Drawing, Entries, Table, rows};
+use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
+use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
-use jobs::table::{About, Found, Interval, Lifetime, Moment, Verdict};
+use jobs::request::Shard;
+use jobs::table::{About, Found, Interval, Lifetime, Moment, Request, Verdict};
+use jobs::yields::{Question, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -13,8 +16,14 @@ use physics::table::{Mover, Sample};
 use physics::units::{duration, plain, si};
 
 /// What there is to know of a table.
-pub fn document<'a>(about: &About, found: &'a Found, seed: u64) -> Document<'a> {
+pub fn document<'a>(
+    about: &About,
+    found: &'a Found,
+    request: &Request,
+    beside: Option<&Beside>,
+) -> Document<'a> {
     let statistics = &found.statistics;
+    let seed = request.seed;
     Document {
         title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
         answer: format!(
@@ -33,10 +42,14 @@ pub fn document<'a>(about: &About, found: &'a Found, seed: u64) -> Document<'a> 
             },
         ),
         remarks: vec![meaning(found)],
-        entries: entries(about, found, seed),
+        entries: entries(about, found, seed).and(compared(found, beside)),
+        part: Some(Part::Crowd(Crowd::new(found))),
         pictures: pictures(found),
         beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
-        notes: notes(found),
+        notes: notes(found, request)
+            .into_iter()
+            .chain(unanswered(beside))
+            .collect(),
         origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
     }
@@ -74,13 +87,66 @@ fn meaning(found: &Found) -> String {
     }
 }
 
-fn notes(found: &Found) -> Vec<String> {
+/// What `yield` says, with what it was asked.
+type Beside = Result<(Question, Yields), YieldError>;
+
+/// What detailed balance says of as many pairs with one partner each.
+fn compared(found: &Found, beside: Option<&Beside>) -> Entries {
+    let Some(Ok((question, yields))) = beside else {
+        return Entries::default();
+    };
+    let best = yields.best();
+    let ln_k = best.states.first().map(|bond| bond.ln_k);
+    let here = &found.target.share;
+    let differs = match (here.low, here.high) {
+        (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
+            "; the share on this table differs by more than both intervals"
+        }
+        (Some(_), Some(_)) => "; the share on this table is the same within the intervals",
+        _ => "",
+    };
+    Entries::default().group(
+        "yield",
+        Entries::default()
+            .fact("pairs", "", question.tiles / 2)
+            .fact("ln_K", "ln K", ln_k)
+            .digits(3)
+            .noted("of the bond, as `tilebind bond` has it")
+            .fact("bound", "`yield` says", best.bound)
+            .share()
+            .noted(format!(
+                "of {} pairs, {} to {}{differs}",
+                question.tiles / 2,
+                share(best.interval[0]),
+                share(best.interval[1])
+            ))
+            .fact("bound_interval", "", best.interval)
+            .fact("equilibrium", "in equilibrium", best.equilibrium)
+            .share()
+            .fact("trapped", "", best.trapped),
+    )
+}
+
+fn unanswered(beside: Option<&Beside>) -> Option<String> {
+    let why = beside?.as_ref().err()?;
+    Some(format!(
+        "`tilebind yield` has no answer to set beside this: {why}"
+    ))
+}
+
+fn notes(found: &Found, request: &Request) -> Vec<String> {
     let statistics = &found.statistics;
     let mut notes = vec![format!(
         "energy is accounted for within {} of its largest term; steps of {} and shorter",
         share(statistics.energy_error),
         si(statistics.step, "s", 3)
     )];
+    if let Some(Shard { number, of }) = request.shard {
+        notes.push(format!(
+            "part {number} of {of} of {} runs: the rows of the tables of all parts together are those of the whole",
+            request.runs
+        ));
+    }
     if statistics.halved > 0 {
         notes.push(format!(
             "in {} of {} runs steps were halved, since more than {} of energy was not accounted for",
@@ -112,10 +178,16 @@ fn interval(interval: &Interval) -> Value {
 #[rustfmt::skip]
 fn entries(about: &About, found: &Found, seed: u64) -> Entries {
     let statistics = &found.statistics;
-    let identity = json!({"name": about.name, "sha256": about.sha256});
+    let checksum = match &about.designs[..] {
+        [(_, sha256)] => Some(sha256),
+        _ => None,
+    };
+    let identity = json!({"name": about.name, "sha256": checksum});
+    let designs = about.designs.iter().map(|(name, sha256)| json!({"name": name, "sha256": sha256}));
     Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity)
+        .data("designs", designs.collect::<Value>())
         .data("model", about.model.name())
         .data("seed", seed)
         .data("settings", settings(&found.settings))
@@ -127,6 +199,8 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("traps", interval(&statistics.traps))
         .fact("", "bonds", told(&statistics.bonds)).in_view().noted("held at the end, mean of the runs with its 95 % interval")
         .fact("", "traps", told(&statistics.traps)).in_view().noted("every other held pair")
+        .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval)}))
+        .fact("", "target", reached(about, found)).in_view().noted(aim(about))
         .data("clusters", json!(statistics.clusters))
         .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).noted("of a degree of freedom over kT; 0.5 in equilibrium")
         .fact("verdict", "verdict", statistics.verdict.name())
@@ -141,6 +215,40 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .table(bonds(found))
         .table(clusters(found))
         .table(places(found))
+}
+
+/// The share of the target, as people read it.
+fn reached(about: &About, found: &Found) -> String {
+    let percent = |x: f64| plain(100.0 * x.clamp(0.0, 1.0), 3);
+    let Interval { mean, low, high } = found.target.share;
+    let within = low
+        .zip(high)
+        .map(|(low, high)| format!(" ({} to {})", percent(low), percent(high)));
+    let wrong = found
+        .target
+        .defects
+        .as_ref()
+        .map(|it| format!(", {} defects", told(it)));
+    let what = if about.pattern.is_some() {
+        " of the pattern"
+    } else {
+        " of the pairs"
+    };
+    format!(
+        "{} %{}{what}{}",
+        percent(mean),
+        within.unwrap_or_default(),
+        wrong.unwrap_or_default()
+    )
+}
+
+fn aim(about: &About) -> &'static str {
+    match about.pattern {
+        Some(_) => {
+            "tiles of the most complete cluster that are in their places, of all places; defects: its others"
+        }
+        None => "bound as meant at the end, each tile with one partner, of all that could be",
+    }
 }
 
 fn settings(settings: &TableSettings) -> Value {

@@ -61,9 +61,12 @@ fn dissipation(question: &Question) -> Option<String> {
     let takes = motion.restitution < 1.0 || motion.friction > 0.0;
     let is_docking = question.effort.source == Source::Docking;
     (takes && is_docking).then(|| {
-        "contact takes energy out of knocks here, which no temperature knows of, and tiles bind one \
-         partner at most: `tilebind table` puts all of them on one table"
-            .to_owned()
+        format!(
+            "warning: contact takes energy out of knocks here (restitution {}, friction {}), which no \
+             temperature knows of: tiles may freeze in traps that detailed balance lets go, and here they bind one \
+             partner at most; `tilebind table` puts all of them on one table",
+            motion.restitution, motion.friction
+        )
     })
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the pages of analyse, compare, sweep, words and dock in headless Chromium and uses them.
+"""Opens the pages of analyse, compare, sweep, words, table and dock in headless Chromium and uses them.
 
     check.py PROGRAM [--pictures FOLDER]
 
@@ -16,6 +16,7 @@ import sys
 import tempfile
 
 from browser import Browser
+from crowd import check_crowd
 from landscapes import check_docking, check_page
 from looking import Check
 from tables import SHAPES, check_comparison, check_sweep
@@ -62,6 +63,8 @@ def main():
             check_sweep(check, arguments.program, pathlib.Path(folder))
             print("tests/page: words, crosstalk")
             check_words(check, arguments.program, pathlib.Path(folder))
+            print("tests/page: table")
+            check_crowd(check, arguments.program, pathlib.Path(folder))
             print("tests/page: docking")
             out = pathlib.Path(folder, "docking")
             subprocess.run([arguments.program, "dock", SHAPES / "paper-tile.toml", "--drag", "0.5", "--no-walls", "--runs", "200",

@@ -5,11 +5,15 @@
 //! declared once, and what one of them refuses, so does the other.
 
 mod keywords;
+mod motion;
+mod shard;
 mod unanswered;
 mod values;
 mod word;
 
 pub use keywords::{Misused, of_keywords, options};
+pub use motion::{MotionOptions, fan};
+pub use shard::{Shard, shard};
 pub use unanswered::Unanswered;
 pub use values::{
     FARTHEST, angle_or_none, binding, coordinate, count, count_or_none, energy, energy_or_none,

@@ -65,9 +65,10 @@ mod source;
 mod store;
 mod vary;
 
+pub use crate::request::Shard;
 pub use error::PlanError;
 pub use plan::Plan;
-pub use point::{Point, Shard};
+pub use point::Point;
 pub use request::Request;
 pub use run::run;
 pub use source::Source;

@@ -25,22 +25,3 @@ impl Point {
         self.text.as_deref().ok()
     }
 }
-
-/// Part `number`, from 1, of `of` parts of a sweep: every `of`th point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// Which part, from 1.
-    pub number: usize,
-    /// How many parts there are.
-    pub of: usize,
-}
-
-impl Shard {
-    /// The only part of a sweep that is not divided.
-    pub const WHOLE: Self = Self { number: 1, of: 1 };
-
-    /// Whether the part holds a point.
-    pub fn contains(&self, point: &Point) -> bool {
-        point.index % self.of + 1 == self.number
-    }
-}

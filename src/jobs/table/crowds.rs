@@ -11,49 +11,66 @@ use physics::dynamics::docking::MatchRule;
 use physics::potential::Interaction;
 use physics::potential::shielding::Shields;
 use physics::problem::Problem;
-use physics::table::{Crowd, CrowdError, Kind};
+use physics::table::{Crowd, Kind};
 use physics::tile::{Pair, Tile};
 
 /// Pairs' energies are cut off below this share of the bond's depth.
 const CUT_OFF: f64 = 1e-4;
 
-/// The fixed and the moving tile of a design as kinds `fixed` and `moving`; two of one kind attract and
-/// touch each other, too.
+/// The fixed and the moving tile of a design as kinds `fixed` and `moving`, of several designs as `NAME
+/// fixed` and `NAME moving`, on the table of the first; any two attract and touch each other, those of one
+/// kind or of two designs too. Bonds are those of a design's own two tiles.
 ///
 /// # Errors
-/// Where forces do not belong to energies.
-pub fn of_design(design: &Design) -> Result<Crowd, CrowdError> {
-    let problem = design.problem();
-    let pair = &design.pair;
-    let kinds = vec![
-        Kind::new("fixed", pair.fixed.clone()),
-        Kind::new("moving", pair.moving.clone()),
-    ];
-    let shields = &design.interaction.shields;
-    let of_kind = |kind: usize| match kind {
-        0 => shields.fixed.clone(),
-        _ => shields.moving.clone(),
+/// Where there is no design, models differ, or forces do not belong to energies.
+pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
+    let first = designs.first().ok_or("there is no design")?;
+    let (model, rule) = (first.interaction.model, first.interaction.shields.rule);
+    for other in designs {
+        if other.interaction.model != model || other.interaction.shields.rule != rule {
+            return Err(format!(
+                "{} and {} have magnets or shields of different models, which cannot be on one table: give \
+                 --model, or the designs the same [potential] and [shield]",
+                first.name, other.name
+            ));
+        }
+    }
+    let problems: Vec<Problem> = designs.iter().map(Design::problem).collect();
+    let named = |design: &Design, kind: &str| match designs.len() {
+        1 => kind.to_owned(),
+        _ => format!("{} {kind}", design.name),
     };
-    let interaction = |first: usize, second: usize| Interaction {
+    let kinds = designs.iter().flat_map(|design| {
+        let (fixed, moving) = (design.pair.fixed.clone(), design.pair.moving.clone());
+        [("fixed", fixed), ("moving", moving)]
+            .map(|(kind, tile)| Kind::new(named(design, kind), tile))
+    });
+    let of_kind = |kind: usize| {
+        let shields = &designs[kind / 2].interaction.shields;
+        match kind % 2 {
+            0 => shields.fixed.clone(),
+            _ => shields.moving.clone(),
+        }
+    };
+    let interaction = |one: usize, other: usize| Interaction {
         shields: Shields {
-            rule: shields.rule,
-            fixed: of_kind(first),
-            moving: of_kind(second),
+            rule,
+            fixed: of_kind(one),
+            moving: of_kind(other),
         },
-        ..design.interaction.clone()
+        ..first.interaction.clone()
     };
-    let bonds = |first: usize, second: usize| match (first, second) {
-        (0, 1) => MatchRule::new(&problem, None).into_iter().collect(),
-        _ => Vec::new(),
+    let bonds = |one: usize, other: usize| match one.is_multiple_of(2) && other == one + 1 {
+        true => MatchRule::new(&problems[one / 2], None)
+            .into_iter()
+            .collect(),
+        false => Vec::new(),
     };
-    let tolerance = CUT_OFF * problem.depth();
-    Crowd::new(
-        kinds,
-        problem.space.half_size,
-        tolerance,
-        &interaction,
-        bonds,
-    )
+    let depths = problems.iter().map(Problem::depth);
+    let tolerance = CUT_OFF * depths.fold(f64::INFINITY, f64::min);
+    let half = problems[0].space.half_size;
+    let crowd = Crowd::new(kinds.collect(), half, tolerance, &interaction, bonds);
+    crowd.map_err(|error| error.to_string())
 }
 
 /// The tiles of a set as kinds, by their names, on a table of a size (m). Bonds are those of every two

@@ -1,16 +1,20 @@
 //! Many tiles on a table: what is asked of it, the runs, and what they tell together.
 
+mod comparison;
 mod crowds;
 mod request;
 mod start_file;
 mod statistics;
 mod subject;
+mod target;
 
-pub use crowds::{of_assembly, of_design};
+pub use comparison::compared;
+pub use crowds::{of_assembly, of_designs};
 pub use request::Request;
 pub use start_file::{StartFileError, read as read_start};
 pub use statistics::{Interval, Lifetime, Moment, Statistics, Verdict};
 pub use subject::About;
+pub use target::Target;
 
 use std::time::Instant;
 
@@ -32,6 +36,8 @@ pub struct Found {
     pub runs: Vec<Run>,
     /// What they tell together.
     pub statistics: Statistics,
+    /// How much of what was meant has come about.
+    pub target: Target,
     /// Whether places are kept in all runs, not the first only.
     pub frames: bool,
     /// Wall time (s).
@@ -58,7 +64,7 @@ impl Unanswered for TableError {}
 /// # Errors
 /// Where tiles cannot start as asked, or steps are too long.
 pub fn table(
-    crowd: Crowd,
+    (about, crowd): (&About, Crowd),
     request: &Request,
     start: &Start,
     progress: &dyn Observer,
@@ -67,15 +73,16 @@ pub fn table(
     let clock = Instant::now();
     progress.stage("runs", 0.0);
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let runs = parallel::map(0..request.runs, |index| {
-        let frames = index == 0 || request.keeps_frames();
+    let made = request.made();
+    let runs = parallel::map(&made[..], |&index| {
+        let frames = index == made[0] || request.keeps_frames();
         let found = run(&crowd, &settings, (request.seed, index), start, frames);
         let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        progress.part("runs", done, request.runs);
+        progress.part("runs", done, made.len());
         found.map_err(|error| TableError { index, error })
     });
     let runs = runs.into_iter().collect::<Result<Vec<Run>, _>>()?;
-    let kinds = match start {
+    let kinds: Vec<usize> = match start {
         Start::Random(counts) => {
             let of_kind = counts.iter().enumerate();
             of_kind
@@ -85,6 +92,7 @@ pub fn table(
         Start::Given(movers) => movers.iter().map(|mover| mover.kind).collect(),
     };
     Ok(Found {
+        target: Target::of(about, (&crowd, &kinds), &runs),
         statistics: Statistics::of(&runs, &settings),
         wall_s: clock.elapsed().as_secs_f64(),
         threads: parallel::threads(),

@@ -2,10 +2,8 @@
 
 use clap::Args;
 
-use super::start_file;
-use crate::docking::fan;
-use crate::request;
-use physics::dynamics::{Fan, MotionSettings};
+use super::{About, start_file};
+use crate::request::{self, MotionOptions, Shard};
 use physics::table::run::Start;
 use physics::table::start::check;
 use physics::table::{Crowd, Orbital, TableSettings};
@@ -24,7 +22,8 @@ const MOMENTS: f64 = 200.0;
 /// What is asked of a table.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Tiles of each kind: of a design the fixed tile's and the moving one's, of a tile set each tile's
+    /// Tiles of each kind: of a design the fixed tile's and the moving one's, of several designs these two
+    /// numbers of each or two numbers for each, of a tile set each tile's
     #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
     pub count: Vec<usize>,
 
@@ -35,6 +34,11 @@ pub struct Request {
     /// Runs, each from a start of its own
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
     pub runs: usize,
+
+    /// Make a part of the runs only, so that several machines share them: runs i, i + n, i + 2n, ... by
+    /// their numbers from 1
+    #[arg(long, value_name = "i/n", value_parser = request::shard)]
+    pub shard: Option<Shard>,
 
     /// Effective energy kT (J) of shaking
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
@@ -49,25 +53,9 @@ pub struct Request {
     #[arg(long, value_name = "A,F", value_parser = orbital)]
     pub orbital: Option<Orbital>,
 
-    /// A fan at X,Y (m) that pushes tiles' centres away with the energy E_J over the width S (m);
-    /// the energy may swing by the share A at the frequency F (Hz)
-    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
-    pub fan: Vec<Fan>,
-
-    /// Drag rate (1/s)
-    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = request::not_negative)]
-    pub drag: f64,
-
-    /// Coefficient of friction between tiles and of a tile and the rim
-    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = request::not_negative)]
-    pub friction: f64,
-
-    /// Share of the approach velocity that a knock gives back
-    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = request::share)]
-    pub restitution: f64,
+    /// How tiles move.
+    #[command(flatten)]
+    pub motion: MotionOptions,
 
     /// Longest step (s); steps in contact are shorter, in proportion [default: 0.001, or less where the
     /// drives ask for it]
@@ -77,6 +65,10 @@ pub struct Request {
     /// Keep the tiles' places every so many seconds
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
+
+    /// Set what `tilebind bond` and `tilebind yield` say of as many tiles at this kT beside it (seconds)
+    #[arg(long)]
+    pub compare: bool,
 
     /// Seed of all random numbers; a run depends on it and on its own number only
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
@@ -89,8 +81,8 @@ impl Request {
         let usual = TableSettings::USUAL_STEP;
         let kicks = self
             .correlation
-            .unwrap_or_else(|| KICKS.min(DRAG_A_KICK / self.drag));
-        let fastest = self.fan.iter().map(|fan| fan.frequency);
+            .unwrap_or_else(|| KICKS.min(DRAG_A_KICK / self.motion.drag));
+        let fastest = self.motion.fan.iter().map(|fan| fan.frequency);
         let fastest = fastest
             .chain(self.orbital.map(|it| it.frequency))
             .fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -104,17 +96,23 @@ impl Request {
         }
         TableSettings {
             duration: self.time,
-            drag: self.drag,
-            friction: self.friction,
-            restitution: self.restitution,
+            drag: self.motion.drag,
+            friction: self.motion.friction,
+            restitution: self.motion.restitution,
             shaking: self.shaking,
             kicks,
             orbital: self.orbital,
-            fans: self.fan.clone(),
+            fans: self.motion.fan.clone(),
             step,
             sampling: self.frames.unwrap_or(self.time / MOMENTS),
             walls: true,
         }
+    }
+
+    /// The numbers of the runs that are made, from 0.
+    pub fn made(&self) -> Vec<usize> {
+        let shard = self.shard.unwrap_or(Shard::WHOLE);
+        (0..self.runs).filter(|run| shard.contains(*run)).collect()
     }
 
     /// Whether places are kept.
@@ -126,7 +124,11 @@ impl Request {
     ///
     /// # Errors
     /// Where the file cannot be read, or there are not as many counts as kinds.
-    pub fn start(&self, crowd: &Crowd, file: Option<(&str, &str)>) -> Result<Start, String> {
+    pub fn start(
+        &self,
+        (about, crowd): (&About, &Crowd),
+        file: Option<(&str, &str)>,
+    ) -> Result<Start, String> {
         if let Some((name, text)) = file {
             let movers = start_file::read(text, crowd);
             let movers = movers.map_err(|error| format!("{name}: {error}"))?;
@@ -136,7 +138,13 @@ impl Request {
             };
         }
         let kinds: Vec<&str> = crowd.kinds.iter().map(|kind| kind.name.as_str()).collect();
-        if self.count.len() != kinds.len() {
+        let mut counts = self.count.clone();
+        // Two numbers are those of every design.
+        let each = counts.len();
+        if each == 2 && about.pattern.is_none() {
+            counts = counts.repeat(kinds.len() / each);
+        }
+        if counts.len() != kinds.len() {
             return Err(format!(
                 "--count has {} numbers, but there are {} kinds of tiles: {}",
                 self.count.len(),
@@ -144,11 +152,11 @@ impl Request {
                 kinds.join(", ")
             ));
         }
-        let all = self.count.iter().copied().fold(0, usize::saturating_add);
+        let all = counts.iter().copied().fold(0, usize::saturating_add);
         if !(1..=MOST_TILES).contains(&all) {
             return Err(format!("from 1 to {MOST_TILES} tiles can be on a table"));
         }
-        Ok(Start::Random(self.count.clone()))
+        Ok(Start::Random(counts))
     }
 
     /// What makes no sense together.
@@ -156,7 +164,7 @@ impl Request {
     /// # Errors
     /// What it is, and what to do.
     pub fn check(&self) -> Result<(), String> {
-        if self.shaking.is_some() && self.drag == 0.0 {
+        if self.shaking.is_some() && self.motion.drag == 0.0 {
             return Err(
                 "--shaking heats tiles without end where there is no drag: set --drag above 0"
                     .into(),
@@ -164,6 +172,15 @@ impl Request {
         }
         if self.correlation.is_some() && self.shaking.is_none() {
             return Err("--correlation is that of --shaking: set that, too".into());
+        }
+        if self.made().is_empty() {
+            return Err(format!("--shard: of {} runs this part has none", self.runs));
+        }
+        if self.compare && self.shaking.is_none() {
+            return Err(
+                "--compare sets what `yield` says at the kT of --shaking beside: set that, too"
+                    .into(),
+            );
         }
         Ok(())
     }

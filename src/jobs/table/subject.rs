@@ -1,10 +1,11 @@
 //! What is put on a table: the tiles of a design, or of a tile set.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::{Request, of_assembly, of_design};
+use super::{Request, of_assembly, of_designs};
 use crate::Refused;
-use crate::assembly;
+use crate::assembly::{self, growth::Place};
 use crate::design::{Design, MagnetModel};
 use crate::request::{Misused, of_keywords};
 use physics::observer::Silent;
@@ -20,24 +21,37 @@ const USUAL_KT: f64 = 5e-3;
 pub struct About {
     /// What the design or the set is called.
     pub name: String,
-    /// The checksum of the design's file.
-    pub sha256: Option<String>,
+    /// The designs' names, with the checksums of their files; none of a tile set.
+    pub designs: Vec<(String, String)>,
     /// The model of the magnets.
     pub model: MagnetModel,
+    /// Of a tile set what is to grow: the tiles by their places.
+    pub pattern: Option<BTreeMap<Place, usize>>,
 }
 
 impl About {
-    /// The tiles of a design.
+    /// The tiles of one or more designs.
     ///
     /// # Errors
-    /// Where forces do not belong to energies.
-    pub fn of_design(design: &Design) -> Result<(Self, Crowd), String> {
+    /// As [`of_designs`], or where two designs have one name.
+    pub fn of_designs(designs: &[Design]) -> Result<(Self, Crowd), String> {
+        let crowd = of_designs(designs)?;
+        let names: Vec<&str> = designs.iter().map(|it| it.name.as_str()).collect();
+        let twice = |name: &&&str| names.iter().filter(|it| it == name).count() > 1;
+        if let Some(twice) = names.iter().find(twice) {
+            return Err(format!(
+                "two designs are called `{twice}`: give one of them another `name`"
+            ));
+        }
         let about = Self {
-            name: design.name.clone(),
-            sha256: Some(design.sha256.clone()),
-            model: design.interaction.model,
+            name: names.join(" and "),
+            designs: designs
+                .iter()
+                .map(|it| (it.name.clone(), it.sha256.clone()))
+                .collect(),
+            model: designs[0].interaction.model,
+            pattern: None,
         };
-        let crowd = of_design(design).map_err(|error| error.to_string())?;
         Ok((about, crowd))
     }
 
@@ -72,8 +86,9 @@ impl About {
         let side = side.max(5.0 * tile.circumradius());
         let about = Self {
             name: set.name.clone(),
-            sha256: None,
+            designs: Vec::new(),
             model: stage.interaction.model,
+            pattern: Some(assembly.built.grown.tiles.clone()),
         };
         Ok((about, of_assembly(&assembly, [side; 2])?))
     }

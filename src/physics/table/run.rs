@@ -72,6 +72,8 @@ pub struct Run {
     pub index: usize,
     /// The table from time to time, first and last moment among them.
     pub samples: Vec<Sample>,
+    /// The tiles at the end.
+    pub movers: Vec<Mover>,
     /// Mean kinetic energy per degree of freedom (J) over the second half of the time.
     pub kinetic: f64,
     /// The largest energy not accounted for over the largest term.
@@ -197,6 +199,7 @@ fn once(
         },
         step: settings.step,
         steps: [steps, stepper.short_steps],
+        movers: stepper.movers(),
         samples,
         lives,
     })

@@ -28,22 +28,26 @@ class AirTable(tuple):  # type: ignore[type-arg]
             In place of `count`: a CSV file of the tiles at the start, with the columns `tile`, `kind`
             ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
         runs : int, optional
+        shard : str, optional
+            "i/n": make every n-th run only, from the i-th.
         shaking : float, optional
             Effective energy kT (J) of shaking.
         correlation : float, optional
             Its correlation time (s): that between two random kicks.
         orbital : tuple of float, optional
             The table goes round in a circle: radius (m) and rounds a second (Hz).
-        fan : sequence, optional
-            Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and
-            how often a second.
         drag, friction, restitution : float, optional
             Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
             back.
+        fan : sequence, optional
+            Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and
+            how often a second.
         step : float, optional
             Longest step (s).
         frames : float, optional
             Time (s) between two moments whose places are kept.
+        compare : bool, optional
+            Set what `yields` says of as many tiles at this kT beside it.
         seed : int, optional
         progress : bool, optional
 

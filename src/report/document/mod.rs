@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 
 use crate::braille::Braille;
 use crate::files::Files;
-use crate::page::{Charts, Landscape, Meetings};
+use crate::page::{Charts, Crowd, Landscape, Meetings};
 use jobs::design::Design;
 
 /// What there is to know of a result.
@@ -85,6 +85,8 @@ pub enum Part {
     Charts(Charts),
     /// All faces of a set of words against all.
     Meetings(Meetings),
+    /// Many tiles on a table, over time.
+    Crowd(Crowd),
 }
 
 /// Entries one after another.

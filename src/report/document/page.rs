@@ -81,6 +81,7 @@ impl Document<'_> {
             Some(Part::Landscape(landscape)) => page.landscape = Some(*landscape),
             Some(Part::Charts(charts)) => page.charts = Some(charts),
             Some(Part::Meetings(meetings)) => page.meetings = Some(meetings),
+            Some(Part::Crowd(crowd)) => page.crowd = Some(crowd),
             None => {}
         }
         page

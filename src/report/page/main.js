@@ -225,6 +225,7 @@ async function showLandscape() {
 showPage();
 if (charts) showCharts();
 if (meetings) showMeetings();
+if (crowd) showCrowd();
 const ready = world ? showLandscape() : Promise.resolve();
 ready.then(
   () => { document.documentElement.dataset.ready = "yes"; },

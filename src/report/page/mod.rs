@@ -6,6 +6,7 @@
 //! all; it opens from disk. The same page comes out as the same bytes.
 
 mod charts;
+mod crowd;
 mod html;
 pub(super) mod landscape;
 pub(super) mod meetings;
@@ -19,6 +20,7 @@ use serde_json::Value;
 use html::{CITATION, escaped, filled, hash};
 
 pub use charts::Charts;
+pub use crowd::Crowd;
 pub use landscape::Landscape;
 pub use meetings::Meetings;
 pub use pathways::Played;
@@ -26,7 +28,7 @@ pub use pathways::Played;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -37,6 +39,7 @@ const SCRIPTS: [&str; 11] = [
     include_str!("charts.js"),
     include_str!("sweep.js"),
     include_str!("meetings.js"),
+    include_str!("crowd.js"),
     include_str!("main.js"),
 ];
 
@@ -55,6 +58,8 @@ pub struct Page {
     pub charts: Option<Charts>,
     /// All faces of a set of words against all; `None` elsewhere.
     pub meetings: Option<Meetings>,
+    /// Many tiles on a table, to be played; `None` elsewhere.
+    pub crowd: Option<Crowd>,
     /// Pictures, in order.
     pub pictures: Vec<Illustration>,
     /// Tables, in order.
@@ -151,6 +156,7 @@ impl Page {
             landscape: None,
             charts: None,
             meetings: None,
+            crowd: None,
             pictures: Vec::new(),
             tables: Vec::new(),
             notes: Vec::new(),

@@ -122,7 +122,7 @@ pub fn table(text: &str, pair: &Design) {
         String::new()
     }));
     tell(distances::PairDistances::read(text).map(|_| String::new()));
-    let (_, crowd) = About::of_design(pair).expect("a shipped design");
+    let (_, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
     let read = read_start(text, &crowd).map_err(|error| error.to_string());
     tell(read.map(|_| String::new()));
 }

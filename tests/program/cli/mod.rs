@@ -15,6 +15,7 @@ mod mistakes;
 mod rates;
 mod shields;
 mod starting;
+mod table;
 #[cfg(unix)]
 mod terminal;
 mod words;

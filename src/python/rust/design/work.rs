@@ -11,7 +11,7 @@ use tilebind::pipeline;
 use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
-use tilebind::table::{About, Request, table as put};
+use tilebind::table::{About, Request, compared, table as put};
 use tilebind::workshop::{Made, Making};
 use tilebind::yields::yields;
 
@@ -269,14 +269,19 @@ impl Design {
         let asked: Request = asked;
         let text = start.as_deref().map(text_of).transpose()?;
         let found = job::answer(py, progress, |told| {
-            let (about, crowd) = About::of_design(design)?;
-            let start = asked.start(&crowd, text.as_deref().map(|text| ("start", text)))?;
+            let designs = std::slice::from_ref(design);
+            let (about, crowd) = About::of_designs(designs)?;
+            let text = text.as_deref().map(|text| ("start", text));
+            let start = asked.start((&about, &crowd), text)?;
             asked.check()?;
-            let found = put(crowd, &asked, &start, told).map_err(|error| error.to_string())?;
-            Ok::<_, String>((about, found))
+            let found = put((&about, crowd), &asked, &start, told);
+            let found = found.map_err(|error| error.to_string())?;
+            let beside = compared(designs, &asked, &found, told);
+            Ok::<_, String>((about, found, beside))
         })?;
-        let (about, found) = found;
-        shown::report(py, &report::table::document(&about, &found, asked.seed))
+        let (about, found, beside) = found;
+        let document = report::table::document(&about, &found, &asked, beside.as_ref());
+        shown::report(py, &document)
     }
 
     /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.

@@ -1,0 +1,95 @@
+//! How tiles move on the table: what docking runs and many tiles have in common.
+
+use clap::Args;
+
+use super::{not_negative, numbers, share};
+use crate::design::{energy, length};
+use physics::dynamics::{Fan, MotionSettings};
+
+/// Drag, contact and fans.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct MotionOptions {
+    /// Drag rate (1/s)
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = not_negative)]
+    pub drag: f64,
+
+    /// Coefficient of friction between tiles and of a tile and the rim
+    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
+          value_parser = not_negative)]
+    pub friction: f64,
+
+    /// Share of the approach velocity that a knock gives back
+    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
+          value_parser = share)]
+    pub restitution: f64,
+
+    /// A fan at X,Y (m) that pushes tiles' centres away with the energy E_J over the width S (m);
+    /// the energy may swing by the share A at the frequency F (Hz)
+    #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
+    pub fan: Vec<Fan>,
+}
+
+impl MotionOptions {
+    /// These with all others as usual.
+    pub fn settings(&self) -> MotionSettings {
+        MotionSettings {
+            drag: self.drag,
+            friction: self.friction,
+            restitution: self.restitution,
+            fans: self.fan.clone(),
+            ..MotionSettings::default()
+        }
+    }
+}
+
+/// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
+///
+/// # Errors
+/// Where it is none.
+pub fn fan(text: &str) -> Result<Fan, String> {
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
+                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\", and perhaps ,A,F: the share by which it swings, and how \
+                        often a second";
+    let read = |(k, part): (usize, &str)| match k {
+        0 | 1 | 3 => length(part),
+        2 => energy(part),
+        _ => numbers(part).map(|one| one[0]),
+    };
+    let parts: Option<Vec<f64>> = text
+        .split(',')
+        .map(str::trim)
+        .enumerate()
+        .map(read)
+        .collect();
+    match parts.ok_or(FORM)?[..] {
+        [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
+        [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
+            amplitude,
+            frequency,
+            ..Fan::steady([x, y], energy, width)
+        }),
+        _ => Err(FORM.to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fans() {
+        let steady = Fan::steady([0.6, -0.5], 1e-3, 0.2);
+        assert_eq!(fan("0.6,-0.5, 1e-3,0.2"), Ok(steady));
+        assert_eq!(fan("60 cm,-500 mm,1 mJ,0.2 m"), Ok(steady));
+        let swinging = Fan {
+            amplitude: 0.5,
+            frequency: 2.0,
+            ..steady
+        };
+        assert_eq!(fan("0.6,-0.5,1e-3,0.2,0.5,2"), Ok(swinging));
+        for wrong in ["", "1,2,3", "0,0,1,0", "0,0,1,-1", "0,0,1,1,1", "0,0,NaN,1"] {
+            assert!(fan(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! What `tilebind bond` and `tilebind yield` say of as many tiles.
+
+use super::{Found, Request};
+use crate::design::Design;
+use crate::request::of_keywords;
+use crate::yields::{Question, YieldError, Yields, yields};
+use physics::observer::Observer;
+
+/// What is asked of `yield`: as many pairs, on a table as large, as long, with the same drag and
+/// restitution. The tiles of the scarcer kind decide.
+pub fn question(design: &Design, request: &Request, counts: &[usize]) -> Option<Question> {
+    let pairs = counts.iter().copied().min().filter(|pairs| *pairs > 0)?;
+    let area = design.pair.moving.outline.area();
+    let table = 4.0 * design.space().half_size.iter().product::<f64>();
+    let words = [
+        ("tiles", (2 * pairs).to_string()),
+        ("time", request.time.to_string()),
+        ("kt", request.shaking?.to_string()),
+        ("coverage", (2.0 * pairs as f64 * area / table).to_string()),
+        ("drag", request.motion.drag.to_string()),
+        ("restitution", request.motion.restitution.to_string()),
+        ("simulations", "0".to_owned()),
+        ("seed", request.seed.to_string()),
+    ];
+    let words = words.map(|(key, value)| (key.to_owned(), vec![value]));
+    of_keywords(words).ok()
+}
+
+/// The yield by detailed balance, where it is asked for and there is one design; or why there is none.
+pub fn compared(
+    designs: &[Design],
+    request: &Request,
+    found: &Found,
+    progress: &dyn Observer,
+) -> Option<Result<(Question, Yields), YieldError>> {
+    let [design] = designs else { return None };
+    let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
+    let question = question(design, request, &counts).filter(|_| request.compare)?;
+    let answer = yields(design, &question, progress);
+    Some(answer.map(|yields| (question, yields)))
+}

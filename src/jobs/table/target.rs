@@ -1,0 +1,230 @@
+//! How much of what was meant has come about.
+
+use std::collections::BTreeMap;
+
+use super::{About, Interval};
+use crate::assembly::growth::{Place, STEPS};
+use physics::table::contacts::Tie;
+use physics::table::run::Run;
+use physics::table::{Crowd, Mover};
+
+/// At the end of the runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Of designs: the share of the tiles of the scarcer kind that hold, as they are meant to, a partner
+    /// that no other of them counts. Of a tile set: the share of the pattern's tiles that the most complete
+    /// cluster has in their places.
+    pub share: Interval,
+    /// Of a tile set: tiles of that cluster that are in no place of the pattern.
+    pub defects: Option<Interval>,
+}
+
+impl Target {
+    /// Of some runs, at least one; `kinds` are the tiles'.
+    pub fn of(about: &About, (crowd, kinds): (&Crowd, &[usize]), runs: &[Run]) -> Self {
+        let Some(pattern) = &about.pattern else {
+            let share = |run: &Run| bonds(crowd, kinds, run);
+            return Self {
+                share: Interval::of(&runs.iter().map(share).collect::<Vec<_>>()),
+                defects: None,
+            };
+        };
+        let grown: Vec<_> = runs.iter().map(|run| grown(crowd, pattern, run)).collect();
+        let of = |pick: fn(&(usize, usize)) -> f64| {
+            Interval::of(&grown.iter().map(pick).collect::<Vec<_>>())
+        };
+        let right = of(|it| it.0 as f64);
+        let scaled = |count: f64| count / pattern.len() as f64;
+        Self {
+            share: Interval {
+                mean: scaled(right.mean),
+                low: right.low.map(scaled),
+                high: right.high.map(scaled),
+            },
+            defects: Some(of(|it| it.1 as f64)),
+        }
+    }
+}
+
+/// The share of the pairs of tiles that could be bound at once and are.
+fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
+    let Some(last) = run.samples.last() else {
+        return 0.0;
+    };
+    let [mut bound, mut possible] = [0, 0];
+    for second in 0..crowd.kinds.len() {
+        for first in 0..second {
+            if crowd.couple(first, second).0.bonds.is_empty() {
+                continue;
+            }
+            let of_kind = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
+            possible += of_kind(first).min(of_kind(second));
+            let held = last.held.iter().filter(|held| held.tie == Tie::Bond);
+            let pairs: Vec<[usize; 2]> = held
+                .map(|held| held.tiles)
+                .filter(|tiles| {
+                    let [a, b] = tiles.map(|tile| kinds[tile]);
+                    (a.min(b), a.max(b)) == (first, second)
+                })
+                .map(|[a, b]| if kinds[a] == first { [a, b] } else { [b, a] })
+                .collect();
+            bound += matched(&pairs);
+        }
+    }
+    bound as f64 / possible.max(1) as f64
+}
+
+/// The largest number of pairs of which no two share a tile, by augmenting paths.
+fn matched(pairs: &[[usize; 2]]) -> usize {
+    fn takes(
+        first: usize,
+        pairs: &[[usize; 2]],
+        seen: &mut Vec<usize>,
+        owner: &mut BTreeMap<usize, usize>,
+    ) -> bool {
+        for [_, second] in pairs.iter().filter(|pair| pair[0] == first) {
+            if seen.contains(second) {
+                continue;
+            }
+            seen.push(*second);
+            let before = owner.get(second).copied();
+            if before.is_none_or(|before| takes(before, pairs, seen, owner)) {
+                owner.insert(*second, first);
+                return true;
+            }
+        }
+        false
+    }
+    let mut owner = BTreeMap::new();
+    let mut firsts: Vec<usize> = pairs.iter().map(|pair| pair[0]).collect();
+    firsts.sort_unstable();
+    firsts.dedup();
+    let takes_one = |first: &&usize| takes(**first, pairs, &mut Vec::new(), &mut owner);
+    firsts.iter().filter(takes_one).count()
+}
+
+/// Of the cluster that has most of the pattern: how many of its tiles are in their places, and how
+/// many are not.
+fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, usize) {
+    let held = run.samples.last().map_or(&[][..], |last| &last.held);
+    let mut beside: Vec<Vec<usize>> = vec![Vec::new(); run.movers.len()];
+    let mut bound: Vec<Vec<(usize, Place)>> = vec![Vec::new(); run.movers.len()];
+    for held in held {
+        let [a, b] = held.tiles;
+        for (one, other) in [(a, b), (b, a)] {
+            beside[one].push(other);
+            if held.tie == Tie::Bond {
+                bound[one].push((other, step(crowd, [one, other].map(|it| &run.movers[it]))));
+            }
+        }
+    }
+    let mut is_known = vec![false; run.movers.len()];
+    let mut best = (0, 0);
+    for tile in 0..run.movers.len() {
+        if is_known[tile] {
+            continue;
+        }
+        let cluster = reached(tile, &beside, &mut is_known);
+        // Within it, tiles that bonds tie to each other have places against each other.
+        let mut rest = cluster.clone();
+        while let Some(&first) = rest.first() {
+            let places = placed(first, &bound);
+            rest.retain(|it| !places.contains_key(it));
+            let kinds = places
+                .iter()
+                .map(|(tile, at)| (run.movers[*tile].kind, *at));
+            let right = overlap(pattern, &kinds.collect::<Vec<_>>());
+            let found = (right, cluster.len() - right);
+            if found.0 > best.0 || (found.0 == best.0 && found.1 < best.1) {
+                best = found;
+            }
+        }
+    }
+    best
+}
+
+/// The step on the pattern that leads from a tile to one that it is bound to.
+fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
+    let [a, b] = [one, other].map(|it| it.motion(crowd).configuration);
+    let p = a.inverse_transform(b.position());
+    let [north, east, south, west] = STEPS;
+    match p.x.abs() > p.y.abs() {
+        true if p.x > 0.0 => east,
+        true => west,
+        false if p.y > 0.0 => north,
+        false => south,
+    }
+}
+
+/// The tiles that hang together with one, of those that are not known yet; they are now.
+fn reached(tile: usize, beside: &[Vec<usize>], is_known: &mut [bool]) -> Vec<usize> {
+    is_known[tile] = true;
+    let mut found = vec![tile];
+    let mut k = 0;
+    while k < found.len() {
+        for &other in &beside[found[k]] {
+            if !std::mem::replace(&mut is_known[other], true) {
+                found.push(other);
+            }
+        }
+        k += 1;
+    }
+    found
+}
+
+/// Where tiles lie that bonds tie to one.
+fn placed(first: usize, bound: &[Vec<(usize, Place)>]) -> BTreeMap<usize, Place> {
+    let mut places = BTreeMap::from([(first, (0, 0))]);
+    let mut open = vec![first];
+    while let Some(tile) = open.pop() {
+        let at = places[&tile];
+        for (other, step) in &bound[tile] {
+            if !places.contains_key(other) {
+                places.insert(*other, (at.0 + step.0, at.1 + step.1));
+                open.push(*other);
+            }
+        }
+    }
+    places
+}
+
+/// How many tiles, by kind and place, are in their places of a pattern, wherever it lies best.
+fn overlap(pattern: &BTreeMap<Place, usize>, tiles: &[(usize, Place)]) -> usize {
+    let mut shifts: BTreeMap<Place, usize> = BTreeMap::new();
+    for (kind, at) in tiles {
+        for (there, _) in pattern.iter().filter(|(_, other)| *other == kind) {
+            *shifts.entry((there.0 - at.0, there.1 - at.1)).or_default() += 1;
+        }
+    }
+    shifts.into_values().max().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_partner_counts_twice() {
+        assert_eq!(matched(&[]), 0);
+        assert_eq!(matched(&[[0, 5], [1, 5], [2, 5]]), 1);
+        // Tile 0 has to leave its first partner to tile 1.
+        assert_eq!(matched(&[[0, 5], [0, 6], [1, 5]]), 2);
+    }
+
+    #[test]
+    fn tiles_are_set_against_the_pattern_wherever_it_lies() {
+        let pattern = BTreeMap::from([((0, 0), 0), ((1, 0), 1), ((0, 1), 2), ((1, 1), 0)]);
+        let part = [(1, (5, 5)), (0, (5, 6)), (2, (4, 6))];
+        assert_eq!(overlap(&pattern, &part), 3);
+        let wrong = [(1, (5, 5)), (2, (5, 6)), (2, (4, 6))];
+        assert_eq!(overlap(&pattern, &wrong), 2);
+        assert_eq!(overlap(&pattern, &[(3, (0, 0))]), 0);
+        let bound = [
+            vec![(1, (1, 0))],
+            vec![(0, (-1, 0)), (2, (0, 1))],
+            vec![(1, (0, -1))],
+        ];
+        let places = placed(2, &bound);
+        assert_eq!(places[&0], (-1, -1));
+    }
+}

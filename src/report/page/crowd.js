@@ -1,0 +1,82 @@
+// Many tiles on a table, moment by moment.
+
+const crowd = page.crowd;
+/** The longest that a run takes to play (s); one shorter than this plays as it was. */
+const LONGEST = 40;
+const moment = { frame: 0, playing: false };
+
+function drawCrowd() {
+  const frame = crowd.frames[moment.frame];
+  const [wide, high] = crowd.size;
+  const { pen, width, height } = fresh(element("crowd-tiles"), Math.min(1.2, high / wide));
+  const { scale, at } = fitting([-wide / 2, -high / 2, wide / 2, high / 2], width, height, 6);
+  pen.strokeStyle = theme.ink;
+  pen.lineWidth = 2;
+  line(pen, [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => at([x * wide / 2, y * high / 2])), true);
+  const poses = frame.poses;
+  crowd.tiles.forEach((kind, k) => {
+    drawTile(pen, crowd.kinds[kind], poses[k], at, kind % 2 ? theme.moving : theme.fixed);
+    if (crowd.kinds.length > 2) label(pen, crowd.kinds[kind], at(poses[k]), scale);
+  });
+  for (const [ties, colour] of [[frame.bonds, theme.certified], [frame.traps, theme.here]]) {
+    pen.strokeStyle = colour;
+    pen.lineWidth = 3;
+    for (const [i, j] of ties) line(pen, [at(poses[i]), at(poses[j])]);
+  }
+  scaleBar(pen, scale, width, height);
+  element("crowd-step").value = moment.frame;
+  element("crowd-here").textContent =
+    `${si(frame.time, "s", 3)}: ${frame.bonds.length} bonds, ${frame.traps.length} traps`;
+  element("crowd-play").textContent = moment.playing ? "Pause" : "Play";
+}
+
+/** What a tile is called, where there is room for it. */
+function label(pen, kind, [x, y], scale) {
+  const room = scale * Math.max(...kind.outline.map(([a, b]) => Math.hypot(a, b)));
+  if (pen.measureText(kind.name).width > 1.2 * room) return;
+  pen.fillStyle = theme.ink;
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(kind.name, x, y);
+}
+
+function playCrowd() {
+  const last = crowd.frames.length - 1;
+  moment.playing = !moment.playing;
+  if (moment.playing && moment.frame === last) moment.frame = 0;
+  const whole = crowd.frames[last].time;
+  const speed = Math.max(1, whole / LONGEST);
+  let start = null;
+  const from = crowd.frames[moment.frame].time;
+  const advance = (now) => {
+    if (!moment.playing) return;
+    start ??= now;
+    const time = from + (now - start) / 1000 * speed;
+    while (moment.frame < last && crowd.frames[moment.frame + 1].time <= time) moment.frame++;
+    if (moment.frame === last) moment.playing = false;
+    drawCrowd();
+    if (moment.playing) requestAnimationFrame(advance);
+  };
+  if (moment.playing) requestAnimationFrame(advance);
+  drawCrowd();
+}
+
+function showCrowd() {
+  element("crowd").hidden = false;
+  element("crowd-note").textContent = crowd.note;
+  element("crowd-step").max = crowd.frames.length - 1;
+  element("crowd-step").addEventListener("input", (event) => {
+    moment.playing = false;
+    moment.frame = Number(event.target.value);
+    drawCrowd();
+  });
+  element("crowd-play").addEventListener("click", playCrowd);
+  const anew = () => {
+    readTheme();
+    drawCrowd();
+  };
+  moment.frame = crowd.frames.length - 1;
+  anew();
+  addEventListener("resize", anew);
+  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
+}

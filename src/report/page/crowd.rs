@@ -1,0 +1,97 @@
+//! Many tiles on a table that a page plays.
+
+use serde::Serialize;
+
+use super::landscape::Drawn;
+use super::rounded;
+use jobs::table::Found;
+use physics::table::contacts::{Held, Tie};
+use physics::table::{Mover, Sample};
+
+/// Poses that a page holds at most; of more tiles it has fewer moments.
+const MOST_POSES: usize = 20_000;
+
+/// A run, moment by moment.
+#[derive(Clone, Debug, Serialize)]
+pub struct Crowd {
+    /// What is played.
+    note: String,
+    /// The table's size (m).
+    size: [f64; 2],
+    /// The kinds of tiles.
+    kinds: Vec<Kind>,
+    /// The number of the kind of each tile.
+    tiles: Vec<usize>,
+    /// In order.
+    frames: Vec<Frame>,
+}
+
+/// A kind of tiles.
+#[derive(Clone, Debug, Serialize)]
+struct Kind {
+    name: String,
+    #[serde(flatten)]
+    shape: Drawn,
+}
+
+/// The table at one moment.
+#[derive(Clone, Debug, Serialize)]
+struct Frame {
+    time: f64,
+    /// x, y (m) and theta (rad) of each tile.
+    poses: Vec<[f64; 3]>,
+    bonds: Vec<[usize; 2]>,
+    traps: Vec<[usize; 2]>,
+}
+
+impl Crowd {
+    /// The first of the runs that were made; the last moment is always among those that are kept.
+    pub fn new(found: &Found) -> Self {
+        let crowd = &found.crowd;
+        let run = found.runs.first();
+        let kept: Vec<(&Sample, &Vec<Mover>)> = run
+            .into_iter()
+            .flat_map(|run| &run.samples)
+            .filter_map(|sample| Some((sample, sample.movers.as_ref()?)))
+            .collect();
+        let most = (MOST_POSES / found.kinds.len().max(1)).max(2);
+        let every = kept.len().div_ceil(most).max(1);
+        let last = kept.len().saturating_sub(1);
+        let tied = |held: &[Held], tie: Tie| -> Vec<[usize; 2]> {
+            let of_tie = held.iter().filter(|held| held.tie == tie);
+            of_tie.map(|held| held.tiles).collect()
+        };
+        let pose = |mover: &Mover| {
+            let [x, y, theta] = mover.motion(crowd).configuration.to_array();
+            // A tenth of a millimetre on a table of a metre is less than a pixel.
+            [rounded(x, 4), rounded(y, 4), rounded(theta, 4)]
+        };
+        let shown = kept
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| (last - k).is_multiple_of(every));
+        let frames = shown.map(|(_, (sample, movers))| Frame {
+            time: rounded(sample.time, 6),
+            poses: movers.iter().map(pose).collect(),
+            bonds: tied(&sample.held, Tie::Bond),
+            traps: tied(&sample.held, Tie::Trap),
+        });
+        Self {
+            note: format!(
+                "Run {}: lines join tiles that hold each other.",
+                run.map_or(0, |run| run.index)
+            ),
+            size: crowd.half_size.map(|half| 2.0 * half),
+            kinds: crowd
+                .kinds
+                .iter()
+                .map(|kind| Kind {
+                    name: kind.name.clone(),
+                    shape: Drawn::new(&kind.tile),
+                })
+                .collect(),
+            tiles: found.kinds.clone(),
+            frames: frames.collect(),
+        }
+    }
+}

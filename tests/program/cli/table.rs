@@ -1,0 +1,210 @@
+//! Many tiles on one table, as a user asks for them.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{json, tilebind};
+use crate::program::stderr;
+
+const TILE: &str = "shapes/paper-tile.toml";
+
+/// Bound, as the design means it, and two of a kind far from both.
+const START: &str = "tile,kind,x,y,theta,vx,vy,omega\n\
+    0,fixed,-0.6,-0.6,0,0,0,0\n1,moving,-0.169,-0.6,0,0,0,0\n2,fixed,0.6,0.6,0.3,0,0,0\n3,moving,-0.6,0.7,0.5,0,0,0\n";
+
+fn report(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("report.json")).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn what_is_bound_is_counted_as_the_target_and_played() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = folder.path().join("start.csv");
+    std::fs::write(&start, START).unwrap();
+    let out = folder.path().join("out");
+    let [start, folder] = [&start, &out].map(|path| path.to_str().unwrap());
+    let found = json(&[
+        "table", TILE, "--start", start, "--time", "0.2", "--drag", "5", "--out", folder, "--json",
+    ]);
+    assert_eq!(found["bonds"]["mean"], 1.0);
+    assert_eq!(found["traps"]["mean"], 0.0);
+    // One of two pairs.
+    assert_eq!(found["target"]["share"]["mean"], 0.5);
+    assert!(found["target"]["defects"].is_null());
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(
+        page.contains(r#""bonds":[[0,1]],"traps":[]"#),
+        "the page plays the bond"
+    );
+    assert_eq!(report(&out)["designs"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn several_designs_share_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let found = json(&[
+        "table",
+        "shapes/tab-10mm.toml",
+        "shapes/arc-20mm.toml",
+        "--count",
+        "1,1",
+        "--time",
+        "0.1",
+        "--frames",
+        "0.05",
+        "--out",
+        out,
+        "--json",
+    ]);
+    assert_eq!(found["tiles"], 4);
+    assert_eq!(found["designs"].as_array().unwrap().len(), 2);
+    let frames = std::fs::read_to_string(folder.path().join("trajectory.csv")).unwrap();
+    for kind in [
+        "tab-10mm fixed",
+        "tab-10mm moving",
+        "arc-20mm fixed",
+        "arc-20mm moving",
+    ] {
+        assert!(frames.contains(&format!(",{kind},")), "{kind}: {frames}");
+    }
+}
+
+#[test]
+fn parts_of_the_runs_are_those_of_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |name: &str, part: &[&str]| {
+        let out = folder.path().join(name);
+        let asked = [
+            "table",
+            TILE,
+            "--count",
+            "2,2",
+            "--time",
+            "0.3",
+            "--runs",
+            "3",
+            "--shaking",
+            "3e-3",
+            "--drag",
+            "0.5",
+            "--json",
+            "--out",
+        ];
+        json(&[&asked[..], &[out.to_str().unwrap()], part].concat());
+        let text = std::fs::read_to_string(out.join("energy.csv")).unwrap();
+        text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let mut parts = [
+        rows("one", &["--shard", "1/2"]),
+        rows("two", &["--shard", "2/2"]),
+    ]
+    .concat();
+    assert_eq!(report(&folder.path().join("one"))["runs"], 2);
+    parts.sort();
+    let mut whole = rows("whole", &[]);
+    whole.sort();
+    assert_eq!(parts, whole);
+}
+
+#[test]
+fn tiles_of_a_set_are_set_against_its_pattern() {
+    let found = json(&[
+        "table", "lattice", "--count", "1,1,1,1", "--time", "0.1", "--json",
+    ]);
+    let target = &found["target"];
+    // Each alone, a tile has one of the pattern's places.
+    let share = target["share"]["mean"].as_f64().unwrap();
+    assert!(share > 0.0 && share < 0.5, "{target}");
+    assert_eq!(target["defects"]["mean"], 0.0);
+}
+
+#[test]
+fn yield_stands_beside_it() {
+    let found = json(&[
+        "table",
+        TILE,
+        "--count",
+        "1,1",
+        "--time",
+        "1",
+        "--shaking",
+        "3e-3",
+        "--drag",
+        "0.5",
+        "--compare",
+        "--json",
+    ]);
+    let said = json(&[
+        "yield",
+        TILE,
+        "--tiles",
+        "2",
+        "--time",
+        "1",
+        "--kt",
+        "3e-3",
+        "--drag",
+        "0.5",
+        "--coverage",
+        "0.0924500",
+        "--simulations",
+        "0",
+        "--json",
+    ]);
+    let [here, there] = [&found["yield"]["bound"], &said["yield"]].map(|it| it.as_f64().unwrap());
+    assert!((here / there - 1.0).abs() < 1e-3, "{here} {there}");
+}
+
+#[test]
+fn wrong_tables_are_refused_with_their_mend() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let blocks = folder.path().join("blocks.toml");
+    let text = std::fs::read_to_string(TILE).unwrap();
+    std::fs::write(
+        &blocks,
+        text.replace("paper-tile", "blocks")
+            .replace("\"dipole\"", "\"cuboid\""),
+    )
+    .unwrap();
+    let blocks = blocks.to_str().unwrap();
+    let counted = ["--count", "1,1", "--time", "1"];
+    for (wrong, mend) in [
+        (&[TILE, "--shard", "3/2"][..], "parts of n are 1/n"),
+        (&[TILE, "--shard", "2/2"], "this part has none"),
+        (&[TILE, "--compare"], "--shaking"),
+        (&[TILE, TILE], "give one of them another `name`"),
+        (&[TILE, blocks], "give --model"),
+        (
+            &[TILE, "--count", "1,1,1"],
+            "2 kinds of tiles: fixed, moving",
+        ),
+        (&[TILE, "--count", "40,40"], "do not fit"),
+    ] {
+        let counted = if wrong.contains(&"--count") {
+            &counted[2..]
+        } else {
+            &counted[..]
+        };
+        let output = tilebind(
+            &[
+                &["table"],
+                wrong,
+                counted,
+                &["--out", out.to_str().unwrap()],
+            ]
+            .concat(),
+        );
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{wrong:?} {}",
+            stderr(&output)
+        );
+        assert!(stderr(&output).contains(mend), "{}", stderr(&output));
+        assert!(!out.exists(), "{wrong:?}: nothing is written");
+    }
+}
