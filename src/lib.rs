@@ -85,8 +85,8 @@
 //! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
 //!   one outline without holes and at most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
-//! - Barriers of blocks behind shields are not certified (of dipoles behind shields they are), nor
-//!   those of the nearest-face rule, whose energy jumps.
+//! - Barriers of discs, of magnets that stand and of the nearest-face rule, whose energy jumps, are
+//!   not certified.
 //! - Overdamped capture is not tossing and turning: no inertia and no shaking. `tilebind dock`
 //!   moves tiles with inertia, contact and drag.
 //! - Magnets and tiles stay in one plane; no tilting, no lifting, no iron in `analyse`.

@@ -24,9 +24,9 @@ pub struct Request {
     #[arg(long, value_parser = shape(), hide_possible_values = true)]
     pub shape: Option<Shape>,
 
-    /// The magnets as a shop describes them, length x width x height, magnetised through the
-    /// last: \"10 x 5 x 2 mm N42\" [default: those that fit]
-    #[arg(long, value_name = "BLOCK", value_parser = ShopMagnet::parse)]
+    /// The magnets as a shop describes them, length x width x height of a block or diameter x
+    /// height of a disc, magnetised through the last: \"10 x 5 x 2 mm N42\" [default: those that fit]
+    #[arg(long, value_name = "MAGNET", value_parser = ShopMagnet::parse)]
     pub magnet: Option<ShopMagnet>,
 }
 

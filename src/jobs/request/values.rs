@@ -188,18 +188,25 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
 
 /// A share, or nothing or all.
 pub fn share(text: &str) -> Result<f64, String> {
-    not_negative(text)
-        .ok()
-        .filter(|x| *x <= 1.0)
-        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+    of_one(text)
+        .filter(|x| (0.0..=1.0).contains(x))
+        .ok_or_else(|| "a number from 0 to 1, or a percentage, is needed".to_owned())
 }
 
 /// A fraction greater than 0 and less than 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
-    positive(text)
-        .ok()
-        .filter(|x| *x < 1.0)
-        .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+    of_one(text)
+        .filter(|x| 0.0 < *x && *x < 1.0)
+        .ok_or_else(|| "a number between 0 and 1, or a percentage, is needed".to_owned())
+}
+
+/// A number, or a percentage of 1.
+fn of_one(text: &str) -> Option<f64> {
+    let number = |text: &str| text.trim().parse().ok();
+    match text.trim().strip_suffix('%') {
+        Some(percent) => number(percent).map(|percent: f64| percent / 100.0),
+        None => number(text),
+    }
 }
 
 #[cfg(test)]
@@ -238,6 +245,8 @@ mod tests {
         );
         assert!(energy("3 mm").is_err() && energy("0 mJ").is_err() && time("-1 s").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+        assert_eq!((fraction("30 %"), share("100%")), (Ok(0.3), Ok(1.0)));
+        assert!(fraction("100%").is_err() && share("101%").is_err() && share("nan").is_err());
         assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
         assert!(runs("1e7").is_ok() && runs("4294967295").is_err());
         assert!(runs_or_none("4294967295").is_err());

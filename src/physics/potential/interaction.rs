@@ -23,7 +23,7 @@
 
 use std::sync::LazyLock;
 
-use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
 use super::{
     BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
@@ -47,9 +47,6 @@ pub enum Unbounded {
     /// Discs, and magnets that stand.
     #[error("bounds over cells are not known for discs and standing magnets")]
     Bodies,
-    /// Blocks behind shields.
-    #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]
-    ShieldedBlocks,
     /// The nearest-face rule, see [`super::shielding`].
     #[error("the energy jumps where the nearest-face rule changes faces")]
     NearestFace,
@@ -88,7 +85,9 @@ impl Interaction {
             MagnetModel::Cuboid if shields.is_none() => {
                 Ok(|a, b, _| Box::new(CuboidBounds::new(a, b)))
             }
-            MagnetModel::Cuboid => Err(Unbounded::ShieldedBlocks),
+            MagnetModel::Cuboid => {
+                Ok(|a, b, shields| Box::new(ShieldedBlockBounds::new(a, b, shields)))
+            }
         };
         let bounds = bounds.map(|make| {
             let (fixed, moving, shields) = (fixed.clone(), moving.clone(), shields.clone());

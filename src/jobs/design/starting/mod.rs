@@ -202,7 +202,7 @@ impl Start {
             magnet,
         } = *self;
         let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
-        let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
+        let thickness = tenths((side / 5.0).min(0.013).max(block[2] + 1e-3));
         let mass = four_digits(DENSITY * area * thickness);
         let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;
         let (from, to) = match sides {
@@ -215,7 +215,8 @@ impl Start {
             Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
             None => Default::default(),
         };
-        let size = block.map(|x| x.to_string()).join(", ");
+        let shape_of_magnets = magnet.map_or(Default::default(), |own| own.shape);
+        let lengths = ShopMagnet::lengths(block, shape_of_magnets);
         let strength = magnet.map_or_else(|| "remanence = 1.2".to_owned(), |own| own.strength());
         let tile =
             format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
@@ -233,7 +234,7 @@ description = \"tiles of {sides} sides that bind{how}\"
 size = [{table}, {table}]
 
 [magnet]
-size = [{size}]  # along its axis, along the face, through the thickness
+{lengths}
 {strength}
 pitch = {pitch}                  # centre to centre along the face
 inset = {inset}                  # from the face's surface to the magnet

@@ -97,7 +97,8 @@ impl Design {
     /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
     ///     Of those faces.
     /// magnet : str, optional
-    ///     As a shop describes it, length x width x height, magnetised through the last:
+    ///     As a shop describes it, length x width x height of a block or diameter x height
+    ///     of a disc, magnetised through the last:
     ///     ``"10 x 5 x 2 mm N42"``.
     ///
     /// Returns
