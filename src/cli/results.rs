@@ -59,7 +59,7 @@ impl FolderOptions {
         match &self.out {
             Some(folder) => told_of(document, folder),
             None => format!(
-                "{}nothing was written: --out DIR keeps page and tables\n",
+                "{}nothing was written: add --out DIR for a report and tables\n",
                 document.text(style::columns())
             ),
         }

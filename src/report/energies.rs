@@ -41,7 +41,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
             let numbers = table(design, &found[..drawn.len()]).csv();
             poses::draw(("poses", &title), &design.pair, &drawn, numbers, sheet)
         })],
-        origin: "0 far apart; forces are those on the moving tile".to_owned(),
+        origin: "energies are 0 far apart; forces act on the moving tile".to_owned(),
         ..Document::default()
     }
 }
@@ -60,6 +60,6 @@ fn table(design: &Design, found: &[Felt]) -> Table {
         .column("torque_Nm", "torque", "about the moving tile's reference point", |it| it.torque)
         .column("clearance_m", "clearance", "negative where the tiles overlap", |it| it.clearance)
         .column("free", "free", "whether the tiles do not overlap", |it| it.is_free)
-        .column("model", "", "how magnets are modelled", |_| model)
+        .column("model", "", "magnet model", |_| model)
         .table("poses")
 }

@@ -292,7 +292,7 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="certify"):
         design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
-    with pytest.raises(ValueError, match="model dipole"):
+    with pytest.raises(ValueError, match="dipole model"):
         design.replace("potential.model", "cuboid").exits([0.43, -0.04, 0], kt=3e-3, prove=True)
     lower, upper = left["mean_exit_bounds_s"]
     assert lower < left["mean_exit_s"] < upper and left["proved"] is None

@@ -168,7 +168,7 @@ impl Docking {
         let duration = self.found.settings.duration;
         if duration / interval > MOST_POINTS {
             return Err(fault::value(format!(
-                "of {duration} s every {interval:e} s are more than {MOST_POINTS:e} points"
+                "{} s every {interval:e} s are more than {MOST_POINTS:e} points"
             )));
         }
         let snapshots = job::answer(py, Some(false), |_| {

@@ -24,7 +24,7 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
         toml::Value::Float(number) => Ok(Value::Number(number)),
         toml::Value::String(text) => Ok(Value::Text(text)),
         other => Err(fault::value(format!(
-            "{key}: a value is a number, a text or a truth, not {other}"
+            "{key}: a value is a number, a string or a boolean, not {other}"
         ))),
     };
     let values = values.try_iter()?.map(|value| one(value?));
@@ -110,7 +110,7 @@ impl Known {
     fn outcomes(&self, plan: &Plan) -> Vec<Outcome> {
         let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let missing = || Outcome::Failed {
-            reason: "it was not worked on".to_owned(),
+            reason: "it was not computed".to_owned(),
         };
         let points = plan.points().into_iter();
         points

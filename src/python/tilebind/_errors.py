@@ -1,4 +1,4 @@
-"""What is wrong with a design, where, and how to mend it."""
+"""What is wrong with a design, where, and how to fix it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from __future__ import annotations
 class DesignError(ValueError):
     """A fault of a design.
 
-    As a text it shows the place, what is wrong, the line with the place marked, and the mend; then
+    As a text it shows the place, what is wrong, the line with the place marked, and the fix; then
     the same of every further fault.
 
     Attributes
@@ -18,7 +18,7 @@ class DesignError(ValueError):
     message : str
         What is wrong.
     mend : str
-        How to mend it.
+        How to fix it.
     also : tuple of DesignError
         What else is wrong, in the order of the file.
     """

@@ -60,8 +60,8 @@ fn sides_that_differ_by_less_than_a_cutter_resolves_meet_middle_on_middle() {
             for said in [
                 told,
                 "80 mm",
-                "less than a cutter resolves",
-                "middle on middle",
+                "less than a cutter can resolve",
+                "centre to centre",
             ] {
                 assert!(told_of.contains(said), "{said} in {told_of}");
             }

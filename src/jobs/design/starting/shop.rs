@@ -13,9 +13,8 @@ pub struct ShopMagnet {
     strength: Strength,
 }
 
-const HELP: &str = "write length x width x height as shops do, magnetised through the last: \
-                    \"10 x 5 x 2 mm N42\"; in place of the grade, a pull (\"1.8 kg\") or a remanence \
-                    (\"1.2 T\")";
+const HELP: &str = "write length x width x height as sold, magnetised along the last: \"10 x 5 x \
+    2 mm N42\"; instead of the grade, a pull (\"1.8 kg\") or a remanence (\"1.2 T\")";
 
 impl ShopMagnet {
     /// Reads length x width x height, of which the last is the one that shops' blocks are
@@ -39,15 +38,14 @@ impl ShopMagnet {
         let &[first, second, rest] = parts.as_slice() else {
             return Err(wrong(match parts.len() {
                 2 => {
-                    "a block has three lengths; for discs write shape = \"disc\" with `diameter` and \
-                     `height` into [magnet] of the design made for a block of that size"
+                    "a block has three lengths; for discs, start with a block of that size and \
+                     write shape = \"disc\" with `diameter` and `height` under [magnet]"
                 }
                 _ => "a block has three lengths",
             }));
         };
-        let (third, unit, rest) = last_length(rest).ok_or_else(|| {
-            wrong("the lengths have no unit, or one that is not known (mm, cm, in)")
-        })?;
+        let (third, unit, rest) = last_length(rest)
+            .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
         // A unit of its own behind a length, or the one behind the last.
         let length = |text: &str| {
             let own = units::read(text, units::LENGTH);
@@ -63,7 +61,9 @@ impl ShopMagnet {
         }
         let strength = match rest {
             "" => Strength::Remanence(1.2),
-            rest => strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is no grade")))?,
+            rest => {
+                strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is not a known grade")))?
+            }
         };
         Ok(Self {
             // The longer side along the face: that leaves the tile thin.

@@ -104,7 +104,7 @@ impl Analysis {
         match self.way(from, to) {
             Some(pathway) => table::pathway(py, &pathway),
             None => Err(pyo3::exceptions::PyLookupError::new_err(
-                "no way is known between the two: design.barrier(start, end) looks for one",
+                "no path is known between the two: design.barrier(start, end) searches for one",
             )),
         }
     }

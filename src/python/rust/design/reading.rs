@@ -31,7 +31,7 @@ impl Design {
     /// Raises
     /// ------
     /// DesignError
-    ///     With line, column and mend of everything that is wrong with the file.
+    ///     With line, column and fix of everything that is wrong with the file.
     /// FileNotFoundError
     ///     Where there is no such file.
     #[staticmethod]
