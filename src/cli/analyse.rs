@@ -98,7 +98,7 @@ impl Analyse {
         self.print.results(&document.report(), || {
             let told = document.text(style::columns());
             format!(
-                "{told}results in {}: report.html to look at; report.json, tables, pathways/, pictures/\n",
+                "{told}results in {}: open report.html; also report.json, tables, pathways/, pictures/\n",
                 self.out.display()
             )
         })?;

@@ -71,7 +71,7 @@ fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
 fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
     let (name, barrier) = (&design.name, &answer.barrier);
     let to = match query.to {
-        End::At(_) => "the other",
+        End::At(_) => "the second",
         End::Free => "free",
     };
     if let Some(why) = why_no_way(barrier) {
@@ -82,7 +82,7 @@ fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
         format!(" (certified: {})", si_range(lower, upper, "J", 4))
     });
     format!(
-        "{name}: the way from the one pose to {to} climbs {}{certified}, back {}",
+        "{name}: barrier from the first pose to {to} {}{certified}, reverse {}",
         si(barrier.forward(), "J", 4),
         si(barrier.reverse(), "J", 4)
     )

@@ -186,7 +186,7 @@ fn notes(held: &Held) -> Vec<String> {
     let blurred = blurred.filter(|state| state.inner.cost - state.docking.cost > 0.1);
     let blurred: Vec<&str> = blurred.map(|state| &state.name[..]).collect();
     let told = format!(
-        "{} barely bound: K depends on where \"bound\" ends; here at the lowest pass, or at a \
+        "barely bound: {}; K depends on where \"bound\" ends, here at the lowest pass, or at a \
          hundredth of the depth if that is lower",
         blurred.join(", ")
     );

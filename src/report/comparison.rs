@@ -252,8 +252,8 @@ impl Comparison {
 }
 
 /// What is proved of traps that were not found.
-const UNLISTED: &str = "proved: no missed state is deeper than this and needs more than 0.5 % of \
-    the bond to escape";
+const UNLISTED: &str = "proved that no missed state is deeper than this and needs more than 0.5 % \
+    of the bond to escape";
 /// What barriers are of which nothing is proved.
 const ESTIMATES: &str = "barriers without brackets are roadmap estimates: too high if the roadmap \
     missed a passage";

@@ -242,7 +242,7 @@ fn notes(docking: &Docking) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some([least, middle, most]) = times(docking) {
         notes.push(format!(
-            "bound after {least:.2} s to {most:.2} s, half of them by {middle:.2} s"
+            "time to bind: {least:.2} s to {most:.2} s, median {middle:.2} s"
         ));
     }
     let rate = OnRate::new(docking);

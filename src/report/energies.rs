@@ -21,7 +21,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
     lowest.order_by(|a, b| a.energy.total_cmp(&b.energy));
     let told = lowest.first().map_or("all overlap".to_owned(), |it| {
         format!(
-            "lowest energy {} where the tiles do not overlap (magnets as {})",
+            "lowest energy without overlap {} (magnets as {})",
             si(it.energy, "J", 4),
             design.interaction.model.plural(&design.pair)
         )
@@ -34,7 +34,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
     };
     Document {
         title: format!("{}: energies at {} poses", design.name, found.len()),
-        answer: format!("{}: of {} poses {told}", design.name, found.len()),
+        answer: format!("{}: {} poses; {told}", design.name, found.len()),
         entries: entries(design).table(table(design, found).in_file("poses").listing(LISTED)),
         printed: Some("poses"),
         pictures: vec![Drawing::new(title.clone(), move |sheet| {

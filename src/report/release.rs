@@ -103,10 +103,10 @@ fn told_beside(found: &Loosening) -> String {
     let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
     let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
     format!(
-        "overdamped motion at that kT and drag, with elastic collisions, detaches {rate} times \
-         per second\n({lower} to {upper}) including the path to free tiles, and {in_well} times \
-         per second in the well;\nthe measured rate ends when the bond is last left, so it lies \
-         between the two; tiles move in this way at a drag of {OVERDAMPED} per s or more"
+        "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s\n({lower} \
+         to {upper}) including the path to free tiles, {in_well} /s in the well;\nthe measured rate \
+         counts until the bond is last left, so it lies between the two; motion is overdamped at a \
+         drag of {OVERDAMPED} /s or more"
     )
 }
 

@@ -67,7 +67,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     }) {
         let [own, blocks] = [own, blocks].map(|energy| si(energy, "J", DIGITS));
         lines += &format!(
-            "{}: the bond has {own} with magnets as point dipoles, {blocks} as {bodies}\n",
+            "{}: bond energy {own} with magnets as point dipoles, {blocks} as {bodies}\n",
             design.name
         );
     }
@@ -262,7 +262,7 @@ fn rest(rest: &[Kind]) -> String {
     let deepest = rest.iter().map(|t| t.first().energy).fold(0.0, f64::min);
     let captured: usize = rest.iter().map(|t| t.captured().count).sum();
     format!(
-        "and {} more kind{} of trap, at most {} deep, which capture {} together",
+        "and {} more kind{} of trap, down to {}, capturing {} in total",
         rest.len(),
         if rest.len() == 1 { "" } else { "s" },
         si(deepest, "J", DIGITS),
@@ -306,7 +306,7 @@ fn work_and_length(way_out: &Barrier) -> String {
         climbs
     };
     let [work, length] = [si(work, "J", 3), si(length, "m", 3)];
-    format!(": {work} of work over {length}")
+    format!(": work {work}, length {length}")
 }
 
 fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String {

@@ -151,7 +151,7 @@ fn advice(filled: &Filled) -> String {
             "repelled by {:.0} g: hold it until the glue is set",
             filled.push / GRAM
         ),
-        false => "stays by itself".to_owned(),
+        false => "stays in place".to_owned(),
     }
 }
 

@@ -18,7 +18,7 @@ use physics::units::{duration, si};
 pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
     let told = question.effort.told();
     let interval = match question.effort.source {
-        Source::Docking => "of the attachment rate, 95 %",
+        Source::Docking => "95 %, from the attachment rate",
         Source::Overdamped => "difference between the two finest meshes",
     };
     let mixture = found.mixture.as_ref();
@@ -29,7 +29,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         title: format!("Yield of {}", design.name),
         answer: answer(design, question, found),
         remarks: vec![format!(
-            "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: {interval})",
+            "({} and {} tiles covering {:.0} % of {:.2} m2; intervals: {interval})",
             found.crowd.tiles[0],
             found.crowd.tiles[1],
             100.0 * question.coverage,

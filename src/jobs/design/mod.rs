@@ -334,7 +334,7 @@ fn bound(
     let doubt = target.overlapping(
         overlap,
         &format!(
-            "`fit` draws the moving face back by {}",
+            "the moving face is drawn back by {}, as by `fit`",
             tolerance::micrometres(drawn)
         ),
     );

@@ -161,12 +161,11 @@ impl Request {
     pub fn check(&self) -> Result<(), String> {
         if self.shaking.is_some() && self.drag == 0.0 {
             return Err(
-                "--shaking heats tiles without end where there is no drag: set --drag above 0"
-                    .into(),
+                "--shaking without drag heats the tiles without limit: set --drag above 0".into(),
             );
         }
         if self.correlation.is_some() && self.shaking.is_none() {
-            return Err("--correlation is that of --shaking: set that, too".into());
+            return Err("--correlation needs --shaking: add it".into());
         }
         Ok(())
     }

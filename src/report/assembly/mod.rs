@@ -249,7 +249,7 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
         .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
         .column("energy_J", "energy", "of the deepest slid contact that holds", |it| it.energy()).digits(4)
         .column("energy_kT", "depth", "in kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
-        .column("holds_alone", "whether it holds a tile alone, compared with Gmc", "whether it holds a tile by itself, against Gmc", move |it| -depth(it) > built.gmc)
+        .column("holds_alone", "holds alone", "whether it holds a tile alone: depth above Gmc", move |it| -depth(it) > built.gmc)
         .column("slides_to_aligned", "", "", |it| it.captured[0])
         .column("slides_to_slid", "", "", |it| it.captured[1])
         .table("slid")

@@ -82,9 +82,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     });
     let lattice = assembly.request.lattice.map(|[rows, columns]| {
         let needed = lattice::words(rows, columns);
-        format!(
-            "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
-        )
+        format!("a lattice of {rows} x {columns} distinct tiles needs {needed} words")
     });
     let mismatch = match built.strongest_wrong() {
         Some((i, j, energy)) => format!(
@@ -111,9 +109,9 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     });
     let tiles = grown.tiles.len();
     let ends = match grown.complete {
-        true => format!("without errors it stops at {tiles} tiles"),
+        true => format!("without errors growth ends with {tiles} tiles"),
         false => format!(
-            "without errors it grows without end; the first {tiles} tiles were \
+            "without errors growth never ends; the first {tiles} tiles were \
             computed"
         ),
     };
@@ -220,8 +218,8 @@ fn canvas(assembly: &Assembly) -> Option<String> {
     let engine = built.engine().size?;
     (engine != [rows, columns]).then(|| {
         format!(
-            "the file's canvas of {rows} x {columns} is no limit of a real table; the files for \
-             the engines have one of {} x {}, large enough for the whole growth",
+            "the file's canvas is {rows} x {columns}, but a real table has no such limit; the engine \
+             files use {} x {}, large enough for the whole growth",
             engine[0], engine[1]
         )
     })
@@ -264,7 +262,7 @@ fn whole(ends: [f64; 2]) -> String {
         (false, false) => "equally deep".to_owned(),
     };
     format!(
-        "bonds between whole tiles are {told} compared with two isolated faces, as used by \
-        the engines"
+        "bonds between whole tiles, compared with isolated pairs of faces (which the engines use): \
+         {told}"
     )
 }

@@ -41,7 +41,7 @@ fn drawings_are_refused_where_the_fault_is() {
         ),
         (
             "<path d=\"M0 0h9v9z\"/>\n<circle id=\"b\" r=\"9\"/>",
-            "holds 2 shapes",
+            "has 2 shapes",
             "3:2",
         ),
         (

@@ -486,7 +486,7 @@ fn lines_join_where_their_ends_meet() {
         outlined(&drawn(&group), "")
             .unwrap_err()
             .message
-            .contains("holds 5 shapes")
+            .contains("has 5 shapes")
     );
     // What is drawn in pieces has the chords of the whole.
     let quarters = [

@@ -77,7 +77,7 @@ fn impossible_designs_say_what_to_ask_for() {
         (&["--side", "500"], "give sides of 0.01 to"),
         (
             &["--side", "2 cm", "--magnets", "8"],
-            "or for --side 0.029 or longer",
+            "or --side 0.029 or longer",
         ),
         (&["--shape", "dovetail"], "a shape is one of flat, tab"),
         (&["--side", "2 kg"], "such as 0.12 (m) or \"12 cm\""),
