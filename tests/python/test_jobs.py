@@ -329,7 +329,7 @@ def test_tile_sets_of_words(root):
     assert {"assembly.yaml", "assembly.tiles", "matrix.csv", "report.json"} <= files.keys()
     sought = tilebind.assemble(tiles, kt=3e-3, gap=0.3, seconds=5, progress=False)
     assert sought.keys() >= {"words.toml", "report.json"} and b"words = [" in sought["words.toml"]
-    with pytest.raises(ValueError, match="places"):
+    with pytest.raises(ValueError, match="positions"):
         tilebind.assemble(tiles, kt=3e-3, length=3, magnets=4)
     with pytest.raises(ValueError):
         tilebind.assemble(tiles, found["words"][:1], kt=3e-3)

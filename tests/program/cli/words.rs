@@ -215,7 +215,7 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
     assert!(found["lower_J"].is_null());
     for (text, told) in [
         ("words = []", "no words"),
-        ("words = [\"NNS\", \"NN\"]", "2 places"),
+        ("words = [\"NNS\", \"NN\"]", "2 positions"),
         ("words = [\"NNX\"]", "not a pole"),
         ("words = [\"NNS\", \"NNS\"]", "twice"),
         ("words = [\"NNS\"]\nside = 3", "side"),
@@ -400,7 +400,7 @@ fn words_longer_than_the_face_are_remarked_on() {
         let words: Vec<&str> = ["words"].into_iter().chain(design).chain(length).collect();
         let told = stdout(&tilebind(&words)).replace('\n', " ");
         assert!(
-            told.contains("! 14 places 40.00 mm apart take 530.0 mm of face"),
+            told.contains("! 14 positions 40.00 mm apart take 530.0 mm of face"),
             "{told}"
         );
         assert!(

@@ -96,8 +96,7 @@ impl Design {
     /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
     ///     Of those faces.
     /// magnet : str, optional
-    ///     A magnet as sold, length x width x height, magnetised along the last: ``"10 x 5 x 2
-    ///     mm N42"``.
+    ///     A magnet as sold, magnetised along the last length: ``"10 x 5 x 2 mm N42"``.
     ///
     /// Returns
     /// -------
