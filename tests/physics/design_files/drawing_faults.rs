@@ -131,7 +131,7 @@ fn drawings_are_refused_where_the_fault_is() {
         assert_eq!(error.place.as_ref().unwrap().line, 1);
     }
     for (content, expected) in [
-        ("<path d=\"M0 0h100v10h100\"/>", "one lies 10 mm higher"),
+        ("<path d=\"M0 0h100v10h100\"/>", "one is 10 mm higher"),
         ("<path d=\"M0 0h100v-10h-100z\"/>", ""),
         ("<path d=\"M0 0v-10h10v10h-10\"/>", ""),
         ("<circle r=\"50\"/>", "must have one edge on the base line"),
