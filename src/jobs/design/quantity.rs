@@ -327,7 +327,7 @@ mod tests {
     #[test]
     fn what_no_unit_explains_is_refused_without_a_guess() {
         assert!(message(TILE_SIDE, 1e9).contains("too large for a tile"));
-        assert!(message(TILE_SIDE, f64::NAN).contains("no number"));
+        assert!(message(TILE_SIDE, f64::NAN).contains("not a number"));
         assert!(message(TILE_SIDE, 0.0).contains("above zero"));
         assert!(message(INSET, -0.001).contains("must not be negative"));
     }
