@@ -100,7 +100,7 @@ fn correct(answer: &mut clap::Error) {
         };
         // A pose, which has commas, says it itself.
         if let Some(meant) = with_point(value).filter(|meant| !meant.contains(',')) {
-            let tip = format!("a decimal number has a point, not a comma: {meant}");
+            let tip = format!("use a decimal point, not a comma: {meant}");
             let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
             answer.insert(ContextKind::Suggested, tips);
         }
@@ -118,8 +118,8 @@ fn correct(answer: &mut clap::Error) {
     let wrong = answer.get(ContextKind::InvalidArg);
     let is_model = matches!(wrong, Some(ContextValue::String(name)) if name == "--model");
     if is_model && answer.get(ContextKind::SuggestedArg).is_none() {
-        let tip = "the design says how magnets are modelled: [potential] model = \"cuboid\"; a \
-                   sweep varies it: --vary potential.model=dipole,cuboid";
+        let tip = "the design sets the magnet model: [potential] model = \"cuboid\"; a sweep can \
+            vary it: --vary potential.model=dipole,cuboid";
         let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
         answer.insert(ContextKind::Suggested, tips);
     }

@@ -20,12 +20,12 @@ use physics::tile::Pair;
 /// What is asked of a docking experiment.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Trajectories
+    /// Number of trajectories
     #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
           value_parser = request::runs)]
     pub runs: usize,
 
-    /// How long each trajectory lasts (s)
+    /// Duration of each trajectory (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
           value_parser = request::time)]
     pub duration: f64,
@@ -35,18 +35,17 @@ pub struct Request {
           value_parser = request::not_negative)]
     pub drag: f64,
 
-    /// Coefficient of friction between the tiles and of a tile and the rim
+    /// Coefficient of friction, tile on tile and tile on rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
           value_parser = request::not_negative)]
     pub friction: f64,
 
-    /// Share of the approach velocity that a knock gives back
+    /// Coefficient of restitution
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = request::share)]
     pub restitution: f64,
 
-    /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
-    /// a magnet]
+    /// Distance (m) within which target magnets count as matched [default: 1.5 magnet lengths]
     #[arg(long, value_name = "M", value_parser = request::length)]
     pub threshold: Option<f64>,
 
@@ -54,20 +53,21 @@ pub struct Request {
     #[command(flatten)]
     pub starts: StartOptions,
 
-    /// Lets tiles leave the table
+    /// Let tiles leave the table
     #[arg(long)]
     pub no_walls: bool,
 
-    /// A fan at X,Y (m) that pushes the tile's centre away with the energy E_J over the width S (m);
-    /// the energy may swing by the share A at the frequency F (Hz)
+    /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
+    ///
+    /// The energy can oscillate with relative amplitude A at frequency F (Hz).
     #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
     pub fan: Vec<Fan>,
 
-    /// Effective energy kT (J) of a random shaking force
+    /// Effective energy kT of random shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::energy_or_none)]
     pub shaking: Option<f64>,
 
-    /// Seed of all random numbers; a trajectory depends on it and on its own number only
+    /// Random seed; a trajectory depends only on it and on its own number
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -97,13 +97,15 @@ impl Request {
 /// How long bound tiles hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
 pub struct ReleaseOptions {
-    /// Start bound instead, with a thermal velocity, and find the rate of detachment; the options of
-    /// starts do not matter
+    /// Start bound, with a thermal velocity, and measure the detachment rate
+    ///
+    /// The options that set the start are ignored.
     #[arg(long, requires = "shaking")]
     pub from_bond: bool,
 
-    /// With --from-bond: tell the rate of overdamped motion at the same kT and drag beside it, solved
-    /// on a mesh as `tilebind rates` does
+    /// With --from-bond: also print the overdamped rate
+    ///
+    /// It is solved on a mesh at the same kT and drag, as in `tilebind rates`.
     #[arg(long, requires = "from_bond")]
     pub overdamped: bool,
 }
@@ -158,29 +160,29 @@ pub fn loosening(
 /// Ranges from which starts are drawn.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct StartOptions {
-    /// Distance between the tiles' reference points at the start, LOW,HIGH (m)
-    /// [default: 0.62,1 of the paper's tiles, of others in proportion]
+    /// Initial distance between reference points (m) [default: 0.62,1 scaled with the tiles]
+    ///
+    /// 0.62,1 is the range for the paper's tiles.
     #[arg(long, value_name = "LOW,HIGH", value_parser = lengths)]
     pub distance: Option<[f64; 2]>,
 
-    /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
+    /// Largest angle (rad) from the target face's normal to the tile [default: 0.7854]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub direction: Option<f64>,
 
-    /// Orientation differs from the bound one by at most this (rad) [default: 1.5]
+    /// Largest angle (rad) from the bound orientation [default: 1.5]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub orientation: Option<f64>,
 
-    /// Speed at the start, LOW,HIGH (m/s) [default: 0,1.3]
+    /// Initial speed (m/s) [default: 0,1.3]
     #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
     pub speed: Option<[f64; 2]>,
 
-    /// The velocity's direction differs from that to the fixed tile by at most this (rad)
-    /// [default: 0.3]
+    /// Largest angle (rad) between the velocity and the line to the fixed tile [default: 0.3]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub aim: Option<f64>,
 
-    /// Turning rate at the start, either way, at most this (rad/s) [default: 0]
+    /// Largest initial angular velocity, either way (rad/s) [default: 0]
     #[arg(long, value_name = "RATE", value_parser = request::not_negative)]
     pub spin: Option<f64>,
 }
@@ -222,8 +224,8 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 pub(crate) fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
-                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\", and perhaps ,A,F: the share by which it swings, and how \
-                        often a second";
+        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\"; optionally ,A,F: relative amplitude and \
+        frequency (Hz)";
     let read = |(k, part): (usize, &str)| match k {
         0 | 1 | 3 => length(part),
         2 => energy(part),

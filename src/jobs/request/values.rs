@@ -29,7 +29,8 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     };
     if theta.abs() > 2.0 * std::f64::consts::TAU {
         return Err(format!(
-            "theta = {theta:?} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
+            "theta = {theta:?} rad is more than two full turns: for degrees write \
+             \"{x},{y},{theta} deg\""
         ));
     }
     Ok(Configuration::from([x, y, theta]))
@@ -85,7 +86,7 @@ pub fn runs(text: &str) -> Result<usize, String> {
 /// A number of runs of which a mean with its error comes.
 pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
     match runs(text)? {
-        1 => Err("of one run no error of the mean is known: 2 or more are needed".to_owned()),
+        1 => Err("one run gives no error of the mean: use 2 or more".to_owned()),
         count => Ok(count),
     }
 }
@@ -98,7 +99,7 @@ pub fn runs_or_none(text: &str) -> Result<usize, String> {
 fn not_too_many(count: usize) -> Result<usize, String> {
     match count {
         0..=MOST_RUNS => Ok(count),
-        _ => Err(format!("at most {MOST_RUNS} can be held in memory")),
+        _ => Err(format!("at most {MOST_RUNS} fit in memory")),
     }
 }
 

@@ -24,33 +24,35 @@ const MOMENTS: f64 = 200.0;
 /// What is asked of a table.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Tiles of each kind: of a design the fixed tile's and the moving one's, of a tile set each tile's
+    /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
     #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
     pub count: Vec<usize>,
 
-    /// How long each run lasts (s)
+    /// Duration of each run (s)
     #[arg(long, value_name = "S", value_parser = request::positive)]
     pub time: f64,
 
-    /// Runs, each from a start of its own
+    /// Number of runs, each from its own start
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
     pub runs: usize,
 
-    /// Effective energy kT (J) of shaking
+    /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub shaking: Option<f64>,
 
-    /// Correlation time of shaking (s): random kicks come so far apart, however short the steps are
-    /// [default: 0.005, or less where drag is above 50]
+    /// Time between random kicks of the shaking (s) [default: 0.005; less for drag above 50]
+    ///
+    /// It does not depend on the step.
     #[arg(long, value_name = "S", value_parser = request::positive)]
     pub correlation: Option<f64>,
 
-    /// Let the table go round in a circle: radius (m) and rounds a second (Hz)
+    /// Move the table in a circle of radius A (m) at F revolutions per second
     #[arg(long, value_name = "A,F", value_parser = orbital)]
     pub orbital: Option<Orbital>,
 
-    /// A fan at X,Y (m) that pushes tiles' centres away with the energy E_J over the width S (m);
-    /// the energy may swing by the share A at the frequency F (Hz)
+    /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
+    ///
+    /// The energy can oscillate with relative amplitude A at frequency F (Hz).
     #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
     pub fan: Vec<Fan>,
 
@@ -59,26 +61,27 @@ pub struct Request {
           value_parser = request::not_negative)]
     pub drag: f64,
 
-    /// Coefficient of friction between tiles and of a tile and the rim
+    /// Coefficient of friction, tile on tile and tile on rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
           value_parser = request::not_negative)]
     pub friction: f64,
 
-    /// Share of the approach velocity that a knock gives back
+    /// Coefficient of restitution
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = request::share)]
     pub restitution: f64,
 
-    /// Longest step (s); steps in contact are shorter, in proportion [default: 0.001, or less where the
-    /// drives ask for it]
+    /// Longest step (s) [default: 0.001, or less for fast drives]
+    ///
+    /// Steps in contact are shorter in proportion.
     #[arg(long, value_name = "S", value_parser = step)]
     pub step: Option<f64>,
 
-    /// Keep the tiles' places every so many seconds
+    /// Record the tiles' poses at this interval (s)
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
 
-    /// Seed of all random numbers; a run depends on it and on its own number only
+    /// Random seed; a run depends only on it and on its own number
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -158,12 +161,11 @@ impl Request {
     pub fn check(&self) -> Result<(), String> {
         if self.shaking.is_some() && self.drag == 0.0 {
             return Err(
-                "--shaking heats tiles without end where there is no drag: set --drag above 0"
-                    .into(),
+                "--shaking without drag heats the tiles without limit: set --drag above 0".into(),
             );
         }
         if self.correlation.is_some() && self.shaking.is_none() {
-            return Err("--correlation is that of --shaking: set that, too".into());
+            return Err("--correlation needs --shaking: add it".into());
         }
         Ok(())
     }

@@ -45,13 +45,13 @@ pub struct Interaction {
 )]
 pub enum Unbounded {
     /// Discs, and magnets that stand.
-    #[error("bounds over cells are not known for discs and standing magnets")]
+    #[error("bounds over cells are not available for discs and upright magnets")]
     Bodies,
     /// The nearest-face rule, see [`super::shielding`].
-    #[error("the energy jumps where the nearest-face rule changes faces")]
+    #[error("the energy is discontinuous where the nearest-face rule changes faces")]
     NearestFace,
     /// An energy that came without bounds.
-    #[error("bounds over cells are not known for this energy")]
+    #[error("bounds over cells are not available for this energy")]
     Unknown,
 }
 

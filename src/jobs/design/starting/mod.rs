@@ -78,16 +78,16 @@ impl Default for Start {
 
 /// Why there is no such design, and what to ask for instead.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{wrong}\n  help: {mend}")]
+#[error("{wrong}\n  help: {fix}")]
 pub struct StartError {
     wrong: String,
-    mend: String,
+    fix: String,
 }
 
-fn wrong(wrong: impl Into<String>, mend: impl Into<String>) -> StartError {
+fn wrong(wrong: impl Into<String>, fix: impl Into<String>) -> StartError {
     StartError {
         wrong: wrong.into(),
-        mend: mend.into(),
+        fix: fix.into(),
     }
 }
 
@@ -146,21 +146,22 @@ impl Start {
             ..
         } = *self;
         if !(3..=MOST_SIDES).contains(&sides) {
-            let fault = format!("a tile of {sides} sides cannot be started from");
+            let fault = format!("a tile cannot have {sides} sides here");
             return Err(wrong(fault, format!("give 3 to {MOST_SIDES}: --sides 6")));
         }
         if !(1..=MOST_MAGNETS).contains(&magnets) {
             return Err(wrong(
                 format!("{magnets} magnets on a face are none or too many to choose a code for"),
                 format!(
-                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start from fewer and edit the code"
+                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start with fewer and edit \
+                     the code"
                 ),
             ));
         }
         let largest = rounded_down(LARGEST * side / self.radius());
         if !(0.01..=largest).contains(&side) {
             return Err(wrong(
-                format!("{sides} sides of {side} m make no tile that can be held and floated"),
+                format!("{sides} sides of {side} m are not a practical tile"),
                 format!("give sides of 0.01 to {largest} m: --side 0.12, or --side \"12 cm\""),
             ));
         }
@@ -181,14 +182,14 @@ impl Start {
         match fault {
             Some(fault) if needed <= self.side => wrong(
                 format!("the magnets do not fit into this shape: {}", fault.message),
-                "ask for fewer --magnets, a longer --side, or --shape flat",
+                "use fewer --magnets, a longer --side, or --shape flat",
             ),
             _ => wrong(
                 format!(
-                    "{} magnets have no room on a side of {} m",
+                    "{} magnets do not fit on a side of {} m",
                     self.magnets, self.side
                 ),
-                format!("ask for --magnets {most} or fewer, or for --side {side} or longer"),
+                format!("use --magnets {most} or fewer, or --side {side} or longer"),
             ),
         }
     }

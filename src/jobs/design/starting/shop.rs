@@ -15,9 +15,9 @@ pub struct ShopMagnet {
     strength: Strength,
 }
 
-const HELP: &str = "write length x width x height as shops do, magnetised through the last: \
-                    \"10 x 5 x 2 mm N42\", or diameter x height of a disc: \"10 x 3 mm N42\"; in place \
-                    of the grade, a pull (\"1.8 kg\") or a remanence (\"1.2 T\")";
+const HELP: &str = "write length x width x height as sold, magnetised along the last: \"10 x 5 x \
+    2 mm N42\", or diameter x height of a disc: \"10 x 3 mm N42\"; instead of the grade, a pull \
+    (\"1.8 kg\") or a remanence (\"1.2 T\")";
 
 impl ShopMagnet {
     /// Reads the lengths of a block, of which the last is the one that shops' blocks are magnetised
@@ -41,7 +41,7 @@ impl ShopMagnet {
             return Err(wrong("there are no lengths"));
         };
         let (last, unit, rest) = last_length(last).ok_or_else(|| {
-            wrong("the lengths have no unit, or one that is not known (mm, cm, in)")
+            wrong("the lengths have no unit, or an unknown one (use mm, cm, in)")
         })?;
         // A unit of its own behind a length, or the one behind the last.
         let length = |text: &&str| {
@@ -63,7 +63,9 @@ impl ShopMagnet {
         }
         let strength = match rest {
             "" => Strength::Remanence(1.2),
-            rest => strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is no grade")))?,
+            rest => {
+                strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is not a known grade")))?
+            }
         };
         Ok(Self {
             size,
