@@ -29,6 +29,8 @@ Files: a command replaces only what it wrote itself and nobody changed since; .t
 folder notes that. Anything else in the way is refused before the work, and --force replaces it. What
 a command reads is never replaced. A set of files is all new or all old.
 
+tilebind --version --verbose prints what to cite.
+
 Start here:
   tilebind init my.toml
   tilebind show my.toml
