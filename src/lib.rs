@@ -5,7 +5,8 @@
 //! wanted bond is, which wrong bonds trap the tiles, how high the energy barrier is between each of
 //! these states and freedom, and by which motion it is crossed. It follows Majumder and Reif,
 //! *Barcoded Magnetic Tiles for Programmable Assemblies*: probabilistic roadmaps over
-//! (x, y, theta) (section 4.4) and the physics of section 5. SI units everywhere.
+//! (x, y, theta) (section 4.4) and the physics of section 5; `src/paper.md` has the command for each
+//! section and figure. SI units everywhere.
 //!
 //! # What flows where
 //!
