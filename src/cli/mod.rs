@@ -80,7 +80,14 @@ fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
 /// Prints what clap answers in place of a command: help, the version, or what is wrong.
 pub fn answer(mut answer: clap::Error) -> ExitCode {
     correct(&mut answer);
-    let printed = answer.print();
+    let is_version = answer.kind() == clap::error::ErrorKind::DisplayVersion;
+    let is_verbose = || std::env::args_os().any(|it| it == "--verbose");
+    let printed = answer
+        .print()
+        .and_then(|()| match is_version && is_verbose() {
+            true => std::io::stdout().write_all(tilebind::report::page::CITATION.as_bytes()),
+            false => Ok(()),
+        });
     match (answer.use_stderr(), printed) {
         (true, _) => ExitCode::from(WRONG),
         (false, Ok(())) => ExitCode::SUCCESS,

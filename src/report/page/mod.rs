@@ -16,9 +16,10 @@ mod thumbnail;
 use serde::Serialize;
 use serde_json::Value;
 
-use html::{CITATION, escaped, filled, hash};
+use html::{escaped, filled, hash};
 
 pub use charts::Charts;
+pub use html::CITATION;
 pub use landscape::Landscape;
 pub use meetings::Meetings;
 pub use pathways::Played;
