@@ -5,7 +5,8 @@
 //! wanted bond is, which wrong bonds trap the tiles, how high the energy barrier is between each of
 //! these states and freedom, and by which motion it is crossed. It follows Majumder and Reif,
 //! *Barcoded Magnetic Tiles for Programmable Assemblies*: probabilistic roadmaps over
-//! (x, y, theta) (section 4.4) and the physics of section 5. SI units everywhere.
+//! (x, y, theta) (section 4.4) and the physics of section 5; `src/paper.md` has the command for each
+//! section and figure. SI units everywhere.
 //!
 //! # What flows where
 //!
@@ -85,8 +86,8 @@
 //! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
 //!   one outline without holes and at most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
-//! - Barriers of blocks behind shields are not certified (of dipoles behind shields they are), nor
-//!   those of the nearest-face rule, whose energy jumps.
+//! - Barriers of discs, of magnets that stand and of the nearest-face rule, whose energy jumps, are
+//!   not certified.
 //! - Overdamped capture is not tossing and turning: no inertia and no shaking. `tilebind dock`
 //!   moves tiles with inertia, contact and drag.
 //! - Magnets and tiles stay in one plane; no tilting, no lifting, no iron in `analyse`.
@@ -120,6 +121,26 @@
 //! 'src/physics/roadmap/**'` asks which changes of the code no test notices (`.cargo/mutants.toml`).
 //! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
 //! dependencies state; a compiler that old has not been tried.
+//!
+//! # Version, history and packages
+//!
+//! The version stands in `Cargo.toml` under `[workspace.package]`; the program, the results' files,
+//! the crates and the Python package take it from there (the crates name it once more where they
+//! depend on each other, and cargo refuses another one). A sweep goes on only with the version that
+//! planned it. `tilebind --version --verbose` prints what to cite beside it.
+//!
+//! | version | what changed for users |
+//! |---|---|
+//! | 0.1.0, in work | Magnets are blocks unless the design says `[potential] model = "dipole"` (before: dipoles). `dock`, `compare` and `sweep` write `report.json`, as all commands do (before: `dock.json`, `compare.json`, `sweep.json`). `analyse --arrays` is gone: Python has the same as arrays |
+//!
+//! `results/bench.csv` is the history of the benches. All else is in the log of the repository.
+//!
+//! `cargo package --workspace --exclude tilebind-python` packs the four crates, which belong
+//! together, without results, tests and benches; `maturin sdist` the Python package.
+//! `tests/package/run.sh` does both and checks what is in them and that either is below 2 MB;
+//! `tests/package/run.sh install` also installs the program with cargo and the Python package with
+//! pip from what was packed, and runs them. From a checkout: `cargo install --path .` and
+//! `pip install .`.
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,

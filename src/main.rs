@@ -19,20 +19,22 @@ use tilebind::potential::batch::Level;
     subcommand_required = true,
     arg_required_else_help = true,
     after_help = "\
-Exit status: 0 done; 1 the run failed; 2 the command line or a design file is wrong (nothing
-written); 75 interrupted.
-
-TILEBIND_KERNEL=avx512, avx2 or portable in the environment chooses the instruction set (default: the
-fastest that the processor has); the results are the same bytes with each.
-
-Files: a command replaces only what it wrote itself and nobody changed since; .tilebind.json in the
-folder notes that. Anything else in the way is refused before the work, and --force replaces it. What
-a command reads is never replaced. A set of files is all new or all old.
-
 Start here:
   tilebind init my.toml
   tilebind show my.toml
-  tilebind analyse shapes/paper-tile.toml --out target/paper-tile"
+  tilebind analyse shapes/paper-tile.toml --out target/paper-tile
+
+Each command has -h (one line per option) and --help (everything).
+
+Exit status: 0 success; 1 the run failed; 2 the command line or a design file is wrong (nothing is
+written); 75 interrupted.
+
+Files: a command replaces only its own unchanged results, which it records in .tilebind.json. If other
+files are in the way, it stops before it starts; --force replaces them. Input files are never
+replaced. Either all files of a result are replaced or none.
+
+Environment: TILEBIND_KERNEL=avx512, avx2 or portable selects the instruction set (default: the fastest
+available). Results are identical."
 )]
 struct Arguments {
     #[command(subcommand)]

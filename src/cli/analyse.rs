@@ -18,19 +18,21 @@ use super::options::{DesignOptions, ForceOption, PrintOptions, ThreadOption};
 use super::{Failure, interrupt, memory, style, workload};
 
 const DYNAMICS: &str = "\
-Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]; \
-1000 take about a second of a core for each barrier (the paper's tile has 23), for curved \
-shapes up to five";
+Check every barrier with RUNS simulated trajectories started below it [default: 1000]";
 
-/// Find the states, traps, barriers and pathways of a design, and draw them
+const DYNAMICS_LONG: &str = "\
+Check every barrier with RUNS simulated trajectories started below it [default: 1000]
+
+1000 trajectories take about one core-second per barrier, up to five for curved shapes. The paper's \
+tile has 23 barriers. If a trajectory contradicts a barrier, all results are still written, the \
+contradiction is reported and the exit status is 1.";
+
+/// Find and draw the states, traps, barriers and pathways of a design
 #[derive(Args)]
 #[command(
-    mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS)),
+    mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)),
     mut_arg("json", |json| json.help("Print report.json instead of the summary")),
     after_help = "\
-Where moving tiles contradict a barrier (--dynamics), all results are written, the contradiction is
-told and the exit status is 1.
-
 Examples:
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
@@ -42,7 +44,7 @@ pub struct Analyse {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// Folder for the results; made if need be
+    /// Folder for the results, created if missing
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
 
@@ -55,7 +57,7 @@ pub struct Analyse {
     #[command(flatten)]
     threads: ThreadOption,
 
-    /// Leave out PNG pictures and the pathways of symmetric copies: for results that are kept
+    /// Omit PNG pictures and the pathways of symmetric copies, to save space
     #[arg(long)]
     compact: bool,
 
@@ -96,7 +98,7 @@ impl Analyse {
         self.print.results(&document.report(), || {
             let told = document.text(style::columns());
             format!(
-                "{told}results in {}: report.html to look at; report.json, tables, pathways/, pictures/\n",
+                "{told}results in {}: open report.html; also report.json, tables, pathways/, pictures/\n",
                 self.out.display()
             )
         })?;

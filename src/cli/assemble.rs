@@ -12,33 +12,20 @@ use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// Build a tile set of magnets: a word for every glue, and files for the engines of tile assembly
+/// Realise a tile set with magnets: one barcode per glue, and input files for xgrow and rgrow
 #[derive(Args)]
-#[command(after_help = "\
-TILESET is a file of rgrow (YAML or JSON) or xgrow (.tiles), or one of lattice (every tile its own
-place, with --lattice), homogeneous (all the same tile, with --lattice) and square (counted, with
---side). Every glue becomes a word on each axis it is used on; a bond of half the strength has half
-the magnets. Words come from --words, or are searched: on a face of --length places with the widest
-gap, or with --gap on the shortest face that carries them. Written are assembly.yaml (rgrow) and
-assembly.tiles (xgrow) with all energies, aligned mismatches included, a design of every two tiles
-that meet, the sheet for the workshop, and what engines leave out: faces that hold slid.
-
-Examples:
-  tilebind assemble shapes/assemblies/binary-counter.yaml --kt 5e-3 --coverage 0.1 --out target/counter
-  tilebind assemble lattice --lattice 3x3 --kt 4e-3 --coverage 0.1 --out target/lattice
-  tilebind assemble square --side 16 --kt 5e-3 --coverage 0.1 --length 16 --out target/square
-  tilebind assemble shapes/assemblies/sierpinski.yaml shapes/paper-tile.toml --kt 5e-3 \\
-    --coverage 0.1 --length 10 --proofread 2 --out target/proofread")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct Assemble {
-    /// The tile set: a file, or lattice, homogeneous or square
+    /// Tile set: a file (rgrow or xgrow), or lattice, homogeneous or square
     #[arg(value_name = "TILESET", required_unless_present = "lattice")]
     tileset: Option<PathBuf>,
 
-    /// The design file from whose target face magnets, pitch and side are taken [default: the
-    /// paper's magnets, on a face as long as the words]
+    /// Design whose target face gives magnets, pitch and side [default: the paper's magnets]
+    ///
+    /// By default the face is as long as the words need.
     design: Option<PathBuf>,
 
-    /// Words to take, in place of a search: a set as `tilebind words --out` writes it
+    /// Use these words instead of searching: a file written by `tilebind words --out`
     #[arg(long, value_name = "SET.toml")]
     words: Option<PathBuf>,
 
@@ -51,6 +38,28 @@ pub struct Assemble {
     #[command(flatten)]
     results: ResultOptions,
 }
+
+const NOTES: &str = "\
+TILESET is a file for rgrow (YAML or JSON) or xgrow (.tiles), or one of three built-in sets:
+  lattice      every tile has its own place; size from --lattice
+  homogeneous  all tiles are the same; size from --lattice
+  square       a counted square; size from --side
+
+Every glue becomes a word on each axis that uses it. A bond of half the strength has half the magnets.
+Words come from --words or from a search. The search finds the widest gap on a face of --length
+positions, or with --gap the shortest face that carries enough words.
+
+The command writes assembly.yaml (rgrow) and assembly.tiles (xgrow) with all energies, including those
+of aligned mismatches; a design for every two tiles that can meet; the workshop sheet; and the
+slid contacts, which the engines ignore.";
+
+const EXAMPLES: &str = "\
+Examples:
+  tilebind assemble shapes/assemblies/binary-counter.yaml --kt 5e-3 --coverage 0.1 --out target/counter
+  tilebind assemble lattice --lattice 3x3 --kt 4e-3 --coverage 0.1 --out target/lattice
+  tilebind assemble square --side 16 --kt 5e-3 --coverage 0.1 --length 16 --out target/square
+  tilebind assemble shapes/assemblies/sierpinski.yaml shapes/paper-tile.toml --kt 5e-3 \\
+    --coverage 0.1 --length 10 --proofread 2 --out target/proofread";
 
 impl Assemble {
     pub fn run(self) -> Result<(), Failure> {

@@ -14,18 +14,15 @@ use super::progress::Progress;
 use super::results::NumberOptions;
 use super::{Failure, input, interrupt, memory, workload};
 
-/// Print the barrier between two poses, between certified bounds, as JSON
+/// Print the energy barrier between two poses with certified bounds, as JSON
 #[derive(Args)]
-#[command(
-    mut_arg("threads", |threads| threads.help("Threads [default: all cores]")),
-    after_help = "\
-The barrier is the lowest possible value of the highest energy on the way, over all ways.
+#[command(after_help = "\
+The barrier is the lowest maximum energy over all collision-free paths between the two poses.
 
 Examples:
   tilebind barrier shapes/paper-tile.toml --from 0.43,0.04,0 --to 0.43,0,0
   tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --pathway way.csv
-  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --text --out target/barrier"
-)]
+  tilebind barrier shapes/paper-tile.toml --from 0.43,0,0 --to free --text --out target/barrier")]
 pub struct Barrier {
     #[command(flatten)]
     design: DesignOptions,
@@ -33,15 +30,16 @@ pub struct Barrier {
     #[command(flatten)]
     request: Request,
 
-    /// File for the pathway (CSV); from line to line the motion is straight in x, y and theta, the
-    /// shorter way round
+    /// File for the pathway (CSV)
+    ///
+    /// Between lines the motion is linear in x, y and theta; theta takes the shorter way round.
     #[arg(long, value_name = "FILE")]
     pathway: Option<PathBuf>,
 
     #[command(flatten)]
     threads: ThreadOption,
 
-    /// Print no progress
+    /// Do not print progress
     #[arg(long)]
     quiet: bool,
 

@@ -10,13 +10,15 @@ use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 
-/// How strongly bond and traps hold shaken tiles: depths, docking costs and ln K at kT
+/// Print how strongly the bond and the traps hold shaken tiles: depth, docking cost and ln K
 #[derive(Args)]
 #[command(after_help = "\
-kT is an effective energy of the shaking, to be fitted to pairs that bind and part: `tilebind
-calibrate --bonds`. The docking cost is -ln(rho Z0 s / 2 pi): rho tiles on a square metre, Z0 the
-integral of exp(-(U - Umin) / kT) over the state's basin with true contact, s its copies by turns of
-the moving tile. ln K is the depth less this cost: above 0 a pair is bound more often than not.
+kT is the effective energy of the shaking. `tilebind calibrate --bonds` fits it to observed pairs.
+
+The docking cost in kT is -ln(rho Z0 s / 2 pi). rho is the number of tiles per square metre, Z0 the
+integral of exp(-(U - Umin) / kT) over the state's basin, and s the number of the state's copies
+under rotations of the moving tile. ln K is the depth in kT minus the docking cost. Above 0, a pair
+is bound more than half of the time.
 
 Examples:
   tilebind bond shapes/paper-tile.toml --kt 3e-3 --coverage 0.3

@@ -16,7 +16,7 @@ use super::results::ResultOptions;
 use super::{Failure, input, memory, workload};
 use tilebind::request::{self, Word};
 
-/// Set designs side by side: bond, traps, barriers with bounds, capture range
+/// Compare designs: bond, traps, barriers with bounds, capture range
 #[derive(Args)]
 #[command(after_help = "\
 Example:
@@ -27,12 +27,12 @@ pub struct Compare {
     #[arg(required = true)]
     designs: Vec<PathBuf>,
 
-    /// Model of the magnets, dipole or cuboid [default: each design's own]
+    /// Magnet model, dipole or cuboid [default: each design's own]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
-    /// What to rank by: selectivity, bond_depth, unbinding, captured, ... (largest first)
+    /// Rank by selectivity, bond_depth, unbinding, captured, ...; largest first
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
           hide_possible_values = true)]
     by: &'static Quantity,

@@ -8,7 +8,7 @@ use super::{Failure, print};
 /// Bash alone is given options where a file is meant.
 const FILES_BEFORE_OPTIONS: &[u8] = include_bytes!("completions.bash");
 
-/// Print completions for a shell
+/// Print shell completions
 #[derive(Args)]
 #[command(after_help = "\
 Example:

@@ -12,20 +12,11 @@ use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, tell};
 
-/// The strongest attraction of every two words of a set over all poses, with their mates
+/// Find the strongest attraction between every two words of a set, mates included, over all poses
 #[derive(Args)]
-#[command(after_help = "\
-The set is a TOML file: words = [\"NNSN\", ...], without their mates, and if they are not the paper's
-[magnet] and [tile] side, or faces with codes or magnets; `tilebind words --out DIR` writes one. Two square tiles carry a word each
-on one face; every pose is looked at: slid, tilted, drawn back. Rows and columns are the words, then
-their mates; a pose is of the tile whose west face carries the column's word, in the frame of the
-one whose east face carries the row's.
-
-Examples:
-  tilebind crosstalk target/words/words.toml
-  tilebind crosstalk target/words/words.toml --certify --json")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct Crosstalk {
-    /// The set of words
+    /// The set of words (TOML), as `tilebind words --out` writes it
     set: PathBuf,
 
     #[command(flatten)]
@@ -38,6 +29,19 @@ pub struct Crosstalk {
     results: ResultOptions,
 }
 
+const NOTES: &str = "\
+The set is a TOML file: words = [\"NNSN\", ...] without their mates; optionally [magnet] and [tile]
+side (default: the paper's), or faces with codes or magnets. `tilebind words --out DIR` writes one.
+
+Two square tiles carry one word each, on one face. All poses are searched: slid, tilted, drawn back.
+Rows and columns are the words, then their mates. A pose places the tile with the column's word (on
+its west face) in the frame of the tile with the row's word (on its east face).";
+
+const EXAMPLES: &str = "\
+Examples:
+  tilebind crosstalk target/words/words.toml
+  tilebind crosstalk target/words/words.toml --certify --json";
+
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
         let set = WordSet::load(&self.set, self.request.model)?;
@@ -47,8 +51,8 @@ impl Crosstalk {
         let found = self.request.crosstalk(&set);
         if !found.settled {
             tell(
-                "note: the cells were spent before all bounds were as close as asked for; they \
-                 hold, and --certify-cells makes them closer",
+                "note: the cells ran out before all bounds were as narrow as requested; they \
+                 hold, and more --certify-cells makes them narrower",
             );
         }
         self.results

@@ -11,12 +11,12 @@ use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// Send the moving tile towards the fixed one many times and count how it ends
+/// Launch the moving tile at the fixed one many times and count the outcomes
 #[derive(Args)]
 #[command(after_help = "\
-Starts are drawn uniformly: distance, direction about the target face, orientation about the bound
-one, speed, and the velocity's direction about that to the fixed tile. On the paper's tile a
-trajectory takes some 4 ms of a core.
+Starting conditions are uniformly random: distance, direction from the target face, orientation
+relative to the bound state, speed, and direction of the velocity relative to the line to the fixed
+tile. For the paper's tile a trajectory takes about 4 ms on one core.
 
 Examples:
   tilebind dock shapes/paper-tile.toml --runs 2000
@@ -24,7 +24,7 @@ Examples:
   tilebind dock shapes/paper-tile.toml --runs 20000 --out target/dock
   tilebind dock my.toml --runs 1000 --speed 0.4,0.8 --orientation 0.5
   tilebind dock shapes/halbach.toml --from-bond --shaking 3e-3 --drag 5 --duration 60 --runs 200
-  tilebind dock shapes/halbach.toml --from-bond --shaking 1.5e-3 --drag 50 --restitution 1 \
+  tilebind dock shapes/halbach.toml --from-bond --shaking 1.5e-3 --drag 50 --restitution 1 \\
       --friction 0 --duration 60 --runs 200 --overdamped
   tilebind dock my.toml --runs 1000 --fan 0.6,0.6,1e-3,0.2 --drag 0.5 --shaking 1e-5")]
 pub struct Dock {
@@ -37,8 +37,7 @@ pub struct Dock {
     #[command(flatten)]
     release: ReleaseOptions,
 
-    /// Number of the trajectory that is written to trajectory.csv and that the page plays first
-    /// [default: the first bound one]
+    /// Trajectory to write to trajectory.csv and show first [default: the first that binds]
     #[arg(long, value_name = "N", conflicts_with = "from_bond")]
     trajectory: Option<usize>,
 

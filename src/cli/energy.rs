@@ -24,7 +24,7 @@ pub struct Energy {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// Pose of the moving tile in the fixed tile's frame (m, m, rad); may be repeated
+    /// Pose of the moving tile in the fixed tile's frame (m, m, rad); repeatable
     #[arg(
         long = "pose",
         value_name = "X,Y,THETA",
@@ -34,7 +34,7 @@ pub struct Energy {
     )]
     poses: Vec<Configuration>,
 
-    /// CSV file of poses, one a line: columns x, y and theta (others are passed over)
+    /// CSV file with one pose per line: columns x, y and theta; others are ignored
     #[arg(long = "poses", value_name = "FILE.csv")]
     file: Option<PathBuf>,
 

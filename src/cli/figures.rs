@@ -14,15 +14,17 @@ const FONT: f64 = 7.0;
 /// Pictures for print.
 #[derive(Args)]
 pub struct FigureOptions {
-    /// Draw pictures for print, so wide (85mm, 18cm, 3.3in): as PDF too, without titles
+    /// Draw pictures for print, at this width (85mm, 18cm, 3.3in)
+    ///
+    /// Pictures are then without titles, and PDF files are added.
     #[arg(long, value_name = "LENGTH", value_parser = millimetres)]
     figure_width: Option<f64>,
 
-    /// Size of their text in points [default: 7]
+    /// Font size of printed pictures in points [default: 7]
     #[arg(long, value_name = "POINTS", requires = "figure_width", value_parser = request::positive)]
     figure_font: Option<f64>,
 
-    /// Make each panel a picture of its own
+    /// Write each panel as a separate picture
     #[arg(long, requires = "figure_width")]
     figure_panels: bool,
 }
@@ -37,7 +39,7 @@ impl FigureOptions {
         let sheet = Sheet::for_print(width, font).map_err(|[least, most]| {
             Failure::Usage(format!(
                 "--figure-width {width}mm: with text of {font} points pictures can be \
-                 {least:.0}mm to {most:.0}mm wide\n  help: name another width or --figure-font"
+                 {least:.0}mm to {most:.0}mm wide\n  help: change the width or --figure-font"
             ))
         })?;
         Ok(match self.figure_panels {

@@ -8,12 +8,12 @@ use tilebind::start::Request;
 
 use super::{Failure, print, tell};
 
-/// Write a design to start from
+/// Write a commented design file to start from
 #[derive(Args)]
 #[command(after_help = "\
-Without options: 43 cm squares that bind by a tab, with a remark on every key. With any of them: a
-design to measure, magnets sized and spaced in proportion as on the paper's tile, with the code that
-slides least into wrong places.
+Without options the design is a pair of 43 cm squares that bind by a tab, with a comment on every key.
+With options it is made to measure: magnets are sized and spaced in proportion to the paper's tile,
+and the code is the one with the weakest attraction in slid positions.
 
 Examples:
   tilebind init
@@ -22,7 +22,7 @@ Examples:
   tilebind init small.toml --side \"10 cm\" --magnet \"10 x 5 x 2 mm N42\"
   tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
-    /// The file to write; - is standard output
+    /// File to write; - for standard output
     #[arg(default_value = "design.toml")]
     file: PathBuf,
 

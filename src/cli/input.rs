@@ -57,7 +57,7 @@ pub fn doubt_pose(design: &Design, q: &Configuration) {
     if x.abs() > 2.0 * half_x || y.abs() > 2.0 * half_y {
         let [x_mm, y_mm] = [x, y].map(|length| length / 1e3);
         tell(format!(
-            "warning: pose {x},{y},{theta} lies off the table of {} m by {} m: lengths are in m; \
+            "warning: pose {x},{y},{theta} is off the table of {} m by {} m: lengths are in m; \
              did you mean {x_mm},{y_mm} (in mm: \"{x} mm,{y} mm,{theta}\")?",
             2.0 * half_x,
             2.0 * half_y

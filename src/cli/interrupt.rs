@@ -39,8 +39,8 @@ pub fn prepare() -> Result<(), Failure> {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
         let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         let message = match RESUMABLE.load(Ordering::Relaxed) {
-            true => "interrupted: what is finished is kept; the same command goes on from there",
-            false => "interrupted: nothing was written; the same command starts again",
+            true => "interrupted: finished parts are saved; rerun the command to resume",
+            false => "interrupted: nothing was written; rerun the command to start again",
         };
         tell_soon(match known.is_empty() {
             true => message.to_owned(),

@@ -10,13 +10,13 @@ use tilebind::workshop::{Made, Making};
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// Write both tiles for the workshop: DXF and SVG to scale, and a sheet for the magnets
+/// Write workshop files for both tiles: DXF and SVG to scale, and a magnet sheet
 #[derive(Args)]
 #[command(
-    mut_arg("out", |out| out.required(true).help("Folder for the files; made if need be")),
+    mut_arg("out", |out| out.required(true).help("Folder for the files, created if missing")),
     after_help = "\
-Writes fixed.dxf, fixed.svg, moving.dxf and moving.svg (outlines with pockets, in mm) and sheet.md:
-which magnets to buy, which pole goes where, and in which order to put them in.
+The command writes fixed.dxf, fixed.svg, moving.dxf and moving.svg (outlines with pockets, in mm) and
+sheet.md: which magnets to buy, which pole goes where, and in which order to insert them.
 
 Examples:
   tilebind make shapes/tab-20mm.toml --out workshop

@@ -10,11 +10,11 @@ use tilebind::report::matching::document;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// List how the two outlines, magnets aside, fit together, longest contact first
+/// List how the two outlines fit together, ignoring magnets, longest contact first
 #[derive(Args)]
 #[command(after_help = "\
-Exact polygons: every edge of one outline is laid on every edge of the other, corners at corners.
-The gap is the area between the tiles within the hull of their contact.
+The search is exact: every edge of one outline is placed on every edge of the other, corner to corner.
+The gap is the area between the tiles inside the convex hull of their contact.
 
 Examples:
   tilebind match shapes/tab-20mm.toml

@@ -80,7 +80,14 @@ fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
 /// Prints what clap answers in place of a command: help, the version, or what is wrong.
 pub fn answer(mut answer: clap::Error) -> ExitCode {
     correct(&mut answer);
-    let printed = answer.print();
+    let is_version = answer.kind() == clap::error::ErrorKind::DisplayVersion;
+    let is_verbose = || std::env::args_os().any(|it| it == "--verbose");
+    let printed = answer
+        .print()
+        .and_then(|()| match is_version && is_verbose() {
+            true => std::io::stdout().write_all(tilebind::report::page::CITATION.as_bytes()),
+            false => Ok(()),
+        });
     match (answer.use_stderr(), printed) {
         (true, _) => ExitCode::from(WRONG),
         (false, Ok(())) => ExitCode::SUCCESS,
@@ -100,7 +107,7 @@ fn correct(answer: &mut clap::Error) {
         };
         // A pose, which has commas, says it itself.
         if let Some(meant) = with_point(value).filter(|meant| !meant.contains(',')) {
-            let tip = format!("a decimal number has a point, not a comma: {meant}");
+            let tip = format!("use a decimal point, not a comma: {meant}");
             let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
             answer.insert(ContextKind::Suggested, tips);
         }
@@ -118,8 +125,8 @@ fn correct(answer: &mut clap::Error) {
     let wrong = answer.get(ContextKind::InvalidArg);
     let is_model = matches!(wrong, Some(ContextValue::String(name)) if name == "--model");
     if is_model && answer.get(ContextKind::SuggestedArg).is_none() {
-        let tip = "the design says how magnets are modelled: [potential] model = \"cuboid\"; a \
-                   sweep varies it: --vary potential.model=dipole,cuboid";
+        let tip = "the design sets the magnet model: [potential] model = \"cuboid\"; a sweep can \
+            vary it: --vary potential.model=dipole,cuboid";
         let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
         answer.insert(ContextKind::Suggested, tips);
     }

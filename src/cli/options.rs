@@ -19,7 +19,7 @@ pub struct DesignOptions {
     /// The design file
     design: PathBuf,
 
-    /// Model of the magnets, dipole or cuboid [default: the design's]
+    /// Magnet model, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
@@ -50,8 +50,10 @@ impl DesignOptions {
 /// What becomes of files that are in the way.
 #[derive(Args)]
 pub struct ForceOption {
-    /// Replace files in the way, too, that tilebind did not write, that were changed since, or that
-    /// are results of another command; never what the command reads
+    /// Replace existing files, whoever wrote them
+    ///
+    /// Without it, only unchanged results of the same command are replaced. The files that the
+    /// command reads are never replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -87,7 +89,7 @@ impl ForceOption {
 /// On how many threads work is done.
 #[derive(Args)]
 pub struct ThreadOption {
-    /// Threads [default: all cores]; the results do not depend on them
+    /// Number of threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = request::whole(1, u16::MAX))]
     threads: Option<u16>,
 }
@@ -106,7 +108,7 @@ impl ThreadOption {
         let used = useful(threads);
         if used < usize::from(threads) {
             tell(format!(
-                "note: {used} threads are used: more on {} cores would gain nothing",
+                "note: using {used} threads: more would not help on {} cores",
                 cores()
             ));
         }
@@ -136,7 +138,7 @@ pub struct PrintOptions {
     #[arg(long)]
     pub json: bool,
 
-    /// Print neither progress nor the summary
+    /// Do not print progress or the summary
     #[arg(long)]
     pub quiet: bool,
 }

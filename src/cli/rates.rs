@@ -11,33 +11,9 @@ use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 use super::{Failure, input, memory};
 
-/// Print how fast shaken tiles bind, come off and change between states
+/// Print how fast shaken tiles bind, unbind and change between states
 #[derive(Args)]
-#[command(after_help = "\
-Overdamped motion: D = kT / (RATE mass) in x and y and D / rho^2 in theta (rho: radius of gyration),
-reflected where tiles touch. Mean exit times and committors solve the backward equation on a mesh of
-(x, y, theta) that is refined where it matters. Lower bounds of capacities come from fluxes without
-sources (Thomson), for tiles whose contact every ray from the centre leaves once (convex ones, tabs,
-slots, teeth, arcs; no dovetails or square teeth), upper ones from trial committors (Dirichlet), for all; what the mesh's integrals and basins made of whole cells are off by is not in them (the latter is
-estimated): they are \"bracketed on the mesh\". --prove encloses integrals and sets too, and so proves
-how often tiles set out from the well about the start for an end, or from each basin for another, and
-bounds of the mean time until they are there: near each other only where the well holds next to all
-that the ends do not, far below the passes; of dipoles, with shields (but by the nearest-face rule) or without. Without --start: rates between the
-bond, the deepest traps and free tiles; between places without a known way nothing is claimed (- and
-null), and 0 only where contact proves that there is none. The ends are sets; without them no rate means anything, so they are printed beside
-every number.
-
-kT is an effective energy of shaking. It exists for drag of 50 /s and more and for knocks that take no
-energy; tiles that glide far between knocks, or whose knocks take what shaking does not give back,
-have none.
-
-Examples:
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --out target/rates
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
-  tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
-    --basin-energy -0.03 --free-at 0.75 --json
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove
-  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct Rates {
     #[command(flatten)]
     design: DesignOptions,
@@ -51,6 +27,37 @@ pub struct Rates {
     #[command(flatten)]
     results: ResultOptions,
 }
+
+const NOTES: &str = "\
+Model: overdamped motion with diffusion constants D = kT / (RATE mass) in x and y and D / rho^2 in theta
+(rho: radius of gyration), and reflecting contact. Mean exit times and committors solve the backward
+equation on an adaptive mesh of (x, y, theta).
+
+With --start: the mean exit time from that pose and the share of each exit. Without it: the rates
+between the bond, the deepest traps and free tiles. A rate depends on the sets between which it is
+defined, so these are always printed. Where no path between two sets is known, no rate is given (- or
+null). A rate of 0 is printed only where contact proves that there is no path.
+
+Bounds: upper bounds of capacities come from trial committors (Dirichlet), for all tiles. Lower bounds
+come from divergence-free fluxes (Thomson), for tiles whose contact boundary every ray from the
+centre crosses once: convex tiles, tabs, slots, teeth and arcs, but not dovetails or square teeth.
+The bounds exclude the discretisation error, which is estimated separately: they are \"bracketed on the
+mesh\". --prove bounds the integrals and the sets as well. It proves how often tiles leave the well
+around the start, or each basin, and bounds on the mean time until they arrive. These bounds are
+tight only when the well holds nearly all of the probability. --prove needs dipoles, with or without
+shields, but not shields with the nearest-face rule.
+
+kT is the effective energy of the shaking. It exists for a drag of at least 50 /s and elastic
+collisions. Tiles that glide far between collisions, or lose energy in them, have no such kT.";
+
+const EXAMPLES: &str = "\
+Examples:
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --out target/rates
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
+  tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
+    --basin-energy -0.03 --free-at 0.75 --json
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove
+  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove";
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {

@@ -59,7 +59,7 @@ impl FolderOptions {
         match &self.out {
             Some(folder) => told_of(document, folder),
             None => format!(
-                "{}nothing was written: --out DIR keeps page and tables\n",
+                "{}nothing was written: add --out DIR for a report and tables\n",
                 document.text(style::columns())
             ),
         }
@@ -69,7 +69,7 @@ impl FolderOptions {
 /// What people read on a terminal of results in a folder.
 pub fn told_of(document: &Document, folder: &Path) -> String {
     format!(
-        "{}results in {}: report.html to look at; {}report.json, tables, pictures\n",
+        "{}results in {}: open report.html; also {}report.json, tables, pictures\n",
         document.text(style::columns()),
         folder.display(),
         beside(document)

@@ -8,7 +8,8 @@ use super::{Failure, print};
 /// Print the JSON Schema of the design file, for editors
 #[derive(Args)]
 #[command(after_help = "\
-An editor with a TOML language server completes and checks a design that begins with the line
+An editor with a TOML language server completes keys in a design that begins with this line, and
+checks them:
   #:schema ./design.schema.json
 
 Example:

@@ -21,10 +21,10 @@ const PIXEL: f64 = 0.17;
 /// How often a watched file is looked at.
 const BLINK: Duration = Duration::from_millis(300);
 
-/// Show a design at a glance: both tiles, the bond, forces, what is wrong
+/// Draw a design: both tiles, the bond, forces, and what is wrong
 #[derive(Args)]
 #[command(after_help = "\
-The tiles are drawn where their target faces meet; nothing is searched, so it takes no time.
+The tiles are drawn with their target faces in contact. Nothing is searched, so this is immediate.
 
 Examples:
   tilebind show shapes/paper-tile.toml
@@ -36,8 +36,7 @@ pub struct Show {
     #[command(flatten)]
     design: DesignOptions,
 
-    /// File for the picture, .svg, .png or .pdf by its ending; or folder for report.html, report.json,
-    /// tables and pictures
+    /// Picture to write (.svg, .png or .pdf), or folder for report.html, tables and pictures
     #[arg(long, short, value_name = "FILE|DIR", value_parser = PathBufValueParser::new().try_map(place))]
     out: Option<PathBuf>,
 
@@ -51,7 +50,7 @@ pub struct Show {
     #[arg(long)]
     json: bool,
 
-    /// Show it again whenever the design file or its drawings change, until interrupted
+    /// Redraw whenever the design file or its drawings change, until interrupted
     #[arg(long, conflicts_with = "json")]
     watch: bool,
 }
@@ -153,8 +152,8 @@ fn ending(place: &Path) -> Option<&str> {
 fn place(place: PathBuf) -> Result<PathBuf, String> {
     match place.extension() {
         Some(_) if ending(&place).is_none() => Err(
-            "a picture is a .svg, .png or .pdf file, such as design.svg; a name without an ending is a \
-             folder"
+            "a picture is a .svg, .png or .pdf file, such as design.svg; a name without an \
+             extension is a folder"
                 .to_owned(),
         ),
         _ => Ok(place),

@@ -25,19 +25,19 @@ const PLAN: &str = "plan.json";
 const AGAIN: &str = "tilebind sweep --run plan.json; tilebind sweep --merge plan.json";
 
 const THREADS: &str = "\
-Points worked on at the same time [default: all cores]; the results do not depend on it";
+Points computed at the same time; results do not depend on it [default: all cores]";
 
-/// Vary keys of a design and assess every design that comes of it
+/// Vary keys of a design and analyse every resulting design
 #[derive(Args)]
 #[command(
     mut_arg("refine", |refine| refine.conflicts_with_all(["plan", "run", "merge", "status"])),
     mut_arg("baseline", |baseline| baseline.conflicts_with_all(["run", "merge", "status"])),
-    mut_arg("seed", |seed| seed.help("Seed that all points' seeds come from")),
+    mut_arg("seed", |seed| seed.help("Random seed from which all points' seeds are derived")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
-Writes report.html to look at, report.json, sweep.csv and pictures: curves over one varied number, maps
-over two. A point's results are kept in DIR/points as soon as they are known: whenever a sweep
-was stopped, the same command goes on with what is missing and ends in the same bytes.
+The command writes report.html, report.json, sweep.csv and pictures: curves for one varied number,
+maps for two. Each point's results are saved in DIR/points. If a sweep is interrupted, rerun the
+command to resume; the results are identical.
 
 Examples:
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.05:11 \\
@@ -47,23 +47,24 @@ Examples:
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.04:5 \\
       --baseline depth=0 --refine 6 --out target/depth
 
-In parts, on one machine or many:
+In parts, on one or several machines:
   tilebind sweep shapes/tab-20mm.toml --vary magnet.pitch=0.02:0.06:9 --plan target/pitch/plan.json
   tilebind sweep --run target/pitch/plan.json --shard 1/4 --threads 1     # and 2/4, 3/4, 4/4
   tilebind sweep --status target/pitch/plan.json
   tilebind sweep --merge target/pitch/plan.json"
 )]
 pub struct Sweep {
-    /// The design files; usually one
+    /// Design files, usually one
     #[arg(required_unless_present_any = ["run", "merge", "status"])]
     designs: Vec<PathBuf>,
 
-    /// A key of the design by its dotted path with its values, KEY=a:b:n (n from a to b) or
-    /// KEY=v,w,...; repeated for a grid
+    /// Key of the design (dotted path) and its values; repeat for a grid
+    ///
+    /// KEY=a:b:n for n values from a to b, or KEY=v,w,... for a list.
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<Axis>,
 
-    /// Folder for the results; made if need be [default with a manifest: the folder it is in]
+    /// Folder for the results, created if missing [default with a manifest: its folder]
     #[arg(long, short, value_name = "DIR",
           required_unless_present_any = ["plan", "run", "merge", "status"])]
     out: Option<PathBuf>,
@@ -74,16 +75,16 @@ pub struct Sweep {
     #[command(flatten)]
     request: Request,
 
-    /// Only write the manifest [default file: plan.json in the folder of --out]
+    /// Only write the manifest [default: plan.json in the folder of --out]
     #[arg(long, value_name = "PLAN", num_args = 0..=1, conflicts_with_all = ["run", "merge", "status"])]
     plan: Option<Option<PathBuf>>,
 
-    /// Work on the points of a manifest that have no results yet
+    /// Compute the points of a manifest that have no results yet
     #[arg(long, value_name = "PLAN",
           conflicts_with_all = ["designs", "vary", "merge", "status"])]
     run: Option<PathBuf>,
 
-    /// Part i of n, from 1/n to n/n: every nth point
+    /// Compute only part i of n (every nth point), from 1/n to n/n
     #[arg(long, value_name = "i/n", requires = "run", value_parser = request::shard)]
     shard: Option<Shard>,
 
@@ -91,7 +92,7 @@ pub struct Sweep {
     #[arg(long, value_name = "PLAN", conflicts_with_all = ["designs", "vary", "status"])]
     merge: Option<PathBuf>,
 
-    /// Print how far a sweep is
+    /// Print the progress of a sweep
     #[arg(long, value_name = "PLAN", conflicts_with_all = ["designs", "vary"])]
     status: Option<PathBuf>,
 
@@ -164,7 +165,7 @@ impl Sweep {
         })?;
         if let (1.., Some(asked), false) = (left, self.request.refine, self.print.quiet) {
             tell(format!(
-                "{} of {asked} points added: nothing else bends by a twentieth",
+                "{} of {asked} points added: the curves bend by less than a twentieth elsewhere",
                 asked - left
             ));
         }
@@ -192,7 +193,7 @@ impl Sweep {
             (Some(Some(file)), _) => Ok(file.clone()),
             (_, Some(folder)) => Ok(folder.join(PLAN)),
             (_, None) => Err(Failure::Usage(
-                "say where the manifest goes: --plan DIR/plan.json, or --out DIR".to_owned(),
+                "give the manifest's place: --plan DIR/plan.json, or --out DIR".to_owned(),
             )),
         }
     }
@@ -258,7 +259,7 @@ impl Sweep {
         let store = Store::new(folder);
         let report = Report::read(plan, &store).map_err(|progress| {
             Failure::Run(format!(
-                "the sweep is not finished, {}: run its parts again; they go on where they were",
+                "the sweep is not finished, {}: rerun its parts to resume",
                 counts(&progress)
             ))
         })?;
@@ -278,7 +279,8 @@ impl Sweep {
                 tell_refuted(&points.collect::<Vec<_>>())
             }
             failed => Err(Failure::Run(format!(
-                "{failed} points failed by a fault of tilebind; sweep.csv says which and why"
+                "{failed} points failed because of a bug in tilebind; sweep.csv lists them with \
+                 the reason"
             ))),
         }
     }

@@ -14,16 +14,19 @@ use super::options::ThreadOption;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// Put many tiles on one table, with contact, friction and drives, and count what they hold
+/// Simulate many tiles on one table, with contact, friction and drives, and count bonds and traps
 #[derive(Args)]
 #[command(after_help = "\
-All tiles move, the pair's fixed one too: --count 12,12 is twelve of either kind. They start at random
-places, or as --start says: a table with the columns tile,kind,x,y,theta,vx,vy,omega (m, rad, m/s, rad/s). A bond
-is a pair whose target faces' magnets have met; a trap is any other pair in touch that has not the energy to
-come apart. Energy is accounted for in every run; where more than 1 % is missing, the run is made again with
-half the step. Of several designs all tiles are on one table, the first design's; their kinds are `NAME fixed` and
-`NAME moving`, and whatever tiles of two designs hold is a trap. With --compare the share of the target stands
-beside what `tilebind yield` says: that differs where contact takes energy out, and where tiles hold more than one.
+All tiles move, including those of the fixed kind: --count 12,12 is twelve of each kind. They start at
+random positions or at those of --start, a CSV file with the columns tile,kind,x,y,theta,vx,vy,omega
+(m, rad, m/s, rad/s).
+
+A bond is a pair whose target magnets have met. A trap is any other pair in contact that lacks the
+energy to separate. Every run keeps an energy balance; if more than 1 % is missing, the run is repeated
+with half the step.
+
+Several designs share one table, the first design's. Their kinds are `NAME fixed` and `NAME moving`;
+any contact between tiles of two designs that holds is a trap.
 
 Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
@@ -34,11 +37,11 @@ Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
-    /// Design files, whose tiles share the first one's table, or one tile set as `tilebind assemble` takes it
+    /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`
     #[arg(value_name = "DESIGN|TILESET", required = true)]
     tiles: Vec<PathBuf>,
 
-    /// Model of the magnets, dipole or cuboid [default: the design's]
+    /// Magnet model, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
@@ -46,7 +49,7 @@ pub struct TableCommand {
     #[command(flatten)]
     request: Request,
 
-    /// Tiles at the start, in place of --count at random places
+    /// Initial tiles (CSV), instead of --count tiles at random positions
     #[arg(long, value_name = "FILE.csv", conflicts_with = "count")]
     start: Option<PathBuf>,
 

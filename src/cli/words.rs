@@ -13,25 +13,9 @@ use super::{Failure, input};
 
 /// Find sets of barcodes that bind their mates and nothing else
 #[derive(Args)]
-#[command(after_help = "\
-The gap of a set of words is 1 less the strongest wrong attraction over the weakest right bond, in
-energies of flush faces at contact, at every slide by whole places, magnets at all lags. It judges
-aligned and slid faces, not tilted ones: `tilebind crosstalk` does those. Wrong is every meeting but
-that of a word and its own mate at slide 0. With --gap the answer is the largest set, with --count
-the widest gap, with neither the number of words for every number of contacts. Where counted
-contacts make a tie, energies decide it; --contacts counts instead.
-
-Examples:
-  tilebind words --length 8 --gap 0.45
-  tilebind words --length 8 --count 5 --out target/words
-  tilebind words --length 8                                # gap against number of words
-  tilebind words --length 12 --gap 0.8 --shape polar
-  tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
-  tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
-  tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct Words {
-    /// The design file from whose target face magnets and pitch are taken [default: the paper's
-    /// tile]
+    /// Design whose target face gives magnets and pitch [default: the paper's tile]
     design: Option<PathBuf>,
 
     #[command(flatten)]
@@ -43,6 +27,26 @@ pub struct Words {
     #[command(flatten)]
     results: ResultOptions,
 }
+
+const NOTES: &str = "\
+The gap of a set of words is 1 - strongest wrong attraction / weakest bond. Energies are of flush faces
+in contact, at every slide by whole positions, between all pairs of magnets. Every contact is wrong
+except that of a word with its own mate at slide 0. Tilted faces are not searched here; use
+`tilebind crosstalk`.
+
+With --gap the result is the largest set of words, with --count the widest gap, and with neither the
+number of words for every number of matching contacts. If contact counts tie, energies decide;
+--contacts uses contact counts only.";
+
+const EXAMPLES: &str = "\
+Examples:
+  tilebind words --length 8 --gap 0.45
+  tilebind words --length 8 --count 5 --out target/words
+  tilebind words --length 8                                # gap versus number of words
+  tilebind words --length 12 --gap 0.8 --shape polar
+  tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
+  tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
+  tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2";
 
 impl Words {
     pub fn run(self) -> Result<(), Failure> {

@@ -16,7 +16,7 @@ pub fn tell_of(design: &Design, asked: &Settings) {
     let bond = si(design.problem().energy(&pair.bound), "J", 4);
     let mut less = vec![format!("{} milestones (--milestones)", asked.milestones)];
     if let Some(kinds) = asked.most_kinds {
-        less.push(format!("the {kinds} deepest kinds of states (--kinds)"));
+        less.push(format!("the {kinds} deepest kinds of state (--kinds)"));
     }
     if asked.far_starts > 0 {
         less.push(format!("{} far starts (--far-starts)", asked.far_starts));
@@ -25,8 +25,8 @@ pub fn tell_of(design: &Design, asked: &Settings) {
         less.push("no proofs (--certify-work, --complete-work)".to_owned());
     }
     tell(format!(
-        "note: {pairs} pairs of magnets, {bond} where the target faces meet; so many take long: \
-         asked for are {}",
+        "note: {pairs} pairs of magnets, {bond} where the target faces meet, take long; the \
+         defaults are reduced to {}",
         less.join(", ")
     ));
 }

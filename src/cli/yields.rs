@@ -9,20 +9,9 @@ use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
 
-/// How many pairs are bound after a time on a shaken table, and at which shaking most are
+/// Print how many pairs are bound after a time on a shaken table, and which shaking binds most
 #[derive(Args)]
-#[command(after_help = "\
-Half of the tiles are of the fixed tile's kind, half of the moving one's; each binds one partner at
-most. Attachment rates are counted in docking runs of shaken tiles (or, with --rates overdamped, solved
-for overdamped motion as `tilebind rates` does), detachment rates follow by detailed balance from the states' partition functions (`tilebind bond`). That is honest for a table
-that has a temperature: contact that swallows energy, which shaking does not give back, has none. Of
-several kT those at which the bond holds nothing, or moves less than contact is known, are left out, and
-it is said why.
-
-Examples:
-  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
-  tilebind yield shapes/paper-tile.toml --tiles 10 --time 36000 --kt 3e-3 --rates overdamped
-  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{NOTES}\n\n{EXAMPLES}"))]
 pub struct YieldCommand {
     #[command(flatten)]
     design: DesignOptions,
@@ -36,6 +25,24 @@ pub struct YieldCommand {
     #[command(flatten)]
     results: ResultOptions,
 }
+
+const NOTES: &str = "\
+Half of the tiles are of the fixed tile's kind, half of the moving tile's kind. Each tile binds at most
+one partner.
+
+Attachment rates are counted in docking runs of shaken tiles. With --rates overdamped they are
+solved for overdamped motion, as in `tilebind rates`. Detachment rates follow by detailed balance from
+the partition functions of the states (`tilebind bond`). This is valid only if collisions lose no energy:
+otherwise the table has no temperature.
+
+If several kT are given, those at which the bond does not hold or jitters less than the contact
+tolerance are omitted, with the reason.";
+
+const EXAMPLES: &str = "\
+Examples:
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 36000 --kt 3e-3 --rates overdamped
+  tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 2e-3,4e-3,6e-3 --out target/yield";
 
 impl YieldCommand {
     pub fn run(self) -> Result<(), Failure> {

@@ -19,15 +19,15 @@ const ROUGH: f64 = 1e-2;
 /// What is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Effective energy kT of the shaking (J)
+    /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub kt: f64,
 
-    /// Share of the table that tiles cover
+    /// Fraction of the table covered by tiles
     #[arg(long, value_name = "F", value_parser = request::fraction)]
     pub coverage: f64,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
           value_parser = request::seed)]
     pub seed: u64,

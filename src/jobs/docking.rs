@@ -20,12 +20,12 @@ use physics::tile::Pair;
 /// What is asked of a docking experiment.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Trajectories
+    /// Number of trajectories
     #[arg(long, value_name = "N", default_value_t = DockingSettings::default().runs,
           value_parser = request::runs)]
     pub runs: usize,
 
-    /// How long each trajectory lasts (s)
+    /// Duration of each trajectory (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
           value_parser = request::time)]
     pub duration: f64,
@@ -34,8 +34,7 @@ pub struct Request {
     #[command(flatten)]
     pub motion: MotionOptions,
 
-    /// Magnets of the target faces are matched within this distance (m) [default: 1.5 lengths of
-    /// a magnet]
+    /// Distance (m) within which target magnets count as matched [default: 1.5 magnet lengths]
     #[arg(long, value_name = "M", value_parser = request::length)]
     pub threshold: Option<f64>,
 
@@ -43,15 +42,15 @@ pub struct Request {
     #[command(flatten)]
     pub starts: StartOptions,
 
-    /// Lets tiles leave the table
+    /// Let tiles leave the table
     #[arg(long)]
     pub no_walls: bool,
 
-    /// Effective energy kT (J) of a random shaking force
+    /// Effective energy kT of random shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::energy_or_none)]
     pub shaking: Option<f64>,
 
-    /// Seed of all random numbers; a trajectory depends on it and on its own number only
+    /// Random seed; a trajectory depends only on it and on its own number
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -77,13 +76,15 @@ impl Request {
 /// How long bound tiles hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
 pub struct ReleaseOptions {
-    /// Start bound instead, with a thermal velocity, and find the rate of detachment; the options of
-    /// starts do not matter
+    /// Start bound, with a thermal velocity, and measure the detachment rate
+    ///
+    /// The options that set the start are ignored.
     #[arg(long, requires = "shaking")]
     pub from_bond: bool,
 
-    /// With --from-bond: tell the rate of overdamped motion at the same kT and drag beside it, solved
-    /// on a mesh as `tilebind rates` does
+    /// With --from-bond: also print the overdamped rate
+    ///
+    /// It is solved on a mesh at the same kT and drag, as in `tilebind rates`.
     #[arg(long, requires = "from_bond")]
     pub overdamped: bool,
 }
@@ -138,29 +139,29 @@ pub fn loosening(
 /// Ranges from which starts are drawn.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct StartOptions {
-    /// Distance between the tiles' reference points at the start, LOW,HIGH (m)
-    /// [default: 0.62,1 of the paper's tiles, of others in proportion]
+    /// Initial distance between reference points (m) [default: 0.62,1 scaled with the tiles]
+    ///
+    /// 0.62,1 is the range for the paper's tiles.
     #[arg(long, value_name = "LOW,HIGH", value_parser = lengths)]
     pub distance: Option<[f64; 2]>,
 
-    /// Its direction differs from the target face's by at most this (rad) [default: 0.7854]
+    /// Largest angle (rad) from the target face's normal to the tile [default: 0.7854]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub direction: Option<f64>,
 
-    /// Orientation differs from the bound one by at most this (rad) [default: 1.5]
+    /// Largest angle (rad) from the bound orientation [default: 1.5]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub orientation: Option<f64>,
 
-    /// Speed at the start, LOW,HIGH (m/s) [default: 0,1.3]
+    /// Initial speed (m/s) [default: 0,1.3]
     #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
     pub speed: Option<[f64; 2]>,
 
-    /// The velocity's direction differs from that to the fixed tile by at most this (rad)
-    /// [default: 0.3]
+    /// Largest angle (rad) between the velocity and the line to the fixed tile [default: 0.3]
     #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
     pub aim: Option<f64>,
 
-    /// Turning rate at the start, either way, at most this (rad/s) [default: 0]
+    /// Largest initial angular velocity, either way (rad/s) [default: 0]
     #[arg(long, value_name = "RATE", value_parser = request::not_negative)]
     pub spin: Option<f64>,
 }

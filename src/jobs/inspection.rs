@@ -80,15 +80,15 @@ impl Inspection {
             );
         } else if !no_magnets && bond.contact <= 0.0 {
             faults.push(
-                "the target faces attract each other but are pushed apart at contact: look at \
-                 the codes' order and at `fit`"
+                "the target faces attract each other but are pushed apart at contact: check the \
+                 order of the codes and `fit`"
                     .to_owned(),
             );
         }
         if !self.comes_straight_out {
             faults.push(
-                "the shapes hook: the moving tile cannot be drawn straight out of the bond, nor \
-                 come straight in (a draft of 0 or more, or `fit`, lets it)"
+                "the shapes interlock: the moving tile cannot be pulled straight out of the bond \
+                 or pushed straight in; use a draft of 0 or more, or `fit`"
                     .to_owned(),
             );
         }

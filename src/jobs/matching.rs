@@ -10,7 +10,7 @@ use physics::contact::matching::{Match, matches};
 /// What is asked of the ways in which the outlines fit.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
-    /// Most motions listed
+    /// Largest number of fits to list
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = request::count)]
     pub most: usize,
 }

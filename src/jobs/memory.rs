@@ -25,10 +25,7 @@ pub fn check(
     };
     let needed = BESIDES + at_once as f64 * roadmap::memory(milestones, neighbours);
     let told = fits(needed).map_err(|told| {
-        format!(
-            "{work} about {told}: ask for fewer --milestones or --neighbours, or work on fewer \
-             --threads"
-        )
+        format!("{work} about {told}: use fewer --milestones, --neighbours or --threads")
     })?;
     Ok((needed > WORTH_TELLING).then(|| format!("{work} about {told}")))
 }

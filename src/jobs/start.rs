@@ -12,11 +12,11 @@ pub struct Request {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32))]
     pub sides: Option<u32>,
 
-    /// Length of a side (m), or with a unit: \"12 cm\" [default: 0.43]
+    /// Side length (m), or with a unit: "12 cm" [default: 0.43]
     #[arg(long, value_name = "M", value_parser = request::length)]
     pub side: Option<f64>,
 
-    /// Magnets on each of the two faces that are to bind, 1 to 16 [default: 4]
+    /// Magnets on each of the two binding faces, 1 to 16 [default: 4]
     #[arg(long, value_name = "K", value_parser = request::count)]
     pub magnets: Option<usize>,
 
@@ -24,9 +24,11 @@ pub struct Request {
     #[arg(long, value_parser = shape(), hide_possible_values = true)]
     pub shape: Option<Shape>,
 
-    /// The magnets as a shop describes them, length x width x height, magnetised through the
-    /// last: \"10 x 5 x 2 mm N42\" [default: those that fit]
-    #[arg(long, value_name = "BLOCK", value_parser = ShopMagnet::parse)]
+    /// Magnets as sold: "10 x 5 x 2 mm N42", or a disc: "10 x 3 mm N42" [default: sized to fit]
+    ///
+    /// Length x width x height of a block or diameter x height of a disc, and grade. The magnets are
+    /// magnetised along the last dimension.
+    #[arg(long, value_name = "MAGNET", value_parser = ShopMagnet::parse)]
     pub magnet: Option<ShopMagnet>,
 }
 

@@ -136,9 +136,7 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
 /// [`with_point`]).
 pub fn decimal_comma(text: &str) -> Option<String> {
     let meant = with_point(text)?;
-    Some(format!(
-        "a decimal number has a point, not a comma: {meant}"
-    ))
+    Some(format!("use a decimal point, not a comma: {meant}"))
 }
 
 /// Where the column stands that a table's first line names by one of some names, if it does.

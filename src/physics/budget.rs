@@ -85,8 +85,8 @@ impl Ended {
     /// As a sentence begins that says so.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Work => "the work given to the proof ended",
-            Self::Clock => "the clock ended the proof",
+            Self::Work => "the proof used up its work",
+            Self::Clock => "the proof reached its time limit",
         }
     }
 }

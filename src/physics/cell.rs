@@ -105,6 +105,44 @@ impl Quadratic {
         out
     }
 
+    /// The product with another form, without its terms of third and fourth order.
+    pub fn times(&self, other: &Self) -> Self {
+        let (f, g) = (self, other);
+        let second = |k: usize, (i, j): (usize, usize)| {
+            f.value * g.hessian[k]
+                + g.value * f.hessian[k]
+                + f.gradient[i] * g.gradient[j]
+                + f.gradient[j] * g.gradient[i]
+        };
+        let [xy, xt, yt] = OFF_DIAGONAL;
+        let entries = [(0, 0), (1, 1), (2, 2), xy, xt, yt];
+        Self {
+            value: f.value * g.value,
+            gradient: std::array::from_fn(|i| f.value * g.gradient[i] + g.value * f.gradient[i]),
+            hessian: std::array::from_fn(|k| second(k, entries[k])),
+        }
+    }
+
+    /// The most that the terms of first and of second order can be over the box.
+    pub fn orders(&self, half: &[f64; 3]) -> [f64; 2] {
+        let [slopes, squares, products] = self.magnitudes(half);
+        [slopes, 0.5 * squares + products]
+    }
+
+    /// Sums of the magnitudes of slopes, of squares and of products over the box.
+    fn magnitudes(&self, half: &[f64; 3]) -> [f64; 3] {
+        let slopes = (0..3).map(|i| (self.gradient[i] * half[i]).abs()).sum();
+        let squares = (0..3)
+            .map(|i| (self.hessian[i] * half[i] * half[i]).abs())
+            .sum();
+        let products = OFF_DIAGONAL
+            .into_iter()
+            .zip(&self.hessian[3..])
+            .map(|((i, j), h)| (h * half[i] * half[j]).abs())
+            .sum();
+        [slopes, squares, products]
+    }
+
     /// A guaranteed lower bound of the form over the box `|d_i| <= half_i`.
     ///
     /// Each product is bounded by squares, `2 |d_i d_j| <= d_i^2 half_j / half_i + d_j^2 half_i /
@@ -144,15 +182,7 @@ impl Quadratic {
 
     /// Bound of the rounding errors of `least` and of the sums that made the form.
     pub fn rounding(&self, half: &[f64; 3]) -> f64 {
-        let slopes: f64 = (0..3).map(|i| (self.gradient[i] * half[i]).abs()).sum();
-        let squares: f64 = (0..3)
-            .map(|i| (self.hessian[i] * half[i] * half[i]).abs())
-            .sum();
-        let products: f64 = OFF_DIAGONAL
-            .into_iter()
-            .zip(&self.hessian[3..])
-            .map(|((i, j), h)| (h * half[i] * half[j]).abs())
-            .sum();
+        let [slopes, squares, products] = self.magnitudes(half);
         ROUNDING * (self.value.abs() + slopes + squares + products)
     }
 

@@ -287,7 +287,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
         facts.fact("", name, value).in_view().noted(note)
     };
     let Some(bond) = first(true) else {
-        let note = "the tiles do not stay where the target faces coincide".to_owned();
+        let note = "nothing holds the tiles where the target faces coincide".to_owned();
         return told(facts, "no bond", energy(analysis.bound.1), note);
     };
     let (value, note) = match bond.state.block_energy {
@@ -366,14 +366,15 @@ fn list(analysis: &Analysis) -> (&'static str, String) {
         Err(why) => (
             "sampled",
             format!(
-                "it may lack some: {why}; of more far starts {} would end in kinds not seen yet",
+                "some may be missing: {why}; an estimated {} of further far starts would end in \
+                 kinds not seen yet",
                 percent(&analysis.catalogue.unseen())
             ),
         ),
         Ok(known) => {
             let [below, escape, lowest] =
                 [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
-            let claim = format!("no other below {below} takes more than {escape} to leave");
+            let claim = format!("no other state below {below} needs more than {escape} to escape");
             let ended = known.ended.map_or(String::new(), |ended| {
                 let allowed = analysis.settings.completeness.allowed;
                 format!("; {}", ended_by(ended, "complete", allowed))
@@ -383,7 +384,7 @@ fn list(analysis: &Analysis) -> (&'static str, String) {
                 count => (
                     "proved in part",
                     format!(
-                        "{claim}, but for {count} {} down to {lowest}{ended}",
+                        "{claim}, except in {count} {} with states no deeper than {lowest}{ended}",
                         if count == 1 { "region" } else { "regions" }
                     ),
                 ),

@@ -117,6 +117,7 @@ pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> Option<Stri
         .reduce(|sums, checks| std::array::from_fn(|k| sums[k] + checks[k]));
     let [checked, contradicted, high] = sums?;
     Some(format!(
-        "moving tiles checked {checked} barriers: {contradicted} contradicted, {high} estimated too high"
+        "simulated tiles checked {checked} barriers: {contradicted} contradicted, {high} \
+         estimated too high"
     ))
 }

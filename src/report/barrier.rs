@@ -27,7 +27,7 @@ pub fn document<'a>(
     let barrier = &answer.barrier;
     let uncertified = answer.uncertified.map(|why| format!("no bounds: {why}"));
     let ended = answer.ended.map(Ended::describe);
-    let ended = ended.map(|why| format!("bounds are wider than asked for: {why}"));
+    let ended = ended.map(|why| format!("bounds are wider than requested: {why}"));
     let mut pictures = vec![ends(design, query, answer)];
     let mut beside = Files::new();
     if barrier.has_way() {
@@ -71,18 +71,18 @@ fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
 fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
     let (name, barrier) = (&design.name, &answer.barrier);
     let to = match query.to {
-        End::At(_) => "the other",
+        End::At(_) => "the second",
         End::Free => "free",
     };
     if let Some(why) = why_no_way(barrier) {
-        return format!("{name}: from the one pose to {to} there is no way: {why}");
+        return format!("{name}: no path from the first pose to {to}: {why}");
     }
     let certified = barrier.bounds.above(barrier.from_energy).both();
     let certified = certified.map_or_else(String::new, |(lower, upper)| {
         format!(" (certified: {})", si_range(lower, upper, "J", 4))
     });
     format!(
-        "{name}: the way from the one pose to {to} climbs {}{certified}, back {}",
+        "{name}: barrier from the first pose to {to} {}{certified}, reverse {}",
         si(barrier.forward(), "J", 4),
         si(barrier.reverse(), "J", 4)
     )
@@ -93,7 +93,7 @@ fn profile(answer: &Answer) -> Chart {
     let way = thinned(&answer.barrier.pathway, SEEN);
     Chart {
         name: "profile",
-        title: "Energy along the way".to_owned(),
+        title: "Energy along the path".to_owned(),
         x: Dimension::new("s_m", "way"),
         y: Dimension::new("energy_J", "energy"),
         series: Vec::new(),
@@ -115,7 +115,7 @@ fn ends<'a>(design: &'a Design, query: &Query, answer: &Answer) -> Drawing<'a> {
     let end = end.map(|q| (*q, barrier.to_energy, "end"));
     let highest = barrier.has_way().then_some(highest);
     let all: Vec<_> = [start].into_iter().chain(highest).chain(end).collect();
-    let title = "Where the way starts, is highest and ends";
+    let title = "Start, saddle and end of the path";
     Drawing::new(title, move |sheet| {
         let told = all
             .iter()

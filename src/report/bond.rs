@@ -40,18 +40,20 @@ fn answer(design: &Design, held: &Held) -> String {
     );
     if held.is_too_cold {
         return format!(
-            "{name}: {at} tiles move by less than {} in the bond, which is closer than contact is \
-             known: choose a larger --kt",
+            "{name}: {at} tiles move by less than {} in the bond, which is below the contact \
+             tolerance: choose a larger --kt",
             si(NO_PLAY, "m", 2)
         );
     }
     if bond.cost.is_infinite() {
-        return format!("{name}: {at} the bond has no play at all: shaken tiles never find it");
+        return format!(
+            "{name}: {at} the bond has no clearance at all: shaken tiles never find it"
+        );
     }
     let verdict = match bond.ln_k(1.0) >= 0.0 {
         true => "one bond holds",
         false if bond.ln_k(2.0) >= 0.0 => "one bond does not hold, two together do",
-        false => "neither one bond holds nor two together",
+        false => "neither one bond nor two together hold",
     };
     format!(
         "{name} {at}: {verdict} (ln K = {:.2} for one)",
@@ -64,14 +66,14 @@ fn window(held: &Held) -> String {
     let bond = held.states[0].energy;
     match held.window {
         [Some(low), Some(high)] => format!(
-            "two bonds closed by one docking hold and one alone does not from kT = {} to {} (bond of \
-             {:.1} to {:.1} kT)",
+            "two bonds hold a tile and one does not between kT = {} and {} (bond of {:.1} to \
+             {:.1} kT), if one docking closes both",
             si(low, "J", 3),
             si(high, "J", 3),
             -bond / low,
             -bond / high
         ),
-        _ => "no shaking was found at which two bonds hold and one alone does not".to_owned(),
+        _ => "at no kT do two bonds hold and one does not".to_owned(),
     }
 }
 
@@ -113,15 +115,16 @@ fn states(held: &Held) -> Table {
         None => "-".to_owned(),
     };
     rows(held.states.clone())
-        .column("state", "state", "a kind of states", |it| it.name.clone())
+        .column("state", "state", "kind of state", |it| it.name.clone())
         .column("pose", "", "", |it| it.configuration)
         .column("energy_J", "energy", "", |it| it.energy).digits(4)
-        .column("copies", "copies", "that symmetries make of it", |it| it.copies)
+        .column("copies", "copies", "copies by symmetry", |it| it.copies)
         .column("moving_copies", "", "", |it| it.moving_copies)
-        .column("depth_kT", "depth", "its energy over kT", |it| it.docking.depth).viewed(|it| in_kt(it.docking.depth))
-        .column("docking_cost_kT", "docking", "what it costs to find it, -ln(rho Z0 s / 2 pi)", |it| it.docking.cost)
+        .column("depth_kT", "depth", "energy in kT", |it| it.docking.depth).viewed(|it| in_kt(it.docking.depth))
+        .column("docking_cost_kT", "docking", "what it costs to find the state, -ln(rho Z0 s / 2 \
+            pi)", |it| it.docking.cost)
             .viewed(|it| in_kt(it.docking.cost))
-        .column("ln_K", "ln K", "depth less the cost of docking", |it| it.docking.ln_k(1.0)).viewed(|it| number(it.docking.ln_k(1.0)))
+        .column("ln_K", "ln K", "depth minus docking cost", |it| it.docking.ln_k(1.0)).viewed(|it| number(it.docking.ln_k(1.0)))
         .column("Z0_m2_rad", "", "", |it| it.docking.volume.value)
         .column("Z0_error_m2_rad", "", "", |it| it.docking.volume.error)
         // The basin: what can be reached from the state below this energy.
@@ -131,7 +134,7 @@ fn states(held: &Held) -> Table {
         // counted as bound.
         .column("docking_cost_half_depth_kT", "", "", |it| it.inner.cost)
         .column("closed_form_Z0_m2_rad", "", "", |it| it.closed.map(|it| it.volume.value))
-        .column("closed_form_error", "closed form", "how far the corner formula is off", HeldState::closed_error).viewed(closed)
+        .column("closed_form_error", "closed form", "error of the analytic estimate", HeldState::closed_error).viewed(closed)
         .table("states").titled("States", "").in_view().in_file("states")
 }
 
@@ -164,7 +167,7 @@ fn over_kt(held: &Held) -> Chart {
         x: Dimension::new("kT_J", "kT").logarithmic(),
         y: Dimension::new("ln_K", "ln K"),
         series: Vec::new(),
-        remark: "above 0 a pair is bound more often than not".to_owned(),
+        remark: "above 0 a pair is bound more than half of the time".to_owned(),
     };
     for (k, state) in held.states.iter().enumerate() {
         let one = line(&|dockings| dockings[k].ln_k(1.0));
@@ -183,8 +186,8 @@ fn notes(held: &Held) -> Vec<String> {
     let blurred = blurred.filter(|state| state.inner.cost - state.docking.cost > 0.1);
     let blurred: Vec<&str> = blurred.map(|state| &state.name[..]).collect();
     let told = format!(
-        "in {} shaken tiles are often more than half way out: K depends on what is counted as held, \
-         here all that is reached below the lowest pass, and below a hundredth of the depth",
+        "barely bound: {}; K depends on where \"bound\" ends, here at the lowest pass, or at a \
+         hundredth of the depth if that is lower",
         blurred.join(", ")
     );
     let notes = [

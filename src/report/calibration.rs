@@ -47,7 +47,7 @@ fn shields(design: &Design, found: &Calibration) -> Document<'static> {
     ];
     let unsettled = (!found.settled).then(|| {
         let steps = found.steps;
-        format!("the fit had not settled after {steps} steps: its constants are not to be trusted")
+        format!("the fit did not converge in {steps} steps: do not trust its constants")
     });
     Document {
         title: format!("{}: shields fitted to measurements", design.name),
@@ -86,7 +86,7 @@ fn lines(values: [f64; 4], errors: [f64; 4]) -> String {
         // By the logarithm, a constant is known only if its error is smaller than itself.
         let error = match error < value {
             true => format!("+- {error:.1e}{unit}"),
-            false => "these rows do not tell it".to_owned(),
+            false => "not determined by these rows".to_owned(),
         };
         let line = format!("{name} = {value:.4}");
         text += &format!("\n{line:<28}# {error}");
@@ -96,8 +96,7 @@ fn lines(values: [f64; 4], errors: [f64; 4]) -> String {
 
 fn strength(found: &Calibration) -> String {
     if found.fitted.rows == found.fitted.with_iron {
-        return "no rows without iron: the magnets are taken to be as strong as the design says"
-            .to_owned();
+        return "no rows without iron: the magnets' strength is taken from the design".to_owned();
     }
     let strength = found.strength;
     format!(
@@ -123,7 +122,8 @@ fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
         .table("")
         .in_view()
         .titled(
-            "Root mean square of measured minus modelled, and relative to that of the measured",
+            "root mean square of measured minus modelled values, and relative to the measured \
+             values",
             "",
         )
 }
@@ -174,7 +174,7 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
     let doubts = [("bound", bound), ("apart", apart)];
     let doubts = doubts.iter().filter_map(|(name, times)| doubt(name, times));
     Document {
-        title: format!("{}: kT of pairs that bind and part", design.name),
+        title: format!("{}: kT from bound and separate intervals", design.name),
         answer: match kt {
             Some(_) => format!(
                 "{}: pairs bind and part as at kT = {} (95 % interval: {} to {})",
@@ -184,20 +184,20 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
                 energy(most)
             ),
             None => format!(
-                "{}: at no kT would pairs bind and part so (bond of 2 to 120 kT)",
+                "{}: no kT explains these intervals (bond of 2 to 120 kT)",
                 design.name
             ),
         },
         remarks: vec![
             format!(
-                "measured: bound for {} in the mean of {} times, apart for {} in the mean of {}; the \
-                 pair had {area} m² for itself",
+                "measured: bound for {} on average over {} intervals, apart for {} on average \
+                 over {}; table area per pair {area} m²",
                 si(bound.mean(), "s", 3),
                 bound.whole.len(),
                 si(apart.mean(), "s", 3),
                 apart.whole.len(),
             ),
-            "the interval has the scatter of these times in it, not what the energies are off by"
+            "the interval includes the scatter of these times but no error of the energies"
                 .to_owned(),
         ],
         entries: of_kt(design, kt, [least, most])
@@ -215,13 +215,13 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
 fn doubt(name: &str, times: &Times) -> Option<String> {
     match times.statistic() {
         None => Some(format!(
-            "times {name} that were cut off: {}; they count with what was seen of them, and whether \
-             these times are exponential is not tested",
+            "unfinished times {name}: {}; they count with the part observed, and it is not tested \
+             whether these times are exponential",
             times.cut.len()
         )),
         Some(statistic) if statistic > OnRate::CRITICAL => Some(format!(
-            "the times {name} are not exponential (statistic {statistic:.2} above {}): one kT does not \
-             tell of them",
+            "the times {name} are not exponential (statistic {statistic:.2} above {}): one kT \
+             does not describe them",
             OnRate::CRITICAL
         )),
         Some(_) => None,
@@ -237,26 +237,28 @@ fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
         .filter(|(statistic, freedom)| *statistic > critical(*freedom));
     let refuted = refuted.map(|(statistic, freedom)| {
         format!(
-            "these are not the distances of equilibrium at one kT: Pearson's statistic of \
-             {statistic:.1} is above {:.1}",
+            "these are not equilibrium distances at one kT: Pearson's statistic of {statistic:.1} \
+             is above {:.1}",
             critical(freedom)
         )
     });
     Document {
-        title: format!("{}: kT of pairs' distances", design.name),
+        title: format!("{}: kT from the distances of pairs", design.name),
         answer: match found.kt {
             Some(_) => format!(
-                "{}: pairs are as far apart as at kT = {} (95 % interval: {low} to {high})",
+                "{}: the distances are those at kT = {} (95 % interval: {low} to {high})",
                 design.name,
                 energy(found.kt),
             ),
             None => format!(
-                "{}: of a bond of 0.5 to 60 kT, an end fits these distances best ({low} to {high}, 95 %)",
+                "{}: no kT within the range fits (bond of 0.5 to 60 kT); one end fits best ({low} \
+                 to {high}, 95 %)",
                 design.name
             ),
         },
         remarks: vec![format!(
-            "{} distances up to {}, {} beyond are left out; the distribution is known to {:.1} points",
+            "{} distances up to {}; {} larger ones are left out; the distribution is known to \
+             {:.1} points",
             found.count,
             si(found.within, "m", 3),
             found.beyond,

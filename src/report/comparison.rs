@@ -38,7 +38,7 @@ impl Comparison {
     pub fn document(&self) -> Document<'_> {
         let seed = self.designs.first().map_or(0, |first| first.seed);
         let mut document = Document {
-            title: format!("{} designs side by side", self.designs.len()),
+            title: format!("Comparison of {} designs", self.designs.len()),
             answer: self.headline(),
             entries: self.entries(),
             pictures: vec![Drawing::new(
@@ -103,10 +103,7 @@ impl Comparison {
                 self.name(best),
                 cell(&[self.by], best)
             ),
-            _ => format!(
-                "{of}, ranked by {}: none finds into its bond",
-                self.by.label
-            ),
+            _ => format!("{of}, ranked by {}: none reaches its bond", self.by.label),
         }
     }
 
@@ -115,15 +112,15 @@ impl Comparison {
         let behind = |one: &Assessment| {
             let (_, why) = one.obstacle()?;
             Some(format!(
-                "{} stands behind those that dock: {why}",
+                "{} is ranked below all designs that dock: {why}",
                 self.name(one)
             ))
         };
         let mut notes: Vec<String> = self.designs.iter().filter_map(behind).collect();
         notes.push(format!(
-            "brackets: certified bounds; percentages: of {} far starts, with 95 % intervals; offset, gap \
-             and tilt: how far off a tile that touches head-on may be slid, drawn back or tilted and \
-             still run downhill into the bond, to within {} % of its depth",
+            "brackets: certified bounds; percentages: of {} far starts, with 95 % intervals; \
+             offset, gap and tilt: how misaligned a tile touching head-on may be and still slide \
+             downhill into the bond, to within {} % of its depth",
             self.settings.survey.far_starts.unwrap_or(0),
             100.0 * capture_range::ENERGY_SHARE,
         ));
@@ -201,9 +198,7 @@ impl Comparison {
         rows(orders)
             .column("", "figure", "", |(figure, _)| *figure)
             .in_view()
-            .column("", "from the highest to the lowest", "", |(_, line)| {
-                line.clone()
-            })
+            .column("", "highest first", "", |(_, line)| line.clone())
             .in_view()
             .table("")
             .titled(
@@ -257,11 +252,11 @@ impl Comparison {
 }
 
 /// What is proved of traps that were not found.
-const UNLISTED: &str = "proved that no state deeper than this, and harder to leave than 0.5 % of the \
-                        bond, was missed";
+const UNLISTED: &str = "proved that no missed state is deeper than this and needs more than 0.5 % \
+    of the bond to escape";
 /// What barriers are of which nothing is proved.
-const ESTIMATES: &str = "barriers without brackets are estimates of a roadmap: too high where \
-                         it misses a passage";
+const ESTIMATES: &str = "barriers without brackets are roadmap estimates: too high if the roadmap \
+    missed a passage";
 
 /// Whether nothing is proved of a barrier that is shown.
 fn has_estimates(design: &Assessment) -> bool {

@@ -32,7 +32,7 @@ pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
         pictures: pictures(map.as_ref(), found),
         part: map.map(Part::Meetings),
         notes: vec![
-            "A word and its own mate also hold where a trap is; traps are found, not proved."
+            "Words may also trap their own mates. Traps are found by search, not proved complete."
                 .to_owned(),
         ],
         origin: format!(
@@ -105,14 +105,14 @@ fn table(set: &WordSet, found: &Crosstalk, all: Vec<Meeting>) -> Table {
         Kind::Trap => "trap",
     };
     rows(all)
-        .column("faces", "faces", "which ones meet", |it| met(set, found, it)).in_view()
+        .column("faces", "faces", "the two faces", |it| met(set, found, it)).in_view()
         .column("first", "", "", |it| face(it, 0))
         .column("second", "", "", |it| face(it, 1))
         .column("first_code", "", "", |it| codes[it.faces[0]].clone())
         .column("second_code", "", "", |it| codes[it.faces[1]].clone())
         .column("lower_J", "no lower than", "proved", |it| it.lower).digits(4)
-        .column("upper_J", "energy", "the lowest that was found", |it| positive_zero(it.energy)).digits(4)
-        .column("pose", "x, y (mm), angle", "of the second face's tile, as the first one's sees it", |it| it.pose)
+        .column("upper_J", "energy", "lowest energy found", |it| positive_zero(it.energy)).digits(4)
+        .column("pose", "x, y (mm), angle", "of the second face's tile in the first one's frame", |it| it.pose)
         .column("meeting", "", "", kind)
         .table("meetings")
 }
@@ -142,11 +142,11 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     let bond = found.weakest_bond().map_or(1.0, |bond| -bond.1);
     let map = || {
         Meetings::new(&carrier, &faces, bond, met).titled(
-        "Strongest wrong meeting of every two faces, over all poses",
-        "Rows and columns are words and their mates; a number is the attraction as a share of the \
-         weakest bond, slid, tilted or drawn back. Framed: a word and its own mate, in their deepest \
-         trap. Click a cell to see the tiles.",
-    )
+            "Strongest wrong attraction between every two faces, over all poses",
+            "Rows and columns are words and their mates. Numbers are attractions relative to the \
+         weakest bond, over slid, tilted and drawn-back poses. Framed: a word and its own mate, \
+         in their deepest trap. Click a cell to see the tiles.",
+        )
     };
     (1..=MOST_DRAWN).contains(&m).then(map)
 }
@@ -217,7 +217,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
         return format!("{many}, of which one does not bind its mate");
     };
     let proof = found.proved_gap().map_or(String::new(), |proved| {
-        format!("; proved at least {proved:.4} but for words on their own mates")
+        format!("; proved at least {proved:.4}, except for words on their own mates")
     });
     let wrong = match found.strongest_wrong() {
         Some(worst) if worst.energy < 0.0 => format!(

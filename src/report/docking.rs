@@ -158,7 +158,7 @@ fn ends(docking: &Docking) -> Table {
 fn traps(problem: &Problem, docking: &Docking) -> Table {
     let rule = MatchRule::new(problem, docking.settings.threshold).ok();
     let is_bond = move |q: &Configuration| rule.as_ref().is_some_and(|rule| rule.holds(q));
-    let bond = "the bond, not reached yet or held short of it by friction";
+    let bond = "bound, but not yet at the minimum or held short of it by friction";
     rows(&docking.traps)
         .column("pose", "x, y (mm), \u{3b8}", "the minimum", |it| {
             it.configuration
@@ -175,8 +175,8 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
         .in_view()
         .table("traps")
         .titled(
-            "Where tiles are caught without a match",
-            "the minimum below where they ended, symmetric copies taken together",
+            "Minima that catch tiles without a match",
+            "the minimum below the end of each run; symmetric copies are counted together",
         )
         .listing(LISTED)
 }
@@ -242,7 +242,7 @@ fn notes(docking: &Docking) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some([least, middle, most]) = times(docking) {
         notes.push(format!(
-            "bound after {least:.2} s to {most:.2} s, half of them by {middle:.2} s"
+            "time to bind: {least:.2} s to {most:.2} s, median {middle:.2} s"
         ));
     }
     let rate = OnRate::new(docking);

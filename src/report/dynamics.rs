@@ -104,8 +104,8 @@ pub fn notes(analysis: &Analysis) -> Vec<String> {
     let sides = checks.iter().flat_map(|check| check.sides.iter().flatten());
     let on_the_pathway = |side: &&Side| side.verdict == SideVerdict::OnThePathway;
     let told = format!(
-        "moving tiles: {} of {} trajectories below {} barriers crossed them ({} of {} above); from \
-         beside the saddle {} of {} ended on the pathway",
+        "simulated tiles: {} of {} trajectories started below {} barriers crossed them ({} of {} \
+         started above); from beside the saddle {} of {} ended on the pathway",
         sum(|check| check.below.crossed),
         sum(|check| check.below.runs),
         checks.len(),

@@ -21,7 +21,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
     lowest.order_by(|a, b| a.energy.total_cmp(&b.energy));
     let told = lowest.first().map_or("all overlap".to_owned(), |it| {
         format!(
-            "lowest energy {} where the tiles do not overlap (magnets as {})",
+            "lowest energy without overlap {} (magnets as {})",
             si(it.energy, "J", 4),
             design.interaction.model.plural(&design.pair)
         )
@@ -34,14 +34,14 @@ pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
     };
     Document {
         title: format!("{}: energies at {} poses", design.name, found.len()),
-        answer: format!("{}: of {} poses {told}", design.name, found.len()),
+        answer: format!("{}: {} poses; {told}", design.name, found.len()),
         entries: entries(design).table(table(design, found).in_file("poses").listing(LISTED)),
         printed: Some("poses"),
         pictures: vec![Drawing::new(title.clone(), move |sheet| {
             let numbers = table(design, &found[..drawn.len()]).csv();
             poses::draw(("poses", &title), &design.pair, &drawn, numbers, sheet)
         })],
-        origin: "0 far apart; forces are those on the moving tile".to_owned(),
+        origin: "energies are 0 far apart; forces act on the moving tile".to_owned(),
         ..Document::default()
     }
 }
@@ -60,6 +60,6 @@ fn table(design: &Design, found: &[Felt]) -> Table {
         .column("torque_Nm", "torque", "about the moving tile's reference point", |it| it.torque)
         .column("clearance_m", "clearance", "negative where the tiles overlap", |it| it.clearance)
         .column("free", "free", "whether the tiles do not overlap", |it| it.is_free)
-        .column("model", "", "how magnets are modelled", |_| model)
+        .column("model", "", "magnet model", |_| model)
         .table("poses")
 }

@@ -9,8 +9,8 @@ use physics::units::{prefix_of, si, si_range};
 const DIGITS: usize = 4;
 
 /// Why a bond is [not head-on](jobs::comparison::quantity::NOT_HEAD_ON), at length.
-pub const WHY_NOT_HEAD_ON: &str = "brought straight up to the target face, the tile comes to rest \
-    outside the bond: there is no way past the shape, or no play along it, as between square teeth";
+pub const WHY_NOT_HEAD_ON: &str = "moved straight to the target face, the tile comes to rest \
+    outside the bond: the shape blocks the way, or leaves no clearance, as with square teeth";
 
 /// Whether a bond that holds has no capture range at all.
 pub fn misses_head_on(design: &Assessment) -> bool {

@@ -34,7 +34,7 @@ fn answer(design: &Design, inspection: &Inspection) -> String {
     };
     match bond.energy < 0.0 {
         true => format!(
-            "{}: faces {faces} bind with {} {magnets}; straight apart takes {}",
+            "{}: faces {faces} bind with {} {magnets}; pulling straight apart takes {}",
             design.name,
             si(bond.energy, "J", DIGITS),
             force(bond.pull_off)
@@ -52,10 +52,10 @@ pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
         remarks: faults.map(|fault| format!("! {fault}")).collect(),
         sketch: Some(sketch(design)),
         entries: found_entries(design, found),
-        pictures: vec![Drawing::new("Both tiles where they bind", move |sheet| {
+        pictures: vec![Drawing::new("Both tiles in the bound pose", move |sheet| {
             glance::draw(design, found, sheet)
         })],
-        origin: "the tiles where their target faces meet; nothing is searched".to_owned(),
+        origin: "the tiles with their target faces in contact; nothing is searched".to_owned(),
         notes: design.sold.iter().map(sold::told).collect(),
         ..Document::default()
     }
@@ -73,10 +73,11 @@ fn found_entries(design: &Design, found: &Inspection) -> Entries {
         .data("bound", json!({ "pose": pose(&found.bound), "energy_J": positive_zero(bond.energy) }))
         .fact("pull_contact_N", "pull at contact", bond.contact).viewed(force(bond.contact))
         .data("pull_contact_g", bond.contact / GRAM)
-        .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(bond)).noted("the largest pull on the way")
+        .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(bond)).noted("largest \
+            force on a straight path")
         .data("pull_off_g", bond.pull_off / GRAM)
         .table(models(design, &found.models))
-        .fact("comes_straight_out", "comes straight out", found.comes_straight_out)
+        .fact("comes_straight_out", "not blocked on a straight path", found.comes_straight_out)
         .table(rivals(design, found))
         .table(table("fixed", fixed).in_data().in_file("faces"))
         .table(table("moving", moving).in_data().in_file("faces"))
@@ -96,7 +97,7 @@ fn rivals(design: &Design, found: &Inspection) -> Table {
         .column("faces", "faces", "of the fixed tile, of the moving tile", |it| json!(names(design, it.faces))).without_csv()
             .viewed(|it| names(design, it.faces).join(" and "))
         .column("pose", "x, y (mm), angle", "of the moving tile", |it| it.configuration)
-        .column("energy_J", "energy", "where they meet", |it| it.energy).digits(DIGITS)
+        .column("energy_J", "energy", "with target faces in contact", |it| it.energy).digits(DIGITS)
         .table("rivals")
         .titled("Other faces that bind as strongly", "")
         .on_page()
@@ -196,8 +197,8 @@ fn table(key: &'static str, faces: Vec<Face>) -> Table {
         .column("name", "face", "of which tile", |it| it.name.clone()).viewed(|it| format!("{} {}", it.tile, it.name))
         .column("length_m", "length", "of its base line", |it| it.length)
         .column("code", "", "", |it| it.code.clone())
-        .column("magnets_m", "magnets", "poles outwards and their places, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::told_magnets)
-        .column("heights_m", "shape", "how far the line leaves the base line", |it| json!(it.heights)).without_csv().viewed(Face::told_shape)
+        .column("magnets_m", "magnets", "outward poles and their positions, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::told_magnets)
+        .column("heights_m", "shape", "distance of the line from the base line", |it| json!(it.heights)).without_csv().viewed(Face::told_shape)
         .column("height_bounds_m", "", "", |it| it.heights).in_csv()
         .table(key)
 }

@@ -17,7 +17,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
             .iter()
             .filter(|it| it.contact > longest.contact * (1.0 - 1e-5));
         format!(
-            "Longest contact {}, in {} of {} ways listed",
+            "Longest contact {}, in {} of {} fits listed",
             si(longest.contact, "m", 4),
             as_long.count(),
             found.len()
@@ -44,11 +44,11 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
     });
     Document {
         title: format!("{}: how the outlines fit", design.name),
-        answer: longest.unwrap_or("no two edges can be laid on each other".to_owned()),
+        answer: longest.unwrap_or("no two edges fit together".to_owned()),
         entries: entries(design).table(table(found).in_file("matches").listing(LISTED)),
         printed: Some("matches"),
         pictures: picture.into_iter().collect(),
-        origin: "exact polygons, magnets aside".to_owned(),
+        origin: "exact polygons, without magnets".to_owned(),
         ..Document::default()
     }
 }
@@ -59,8 +59,8 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
 pub fn table(found: &[Match]) -> Table {
     rows(found)
         .column("pose", "x, y (mm), angle", "of the moving tile", |it| it.pose)
-        .column("contact_m", "contact", "along which the outlines touch", |it| it.contact).digits(4)
-        .column("gap_m2", "gap", "area between the tiles within the hull of their contact", |it| it.gap).viewed(|it| area(it))
+        .column("contact_m", "contact", "length over which the outlines touch", |it| it.contact).digits(4)
+        .column("gap_m2", "gap", "area between the tiles inside the convex hull of their contact", |it| it.gap).viewed(|it| area(it))
         .table("matches")
 }
 

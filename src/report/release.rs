@@ -31,21 +31,22 @@ pub fn document(
     let times = left.clone();
     left.order_by(f64::total_cmp);
     Document {
-        title: format!("{}: bound tiles shaken loose", design.name),
+        title: format!("{}: detachment of bound tiles", design.name),
         answer: format!(
-            "{}: bound tiles shaken at kT = {kt} come loose {rate_told} times a second ({low} to {high})",
+            "{}: bound tiles shaken at kT = {kt} detach {rate_told} times per second ({low} to \
+             {high})",
             design.name
         ),
         remarks: vec![
             format!(
-                "{} of {} left the bond within {} each; {}",
+                "{} of {} detached within {} each; {}",
                 off.attachments,
                 releases.len(),
                 si(settings.duration, "s", 3),
                 exponential(&off),
             ),
             format!(
-                "drag {} per s, restitution {}; the rate is of these, and of no temperature alone",
+                "the rate holds for drag {} per s and restitution {}, not for a temperature alone",
                 settings.motion.drag, settings.motion.restitution
             ),
         ],
@@ -61,7 +62,7 @@ pub fn document(
             )
             .fact(
                 "",
-                "comes loose",
+                "detachment rate",
                 format!("{rate_told} /s ({low} to {high})"),
             )
             .in_view()
@@ -85,7 +86,7 @@ pub fn document(
 
 fn exponential(rate: &OnRate) -> &'static str {
     match (rate.attachments, rate.is_exponential()) {
-        (0, _) => "none came loose: the rate is not known to be above 0",
+        (0, _) => "none detached: the rate is not known to be above 0",
         (_, true) => "times between detachments are compatible with an exponential distribution",
         (_, false) => "times between detachments refute an exponential distribution",
     }
@@ -102,10 +103,10 @@ fn told_beside(found: &Loosening) -> String {
     let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
     let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
     format!(
-        "overdamped motion at that kT and drag, knocks without loss, comes loose {rate} times a second\n\
-         ({lower} to {upper}), the way out to free tiles included, and {in_well} times a second in the \
-         well;\nwhat is counted ends where the bond is last left: between the two; tiles move so from a \
-         drag of {OVERDAMPED} per s on"
+        "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s\n({lower} \
+         to {upper}) including the path to free tiles, {in_well} /s in the well;\nthe measured rate \
+         counts until the bond is last left, so it lies between the two; motion is overdamped at a \
+         drag of {OVERDAMPED} /s or more"
     )
 }
 
@@ -118,7 +119,7 @@ fn still_bound(left: &[f64], all: usize, duration: f64) -> Chart {
     let points = [ends[0]].into_iter().chain(steps).chain([ends[1]]);
     Chart {
         name: "bound",
-        title: "Share still bound over time".to_owned(),
+        title: "Fraction still bound over time".to_owned(),
         x: Dimension::new("time_s", "time"),
         y: Dimension::share("bound", "still bound"),
         series: Vec::new(),

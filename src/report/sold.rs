@@ -27,8 +27,8 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
             let [least, usual, most] = grade.remanence;
             let [low, high] = grade.energy_range().map(|factor| 100.0 * (factor - 1.0));
             format!(
-                "{block}, {}: remanence {usual:.2} T ({least:.2} to {most:.2} T as makers state it: energies \
-                 {low:+.0} to {high:+.0} %)",
+                "{block}, {}: remanence {usual:.2} T ({least:.2} to {most:.2} T by manufacturers' \
+                 data: energies {low:+.0} to {high:+.0} %)",
                 grade.name
             )
         }
@@ -36,8 +36,8 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
             let found = magnet.remanence();
             let [low, high] = pulled_range(found);
             format!(
-                "{block}, that pull {} off thick steel: remanence {} T if magnet and plate are ideal; \
-                 what sellers state is {} to {} of that, so it may be {} to {} T",
+                "{block}, with a pull of {} on thick steel: remanence {} T for ideal magnet and \
+                 plate; sellers' values are {} to {} of ideal, so it may be {} to {} T",
                 crate::tiles::force(*force),
                 three(found),
                 PULL_SPREAD[0],

@@ -92,7 +92,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
         // To the nearest lower state or to free.
         .column("escape_J", "", "", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
         .column("escape_to", "", "", |it| it.way_out().map(|way| way.to)).in_csv()
-        .column("capture", "", "share of the far starts", |it| it.capture).sampled()
+        .column("capture", "", "fraction of the far starts", |it| it.capture).sampled()
         // Magnet pairs close together.
         .column("attracting", "", "", |it| it.state.attracting)
         .column("repelling", "", "", |it| it.state.repelling)
@@ -123,12 +123,12 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
     rows(kinds.iter().map(|kind| Row::of_kind(design, analysis, &names, kind)))
         .column("", "state", "letters by depth", |it| it.name)
         .column("", "kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
-        .column("", "copies", "that symmetry makes of it", |it| it.copies)
+        .column("", "copies", "copies by symmetry", |it| it.copies)
         .column("_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy).digits(4)
         .column("_J", "way out", "height of the lowest barrier", |it| it.escape.as_ref().map(Barrier::forward)).digits(4)
-        .column("", "leads to", "where the lowest way out leads", leads_to)
-        .column("", "captured", "share of the far starts that end in any of them", |it| it.capture)
-        .column("pose", "x, y (mm), \u{3b8}", "of the one nearest to the bond", |it| it.state.configuration)
+        .column("", "leads to", "end of the lowest path", leads_to)
+        .column("", "captured", "fraction of the far starts that end in any of them", |it| it.capture)
+        .column("pose", "x, y (mm), \u{3b8}", "of the copy nearest to the bond", |it| it.state.configuration)
         .column("", "attracting", "magnet pairs close together", |it| it.state.attracting)
         .column("", "repelling", "magnet pairs close together", |it| it.state.repelling)
         .column("", "faces", "in contact", Row::pairs)
@@ -137,9 +137,10 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
         .on_page()
         .titled(
             "States",
-            "One row for the states that symmetry maps onto each other: the one nearest to the bound \
-             configuration. Captured: share of far starts that end in any of them. Attracting, \
-             repelling: magnet pairs close together. A click shows the pose.",
+            "One row per kind of state; symmetric copies are counted together, and the pose is \
+             that of the copy nearest to the bond. Captured: fraction of far starts that end in \
+             any copy. Attracting, repelling: magnet pairs close together. Click a row to show \
+             its pose.",
         )
         .linked(kinds.iter().map(|kind| Some(Link::State(kind.first().id))))
 }
@@ -152,7 +153,7 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
     rows(barriers)
         .column("from", "", "", |it| it.from)
         .column("to", "", "", |it| it.to)
-        .column("saddle_energy_J", "saddle", "highest energy on the way", |it| it.saddle_energy)
+        .column("saddle_energy_J", "saddle", "highest energy on the path", |it| it.saddle_energy)
         // Null where no way is known, as is the file of the pathway, relative to the report.
         .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
         .column("lower_J", "", "", |it| it.bounds.lower)
@@ -167,9 +168,9 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         // Proved that there is no way at all; the saddle energy is then infinite.
         .column("caged", "", "", |it| it.bounds.caged)
         // Work against the energy along the pathway and back, and its length.
-        .column("work_J", "work", "what all climbs add up to", |it| it.work().map(|work| work[0]))
+        .column("work_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0]))
         .column("reverse_work_J", "", "", |it| it.work().map(|work| work[1]))
-        .column("length_m", "length", "of the way", |it| it.length())
+        .column("length_m", "length", "of the path", |it| it.length())
         .table("barriers")
         .in_file("barriers")
         .in_data()
@@ -184,20 +185,20 @@ pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier)
     rows(barriers)
         .column("", "from", "", |it| name(it.from))
         .column("", "to", "", |it| name(it.to))
-        .column("_J", "saddle", "highest energy on the best way found", |it| it.saddle_energy).digits(4)
+        .column("_J", "saddle", "highest energy on the best path found", |it| it.saddle_energy).digits(4)
         .column("bounds_J", "certified", "bounds of the saddle's energy", |it| Cell::from([it.bounds.lower, it.bounds.upper])).digits(4)
-        .column("_J", "forward", "height seen from where it leads from", |it| it.forward()).digits(4)
-        .column("_J", "reverse", "height seen from where it leads to", |it| it.reverse()).digits(4)
+        .column("_J", "forward", "height above the start", |it| it.forward()).digits(4)
+        .column("_J", "reverse", "height above the end", |it| it.reverse()).digits(4)
         .column("", "no way", "", |it| why_no_way(it))
-        .column("_J", "work", "what all climbs add up to", |it| it.work().map(|work| work[0])).digits(4)
-        .column("_m", "length", "of the way", |it| it.length())
+        .column("_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0])).digits(4)
+        .column("_m", "length", "of the path", |it| it.length())
         .table("")
         .in_view()
         .on_page()
         .titled(
             "Barriers",
-            "The highest energy on the best way found, its certified bounds, and its height seen from \
-             either end. A click plays the way.",
+            "Saddle: highest energy on the best path found, with certified bounds; heights are \
+             above either end. Click a row to play the path.",
         )
         .linked(barriers.iter().map(|barrier| way(barrier).map(Link::Way)))
 }

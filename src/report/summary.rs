@@ -67,7 +67,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     }) {
         let [own, blocks] = [own, blocks].map(|energy| si(energy, "J", DIGITS));
         lines += &format!(
-            "{}: the bond has {own} with magnets as point dipoles, {blocks} as {bodies}\n",
+            "{}: bond energy {own} with magnets as point dipoles, {blocks} as {bodies}\n",
             design.name
         );
     }
@@ -92,8 +92,8 @@ pub fn answer(design: &Design, analysis: &Analysis) -> String {
     let bound = bond(analysis).map_or(0, |kind| kind.captured().count);
     let models = models(design, analysis);
     format!(
-        "{models}{}: of {of} far starts {} end in the bond, {} in traps,\n\
-         {} at rest in something shallow, {} gone",
+        "{models}{}: of {of} far starts {} end in the bond, {} in traps,\n{} stopped in a shallow \
+         minimum, {} drifted away",
         design.name,
         percent(&Proportion::new(bound, of)),
         percent(&Proportion::new(captured(&traps(analysis)), of)),
@@ -177,7 +177,7 @@ pub fn notes(design: &Design, analysis: &Analysis) -> Vec<String> {
     notes.extend(uncertified.map(|why| format!("barriers are not certified: {why}")));
     notes.extend(analysis.certificate_ended.map(|ended| {
         let ended = ended_by(ended, "certify", analysis.settings.certify);
-        format!("some barriers' bounds are wider than asked for: {ended}")
+        format!("some barriers' bounds are wider than requested: {ended}")
     }));
     notes.extend(dynamics::notes(analysis));
     notes
@@ -189,7 +189,7 @@ pub(super) fn left_out(left: LeftOut, lowest: &str) -> String {
         1 => "1 more kind of trap was".to_owned(),
         kinds => format!("{kinds} more kinds of trap were"),
     };
-    format!("{more} found, {lowest} at the lowest, and not looked at (--kinds N: the N deepest)")
+    format!("{more} found, {lowest} at the lowest, and not analysed (--kinds N: the N deepest)")
 }
 
 /// Whether states may be missing from the list.
@@ -201,20 +201,20 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
         Ok(known) => known,
         Err(why) => {
             notes.push(format!(
-                "the list of states is sampled and may lack some: {why};\n\
-                 of more far starts {} would end in kinds not seen yet (Good-Turing estimate)",
+                "the list of states is sampled and may be incomplete: {why};\nan estimated {} of \
+                 further far starts would end in kinds not seen yet (Good-Turing)",
                 percent(&analysis.catalogue.unseen())
             ));
             return notes;
         }
     };
     let [below, escape] = [known.below, known.escape].map(|energy| si(energy, "J", 3));
-    let claim = format!("no other state below {below} takes more than {escape} to leave");
+    let claim = format!("no other state below {below} needs more than {escape} to escape");
     notes.push(match known.open.first() {
         None => format!("complete, proved: {claim}"),
         Some(lowest) => format!(
-            "{claim}, proved but for {} {} ({:.1e} of the space)\n\
-             that may hide something down to {}, first at {}",
+            "{claim}, proved except in {} {} ({:.1e} of the space)\nthat may hide states no \
+             deeper than {}, the deepest at {}",
             known.open.len(),
             if known.open.len() == 1 {
                 "region"
@@ -235,7 +235,7 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
 /// That a proof ended, and how it is led on: by which option.
 pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String {
     let (limit, option, note) = match ended {
-        Ended::Work => (allowed.work, "work", "more of it goes on"),
+        Ended::Work => (allowed.work, "work", "raise it to continue"),
         Ended::Clock => (allowed.seconds, "seconds", "another run may differ"),
     };
     let limit = limit.unwrap_or(f64::INFINITY);
@@ -262,7 +262,7 @@ fn rest(rest: &[Kind]) -> String {
     let deepest = rest.iter().map(|t| t.first().energy).fold(0.0, f64::min);
     let captured: usize = rest.iter().map(|t| t.captured().count).sum();
     format!(
-        "and {} more kind{} of trap down to {} that capture {} together",
+        "and {} more kind{} of trap, down to {}, capturing {} in total",
         rest.len(),
         if rest.len() == 1 { "" } else { "s" },
         si(deepest, "J", DIGITS),
@@ -275,23 +275,23 @@ fn way_in(analysis: &Analysis, bond: Option<&Kind>) -> String {
     if bond.is_none() {
         let energy = si(analysis.bound.1, "J", DIGITS);
         return format!(
-            "no bond: where the target faces coincide ({energy}) nothing holds the tile"
+            "no bond: nothing holds the tile where the target faces coincide ({energy})"
         );
     }
     match analysis.catalogue.way_out_of_the_bond() {
         Some(way) if way.bounds.caged => {
-            "proved: no way leads from far apart into the bond, nor out of it".to_owned()
+            "proved: no path leads from far apart into the bond, or out of it".to_owned()
         }
         Some(way) if way.saddle_energy <= 0.0 => format!(
-            "no barrier on the best way from far apart into the bond{}",
+            "no barrier on the best path from far apart into the bond{}",
             work_and_length(way)
         ),
         Some(way) if way.has_way() => format!(
-            "a barrier of {} on the best way from far apart into the bond{}",
+            "a barrier of {} on the best path from far apart into the bond{}",
             si(way.saddle_energy, "J", DIGITS),
             work_and_length(way)
         ),
-        _ => "no way from far apart into the bond was found".to_owned(),
+        _ => "no path from far apart into the bond was found".to_owned(),
     }
 }
 
@@ -306,7 +306,7 @@ fn work_and_length(way_out: &Barrier) -> String {
         climbs
     };
     let [work, length] = [si(work, "J", 3), si(length, "m", 3)];
-    format!(": {work} of work over {length}")
+    format!(": work {work}, length {length}")
 }
 
 fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String {
@@ -320,7 +320,7 @@ fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String
         (None, _) => "no traps".to_owned(),
         (Some(deepest), None) => format!("deepest: {}", name(deepest)),
         (Some(deepest), Some(bond)) => format!(
-            "deepest: {}; selectivity {:.3} (energy of the bond over that of the deepest trap)",
+            "deepest: {}; selectivity {:.3} (energy of the bond / energy of the deepest trap)",
             name(deepest),
             bond.first().energy / deepest.first().energy,
         ),

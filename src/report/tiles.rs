@@ -35,11 +35,11 @@ pub fn force(newtons: f64) -> String {
 pub fn models<'a>(design: &'a Design, models: &'a [Hold]) -> Table {
     rows(models)
         .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural(&design.pair).to_owned())
-        .column("energy_J", "energy", "where the target faces meet", |it| it.energy).digits(DIGITS)
+        .column("energy_J", "energy", "with target faces in contact", |it| it.energy).digits(DIGITS)
         .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| force(it.contact))
         .column("along_N", "", "", |it| it.along)
         .column("torque_Nm", "", "", |it| it.torque)
-        .column("pull_off_N", "pull-off", "the largest pull on the way straight out", |it| it.pull_off).viewed(|it| pull_off(it))
+        .column("pull_off_N", "pull-off", "largest force on a straight path", |it| it.pull_off).viewed(|it| pull_off(it))
         .column("pull_off_gap_m", "", "", |it| it.pull_off_gap)
         .table("models")
         .in_file("models")

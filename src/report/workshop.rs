@@ -33,9 +33,9 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
     let mut document = Document {
         title: format!("{}: to be made", design.name),
         answer: format!(
-            "Two tiles with {count}, to scale in mm: `fixed` and `moving` as `.dxf` (layers OUTLINE, \
-             POCKETS, POLES) and `.svg`. They are the lines of the cutter's middle: a kerf of {} mm is \
-             allowed for, and pockets are {} mm larger than their magnets on every side.",
+            "Two tiles with {count}, to scale in mm: `fixed` and `moving` as `.dxf` (layers \
+             OUTLINE, POCKETS, POLES) and `.svg`. Lines are the cutter's centre line: they \
+             include a kerf of {} mm. Pockets are {} mm larger than their magnets on every side.",
             plain(making.kerf),
             plain(making.clearance)
         ),
@@ -47,11 +47,10 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
             .table(magnets(&made.magnets))
             .table(steps("fixed", fixed))
             .table(steps("moving", moving)),
-        pictures: vec![Drawing::new(
-            "Which pole each magnet turns outwards",
-            |sheet| glance::draw(design, &Inspection::new(design), sheet),
-        )],
-        origin: "order of the magnets: that in which the worst push is least".to_owned(),
+        pictures: vec![Drawing::new("Outward pole of each magnet", |sheet| {
+            glance::draw(design, &Inspection::new(design), sheet)
+        })],
+        origin: "magnets in the order with the least repulsion".to_owned(),
         ..Document::default()
     };
     let sheet = document.markdown();
@@ -86,7 +85,7 @@ fn magnets(magnets: &[(Magnet, usize)]) -> Table {
         .column("width_m", "", "", |(magnet, _)| magnet.axis_first()[1]).in_csv()
         .column("height_m", "", "", |(magnet, _)| magnet.axis_first()[2]).in_csv()
         .column("remanence_T", "remanence", "", |(magnet, _)| magnet.remanence())
-        .column("nearest", "nearest in the catalogue", "", |(magnet, _)| nearest(magnet.remanence()))
+        .column("nearest", "closest standard grade", "", |(magnet, _)| nearest(magnet.remanence()))
         .table("magnets")
         .in_file("magnets")
         .titled("Magnets", "")
@@ -119,8 +118,8 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
     let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
     let thin = match wanting > 0.0 {
         true => format!(
-            "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through it and \
-             glue the magnets flush, or raise `inset` by {} mm, on slopes by more",
+            "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through \
+             the rim and glue the magnets flush, or raise `inset` by {} mm, on slopes by more",
             plain(more)
         ),
         false => String::new(),
@@ -128,9 +127,9 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
     rows((1..).zip(&tile.steps))
         .column("tile", "", "", move |_| name).in_csv()
         .column("step", "step", "", |(step, _)| *step)
-        .column("pocket", "pocket", "its face, and which magnet of it, counter-clockwise", move |it| pocket(it).name).viewed(told)
+        .column("pocket", "pocket", "its face, and the magnet's number on it, counter-clockwise", move |it| pocket(it).name).viewed(told)
         .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
-        .column("push_N", "on the way in", "the largest push out", |(_, it)| it.push).viewed(|(_, it)| advice(it))
+        .column("push_N", "during insertion", "largest repulsion", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("wall_m", "", "", move |it| pocket(it).wall)
         .column("depth_m", "", "", move |it| pocket(it).depth)
         .table(name)
@@ -138,8 +137,8 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         .titled(
             format!("The {name} tile"),
             format!(
-                "{} mm thick; pockets {} mm deep hold the magnets midway: put them in from above, in \
-                 this order{thin}",
+                "{} mm thick; pockets {} mm deep hold the magnets at mid-thickness: insert them \
+                 from above, in this order{thin}",
                 plain(tile.part.thickness),
                 depths.join(" or ")
             ),
@@ -149,10 +148,10 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
 fn advice(filled: &Filled) -> String {
     match filled.is_to_be_held {
         true => format!(
-            "pushed out with {:.0} g: hold it until the glue is set",
+            "repelled by {:.0} g: hold it until the glue is set",
             filled.push / GRAM
         ),
-        false => "stays by itself".to_owned(),
+        false => "stays in place".to_owned(),
     }
 }
 

@@ -18,8 +18,8 @@ use physics::units::{duration, si};
 pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
     let told = question.effort.told();
     let interval = match question.effort.source {
-        Source::Docking => "of the attachment rate, 95 %",
-        Source::Overdamped => "what the two finest meshes differ by",
+        Source::Docking => "95 %, from the attachment rate",
+        Source::Overdamped => "difference between the two finest meshes",
     };
     let mixture = found.mixture.as_ref();
     let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
@@ -29,7 +29,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         title: format!("Yield of {}", design.name),
         answer: answer(design, question, found),
         remarks: vec![format!(
-            "({} and {} tiles that cover {:.0} % of {:.2} m2; intervals: {interval})",
+            "({} and {} tiles covering {:.0} % of {:.2} m2; intervals: {interval})",
             found.crowd.tiles[0],
             found.crowd.tiles[1],
             100.0 * question.coverage,
@@ -47,7 +47,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
             .chain(dissipation(question))
             .collect(),
         origin: format!(
-            "{} magnets; {told}, detachment {}; a tile binds one partner at most",
+            "{} magnets; {told}, detachment {}; a tile binds at most one partner",
             design.interaction.model.name(),
             detachment(question),
         ),
@@ -62,9 +62,9 @@ fn dissipation(question: &Question) -> Option<String> {
     let is_docking = question.effort.source == Source::Docking;
     (takes && is_docking).then(|| {
         format!(
-            "warning: contact takes energy out of knocks here (restitution {}, friction {}), which no \
-             temperature knows of: tiles may freeze in traps that detailed balance lets go, and here they bind one \
-             partner at most; `tilebind table` puts all of them on one table",
+            "warning: collisions lose energy here (restitution {}, friction {}), so the table has no \
+             exact temperature: tiles may freeze in traps. Each tile binds at most one partner here; \
+             `tilebind table` simulates all tiles on one table",
             motion.restitution, motion.friction
         )
     })
@@ -74,8 +74,8 @@ fn answer(design: &Design, question: &Question, found: &Yields) -> String {
     let best = found.best();
     let among = match (found.outcomes.len(), found.without.len()) {
         (1, _) => String::new(),
-        (n, 0) => format!(", the best of {n} shakings"),
-        (n, _) => format!(", the best of {n} shakings that have an answer"),
+        (n, 0) => format!(", the best of {n} kT"),
+        (n, _) => format!(", the best of {n} kT with a result"),
     };
     format!(
         "{}: {} of all pairs are bound after {} at kT = {}{among}",
@@ -144,21 +144,22 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
     rows(question.kts.iter().map(|kt| (*kt, found.at(*kt))))
         .column("kT_J", "kT", "effective energy of shaking", |(kt, _)| *kt)
         .column("why_not", "", "", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
-        .column("yield", "bound", "share of all pairs in the bond at the end, with its interval", of(|it| it.bound))
+        .column("yield", "bound", "fraction of all pairs in the bond at the end, with its interval", of(|it| it.bound))
             .viewed(|(_, at)| at.map_or("-".to_owned(), |it| within(it.bound, it.interval)))
         .column("yield_interval", "", "", |(_, at)| at.ok().map(|it| it.interval))
-        .column("trapped", "in traps", "share of all pairs in traps at the end", of(|it| it.trapped)).share()
+        .column("trapped", "in traps", "fraction of all pairs in traps at the end", of(|it| it.trapped)).share()
         .column("yield_method", "", "", |(_, at)| at.ok().map(method)).in_json()
         .column("mean_numbers_error", "", "", known(|it| it.off)).in_json()
-        .column("yield_difference_equations", "", "of the equations for mean numbers, which are right for many tiles", known(|it| it.smooth))
-        .column("yield_equilibrium", "in the end", "share in the bond in equilibrium", known(|it| it.equilibrium)).share()
-        .column("yield_simulated", "simulated", "by simulation, with twice its standard error", move |row| json!(simulated(row).map(entry)))
+        .column("yield_difference_equations", "", "from the equations for mean numbers, which \
+            hold for many tiles", known(|it| it.smooth))
+        .column("yield_equilibrium", "in equilibrium", "fraction in the bond in equilibrium", known(|it| it.equilibrium)).share()
+        .column("yield_simulated", "simulated", "by simulation, with two standard errors", move |row| json!(simulated(row).map(entry)))
             .viewed(move |row| simulated(row).map_or("-".to_owned(), told)).without_csv()
-        .column("mean_time_to_bond_s", "to bond", "mean time until a free tile is bound", of(|it| it.mean_times[0])).digits(2)
-        .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond is left", of(|it| it.mean_times[1])).digits(2)
+        .column("mean_time_to_bond_s", "to bond", "mean time until a free tile binds", of(|it| it.mean_times[0])).digits(2)
+        .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond breaks", of(|it| it.mean_times[1])).digits(2)
         .column("states", "", "", inner(states)).in_json()
         .column("attachments_elsewhere", "", "", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
-        .column("docked_s", "", "time of all docking runs", of(|it| it.attached.time)).in_json()
+        .column("docked_s", "", "total duration of the docking runs", of(|it| it.attached.time)).in_json()
         .column("over_time", "", "", inner(course)).in_json()
         .column("table", "", "", inner(crowds)).in_json()
         .table("settings")
@@ -172,14 +173,14 @@ fn states(outcome: &Outcome) -> Table {
         None => format!("{} of {}", it.attachments, outcome.attached.runs),
     };
     rows(&outcome.states)
-        .column("state", "state", "a kind of state", |it| it.name.clone())
+        .column("state", "state", "kind of state", |it| it.name.clone())
         .column("attachments", "attached", "docking runs that ended in it", |it| it.attachments).viewed(|it| attached(it))
-        .column("on_m2_per_s", "on", "how often a pair falls into it, times the table's area", |it| it.on)
+        .column("on_m2_per_s", "on", "rate of capture of a pair, times the table's area", |it| it.on)
             .viewed(|it| format!("{:.1e} m²/s", it.on))
         .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
-        .column("off_per_s", "off", "how often it is left", |it| it.off).digits(2)
-        .column("depth_kT", "depth", "its energy over kT", |it| it.depth)
-        .column("ln_K", "ln K", "logarithm of the binding constant over the concentration", |it| it.ln_k)
+        .column("off_per_s", "off", "escape rate", |it| it.off).digits(2)
+        .column("depth_kT", "depth", "energy in kT", |it| it.depth)
+        .column("ln_K", "ln K", "logarithm of binding constant / concentration", |it| it.ln_k)
             .viewed(|it| format!("{:.1}", it.ln_k))
         .table("states")
         .in_file("rates")
@@ -188,8 +189,8 @@ fn states(outcome: &Outcome) -> Table {
 /// Where rates of detachment come from.
 fn detachment(question: &Question) -> &'static str {
     match question.effort.source {
-        Source::Docking => "by detailed balance, with kT as if the table had one",
-        Source::Overdamped => "as solved, and from state to state",
+        Source::Docking => "by detailed balance, as if the table had a temperature",
+        Source::Overdamped => "from the mesh, including direct transitions between states",
     }
 }
 
@@ -198,14 +199,14 @@ fn lifetimes(question: &Question) -> String {
     let drag = question.effort.motion().drag;
     match question.effort.source {
         Source::Docking => format!(
-            "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind rates` \
-             assumes overdamped motion, by default at {OVERDAMPED} /s, where states live longer; \
-             --rates overdamped --drag {OVERDAMPED} gives its rates here"
+            "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind \
+             rates` assumes overdamped motion, by default at {OVERDAMPED} /s, and gives longer \
+             lifetimes; use --rates overdamped --drag {OVERDAMPED} for its rates"
         ),
         Source::Overdamped => format!(
-            "lifetimes depend on the drag: these are for {drag} /s, overdamped, as in `tilebind rates \
-             --drag {drag}`. Without --rates overdamped docking runs have inertia and a drag of {} /s, \
-             and states live shorter",
+            "lifetimes depend on the drag: these are for {drag} /s, overdamped, as in `tilebind \
+             rates --drag {drag}`. Without --rates overdamped, docking runs have inertia and a \
+             drag of {} /s, and lifetimes are shorter",
             MotionSettings::default().drag
         ),
     }
@@ -222,12 +223,18 @@ fn method(outcome: &Outcome) -> &'static str {
 fn course(outcome: &Outcome) -> Table {
     rows(&outcome.course)
         .column("time_s", "time", "since the start", |it| it[0])
-        .column("bound", "bound", "share of all pairs in the bond", |it| {
-            it[1]
-        })
-        .column("trapped", "in traps", "share of all pairs in traps", |it| {
-            it[2]
-        })
+        .column(
+            "bound",
+            "bound",
+            "fraction of all pairs in the bond",
+            |it| it[1],
+        )
+        .column(
+            "trapped",
+            "in traps",
+            "fraction of all pairs in traps",
+            |it| it[2],
+        )
         .table("over_time")
         .in_file("course")
 }
@@ -235,10 +242,13 @@ fn course(outcome: &Outcome) -> Table {
 fn crowds(outcome: &Outcome) -> Table {
     rows(&outcome.table)
         .column("tiles", "tiles", "on the table", |it| it.0)
-        .column("coverage", "covered", "share of the table", |it| it.1)
-        .column("yield", "bound", "share of all pairs in the bond", |it| {
-            it.2
-        })
+        .column("coverage", "covered", "fraction of the table", |it| it.1)
+        .column(
+            "yield",
+            "bound",
+            "fraction of all pairs in the bond",
+            |it| it.2,
+        )
         .column("exact", "", "", |it| it.3)
         .in_json()
         .table("table")
@@ -261,7 +271,7 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
         "course",
         "Bound and trapped over time",
         time,
-        "share of all pairs",
+        "fraction of all pairs",
     )
     .with("in the bond", Look::Line, line(1))
     .with("in traps", Look::Line, line(2));
@@ -277,7 +287,7 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
     .logarithmic()
     .marked(tiles);
     let title = "Bound over number of tiles and coverage";
-    let mut crowds = chart("yield", title, tiles, "share of all pairs in the bond");
+    let mut crowds = chart("yield", title, tiles, "fraction of all pairs in the bond");
     for coverage in coverages {
         let rows = best.table.iter().filter(|row| row.1 == coverage);
         let name = format!("{} % covered", (1e3 * coverage).round() / 10.0);
@@ -300,10 +310,10 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
         let points = |of: fn(&Outcome) -> f64| by_kt.iter().map(move |it| [it.kt, of(it)]);
         let equilibrium = points(|it| it.equilibrium.unwrap_or(f64::NAN));
         all.push(
-            chart("shaking", "Bound over kT", kt, "share of all pairs")
+            chart("shaking", "Bound over kT", kt, "fraction of all pairs")
                 .with("in the bond", Look::Line, bound)
                 .with("in traps", Look::Line, points(|it| it.trapped))
-                .with("in the bond in the end", Look::Dashed, equilibrium),
+                .with("in the bond in equilibrium", Look::Dashed, equilibrium),
         );
     }
     all.into_iter().map(Into::into).collect()
@@ -314,14 +324,14 @@ fn of_means(outcome: &Outcome) -> String {
     let kinds = outcome.states.len();
     let off = match outcome.off {
         Some(off) => format!(
-            "from the simulation it is {} away at most, which its interval holds",
+            "it differs by at most {} from the simulation; the interval includes this",
             percent(off)
         ),
-        None => "without --simulations nobody knows how far off it is".to_owned(),
+        None => "without --simulations the error is unknown".to_owned(),
     };
     format!(
-        "at kT = {} mean numbers stand for all numbers of pairs in {kinds} kinds of states, of which \
-         there are more than {MOST_STATES}: {off}",
+        "at kT = {} mean numbers replace the exact distribution for {kinds} kinds of state, which \
+         has more than {MOST_STATES} states: {off}",
         si(outcome.kt, "J", 3)
     )
 }
@@ -335,7 +345,7 @@ fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture
         format!("{} at {}", duration(time, 2), si(kt, "J", 2))
     });
     format!(
-        "{tiles} tiles, one shaking after another: {} ({}); no schedule yields more than {}",
+        "{tiles} tiles, kT in steps: {} ({}); no schedule yields more than {}",
         percent(mixture.value),
         phases.collect::<Vec<_>>().join(", then "),
         percent(mixture.bound),

@@ -292,7 +292,7 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="certify"):
         design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
-    with pytest.raises(ValueError, match="model dipole"):
+    with pytest.raises(ValueError, match="dipole model"):
         design.replace("potential.model", "cuboid").exits([0.43, -0.04, 0], kt=3e-3, prove=True)
     lower, upper = left["mean_exit_bounds_s"]
     assert lower < left["mean_exit_s"] < upper and left["proved"] is None
@@ -329,7 +329,7 @@ def test_tile_sets_of_words(root):
     assert {"assembly.yaml", "assembly.tiles", "matrix.csv", "report.json"} <= files.keys()
     sought = tilebind.assemble(tiles, kt=3e-3, gap=0.3, seconds=5, progress=False)
     assert sought.keys() >= {"words.toml", "report.json"} and b"words = [" in sought["words.toml"]
-    with pytest.raises(ValueError, match="places"):
+    with pytest.raises(ValueError, match="positions"):
         tilebind.assemble(tiles, kt=3e-3, length=3, magnets=4)
     with pytest.raises(ValueError):
         tilebind.assemble(tiles, found["words"][:1], kt=3e-3)

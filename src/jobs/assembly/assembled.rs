@@ -56,7 +56,7 @@ impl Request {
             ("lattice", Some(size), None) => return Ok(lattice::unique(size)),
             ("homogeneous", Some(size), None) => return Ok(lattice::homogeneous(size)),
             ("lattice" | "homogeneous", None, _) => {
-                "say how large the lattice is: --lattice 3x3".to_owned()
+                "give the size of the lattice: --lattice 3x3".to_owned()
             }
             ("square", None, Some(side)) if square::SIDES.contains(&side) => {
                 return Ok(square::counted(side));
@@ -65,11 +65,11 @@ impl Request {
                 let (least, most) = (square::SIDES.start(), square::SIDES.end());
                 format!("a counted square has a side of {least} to {most} tiles")
             }
-            ("square", ..) => "say how large the square is: --side 16".to_owned(),
-            (_, Some(_), _) => "--lattice makes a tile set of its own: write lattice or \
-                                homogeneous in place of a file"
+            ("square", ..) => "give the size of the square: --side 16".to_owned(),
+            (_, Some(_), _) => "--lattice makes its own tile set: write lattice or homogeneous \
+                instead of a file"
                 .to_owned(),
-            (_, _, Some(_)) => "--side goes with square".to_owned(),
+            (_, _, Some(_)) => "--side is only for square".to_owned(),
             (_, None, None) => return Ok(TileSet::load(file)?),
         };
         Err(wrong.into())

@@ -95,9 +95,9 @@ fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
                     Some(face) if steps < MOST_STEPS => next = face + 1,
                     _ => {
                         return Err(format!(
-                            "the words have no {} that hold each other's mates as the glues that bind \
-                             each other less than themselves ask for: leave out --words, so that such \
-                             are searched",
+                            "the words do not include {} that bind each other's mates, as glues \
+                             that bind others but not themselves need: leave out --words to \
+                             search for such words",
                             bonds.len()
                         ));
                     }

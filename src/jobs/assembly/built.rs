@@ -87,8 +87,8 @@ impl Built {
         let needed = bonds.len();
         if there < needed {
             return Err(format!(
-                "the tile set needs {needed} words and there are {there}: find more with `tilebind \
-                 words`, on a longer face or with a narrower gap"
+                "the tile set needs {needed} words but the set has {there}: find more with \
+                 `tilebind words`, on a longer face or with a narrower gap"
             ));
         }
         let grown = grow(set, MOST_GROWN);
@@ -99,7 +99,7 @@ impl Built {
         let matrix = Matrix::new(words, &chosen);
         let loose = |bond: usize| {
             let word = chosen[bond];
-            format!("the word {word} does not hold its mate in place: take another one")
+            format!("the word {word} does not hold its mate in place: use another word")
         };
         if let Some(bond) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
             return Err(loose(bond));

@@ -208,8 +208,8 @@ pub fn shortest(
         tried.extend(choose((demand, groups), places, bar, request));
         let refuted = |it: &&Choice| it.verdict == Verdict::Refuted;
         observer.known(&format!(
-            "on faces of up to {places} places no such words are known ({} of {} tries are proved \
-             impossible); --length {} goes on from there",
+            "no such words are known on faces of up to {places} positions ({} of {} tries are \
+             proved impossible); continue with --length {}",
             tried.iter().filter(refuted).count(),
             tried.len(),
             places + 1

@@ -215,31 +215,31 @@ impl TileSet {
         let mut names = glues.clone().chain(tiles.clone());
         if let Some(name) = names.find(|name| name.contains(char::is_control)) {
             let message = format!("the name {name:?} is not a single line of text");
-            return wrong("", message, "take what is no letter out of it");
+            return wrong("", message, "use only printable characters in it");
         }
         let mut seen = HashSet::new();
         if let Some(name) = glues.clone().find(|name| !seen.insert(*name)) {
-            let message = format!("the glue `{name}` is there twice");
-            return wrong(name, message, "give every glue a name of its own");
+            let message = format!("the glue `{name}` is defined twice");
+            return wrong(name, message, "give every glue its own name");
         }
         let mut seen = HashSet::new();
         if let Some(name) = tiles.clone().find(|name| !seen.insert(*name)) {
-            let message = format!("the tile `{name}` is there twice");
-            return wrong(name, message, "give every tile a name of its own");
+            let message = format!("the tile `{name}` is defined twice");
+            return wrong(name, message, "give every tile its own name");
         }
         for tile in &self.tiles {
             let ends = |c: char| c.is_control() || ")%".contains(c);
             if let Some(color) = tile.color.as_ref().filter(|color| color.contains(ends)) {
                 let message = format!("the tile `{}` has the colour {color:?}", tile.name);
-                return wrong(
-                    &tile.name,
-                    message,
-                    "name a colour as X11 does: red, or #ff0000",
-                );
+                return wrong(&tile.name, message, "use an X11 colour: red, or #ff0000");
             }
             if !(tile.stoic.is_finite() && tile.stoic >= 0.0) {
                 let message = format!("the tile `{}` has a share of {}", tile.name, tile.stoic);
-                return wrong(&tile.name, message, "a share (stoic) is a number from 0 on");
+                return wrong(
+                    &tile.name,
+                    message,
+                    "a share (stoic) is a number of 0 or more",
+                );
             }
         }
         let strengths = self.glues.iter().map(|glue| glue.strength);
@@ -247,23 +247,25 @@ impl TileSet {
             .chain(self.links.iter().map(|link| link.2))
             .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
         if let Some(x) = numbers.find(|x| x.is_nan() || x.abs() > MOST_STRENGTH) {
-            let message = format!("{x:?} is no strength, nor an energy: at most {MOST_STRENGTH}");
+            let message = format!(
+                "{x:?} is not a valid strength or energy: at most \
+                {MOST_STRENGTH}"
+            );
             return wrong("", message, "write it as 1 or 0.5");
         }
         if self.tiles.iter().all(|tile| tile.stoic == 0.0) {
-            let message =
-                "all of its tiles have a share of 0: there are none on the table".to_owned();
+            let message = "all of its tiles have a share of 0, so the table is empty".to_owned();
             return wrong(
                 "stoic",
                 message,
-                "give one at least a share (stoic) above 0",
+                "give at least one tile a share (stoic) above 0",
             );
         }
         let numbers = [("tau", self.tau), ("Gse", self.gse), ("Gmc", self.gmc)];
         let negative =
             |(key, value): &(_, Option<f64>)| value.filter(|x| *x < 0.0).map(|x| (*key, x));
         if let Some((key, x)) = numbers.iter().find_map(negative) {
-            let message = format!("{key} is {x:?}, and none is below 0");
+            let message = format!("{key} is {x:?} and must not be negative");
             return wrong(key, message, "write a number above 0");
         }
         if let Some(size) = self
@@ -278,11 +280,11 @@ impl TileSet {
         for (row, column, tile) in &self.seed {
             if !places.insert((row, column)) {
                 let message = format!("two seeds are at {row}, {column}");
-                return wrong("seed", message, "take one away");
+                return wrong("seed", message, "remove one");
             }
             if (*row).max(*column) >= MOST_CANVAS {
                 let message =
-                    format!("the seed at {row}, {column} is farther out than {MOST_CANVAS}");
+                    format!("the seed at {row}, {column} is too far out: at most {MOST_CANVAS}");
                 return wrong(
                     "seed",
                     message,
@@ -291,7 +293,7 @@ impl TileSet {
             }
             let [rows, columns] = self.size.unwrap_or([MOST_CANVAS; 2]);
             if *tile >= self.tiles.len() || *row >= rows || *column >= columns {
-                let message = format!("the seed at {row}, {column} is no tile on the canvas");
+                let message = format!("the seed at {row}, {column} is not a tile on the canvas");
                 return wrong("seed", message, "write seed: [row, column, tile]");
             }
         }

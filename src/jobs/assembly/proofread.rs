@@ -19,7 +19,7 @@ pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
     let count = set.tiles.len() * k * k;
     if count > MOST {
         return Err(format!(
-            "{} blocks of {k} x {k} are {count} tiles, more than {MOST}: ask for a smaller --proofread",
+            "{} blocks of {k} x {k} are {count} tiles, more than {MOST}: use a smaller --proofread",
             set.tiles.len()
         ));
     }

@@ -14,11 +14,11 @@ const GAP: f64 = 0.5;
 /// How a tile set is built of magnets, and of which words.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
-    /// Effective energy kT of the shaking (J)
+    /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E", value_parser = request::shaking)]
     pub kt: f64,
 
-    /// Share of the table that loose tiles cover, all kinds together
+    /// Fraction of the table covered by loose tiles of all kinds
     #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
     pub coverage: f64,
 
@@ -30,42 +30,47 @@ pub struct Request {
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub side: Option<usize>,
 
-    /// Blocks of K x K tiles in place of tiles, against errors
+    /// Replace each tile by a block of K x K tiles, to reduce errors
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = request::whole(1, 6))]
     pub proofread: u16,
 
-    /// Places of a face [default: the fewest that carry the words]
+    /// Magnet positions per face [default: the fewest that carry the words]
     #[arg(long, value_name = "L", value_parser = request::count)]
     pub length: Option<usize>,
 
-    /// Magnets of the strongest bonds' words, where spacing is code too [default: one a place]
+    /// Magnets per word of the strongest bonds [default: one per position]
+    ///
+    /// With fewer magnets than positions, spacing is part of the code.
     #[arg(long, value_name = "K", value_parser = request::count)]
     pub magnets: Option<usize>,
 
-    /// Least gap of the words, from 0 to 1 [default: 0.5; with --length the widest there is]
+    /// Smallest gap of the words, 0 to 1 [default: 0.5; with --length the widest]
     #[arg(long, value_name = "G", value_parser = word_sets::gap)]
     pub gap: Option<f64>,
 
-    /// Complementary shapes of the faces: none; shared, one that any two have and that forbids
-    /// slides; polar, knobs on words and slots on mates. Designs are written flat all the same
+    /// Complementary shapes of the faces: none, shared or polar
+    ///
+    /// shared: all faces have one shape, which prevents slides. polar: words have knobs and mates have
+    /// slots. The designs are written with flat faces in any case.
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = word_sets::shape(),
           hide_possible_values = true)]
     pub shape: Shape,
 
-    /// From place to place (m) [default: the design's, or 0.04]
+    /// Distance between magnet positions (m) [default: the design's, or 0.04]
     #[arg(long, value_name = "M", value_parser = request::length)]
     pub pitch: Option<f64>,
 
-    /// Model of the magnets, dipole or cuboid [default: the design's]
+    /// Magnet model, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(), hide_possible_values = true)]
     pub model: Option<MagnetModel>,
 
-    /// Work to spend on words, as what takes about so many seconds of a core; it is counted, so
-    /// that the same work gives the same words everywhere
+    /// Effort of the word search in core-seconds, counted in steps
+    ///
+    /// Steps are counted, not timed, so the same effort gives the same words on any machine.
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]
     pub seconds: f64,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }

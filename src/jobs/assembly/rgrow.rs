@@ -104,8 +104,8 @@ impl Parts {
         for names in NUMBERS {
             let mut both = entries.iter().filter(|entry| names.contains(&entry.1));
             if let (Some(_), Some((key, ..))) = (both.next(), both.next()) {
-                let message = format!("`{}` and `{}` are one", names[0], names[1]);
-                return Err(source.wrong(key, message, "take one away"));
+                let message = format!("`{}` and `{}` are the same", names[0], names[1]);
+                return Err(source.wrong(key, message, "remove one"));
             }
         }
         for (key, name, value) in &entries {
@@ -124,7 +124,8 @@ impl Parts {
                 "size" => self.size = Some((*value).clone()),
                 "hdoubletiles" | "doubletiles" | "vdoubletiles" => {
                     if !list(source, value)?.is_empty() {
-                        let message = "it has double tiles, which magnetic squares are not";
+                        let message = "it has double tiles, which square magnetic tiles cannot \
+                            represent";
                         return Err(source.wrong(key, message, HALVES));
                     }
                 }
@@ -149,14 +150,14 @@ impl Parts {
         let low = text.to_lowercase();
         match name {
             "canvas_type" if !low.starts_with("square") => {
-                let message = format!("its canvas is `{text}`, and a table is flat and has edges");
-                let help = "take canvas_type away, or write square; a seed and a size that fit in the \
-                            plane go with it";
+                let message = format!("its canvas is `{text}`, but a table is flat and has edges");
+                let help = "remove canvas_type, or write square, with a seed and a size that fit \
+                    in the plane";
                 return Err(source.wrong(value, message, help));
             }
             "canvas_type" => {}
             "model" if !low.ends_with("tam") => {
-                let message = format!("its model `{text}` is not that of square tiles with glues");
+                let message = format!("its model `{text}` is not for square tiles with glues");
                 return Err(source.wrong(value, message, "write model: kTAM"));
             }
             // As in files that this writes.
@@ -210,7 +211,7 @@ impl Parts {
 }
 
 fn unknown(source: Source, key: &Node, name: &str, known: &[&str]) -> DesignError {
-    let message = format!("nothing is known of the key `{name}`");
+    let message = format!("unknown key `{name}`");
     source.wrong(key, message, &nearest_help(name, known))
 }
 
@@ -231,8 +232,8 @@ fn ident(source: Source, node: &Node) -> Result<String, DesignError> {
     let number = node.whole().map(|number| number.to_string());
     let is_other = node.number().is_some() || node.is_null();
     let name = || node.text().filter(|_| !is_other).map(str::to_owned);
-    let message = "a name, or a whole number from 0 on, is needed here";
-    let help = "put a name that looks like a number into quotes";
+    let message = "a name, or a whole number of 0 or more, is needed here";
+    let help = "put a name that looks like a number in quotes";
     let found = number.or_else(name);
     found.ok_or_else(|| source.wrong(node, message, help))
 }
@@ -262,8 +263,8 @@ fn bond(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
         return Err(source.wrong(node, "a bond has a name and a strength", help));
     };
     if set.glues.iter().any(|glue| glue.name == name) {
-        let message = format!("the bond `{name}` is there twice");
-        return Err(source.wrong(node, message, "take one away"));
+        let message = format!("the bond `{name}` is defined twice");
+        return Err(source.wrong(node, message, "remove one"));
     }
     set.glue(&name, strength);
     Ok(())
@@ -283,7 +284,7 @@ fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, Desi
             _ => {
                 let shape = value.text().unwrap_or_default();
                 if !["single", "Single", "s", "S"].contains(&shape) {
-                    let message = format!("the tile `{}` is no single square", tile.name);
+                    let message = format!("the tile `{}` is not a single square", tile.name);
                     return Err(source.wrong(value, message, HALVES));
                 }
             }
@@ -312,8 +313,8 @@ fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
         let name = ident(source, node)?;
         let known = set.glues.iter().position(|glue| glue.name == name);
         known.ok_or_else(|| {
-            let message = format!("no tile and no bond has the glue `{name}`");
-            let help = "name glues of tiles, or list it under bonds";
+            let message = format!("no tile or bond has the glue `{name}`");
+            let help = "use a glue of a tile, or list it under bonds";
             source.wrong(node, message, help)
         })
     };

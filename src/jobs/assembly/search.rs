@@ -55,7 +55,7 @@ impl Request {
                 Ok(Sought { bar, side, tried })
             }
             Some(last) => Err(missing(last)),
-            None => Err("the face holds no magnet".to_owned()),
+            None => Err("the face has no magnets".to_owned()),
         }
     }
 
@@ -68,14 +68,15 @@ impl Request {
         let magnets = self.magnets.unwrap_or(0);
         Err(match self.length {
             Some(length) if length > most => format!(
-                "a face of {length} places is too long: {most} at most, {} apart",
+                "a face of {length} positions is too long: at most {most}, {} apart",
                 si(bar.pitch, "m", 3)
             ),
             Some(_) if magnets > places => format!(
-                "{magnets} magnets do not fit into {places} places: give a length of {magnets} or more"
+                "{magnets} magnets do not fit into {places} positions: use a length of {magnets} \
+                 or more"
             ),
             None if magnets > places => {
-                format!("{magnets} magnets do not fit into a face of {places} places")
+                format!("{magnets} magnets do not fit on a face of {places} positions")
             }
             _ => return Ok(most),
         })
@@ -94,15 +95,15 @@ fn missing(choice: &Choice) -> String {
     let needed = needed.map(|class| format!("{} with {}", class.needed, magnets(class)));
     let why = match classes.iter().find(|it| it.upper < it.needed) {
         Some(class) => format!(
-            "there are not enough, proved: of those with {} at most {}",
+            "proved that there are not enough: of those with {} at most {}",
             magnets(class),
             class.upper
         ),
-        None => "whether there are more is open, and more seconds search longer".to_owned(),
+        None => "more may exist; increase --seconds to search longer".to_owned(),
     };
     format!(
-        "{} words ({}) with a gap of {:.3} on faces of {} places: {} were found, {why}; give a \
-         longer face, a narrower gap, or the words",
+        "{} words ({}) with a gap of {:.3} on faces of {} positions: {} were found, {why}; use a \
+         longer face, a narrower gap, or given words",
         sum(|it| it.needed),
         needed.collect::<Vec<_>>().join(", "),
         choice.gap,

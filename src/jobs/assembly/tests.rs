@@ -265,7 +265,7 @@ fn glues_that_hold_others_share_their_word() {
         Wiring::new(&mixed)
             .unwrap_err()
             .to_string()
-            .contains("glues of their own")
+            .contains("separate glues")
     );
 }
 

@@ -263,9 +263,9 @@ fn bond(
     let strength = pairs().map(|(a, b)| strengths[a][b]).fold(0.0, f64::max);
     if let Some((a, b)) = pairs().find(|(a, b)| strengths[*a][*b] != strength) {
         return Err(format!(
-            "the glue `{}` of {} faces and `{}` of those that they meet are bound to the same others, \
-             but not alike to each other ({} in place of {strength}): one word and its mate cannot do \
-             that. Give them glues of their own",
+            "the glue `{}` of {} faces and `{}` of the faces they meet bind the same other glues, \
+             but with different strengths ({} instead of {strength}): one word and its mate \
+             cannot do that. Give them separate glues",
             set.glues[a].name,
             SIDES[axis.sides()[0]],
             set.glues[b].name,

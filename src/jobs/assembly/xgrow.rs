@@ -65,7 +65,7 @@ impl<'a> Scanner<'a> {
         let found = self.until(&[' ', '\t', '\n', '\r', '}', ']', ')', ',', '%']);
         found.parse().map_err(|_| {
             self.at = start;
-            self.wrong(format!("`{found}` is no number"), FORM)
+            self.wrong(format!("`{found}` is not a number"), FORM)
         })
     }
 }
@@ -142,7 +142,11 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
             _ => {
                 scan.at = start;
                 let message = format!("there is no glue `{name}`");
-                return Err(scan.wrong(message, "raise the number of binding types, or name it"));
+                return Err(scan.wrong(
+                    message,
+                    "increase the number of binding types, or define \
+                    the glue",
+                ));
             }
         };
     }
@@ -172,26 +176,26 @@ const REFUSED: [(&str, &str, &str); 6] = [
     ("vdoubletile=", DOUBLE, HALVES),
     (
         "periodic",
-        "its canvas is periodic, and a table has edges",
-        "take the line away, and give a size that what grows fits into",
+        "its canvas is periodic, but a table has edges",
+        "remove the line, and give a size large enough for the assembly",
     ),
     (
         "importfile",
-        "its seed stands in another file",
-        "write the tile it begins with as seed=row,column,tile (or seeds as a list, in YAML)",
+        "its seed is in another file",
+        "write the first tile as seed=row,column,tile (or seeds as a list, in YAML)",
     ),
     (
         "stripe=",
         "it begins with stripes of tiles",
-        "write the tile it begins with as seed=row,column,tile (or seeds as a list, in YAML)",
+        "write the first tile as seed=row,column,tile (or seeds as a list, in YAML)",
     ),
     (
         "stoic=",
         "it changes the share of a tile",
-        "write the share behind the tile: {1 2 1 2}[0.5]",
+        "write the share after the tile: {1 2 1 2}[0.5]",
     ),
 ];
-const DOUBLE: &str = "double tiles are no magnetic squares";
+const DOUBLE: &str = "square magnetic tiles cannot represent double tiles";
 const HALVES: &str = "write the two halves as tiles that share a strong glue";
 
 /// Lines that only steer the engine.
@@ -314,7 +318,7 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
             .unwrap_or_default();
         if !STEERING.contains(&key) {
             scan.at = start;
-            let message = format!("`{key}` is nothing that xgrow knows after the strengths");
+            let message = format!("`{key}` is not an xgrow argument after the strengths");
             return Err(scan.wrong(message, &nearest_help(key, &STEERING)));
         }
         if !OWN.contains(&line) {

@@ -98,7 +98,9 @@ impl Source<'_> {
             let taken = event
                 .map_err(|error| (error.marker().index()..0, error.info().to_owned()))
                 .and_then(|(event, span)| tree.take(event, span));
-            taken.map_err(|(at, why)| self.fault(at, format!("it is no YAML: {why}"), FORM))?;
+            taken.map_err(|(at, why)| {
+                self.fault(at, format!("it is not valid YAML: {why}"), FORM)
+            })?;
         }
         let nothing = || self.fault(0..0, "it is empty".to_owned(), FORM);
         tree.root.ok_or_else(nothing)
@@ -137,7 +139,7 @@ impl Source<'_> {
                 true => Ok((key, name, value)),
                 false => {
                     let message = format!("the key `{name}` is there twice");
-                    Err(self.wrong(key, message, "take one away"))
+                    Err(self.wrong(key, message, "remove one"))
                 }
             }
         };
@@ -146,8 +148,8 @@ impl Source<'_> {
 }
 
 /// How a tile set is written.
-pub(super) const FORM: &str = "write tiles: [{name: a, edges: [north, east, south, west]}], as rgrow \
-                               has it, or a .tiles file of xgrow";
+pub(super) const FORM: &str = "write tiles: [{name: a, edges: [north, east, south, west]}] as for \
+    rgrow, or a .tiles file for xgrow";
 
 /// A list or mapping that has not ended, whose keys and values take turns.
 struct Open {
@@ -194,7 +196,7 @@ impl Tree {
             }),
             Event::Alias(anchor) => {
                 let node = self.anchors.get(&anchor).cloned();
-                let node = node.ok_or_else(|| (at.clone(), "it holds itself".to_owned()))?;
+                let node = node.ok_or_else(|| (at.clone(), "it contains itself".to_owned()))?;
                 self.check_depth(at.clone(), self.open.len() + node.depth)?;
                 self.add(Node { at, ..node });
                 Ok(())
@@ -207,7 +209,7 @@ impl Tree {
     }
 
     fn check_depth(&self, at: Range<usize>, depth: usize) -> Result<(), Wrong> {
-        let message = || format!("more than {DEEPEST} lists and mappings lie within each other");
+        let message = || format!("more than {DEEPEST} lists and mappings are nested");
         (depth <= DEEPEST)
             .then_some(())
             .ok_or_else(|| (at, message()))

@@ -102,7 +102,7 @@ impl PairTimes {
         for (line, record) in records {
             if record.len() != 2 {
                 return Err(format!(
-                    "line {line} has not two entries; leave one empty, but keep its comma"
+                    "line {line} does not have two entries; leave one empty, but keep its comma"
                 ));
             }
             for (column, list) in [(bound, &mut times.bound), (apart, &mut times.apart)] {
@@ -116,7 +116,8 @@ impl PairTimes {
                     None if text.is_empty() => {}
                     None => {
                         return Err(format!(
-                            "line {line}: `{text}` is no time above 0 (s), nor one with > before it"
+                            "line {line}: `{text}` is not a time above 0 (s), with or without > \
+                             before it"
                         ));
                     }
                 }
@@ -126,7 +127,7 @@ impl PairTimes {
             let found = list.whole.len();
             if found < FEWEST {
                 return Err(format!(
-                    "{column}: {found} intervals seen to their ends are too few; measure 5 or more"
+                    "{column}: {found} finished intervals are too few; measure 5 or more"
                 ));
             }
         }

@@ -75,8 +75,13 @@ impl PairDistances {
         let row = |(line, record): (usize, StringRecord)| match record.len() {
             1 => positive(&record[0])
                 .map(|distance| (line, distance))
-                .ok_or_else(|| format!("line {line}: `{}` is no distance above 0 (m)", &record[0])),
-            _ => Err(format!("line {line} is no single entry")),
+                .ok_or_else(|| {
+                    format!(
+                        "line {line}: `{}` is not a distance above 0 (m)",
+                        &record[0]
+                    )
+                }),
+            _ => Err(format!("line {line} is not a single entry")),
         };
         let rows = records(text).skip(1).map(row).collect::<Result<_, _>>()?;
         Ok(Self { rows })
@@ -105,8 +110,8 @@ impl PairDistances {
                 None if distance > within => beyond += 1,
                 None => {
                     return Err(format!(
-                        "line {line}: with their centres {distance} m apart the tiles would overlap, \
-                         however they are turned; distances are those of the tiles' reference points"
+                        "line {line}: with their centres {distance} m apart the tiles overlap at \
+                         any orientation; distances are between the tiles' reference points"
                     ));
                 }
             }

@@ -39,16 +39,17 @@ pub use rows::{COLUMNS, read_rows};
 /// What is asked of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Area that a pair had for itself (m^2) [default: the design's table]
+    /// Table area per pair (m^2) [default: the design's table]
     #[arg(long, value_name = "M2", value_parser = request::positive)]
     pub area: Option<f64>,
 
-    /// Distances (m) up to which those of pairs count, for the rim of the table is felt beyond
-    /// [default: where tiles are free]
+    /// Largest distance (m) of a pair that counts [default: where tiles are free]
+    ///
+    /// At larger distances the rim of the table biases the result.
     #[arg(long, value_name = "R", value_parser = request::length)]
     pub within: Option<f64>,
 
-    /// Of so many rows one is held out of the fit
+    /// Hold out one in N rows from the fit
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = request::whole(2, u16::MAX))]
     pub hold_out: u16,
 }
@@ -315,8 +316,8 @@ pub fn calibrate(
     let values = residuals(&start).len();
     if values <= start.len() {
         return Err(format!(
-            "{values} measured values with iron are too few to fit four constants; give at least five \
-             rows that are not held out"
+            "{values} measured values with iron are too few to fit four constants; give at least \
+             five rows that are not held out"
         ));
     }
     let fits = STARTING_LENGTHS.map(|factor| {

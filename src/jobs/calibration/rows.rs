@@ -33,7 +33,7 @@ pub fn read_rows(text: &str) -> Result<Vec<Row>, String> {
     let mut records = records(text);
     let (_, header) = records.next().ok_or_else(|| {
         let known = COLUMNS.join(",");
-        format!("the file is empty; its first line should name the columns: {known}")
+        format!("the file is empty; its first line must name the columns: {known}")
     })?;
     let columns = columns(&header)?;
     let rows = records.map(|(line, record)| row(line, &record, &columns));
@@ -66,7 +66,7 @@ fn columns(header: &StringRecord) -> Result<Vec<usize>, String> {
     if columns.iter().all(|column| *column < NEEDED) {
         let known = COLUMNS[NEEDED..].join(", ");
         return Err(format!(
-            "none of the columns {known} is there: nothing was measured"
+            "none of the columns {known} is present, so there are no measurements"
         ));
     }
     Ok(columns)
@@ -90,7 +90,12 @@ fn row(line: usize, entries: &StringRecord, columns: &[usize]) -> Result<Row, St
         let number = entry.parse().ok();
         let number = number.filter(|number: &f64| number.abs() <= FARTHEST);
         let name = COLUMNS[column];
-        let wrong = || format!("line {line}: `{entry}` is no number for {name} up to {FARTHEST:e}");
+        let wrong = || {
+            format!(
+                "line {line}: `{entry}` is not a number for {name} up to \
+            {FARTHEST:e}"
+            )
+        };
         values[column] = Some(number.ok_or_else(wrong)?);
     }
     let [x, y, theta, iron] = [0, 1, 2, 3].map(|column| values[column].unwrap_or_default());

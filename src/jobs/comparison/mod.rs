@@ -223,7 +223,7 @@ impl Assessment {
             return Some((3, "the bond does not hold".to_owned()));
         }
         if self.is_caged() {
-            let proved = "proved: no way leads from far apart into the bond";
+            let proved = "proved: no path leads from far apart into the bond";
             return Some((2, proved.to_owned()));
         }
         let none_came_in = self.far_starts > 0 && self.captured == 0;
@@ -232,7 +232,7 @@ impl Assessment {
             let starts = self.far_starts;
             (
                 1,
-                format!("none of {starts} far starts came into the bond (at most {most:.1} % do)"),
+                format!("none of {starts} far starts reached the bond (at most {most:.1} % do)"),
             )
         })
     }

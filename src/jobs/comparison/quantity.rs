@@ -251,7 +251,7 @@ fn trap(assessment: &Assessment) -> Result<&Trap, &'static str> {
 }
 
 fn climb(climb: Option<Estimate>) -> Result<Reading, &'static str> {
-    climb.map(Reading::Bounded).ok_or("no way found")
+    climb.map(Reading::Bounded).ok_or("no path found")
 }
 
 fn share(count: usize, of: usize) -> Result<Reading, &'static str> {

@@ -11,35 +11,42 @@ use physics::budget::Allowance;
 use physics::landscape::{Claims, CompletenessSettings};
 
 const DYNAMICS: &str = "\
-Check the way out of the bond and the deepest trap's escape by moving tiles, with RUNS \
-trajectories below each [default: 1000]; a contradiction ends the command with status 1 after all \
-results are written. 1000 take a second of a core and, for curved shapes, up to five";
+Check the barriers of bond and deepest trap with RUNS trajectories each [default: 1000]";
+
+const DYNAMICS_LONG: &str = "\
+Check the barriers of bond and deepest trap with RUNS trajectories each [default: 1000]
+
+1000 trajectories take one core-second, up to five for curved shapes. If a trajectory contradicts a \
+barrier, all results are still written and the exit status is 1.";
 
 /// How much work a design is worth: all that decides an assessment besides the design and the seed.
 ///
 /// Work is counted, so that every machine finds the same.
 #[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-#[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS)))]
+#[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)))]
 pub struct Request {
     /// How thoroughly landscapes are surveyed.
     #[command(flatten)]
     #[serde(flatten)]
     pub survey: Survey,
 
-    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of the
-    /// bond or a twentieth of the barrier, whichever is less]
+    /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+    ///
+    /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     #[serde(rename = "tolerance_J")]
     pub tolerance: Option<f64>,
 
-    /// Cells spent on the certified bounds of a barrier at most; 0 for no bounds [default: 200000; of
-    /// very many magnets 0]
+    /// Most cells for the bounds of one barrier; 0: no bounds [default: 200000]
+    ///
+    /// The default is 0 for very many magnets.
     #[arg(long, value_name = "N", value_parser = request::count_or_none)]
     pub certify_cells: Option<usize>,
 
-    /// Cells spent on the search for states that the survey missed, at most; 0 for no search
-    /// [default: 300000; of very many magnets 0]
-    // Of blocks it is a thirtieth, which takes about as long.
+    /// Most cells for the search for missed states; 0: no search [default: 300000]
+    ///
+    /// The default is 0 for very many magnets.
+    // For blocks it is a thirtieth, which takes about as long.
     #[arg(long, value_name = "N", value_parser = request::count_or_none)]
     pub complete_cells: Option<usize>,
 
@@ -56,7 +63,7 @@ pub struct Question {
     #[command(flatten)]
     pub request: Request,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
           value_parser = request::seed)]
     pub seed: u64,

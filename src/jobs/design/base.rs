@@ -57,8 +57,8 @@ pub(super) fn read(section: &Section) -> Result<Base> {
 
 /// A regular polygon about its centre; face 0 has its outward normal along +x.
 fn regular(section: &Section) -> Result<Base> {
-    let help = "say how long its sides are, side = 0.43 (m), list its corners, vertices = [...], \
-                or name a drawing: outline = { file = \"tile.svg\" }";
+    let help = "give the side length, side = 0.43 (m), the corners, vertices = [...], or a \
+        drawing: outline = { file = \"tile.svg\" }";
     let side = section.require("side", help)?.number(quantity::TILE_SIDE)?;
     let sides = match section.get("sides") {
         Some(entry) => entry.count(MOST_FACES)?,
@@ -113,31 +113,29 @@ fn vertices(entry: &Entry) -> Result<Vec<Vector2<f64>>> {
     if vertices.len() > MOST_FACES as usize {
         return Err(entry.error(
             format!("a tile cannot have {} corners", vertices.len()),
-            format!("give at most {MOST_FACES}; a face's line may have more: shape = \"points\""),
+            format!("give at most {MOST_FACES}; a face can have more points: shape = \"points\""),
         ));
     }
     let vertices: Vec<_> = vertices.into_iter().map(Vector2::from).collect();
     match Outline::new(vertices.clone()) {
         Ok(_) => Ok(vertices),
-        Err(error) => Err(mend(entry, &items, error)),
+        Err(error) => Err(fix(entry, &items, error)),
     }
 }
 
 /// A list of corners that is no outline, as a fault of the corner that is to be changed.
-fn mend(entry: &Entry, items: &[Entry], error: OutlineError) -> super::DesignError {
+fn fix(entry: &Entry, items: &[Entry], error: OutlineError) -> super::DesignError {
     let message = error.to_string();
     match error {
         OutlineError::RepeatedVertex(i, j) => {
-            items[i.max(j)].error(message, "take one of the two away")
+            items[i.max(j)].error(message, "remove one of the two")
         }
         OutlineError::SelfCrossing(_, j) => items[j].error(
             message,
-            "corners are counted from 0; list them in their order around the tile",
+            "corners are counted from 0; list them in order around the tile",
         ),
         OutlineError::Clockwise => entry.error(message, "reverse the list"),
         OutlineError::TooFewVertices(_) => entry.error(message, "give three corners or more"),
-        OutlineError::NotDecomposable => {
-            entry.error(message, "move corners that lie very close to another edge")
-        }
+        OutlineError::NotDecomposable => entry.error(message, "move corners away from other edges"),
     }
 }

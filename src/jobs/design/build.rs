@@ -80,7 +80,8 @@ fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
             "a magnet {} m thick sticks out of a tile {} m thick",
             magnet.size[2], entry.thickness
         ),
-        "the third number of a magnet's size runs through the tile's thickness; of one that stands, the one along its axis",
+        "the third number of a magnet's size is along the tile's thickness; for an upright magnet \
+         it is the one along its axis",
     ))
 }
 
@@ -95,7 +96,8 @@ fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
     if mass > HIGHEST_DENSITY * volume {
         return Err(entry.error(
             format!(
-                "`mass` = {mass} kg makes the tile denser than any material ({} kg/m^3): did you mean {} ({mass} g)?",
+                "`mass` = {mass} kg makes the tile denser than any material ({} kg/m^3): did you \
+                 mean {} ({mass} g)?",
                 four_digits(mass / volume),
                 mass / 1000.0
             ),
@@ -125,7 +127,7 @@ fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline
                 "face {} cannot be drawn back by {} m: part of its line would vanish",
                 entry.base.faces[face].name, contents[face].fit
             ),
-            "make `fit` smaller, or the profile's details larger",
+            "reduce `fit`, or enlarge the details of the profile",
         )
     })?;
     let points = ring.points.len();
@@ -171,12 +173,15 @@ fn mend_outline(
                         name(culprit),
                         name(other)
                     ),
-                    "make it less deep, or keep it farther from the corners",
+                    "make it less deep, or move it away from the corners",
                 ),
             };
             let help = match largest_depth(entry, contents, culprit) {
                 Some(depth) => {
-                    format!("make it less deep: `depth` may be up to {depth} m in size here")
+                    format!(
+                        "make it less deep: `depth` can be at most {depth} m here (absolute \
+                        value)"
+                    )
                 }
                 None => help.to_owned(),
             };

@@ -45,11 +45,12 @@ fn loose(entry: &TileEntry, face: &str, content: &FaceContent) -> Option<DesignE
         entry.section.source.doubt(
             content.fit_span,
             format!(
-                "`fit` = {} m draws face {face} back by as much as its shape is deep, {} m, so that it no longer guides",
+                "`fit` = {} m draws face {face} back by the full depth of its shape, {} m, so it \
+                 no longer guides",
                 content.fit,
                 four_digits(depth)
             ),
-            "play is a few tenths of a millimetre: fit = 0.0005",
+            "a usual clearance is a few tenths of a millimetre: fit = 0.0005",
         )
     })
 }

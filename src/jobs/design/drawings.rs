@@ -63,7 +63,7 @@ impl<'a> Drawings<'a> {
             Some(held) => held.get(name).cloned().ok_or_else(|| {
                 Error::new(
                     ErrorKind::NotFound,
-                    "it was not there when the design was read",
+                    "it did not exist when the design was read",
                 )
             }),
             None => read_text(design, name),

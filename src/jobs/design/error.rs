@@ -1,4 +1,4 @@
-//! What is wrong with a design file, where, and how to mend it.
+//! What is wrong with a design file, where, and how to fix it.
 
 use std::fmt::{self, Write};
 use std::ops::Range;
@@ -9,7 +9,7 @@ pub(super) type Result<T> = std::result::Result<T, DesignError>;
 /// A fault of a design file.
 ///
 /// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
-/// place marked, and the mend; then the same of every further fault:
+/// place marked, and the fix; then the same of every further fault:
 ///
 /// ```text
 /// flat.toml:12:8: `side` = 430 m: did you mean 0.43 (430 mm)?
@@ -26,7 +26,7 @@ pub struct DesignError {
     pub place: Option<Box<Place>>,
     /// What is wrong.
     pub message: String,
-    /// How to mend it.
+    /// How to fix it.
     pub help: String,
     /// What else is wrong with the file, in its order; none of them has further ones.
     pub also: Vec<DesignError>,

@@ -83,12 +83,9 @@ impl<'a> FaceEntry<'a> {
             section.allow(&FACE_KEYS);
             if let (Some(mates), Some(other)) = (section.get("mates"), first_of(section)) {
                 return Err(other.key_error(
+                    format!("`mates` and `{}` both describe this face", other.key),
                     format!(
-                        "`mates` and `{}` both say what this face is like",
-                        other.key
-                    ),
-                    format!(
-                        "a mate takes shape and magnets from `{}`: keep one of the two",
+                        "a mate takes its shape and magnets from `{}`: keep one of the two",
                         mates.string()?
                     ),
                 ));
@@ -132,8 +129,8 @@ impl<'a> FaceEntry<'a> {
     ) -> Result<FaceContent> {
         if let Some(fit) = self.own.and_then(|own| own.get("fit")) {
             return Err(fit.key_error(
-                "`fit` draws a mate back, and this face has no `mates`",
-                "add `mates = \"FACE\"`, or take `fit` away",
+                "`fit` draws a mate back, but this face has no `mates`",
+                "add `mates = \"FACE\"`, or remove `fit`",
             ));
         }
         let profile = self.get(&["profile"]);
@@ -208,10 +205,10 @@ fn check_count(entry: &Entry, count: usize) -> Result<()> {
         return Ok(());
     }
     let message = format!(
-        "`{}` has {count} places for magnets, more than {MOST_PLACES}",
+        "`{}` has {count} positions for magnets, more than {MOST_PLACES}",
         entry.key
     );
-    Err(entry.error(message, "a face of a tile has some tens of them"))
+    Err(entry.error(message, "use at most a few tens of magnets per face"))
 }
 
 fn read_pattern(entry: &Entry) -> Result<Pattern> {
@@ -226,7 +223,7 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     let code = Barcode::parse(text).map_err(|error: BarcodeError| {
         let help = match error.character {
             'n' | 's' => format!("write {}", error.character.to_ascii_uppercase()),
-            _ => "N is north pole out, S south pole out, . no magnet".to_owned(),
+            _ => "use N for a north pole out, S for a south pole out, . for no magnet".to_owned(),
         };
         let span = entry.character_span(error.index);
         entry.source.error(span, error.to_string(), help)

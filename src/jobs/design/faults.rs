@@ -13,7 +13,7 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Adds a fault, once for each place and mend: what `all` says wrongly is wrong for every face.
+    /// Adds a fault, once for each place and fix: what `all` says wrongly is wrong for every face.
     pub fn add(&self, fault: DesignError) {
         let mut found = self.found.borrow_mut();
         let same = |one: &DesignError| {

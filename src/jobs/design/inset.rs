@@ -1,4 +1,4 @@
-//! The mend of magnets that stick out: another inset.
+//! The fix of magnets that stick out: another inset.
 
 use super::blocks::{block, breaks_through, overlap, sticks_out};
 use super::build::BuiltTile;
@@ -11,7 +11,7 @@ const STEPS: [f64; 2] = [1e-4, 1e-6];
 
 /// What to write where magnets with this inset (m) stick out: the nearest one with which all of
 /// them, on both tiles, are sound. `None` where there is none.
-pub(super) fn mend(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
+pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let all: Vec<_> = built.iter().map(|tile| Shifted::new(tile, inset)).collect();
     let sound = |to: f64| all.iter().all(|tile| tile.sits(to - inset));
     let across = built.iter().map(|tile| tile.tile.outline.circumradius());
@@ -40,9 +40,12 @@ pub(super) fn mend(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
         .find(|&to| sound(to) && all.iter().all(|tile| tile.apart(to - inset)))?;
     let every_lower = (0..=TRIED).map(|k| to * k as f64 / TRIED as f64).all(sound);
     Some(match raised {
-        true => format!("raise `inset` to {to} m, which suffices for all magnets"),
-        false if every_lower => format!("lower `inset`: any from 0 to {to} m suits all magnets"),
-        false => format!("lower `inset` to {to} m, which suffices for all magnets"),
+        true => format!("raise `inset` to {to} m, which is enough for all magnets"),
+        false if every_lower => format!(
+            "lower `inset`: any value from 0 to {to} m fits all \
+            magnets"
+        ),
+        false => format!("lower `inset` to {to} m, which is enough for all magnets"),
     })
 }
 

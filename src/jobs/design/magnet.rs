@@ -176,7 +176,7 @@ fn size(section: &Section) -> Result<Option<Size>> {
         (Some(Shape::Block), _, Some(entry)) | (None, Some(_), Some(entry)) => {
             return Err(entry.key_error(
                 format!("a block has no `{}`", entry.key),
-                "write its `size`, or shape = \"disc\" with `diameter` and `height` alone",
+                "write its `size`, or shape = \"disc\" with only `diameter` and `height`",
             ));
         }
         _ => {}
@@ -207,7 +207,7 @@ fn strength(section: &Section) -> Result<Option<Strength>> {
     if let [first, second, ..] = given.as_slice() {
         return Err(second.key_error(
             format!(
-                "`{}` and `{}` both say how strong the magnet is",
+                "`{}` and `{}` both set the magnet's strength",
                 first.key, second.key
             ),
             "keep exactly one of remanence, moment, surface_field, grade and pull",
@@ -233,12 +233,12 @@ fn grade(entry: &Entry) -> Result<Grade> {
         let help = match lower.starts_with("aln") || lower.starts_with("lng") {
             // What is left of its remanence depends on its length and on what it has been through.
             true => {
-                "short magnets of AlNiCo lose most of their remanence by themselves: measure \
-                     the field at the pole, surface_field = \"60 mT\", or give their pull"
+                "short AlNiCo magnets demagnetise themselves: measure the field at the pole, \
+                 surface_field = \"60 mT\", or give their pull"
             }
             false => {
-                "known are N35 to N52 (also N42SH and the like), Y30 and other ferrite, YXG28 \
-                      or SmCo 28; or give remanence = 1.2 (T), or pull = \"1.8 kg\""
+                "use N35 to N52 (also N42SH and similar), Y30 and other ferrites, YXG28 or SmCo \
+                 28; or give remanence = 1.2 (T), or pull = \"1.8 kg\""
             }
         };
         entry.error(format!("`grade` cannot be \"{name}\""), help)
@@ -272,8 +272,8 @@ pub(super) fn impossible(body: &Body, strength: Option<Strength>) -> Option<(Str
                 four_digits(remanence)
             ),
             format!(
-                "the strongest, N52, pulls {} kg; the first number of `size` is the one that it is \
-                 magnetised through",
+                "the strongest grade, N52, pulls {} kg; the first number of `size` is along the \
+                 magnetic axis",
                 four_digits(pull(shape, size, 1.46) / 9.806_65)
             ),
         ));
@@ -313,8 +313,8 @@ impl ListedMagnet {
     pub fn read(entry: &Entry) -> Result<Self> {
         let section = entry.section("a magnet of `magnets`")?;
         section.allow(&Self::keys());
-        let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
-        let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
+        let at = section.require("at", "give its position along the face: at = 0.02 (m)")?;
+        let pole = section.require("pole", "give the outward pole: pole = \"N\"")?;
         let at = at.number(quantity::ALONG_FACE);
         let pole = pole.word(&[
             ("N", Pole::North),
@@ -351,7 +351,7 @@ pub(super) fn missing_key(key: &str, error: impl Fn(String, String) -> DesignErr
         _ => ("strength", "remanence = 1.2"),
     };
     error(
-        format!("the {what} of this magnet is not given"),
+        format!("the {what} of this magnet is missing"),
         format!("write `{example}` under [magnet] or in this face's `magnet = {{ ... }}`"),
     )
 }

@@ -2,7 +2,7 @@
 //!
 //! [`Design::load`] turns a file into a [`Pair`] of tiles, the configuration in which they are
 //! meant to bind, and the table they float on. Everything that can be wrong with a file is found here and
-//! told as a [`DesignError`] with line, column and the mend; behind this door tiles are sound.
+//! told as a [`DesignError`] with line, column and the fix; behind this door tiles are sound.
 //! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2; a number in quotes
 //! may carry another unit: `"12 cm"`, `"100 g"`, `"30 deg"`, `"300 mT"`. Everything that is wrong
 //! with a file is told at once, as far as it can be read.
@@ -298,14 +298,14 @@ impl Design {
         let [x, y] = space.half_size;
         if !space.contains(&self.pair.bound) {
             return Err(entry.error(
-                "the bound configuration lies off the table",
+                "the bound configuration is off the table",
                 "make the table larger",
             ));
         }
         if libm::hypot(x, y) <= space.free_distance {
             let needed = quantity::four_digits(3.0 * space.free_distance);
             return Err(entry.error(
-                "the table is too small for the tiles to come apart",
+                "the table is too small for the tiles to separate",
                 format!("make it larger: size = [{needed}, {needed}]"),
             ));
         }
@@ -334,7 +334,7 @@ fn bound(
     let doubt = target.overlapping(
         overlap,
         &format!(
-            "the moving face is drawn back by {}, as `fit` does it",
+            "the moving face is drawn back by {}, as by `fit`",
             tolerance::micrometres(drawn)
         ),
     );
@@ -362,7 +362,7 @@ fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, Magnet)> {
     sold
 }
 
-const TABLE_HELP: &str = "say how large the table is: [table] with size = [2.0, 2.0] (m)";
+const TABLE_HELP: &str = "give the size of the table: [table] with size = [2.0, 2.0] (m)";
 
 const TABLE_KEYS: [&str; 1] = ["size"];
 
@@ -409,10 +409,11 @@ fn check_shielded(root: &Section, shields: &Shields, built: &[BuiltTile; 2]) -> 
     if shields.is_none() || magnets.all(is_known) {
         return Ok(());
     }
-    let message = "shields are known behind blocks that lie, not behind discs or standing magnets";
+    let message = "shields work only behind blocks magnetised in the plane, not behind discs or \
+        upright magnets";
     Err(root.error(
         message,
-        "take `shield` away, or describe the magnets as blocks",
+        "remove `shield`, or describe the magnets as blocks",
     ))
 }
 

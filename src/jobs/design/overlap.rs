@@ -41,8 +41,8 @@ fn outside(section: &Section, built: &[BuiltTile; 2], tile: usize) {
             continue;
         };
         let placing = &built[tile].placings[i];
-        let help = inset::mend(built, placing.inset).unwrap_or_else(|| {
-            "move it away from corners and steps, take a smaller magnet, or another `inset`"
+        let help = inset::fix(built, placing.inset).unwrap_or_else(|| {
+            "move it away from corners and steps, use a smaller magnet, or change `inset`"
                 .to_owned()
         });
         let message = format!("a magnet of face {name} sticks out of the tile");
@@ -78,7 +78,8 @@ fn overlaps(entry: &TileEntry, built: &BuiltTile) {
             );
             let more = (depth * 1e4 - 1e-6).ceil() / 10.0;
             let help = format!(
-                "space them out by {more} mm or more (`pitch`, `at`), or take smaller magnets (`size`)"
+                "space them out by {more} mm or more (`pitch`, `at`), or use smaller magnets \
+                 (`size`)"
             );
             let span = built.placings[i].span;
             entry.section.source.error(span, message, help);
@@ -90,7 +91,7 @@ fn doubts(entry: &TileEntry, built: &[BuiltTile; 2], tile: usize) -> Vec<DesignE
     let it = &built[tile];
     if it.tile.magnets.is_empty() {
         let name = entry.name;
-        let message = format!("the {name} tile has no magnet, so that the energy is zero");
+        let message = format!("the {name} tile has no magnets, so the energy is zero");
         let help = "give one of its faces a code";
         return vec![
             entry
@@ -128,7 +129,7 @@ fn breakthrough(
                 face.name,
                 four_digits(excess * 1e3)
             ),
-            inset::mend(both, placing.inset)
+            inset::fix(both, placing.inset)
                 .unwrap_or_else(|| format!("raise `inset` by {} m", four_digits(excess + 5e-7))),
         )
     })

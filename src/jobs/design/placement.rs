@@ -46,7 +46,7 @@ pub(super) fn placed(
                 return Err(entry.section.source.error(
                     content.pattern_span,
                     format!(
-                        "the code {code} is {} m long, its face {} m",
+                        "the code {code} is {} m long but its face is {} m long",
                         four_digits(needed),
                         four_digits(length)
                     ),
@@ -85,12 +85,12 @@ pub(super) fn magnet(
     let Some(surface) = surface_height(edges, listed.at) else {
         return Err(error(
             format!(
-                "a magnet at s = {} sits beyond the end of face {}",
+                "a magnet at s = {} is beyond the end of face {}",
                 four_digits(listed.at),
                 face.name
             ),
             format!(
-                "s runs from {} to {} m",
+                "s ranges from {} to {} m",
                 four_digits(-face.length() / 2.0),
                 four_digits(face.length() / 2.0)
             ),
@@ -131,12 +131,12 @@ fn standing(listed: &ListedMagnet) -> std::result::Result<Option<Standing>, (Str
         (Pole::Down, true) => Ok(Some(Standing::Down)),
         (Pole::North | Pole::South, false) => Ok(None),
         (_, true) => Err((
-            format!("`{letter}` turns a pole out of the face, and these magnets stand"),
-            "write U for a north pole up and D for a south pole up".to_owned(),
+            format!("`{letter}` is a pole out of the face, but these magnets are upright"),
+            "use U for a north pole up and D for a south pole up".to_owned(),
         )),
         (_, false) => Err((
-            format!("`{letter}` turns a pole up or down, and these magnets lie"),
-            "write axis = \"up\" for magnets that stand; lying ones have N and S".to_owned(),
+            format!("`{letter}` is a pole up or down, but these magnets are not upright"),
+            "write axis = \"up\" for upright magnets; otherwise use N and S".to_owned(),
         )),
     }
 }

@@ -39,14 +39,14 @@ const MOST_TEETH: u32 = 200;
 /// The line of a face of the given length (m), as its `profile` draws it.
 pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyline)> {
     let section = entry.section("`profile`")?;
-    let example = "say shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
+    let example = "write shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
     let shapes = SHAPES.map(|shape| (shape.0, shape));
     let (_, keys, read) = section.require("shape", example)?.word(&shapes)?;
     section.allow(keys);
     let profile = read(&section, length)?;
     section.source.faults.check_guesses()?;
     let line = profile.polyline();
-    let line = line.map_err(|error| mend(&section, &profile, error))?;
+    let line = line.map_err(|error| fix(&section, &profile, error))?;
     within_face(&section, &profile, &line, length)?;
     if line.len() > MOST_POINTS {
         return Err(section.error(
@@ -54,7 +54,7 @@ pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyl
                 "the profile's line has {} points, more than {MOST_POINTS}",
                 line.len()
             ),
-            "give it fewer or shallower teeth, or fewer points",
+            "use fewer or shallower teeth, or fewer points",
         ));
     }
     Ok((profile, line))
@@ -77,8 +77,8 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
         ("triangle", Waveform::Triangle),
         ("square", Waveform::Square),
     ];
-    let form = section.require("form", "say form = \"sine\", \"triangle\" or \"square\"")?;
-    let count = section.require("count", "say how many teeth: count = 4")?;
+    let form = section.require("form", "write form = \"sine\", \"triangle\" or \"square\"")?;
+    let count = section.require("count", "give the number of teeth: count = 4")?;
     let form = form.word(&forms);
     let count = count.count(MOST_TEETH);
     let depth = depth(section);
@@ -123,7 +123,7 @@ fn drawn(section: &Section, _: f64) -> Result<Profile> {
 
 fn width(section: &Section) -> Result<f64> {
     section
-        .require("width", "say how wide it is at its base: width = 0.20 (m)")?
+        .require("width", "give its width at the base: width = 0.20 (m)")?
         .number(quantity::PROFILE_WIDTH)
 }
 
@@ -131,13 +131,13 @@ fn depth(section: &Section) -> Result<f64> {
     section
         .require(
             "depth",
-            "say how far it sticks out: depth = 0.02 (m; negative cuts in)",
+            "give its depth: depth = 0.02 (m; negative cuts in)",
         )?
         .number(quantity::PROFILE_DEPTH)
 }
 
 /// A profile that cannot be drawn, as a fault of the key that is to be changed.
-fn mend(section: &Section, profile: &Profile, error: ProfileError) -> DesignError {
+fn fix(section: &Section, profile: &Profile, error: ProfileError) -> DesignError {
     match error {
         ProfileError::SidesMeet { largest_draft } => {
             let less_deep = match profile {
@@ -180,16 +180,16 @@ fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: 
         return Ok(());
     };
     let message = format!(
-        "the profile leaves its face: it reaches s = {}, the face ends at {}",
+        "the profile extends beyond its face: it reaches s = {}, the face ends at {}",
         quantity::four_digits(s),
         quantity::four_digits(half.copysign(s))
     );
     let point = section
         .get("points")
         .and_then(|entry| entry.array().ok()?.get(index).copied());
-    let (key, mend) = narrower(profile, half);
+    let (key, fix) = narrower(profile, half);
     let help = format!(
-        "the face is {} m long; {mend}",
+        "the face is {} m long; {fix}",
         quantity::four_digits(length)
     );
     let entry = point.or_else(|| section.get(key));
@@ -211,8 +211,8 @@ fn fault(
 fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
     let at_most = |key: &'static str, largest: f64| {
         let largest = quantity::rounded_down(largest);
-        let mend = format!("`{key}` may be up to {largest} m in size here");
-        (key, mend)
+        let fix = format!("`{key}` can be at most {largest} m here (absolute value)");
+        (key, fix)
     };
     match *profile {
         // Wider than its base: by its depth.
@@ -237,7 +237,7 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
         Profile::Teeth { .. } => at_most("span", 2.0 * half),
         Profile::Flat | Profile::Points(_) | Profile::Drawn(..) => (
             "file",
-            "make the profile narrower or move it inwards".to_owned(),
+            "make the profile narrower or move it towards the middle".to_owned(),
         ),
     }
 }

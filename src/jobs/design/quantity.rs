@@ -61,7 +61,7 @@ const FIELD: Kind = Kind {
 };
 const FORCE: Kind = Kind {
     unit: "N",
-    rule: "a pull is in newtons; shops state it in kilograms: pull = \"1.8 kg\"",
+    rule: "a pull is in newtons, or in kilograms as shops state it: pull = \"1.8 kg\"",
     others: &[],
     units: units::FORCE,
 };
@@ -131,13 +131,13 @@ pub(super) const DRAFT: Quantity = ANGLE.any(1.5, (0.0, 1.5));
 pub(super) const AXIS: Quantity = ANGLE.any(TAU, (0.0, TAU));
 /// How much of the energy a shield takes away behind it, close by.
 pub(super) const ATTENUATION: Quantity =
-    share("the attenuation is a part of one").not_negative(1.0, (0.0, 1.0));
+    share("the attenuation is a fraction").not_negative(1.0, (0.0, 1.0));
 pub(super) const SHIELD_LENGTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 1.0));
 /// The width of the passage from a shield's front to its back, in the cosine of the angle.
 pub(super) const SHIELD_WIDTH: Quantity =
     share("the width is a difference of cosines").positive((1e-3, 10.0), (1e-3, 10.0));
 pub(super) const FRONT_GAIN: Quantity =
-    share("the gain is a factor, 1 for a shield that only takes away")
+    share("the gain is a factor, 1 for a shield that only attenuates")
         .positive((0.1, 10.0), (0.1, 10.0));
 /// Of a tile.
 pub(super) const MASS: Quantity = WEIGHT.positive((1e-9, 1e3), (1e-3, 10.0));
@@ -148,13 +148,13 @@ pub(super) const PULL: Quantity = FORCE.positive((1e-4, 1e5), (0.01, 2e3));
 pub(super) const MOMENT: Quantity = DIPOLE.positive((1e-9, 1e4), (1e-4, 100.0));
 
 impl Quantity {
-    /// Whether `value`, given for `what`, may stand; or what is wrong with it and the mend.
+    /// Whether `value`, given for `what`, may stand; or what is wrong with it and the fix.
     pub fn check(&self, what: &str, value: f64) -> Result<(), (String, String)> {
         let help = |text: &str| format!("{text}; {}", self.kind.rule);
         let value_and_unit = self.with_unit(value);
         let wrong = if !value.is_finite() {
             Some((
-                format!("{what} is {value}, which is no number"),
+                format!("{what} is {value}, which is not a number"),
                 "give a finite number",
             ))
         } else if self.sign == Sign::Positive && value <= 0.0 {
@@ -166,8 +166,8 @@ impl Quantity {
         } else {
             None
         };
-        if let Some((message, mend)) = wrong {
-            return Err((message, help(mend)));
+        if let Some((message, fix)) = wrong {
+            return Err((message, help(fix)));
         }
         let (low, high) = self.accepted;
         if (low..=high).contains(&value.abs()) {
@@ -179,13 +179,13 @@ impl Quantity {
             false => format!("up to {high}"),
         };
         let message = match self.proposals(value).as_slice() {
-            [] => format!("{what} = {value_and_unit} is beyond any tile"),
+            [] => format!("{what} = {value_and_unit} is too large for a tile"),
             proposals => format!(
                 "{what} = {value_and_unit}: did you mean {}?",
                 proposals.join(" or ")
             ),
         };
-        Err((message, help(&format!("{what} may be {limits}"))))
+        Err((message, help(&format!("{what} must be {limits}"))))
     }
 
     /// A number with a unit behind it, in the file's own unit.
@@ -205,7 +205,7 @@ impl Quantity {
         let with_point = text.replacen(',', ".", 1);
         if text.matches(',').count() == 1 && self.read(&with_point).is_some() {
             return format!(
-                "write a point in place of the comma: \"{}\"",
+                "use a decimal point, not a comma: \"{}\"",
                 with_point.trim()
             );
         }
@@ -214,14 +214,14 @@ impl Quantity {
             Some(value) => {
                 let meant = self.meant(value);
                 format!(
-                    "a number in quotes needs its unit: write {}",
+                    "a number in quotes needs a unit: write {}",
                     meant.join(", or ")
                 )
             }
             None => {
                 let names: Vec<_> = self.unit_names().collect();
                 format!(
-                    "write a plain number, or one with a unit in quotes, \"5 {name}\"; units here: {}",
+                    "write a number, or one with a unit in quotes, \"5 {name}\"; units here: {}",
                     names.join(", ")
                 )
             }
@@ -326,8 +326,8 @@ mod tests {
 
     #[test]
     fn what_no_unit_explains_is_refused_without_a_guess() {
-        assert!(message(TILE_SIDE, 1e9).contains("beyond any tile"));
-        assert!(message(TILE_SIDE, f64::NAN).contains("no number"));
+        assert!(message(TILE_SIDE, 1e9).contains("too large for a tile"));
+        assert!(message(TILE_SIDE, f64::NAN).contains("not a number"));
         assert!(message(TILE_SIDE, 0.0).contains("above zero"));
         assert!(message(INSET, -0.001).contains("must not be negative"));
     }

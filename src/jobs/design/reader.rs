@@ -182,10 +182,10 @@ impl<'a> Entry<'a> {
             None => Ok(text),
             Some(c) => Err(self.error(
                 format!(
-                    "`{}` holds the control character U+{:04X}",
+                    "`{}` contains the control character U+{:04X}",
                     self.key, c as u32
                 ),
-                "delete it, or write what is meant in letters",
+                "delete it",
             )),
         }
     }
@@ -251,7 +251,7 @@ impl<'a> Entry<'a> {
         };
         parsed.ok_or_else(|| {
             self.error(
-                format!("`{}` is a number that cannot be read", self.key),
+                format!("`{}` is not a valid number", self.key),
                 "write a plain decimal number, such as 0.43",
             )
         })
@@ -306,12 +306,10 @@ impl<'a> Entry<'a> {
         let values = all(items.iter().map(|item| item.number(quantity)))?;
         values.try_into().map_err(|values: Vec<f64>| {
             self.error(
-                format!("`{}` holds {} numbers, not {N}", self.key, values.len()),
+                format!("`{}` has {} numbers, not {N}", self.key, values.len()),
                 match items.len() == 2 * N {
                     // `[2,0, 2,0]`
-                    true => format!(
-                        "give {N} numbers: {what}; a decimal number has a point, not a comma"
-                    ),
+                    true => format!("give {N} numbers: {what}; use a decimal point, not a comma"),
                     false => format!("give {N} numbers: {what}"),
                 },
             )
@@ -340,11 +338,11 @@ const ELSEWHERE: [(&str, &str, &str); 9] = [
     (
         "words",
         "fixed",
-        "a set of words is no design: `tilebind crosstalk` reads it",
+        "a set of words is not a design: read it with `tilebind crosstalk`",
     ),
 ];
-const DISC_OR_BLOCK: &str = "a disc has `diameter` and `height`, the length along its axis that it is \
-                             magnetised through; a block has size = [...]";
+const DISC_OR_BLOCK: &str = "a disc has `diameter` and `height`, where the height is along the \
+    magnetic axis; a block has size = [...]";
 
 /// Names the known word nearest to `word`, or all of them where none is near.
 pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
@@ -369,7 +367,7 @@ pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
         .filter(|(distance, name)| *distance <= 1 + name.len().min(word.len()) / 4);
     match nearest {
         Some((_, name)) => format!("did you mean `{name}`?"),
-        None => format!("known here: {}", known.join(", ")),
+        None => format!("known: {}", known.join(", ")),
     }
 }
 
@@ -388,8 +386,8 @@ mod tests {
         assert_eq!(nearest_help("sdie", &known), "did you mean `side`?");
         assert_eq!(
             nearest_help("colour", &known),
-            "known here: side, sides, thickness, mass"
+            "known: side, sides, thickness, mass"
         );
-        assert_eq!(nearest_help("9", &["0", "1"]), "known here: 0, 1");
+        assert_eq!(nearest_help("9", &["0", "1"]), "known: 0, 1");
     }
 }

@@ -61,7 +61,7 @@ impl ShieldKeys {
                     span,
                     format!("the shield of {tile}.{face} has no `{}`", CONSTANTS[i].0),
                     "a shield needs `attenuation` (0 to 1), `length` (m) and `width`, here or in \
-                     [shield]; `tilebind calibrate` fits them to measurements",
+                     [shield]; fit them to measurements with `tilebind calibrate`",
                 )
             })
         };
@@ -78,9 +78,8 @@ impl ShieldKeys {
         let (_, span) = self.present?;
         Some(section.source.doubt(
             span,
-            "the nearest-face rule has no use for the constants of a shield, nor for faces \
-             without one",
-            "take them away, or write rule = \"smooth\" under [shield]",
+            "the nearest-face rule does not use the constants of a shield or faces without one",
+            "remove them, or write rule = \"smooth\" under [shield]",
         ))
     }
 }

@@ -64,7 +64,7 @@ fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String
     let to = from + number.len();
     if let Some(meant) = with_point(number) {
         let told = format!("write {meant}");
-        return Some((from..to, "a decimal number has a point, not a comma", told));
+        return Some((from..to, "use a decimal point, not a comma", told));
     }
     // `code = NNS`, as a value of its own, in a table or in an array.
     let between = |c: char| c.is_whitespace() || "=[,{".contains(c);

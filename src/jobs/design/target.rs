@@ -27,7 +27,7 @@ pub(super) struct Target<'a> {
 }
 
 const HELP: &str =
-    "name the two faces that are meant to bind: [target] fixed = \"east\", moving = \"west\"";
+    "name the two faces that should bind: [target] fixed = \"east\", moving = \"west\"";
 
 pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Target<'a>> {
     let section = root.require("target", HELP)?.section("[target]")?;
@@ -108,7 +108,7 @@ impl Target<'_> {
         let doubt = self.overlapping(
             overlap,
             &format!(
-                "the outlines stay as drawn, and the bond is where they touch, {} farther apart",
+                "the outlines stay as drawn; the bond is where they touch, {} farther apart",
                 micrometres(outside)
             ),
         );
@@ -134,7 +134,8 @@ impl Target<'_> {
         self.moving.source.doubt(
             self.moving.span(),
             format!(
-                "the target faces overlap by {} where they coincide, less than a cutter resolves",
+                "the target faces overlap by {} where they coincide, less than a cutter can \
+                 resolve",
                 micrometres(overlap)
             ),
             made,

@@ -63,13 +63,13 @@ impl<'a> TileEntry<'a> {
 }
 
 fn thickness(section: &Section) -> Result<f64> {
-    let help = "say how thick the tile is: thickness = 0.013 (m)";
+    let help = "give the thickness of the tile: thickness = 0.013 (m)";
     let entry = section.require("thickness", help)?;
     entry.number(quantity::TILE_THICKNESS)
 }
 
 fn mass<'a>(section: &Section<'a>) -> Result<(Entry<'a>, f64)> {
-    let entry = section.require("mass", "say how heavy the tile is: mass = 0.1 (kg)")?;
+    let entry = section.require("mass", "give the mass of the tile: mass = 0.1 (kg)")?;
     Ok((entry, entry.number(quantity::MASS)?))
 }
 
@@ -148,12 +148,12 @@ fn resolve_face(
     if on_the_way.contains(&(other, partner)) {
         return Err(mates.error(
             format!(
-                "{} mates {}, which in the end mates {} again",
+                "{} mates {}, which in turn mates {} again",
                 name(tiles, (tile, face)),
                 name(tiles, (other, partner)),
                 name(tiles, (tile, face))
             ),
-            "give one of these faces a code and a profile of its own",
+            "give one of these faces its own code and profile",
         ));
     }
     let partner_length = tiles[other].base.faces[partner].length();

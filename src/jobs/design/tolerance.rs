@@ -74,10 +74,10 @@ pub(super) fn nearly_equal(entry: &Entry, what: &str, a: f64, b: f64) -> DesignE
     entry.source.doubt(
         entry.span(),
         format!(
-            "{what} {first} and {second}: {} apart, less than a cutter resolves",
+            "{what} {first} and {second}: {} apart, less than a cutter can resolve",
             micrometres((a - b).abs())
         ),
-        "the outlines stay as drawn, and the faces meet middle on middle; make them equal if they \
+        "the outlines stay as drawn, and the faces meet centre to centre; make them equal if they \
          are meant to be",
     )
 }

@@ -28,10 +28,10 @@ pub(super) fn common(
     places.dedup_by(|a, b| (*a - *b).abs() < SAME);
     if places.len() > MOST_PLACES {
         let message = format!(
-            "its words and their mates have magnets at {} places, more than {MOST_PLACES}",
+            "its words and their mates have magnets at {} positions, more than {MOST_PLACES}",
             places.len()
         );
-        return Err(faces[0].1.error(message, "judge fewer words at a time"));
+        return Err(faces[0].1.error(message, "use fewer words at a time"));
     }
     let word = |magnets: &Vec<(f64, &str)>| {
         let letter = |place: &f64| {
@@ -39,7 +39,7 @@ pub(super) fn common(
             magnet.map_or(".", |(_, pole)| pole)
         };
         let text: String = places.iter().map(letter).collect();
-        Word::parse(&text).expect("N, S and . at no more places than words have")
+        Word::parse(&text).expect("use N, S and . at no more positions than words have")
     };
     let words = faces_magnets.iter().map(word).collect();
     Ok((places, words))
@@ -56,8 +56,8 @@ fn magnets<'a>(
     let one = |magnet: &Entry<'a>| {
         let section = magnet.section("a magnet of `magnets`")?;
         section.allow(&["at", "pole"]);
-        let at = section.require("at", "say where along the face it sits: at = 0.02 (m)")?;
-        let pole = section.require("pole", "say which pole points outwards: pole = \"N\"")?;
+        let at = section.require("at", "give its position along the face: at = 0.02 (m)")?;
+        let pole = section.require("pole", "give the outward pole: pole = \"N\"")?;
         Ok((at.number(quantity::ALONG_FACE)?, pole.string()?))
     };
     let mut magnets = all(entry.array()?.iter().map(one))?;
@@ -69,8 +69,8 @@ fn magnets<'a>(
     }
     if let Some((at, _)) = magnets.iter().find(|(at, _)| at.abs() > half) {
         return wrong(
-            format!("has a magnet at {at} m, which reaches beyond its face of {side} m"),
-            "positions are from the face's middle, in m",
+            format!("has a magnet at {at} m, which extends beyond its face of {side} m"),
+            "positions are from the face's centre, in m",
         );
     }
     let mut pairs = magnets.windows(2);

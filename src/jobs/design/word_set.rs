@@ -99,7 +99,7 @@ impl WordSet {
             section.allow(&MAGNET_KEYS);
             let keys = MagnetKeys::read(&section)?;
             if let (Some(Axis::Lying(_)), Some(entry)) = (keys.axis, section.get("axis")) {
-                let help = "words have magnets square to their face, or axis = \"up\"";
+                let help = "the magnets of words are square to their face, or have axis = \"up\"";
                 return Err(entry.key_error("the magnets of words are not turned", help));
             }
             Ok(keys)
@@ -126,10 +126,10 @@ impl WordSet {
         if given.is_none() && !spaced.is_empty() {
             if let Some((_, face)) = faces.iter().find(|(_, face)| face.get("magnets").is_none()) {
                 let message = "some of its faces have `code` and others `magnets`";
-                return Err(face.error(message, "give all of them the one or the other"));
+                return Err(face.error(message, "use one of the two for all"));
             }
             let side = side.ok_or_else(|| {
-                let message = "it does not say how long its faces are";
+                let message = "the length of its faces is missing";
                 root.error(message, "write side = 0.43 under [tile]")
             })?;
             let (places, words) = word_places::common(&spaced, &bar, side)?;
@@ -151,12 +151,7 @@ impl WordSet {
         let count = words.first().map_or(0, |word| word.places());
         if words.is_empty() {
             let help = "list them: words = [\"NNSN\", \"NSSN\"]";
-            return Err(DesignError::new(
-                source.file,
-                None,
-                "it holds no words",
-                help,
-            ));
+            return Err(DesignError::new(source.file, None, "it has no words", help));
         }
         let (pitch, last) = (bar.pitch, count as f64 - 1.0);
         let places: Vec<f64> = (0..count)
@@ -166,7 +161,8 @@ impl WordSet {
         let side = side.unwrap_or(needed.max(pitch * count as f64));
         if needed > side * (1.0 + 1e-9) {
             let message = format!(
-                "words of {count} places {pitch} m apart need a face of {needed:.4} m, not {side} m"
+                "words of {count} positions {pitch} m apart need a face of {needed:.4} m, not \
+                 {side} m"
             );
             return Err(root.error(message, "make [tile] side longer, or leave it out"));
         }
@@ -200,31 +196,34 @@ fn read_words(codes: &[Entry], bar: &Bar) -> Result<Vec<Word>> {
     let [first, second] = word_places::letters(bar);
     for entry in codes {
         let code = entry.string()?;
-        let help = format!("write it of {first}, {second} and .");
+        let help = format!("use {first}, {second} and .");
         let word =
             Word::parse(code).map_err(|found| entry.error(format!("`{code}`: {found}"), &help))?;
         if word.magnets() > 0 && word.standing(bar.form.stands.is_some()) != word {
             let message = match bar.form.stands {
-                Some(_) => format!("`{code}` is of magnets that lie, and these stand"),
-                None => format!("`{code}` is of magnets that stand (axis = \"up\"), and these lie"),
+                Some(_) => format!("`{code}` is for magnets in the plane, but these are upright"),
+                None => format!(
+                    "`{code}` is for upright magnets (axis = \"up\"), but these are \
+                    in the plane"
+                ),
             };
             return Err(entry.error(message, &help));
         }
         let first = words.first().copied().unwrap_or(word);
         if first.places() != word.places() {
             let (own, others) = (word.places(), first.places());
-            let message = format!("`{code}` has {own} places and `{first}` {others}");
-            let help = "words of a set are of one length; fill up with . (no magnet)";
+            let message = format!("`{code}` has {own} positions and `{first}` has {others}");
+            let help = "words of a set have the same length; fill up with . (no magnet)";
             return Err(entry.error(message, help));
         }
         if word.magnets() == 0 {
             return Err(entry.error(format!("`{code}` has no magnets"), help));
         }
         if words.contains(&word) {
-            return Err(entry.error(format!("`{code}` is there twice"), "take one away"));
+            return Err(entry.error(format!("`{code}` is there twice"), "remove one"));
         }
         if words.len() == MOST_WORDS {
-            let message = format!("it holds {} words, more than {MOST_WORDS}", codes.len());
+            let message = format!("it has {} words, more than {MOST_WORDS}", codes.len());
             return Err(entry.error(message, "split the set"));
         }
         words.push(word);

@@ -92,7 +92,7 @@ impl Obstacle {
         match self {
             Self::Input => "is read by this command and is never replaced".to_owned(),
             Self::Irregular => "is not a regular file".to_owned(),
-            Self::There => "exists already".to_owned(),
+            Self::There => "already exists".to_owned(),
             Self::Foreign => "is not recorded as written by tilebind".to_owned(),
             Self::Changed => "was changed since tilebind wrote it".to_owned(),
             Self::Other(command) => format!("is a result of `tilebind {command}`"),
@@ -135,7 +135,9 @@ impl Output {
             OutputError::Refused(format!("{file} {why}\n  help: give another name"))
         };
         match file.file_name() {
-            Some(name) if name == record::NAME => Err(refused("is where tilebind notes its files")),
+            Some(name) if name == record::NAME => {
+                Err(refused("is where tilebind records its files"))
+            }
             Some(_) if !file.is_dir() => Ok(Self {
                 file: Some(file.to_owned()),
                 ..Self::folder(command, file.parent().unwrap_or(file))

@@ -175,7 +175,7 @@ fn hold(folder: &Path) -> io::Result<Option<File>> {
                 std::thread::sleep(BLINK);
             }
             Err(TryLockError::WouldBlock) => {
-                let message = "another process has been writing into it for a minute";
+                let message = "another process has been writing to it for a minute";
                 return Err(io::Error::new(ErrorKind::WouldBlock, message));
             }
             Err(TryLockError::Error(_)) => return Ok(None),

@@ -20,21 +20,22 @@ pub struct Request {
     #[command(flatten)]
     pub check: Check,
 
-    /// Runs, each with the next seed; every barrier's spread over them is reported
+    /// Number of runs with consecutive seeds, to report each barrier's spread
     #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
           value_parser = request::count)]
     pub repeats: usize,
 
-    /// Accept milestones by Boltzmann's rule at this energy (J), not by the linear rule
+    /// Accept milestones by the Boltzmann rule at this energy (J), not the linear rule
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub boltzmann: Option<f64>,
 
-    /// Thermal energy (J) of the transition probabilities [default: a hundredth of the bond]
+    /// Thermal energy (J) of the transition probabilities [default: 1/100 of the bond]
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub thermal_energy: Option<f64>,
 
-    /// Width (J) to which the certified bounds are narrowed [default: a hundredth of
-    /// the bond or a twentieth of the barrier, whichever is less]
+    /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
+    ///
+    /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
@@ -42,37 +43,39 @@ pub struct Request {
     #[command(flatten)]
     pub certify: Certify,
 
-    /// Cells spent on the bounds of a barrier at most
+    /// Most cells for the bounds of one barrier
     #[arg(long, value_name = "N", default_value_t = Settings::default().certify_cells,
           value_parser = request::count_or_none)]
     pub certify_cells: usize,
 
-    /// Work given to the proof that no state is missing from the list, as what takes about so many
-    /// seconds of a core; it is counted. 0 for no proof [default: 180; of very many magnets 0]
+    /// Effort of the proof that no state is missing, in core-seconds; 0: none [default: 180]
+    ///
+    /// Counted in steps, not timed. The default is 0 for very many magnets.
     #[arg(long, value_name = "W", value_parser = request::not_negative)]
     pub complete_work: Option<f64>,
 
-    /// Seconds by the clock after which that proof ends too, so that another run may differ; 0 for no
-    /// proof [default: no limit]
+    /// Time limit (s) of that proof; 0: none [default: no limit]
+    ///
+    /// Wall-clock time, so two runs can differ.
     #[arg(long, value_name = "S", value_parser = request::time_or_none)]
     pub complete_seconds: Option<f64>,
 
-    /// Traps are looked for below this share of the bond's energy
+    /// Search for traps below this fraction of the bond's energy
     #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.below,
           value_parser = request::fraction)]
     pub complete_below: f64,
 
-    /// Traps are to be listed that need more than this share of the bond's energy to leave
+    /// List traps whose escape barrier exceeds this fraction of the bond's energy
     #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.escape,
           value_parser = request::fraction)]
     pub complete_escape: f64,
 
-    /// Cells spent on the proof that no state is missing at most
+    /// Most cells for the proof that no state is missing
     #[arg(long, value_name = "N", default_value_t = Settings::default().completeness.cells,
           value_parser = request::count_or_none)]
     pub complete_cells: usize,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
           value_parser = request::seed)]
     pub seed: u64,
@@ -110,25 +113,26 @@ impl Request {
 /// How thoroughly the landscape is surveyed.
 #[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
 pub struct Survey {
-    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
+    /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub milestones: Option<usize>,
 
-    /// Neighbours of each milestone [default: e (1 + 1/3) ln N]
+    /// Neighbours per milestone [default: e (1 + 1/3) ln N]
     #[arg(long, value_name = "K", value_parser = request::count)]
     pub neighbours: Option<usize>,
 
-    /// A barrier is settled when it moves by less than this fraction
+    /// A barrier has converged when it changes by less than this fraction
     #[arg(long, value_name = "F", default_value_t = Settings::default().settled,
           value_parser = request::fraction)]
     pub settled: f64,
 
-    /// Far starts from which capture shares are counted [default: 1000; of very many magnets fewer]
+    /// Far starts for the capture shares [default: 1000; fewer for very many magnets]
+    ///
+    /// Tiles start far apart at random poses; a capture share is the fraction that ends in a state.
     #[arg(long, value_name = "N", value_parser = request::runs_or_none)]
     pub far_starts: Option<usize>,
 
-    /// Kinds of states that are looked at closely, the deepest [default: all; of very many magnets
-    /// fewer]
+    /// Kinds of state to analyse, deepest first [default: all; fewer for very many magnets]
     #[arg(long, value_name = "N", value_parser = request::count)]
     #[serde(
         default,
@@ -178,7 +182,7 @@ impl Survey {
 /// Whether moving tiles check the barriers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 pub struct Check {
-    /// Check every barrier by moving tiles, with RUNS trajectories below each [default: 1000]
+    /// Check every barrier with RUNS simulated trajectories started below it [default: 1000]
     #[arg(long = "dynamics", id = "dynamics", alias = "dynamics-runs", value_name = "RUNS",
           num_args = 0..=1, require_equals = true, default_missing_value = "1000", default_value = "0",
           hide_default_value = true, value_parser = request::runs_or_none)]
@@ -196,13 +200,15 @@ fn is_zero(runs: &usize) -> bool {
 /// What the certificate is worth.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Certify {
-    /// Work given to the certified bounds of barriers, as what takes about so many seconds of a core; it
-    /// is counted. 0 for no bounds [default: 180; of very many magnets 0]
+    /// Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
+    ///
+    /// Counted in steps, not timed. The default is 0 for very many magnets.
     #[arg(long, value_name = "W", value_parser = request::not_negative)]
     pub certify_work: Option<f64>,
 
-    /// Seconds by the clock after which the bounds stay as they are, so that another run may differ; 0
-    /// for no bounds [default: no limit]
+    /// Time limit (s) of the bounds; 0: no bounds [default: no limit]
+    ///
+    /// Wall-clock time, so two runs can differ.
     #[arg(long, value_name = "S", value_parser = request::time_or_none)]
     pub certify_seconds: Option<f64>,
 }

@@ -56,13 +56,13 @@ pub enum QueryError {
     /// The tiles overlap at an end, with this clearance (m).
     Overlap(Configuration, f64),
     #[error(
-        "the pose {},{},{} lies off the table, which reaches to x = +-{} m and y = +-{} m",
+        "the pose {},{},{} is off the table, which extends to x = +-{} m and y = +-{} m",
         .0.x, .0.y, .0.theta, .1[0], .1[1]
     )]
     /// An end lies off the table of this half size (m).
     OffTheTable(Configuration, [f64; 2]),
     /// Neither a way nor a proof that there is none was found.
-    #[error("no way was found, and none disproved: try more milestones")]
+    #[error("no path was found or excluded: use more milestones")]
     NoWay,
 }
 

@@ -93,7 +93,7 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
         poses.push(pose.map_err(|wrong| format!("line {line}: {wrong}"))?);
     }
     if poses.is_empty() {
-        return Err("there are no poses in it; write a line x,y,theta and one for each".to_owned());
+        return Err("it has no poses; write a line x,y,theta, then one line per pose".to_owned());
     }
     Ok(poses)
 }
@@ -108,7 +108,7 @@ fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
             let comma = decimal_comma(&text).map_or(String::new(), |comma| format!("; {comma}"));
             let found = record.len();
             Err(format!(
-                "it has {found} entries where {entries} are wanted{comma}"
+                "it has {found} entries instead of {entries}{comma}"
             ))
         }
     }
@@ -145,7 +145,10 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
         let [name, _] = COLUMNS[k];
         match decimal_comma(text) {
             Some(comma) => format!("{name} is `{text}`: {comma}"),
-            None => format!("{name} is `{text}`, which is no number in {unit} up to {FARTHEST:e}"),
+            None => format!(
+                "{name} is `{text}`, which is not a number in {unit} up to \
+                {FARTHEST:e}"
+            ),
         }
     };
     let metres = |k: usize| {

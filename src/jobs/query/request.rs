@@ -10,22 +10,26 @@ use physics::configuration::Configuration;
 use physics::landscape::minimax::End;
 
 const WORK: &str = "\
-Work given to the bounds, as what takes about so many seconds of a core; it is counted. 0 for no \
-bounds [default: 180]";
+Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]";
+
+const WORK_LONG: &str = "\
+Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
+
+Counted in steps, not timed.";
 
 /// Between which poses a barrier is asked for, and how closely.
 #[derive(Clone, Debug, Args)]
-#[command(mut_arg("certify_work", |work| work.help(WORK)))]
+#[command(mut_arg("certify_work", |work| work.help(WORK).long_help(WORK_LONG)))]
 pub struct Request {
-    /// Pose at which the way starts (m, m, rad)
+    /// Initial pose (m, m, rad)
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
     pub from: Configuration,
 
-    /// Pose at which it ends, or `free`: anywhere with the tiles far apart
+    /// Final pose, or `free`: anywhere with the tiles far apart
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = end)]
     pub to: End,
 
-    /// Width (J) to which the bounds are narrowed [default: a hundredth of the bond's depth]
+    /// Target width (J) of the bounds [default: 1/100 of the bond's depth]
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
@@ -33,11 +37,11 @@ pub struct Request {
     #[command(flatten)]
     pub certify: Certify,
 
-    /// Milestones of the roadmap [default: 8000; of very many magnets fewer]
+    /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub milestones: Option<usize>,
 
-    /// Seed of all random numbers
+    /// Random seed
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
           value_parser = request::seed)]
     pub seed: u64,

@@ -29,32 +29,37 @@ const SQUARES: usize = 120;
 /// What is asked; `None` for what is usual.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Question {
-    /// Effective energy of shaking (J)
+    /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub kt: f64,
 
-    /// Drag rate (1/s): the drag is this times the mass
+    /// Drag rate (1/s); the drag coefficient is this times the mass
     #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::positive)]
     pub drag: f64,
 
-    /// The tile is bound where U (J) is lower, in the basin of the bond or of one of its copies
-    /// [default: half the bond's energy; without --start half way up to its lowest barrier]
+    /// Energy (J) below which the tile counts as bound [default: half the bond's energy]
+    ///
+    /// The tile is bound in the basin of the bond or of a symmetric copy, below this energy. Without
+    /// --start the default is half way from the bond up to its lowest barrier.
     #[arg(long, value_name = "E_J", allow_hyphen_values = true, value_parser = request::binding)]
     pub basin_energy: Option<f64>,
 
-    /// The tile is free where the centres are so far apart (m) [default: where `analyse` has it]
+    /// Distance (m) between centres at which the tile is free [default: as in `analyse`]
     #[arg(long, value_name = "R", value_parser = request::length)]
     pub free_at: Option<f64>,
 
-    /// Refine until bounds are apart by this share of the lower one at most: those of the mean exit
-    /// time, or those of the rates out of the bond and of the traps and of all that make up a tenth
-    /// of these [default: 0.1, as far as it comes within seconds]
+    /// Target relative width of the bounds [default: 0.1, or what seconds of work reach]
+    ///
+    /// The mesh is refined until the bounds of the mean exit time differ by at most this fraction of
+    /// the lower one. Without --start this holds for the rates out of the bond and the traps, and for
+    /// every rate that is at least a tenth of these.
     #[arg(long, value_name = "REL", value_parser = request::positive)]
     pub certify: Option<f64>,
 
-    /// Prove how often tiles set out from the well about the start, or from each basin, and bounds of
-    /// the mean time until they are at an end, for tiles that are convex about their centres of mass,
-    /// of few corners
+    /// Prove bounds on the mean time until bound or free; simple convex tiles only
+    ///
+    /// Also proves how often tiles leave the well around the start, or each basin. The tiles must be
+    /// convex about their centres of mass and have few corners.
     #[arg(long)]
     pub prove: bool,
 }
@@ -66,26 +71,25 @@ pub struct Request {
     #[command(flatten)]
     pub question: Question,
 
-    /// Pose at which the tile is let go (m, m, rad); its mean exit time and its exits are printed
+    /// Initial pose (m, m, rad); prints its mean exit time and exits
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
     pub start: Option<Configuration>,
 
-    /// Kinds of traps with rates, the deepest first
+    /// Number of kinds of traps with rates, deepest first
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = request::count_or_none,
           conflicts_with = "start")]
     pub traps: usize,
 
-    /// Let N rigid bodies with inertia go at the start, too, and print their mean exit time over
-    /// that of overdamped motion
+    /// Also simulate N bodies with inertia and print the ratio of mean exit times
     #[arg(long, value_name = "N", requires = "start", value_parser = request::runs_of_a_mean)]
     pub check: Option<usize>,
 
-    /// Share of the approach velocity that a knock gives back, in --check
+    /// Coefficient of restitution in --check
     #[arg(long, value_name = "E", requires = "check", default_value_t = 1.0,
           value_parser = request::share)]
     pub restitution: f64,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }

@@ -14,18 +14,19 @@ pub struct MotionOptions {
           value_parser = not_negative)]
     pub drag: f64,
 
-    /// Coefficient of friction between tiles and of a tile and the rim
+    /// Coefficient of friction, tile on tile and tile on rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
           value_parser = not_negative)]
     pub friction: f64,
 
-    /// Share of the approach velocity that a knock gives back
+    /// Coefficient of restitution
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = share)]
     pub restitution: f64,
 
-    /// A fan at X,Y (m) that pushes tiles' centres away with the energy E_J over the width S (m);
-    /// the energy may swing by the share A at the frequency F (Hz)
+    /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
+    ///
+    /// The energy can oscillate with relative amplitude A at frequency F (Hz).
     #[arg(long, value_name = "X,Y,E_J,S[,A,F]", allow_hyphen_values = true, value_parser = fan)]
     pub fan: Vec<Fan>,
 }
@@ -49,8 +50,8 @@ impl MotionOptions {
 /// Where it is none.
 pub fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
-                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\", and perhaps ,A,F: the share by which it swings, and how \
-                        often a second";
+                        0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\"; optionally ,A,F: relative \
+                        amplitude and frequency (Hz)";
     let read = |(k, part): (usize, &str)| match k {
         0 | 1 | 3 => length(part),
         2 => energy(part),

@@ -29,7 +29,8 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     };
     if theta.abs() > 2.0 * std::f64::consts::TAU {
         return Err(format!(
-            "theta = {theta:?} rad is more than two whole turns: for degrees write \"{x},{y},{theta} deg\""
+            "theta = {theta:?} rad is more than two full turns: for degrees write \
+             \"{x},{y},{theta} deg\""
         ));
     }
     Ok(Configuration::from([x, y, theta]))
@@ -85,7 +86,7 @@ pub fn runs(text: &str) -> Result<usize, String> {
 /// A number of runs of which a mean with its error comes.
 pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
     match runs(text)? {
-        1 => Err("of one run no error of the mean is known: 2 or more are needed".to_owned()),
+        1 => Err("one run gives no error of the mean: use 2 or more".to_owned()),
         count => Ok(count),
     }
 }
@@ -98,7 +99,7 @@ pub fn runs_or_none(text: &str) -> Result<usize, String> {
 fn not_too_many(count: usize) -> Result<usize, String> {
     match count {
         0..=MOST_RUNS => Ok(count),
-        _ => Err(format!("at most {MOST_RUNS} can be held in memory")),
+        _ => Err(format!("at most {MOST_RUNS} fit in memory")),
     }
 }
 
@@ -188,18 +189,25 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
 
 /// A share, or nothing or all.
 pub fn share(text: &str) -> Result<f64, String> {
-    not_negative(text)
-        .ok()
-        .filter(|x| *x <= 1.0)
-        .ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+    of_one(text)
+        .filter(|x| (0.0..=1.0).contains(x))
+        .ok_or_else(|| "a number from 0 to 1, or a percentage, is needed".to_owned())
 }
 
 /// A fraction greater than 0 and less than 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
-    positive(text)
-        .ok()
-        .filter(|x| *x < 1.0)
-        .ok_or_else(|| "a number between 0 and 1 is needed".to_owned())
+    of_one(text)
+        .filter(|x| 0.0 < *x && *x < 1.0)
+        .ok_or_else(|| "a number between 0 and 1, or a percentage, is needed".to_owned())
+}
+
+/// A number, or a percentage of 1.
+fn of_one(text: &str) -> Option<f64> {
+    let number = |text: &str| text.trim().parse().ok();
+    match text.trim().strip_suffix('%') {
+        Some(percent) => number(percent).map(|percent: f64| percent / 100.0),
+        None => number(text),
+    }
 }
 
 #[cfg(test)]
@@ -238,6 +246,8 @@ mod tests {
         );
         assert!(energy("3 mm").is_err() && energy("0 mJ").is_err() && time("-1 s").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
+        assert_eq!((fraction("30 %"), share("100%")), (Ok(0.3), Ok(1.0)));
+        assert!(fraction("100%").is_err() && share("101%").is_err() && share("nan").is_err());
         assert!(runs("0").is_err() && runs_or_none("0") == Ok(0));
         assert!(runs("1e7").is_ok() && runs("4294967295").is_err());
         assert!(runs_or_none("4294967295").is_err());

@@ -28,12 +28,15 @@ pub fn set(document: &mut Table, path: &str, value: Toml) -> Result<(), String> 
                 let item = part.parse().ok().and_then(|i: usize| items.get_mut(i));
                 item.ok_or_else(|| {
                     let name = reached();
-                    format!("`{name}` is an array of {count}: say which item, from 0, not `{part}`")
+                    format!(
+                        "`{name}` is an array of {count}: give the index of an item, from 0, \
+                        not `{part}`"
+                    )
                 })?
             }
             _ => {
                 return Err(format!(
-                    "`{}` holds no keys: `{path}` leads nowhere",
+                    "`{}` has no keys, so `{path}` does not exist",
                     reached()
                 ));
             }

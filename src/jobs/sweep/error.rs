@@ -21,12 +21,12 @@ pub enum PlanError {
     #[error("two designs are called `{0}`: give them different names")]
     SameName(String),
     /// No point is called so.
-    #[error("no point is `{0}`: name a design, or values that are varied, such as `{1}`")]
+    #[error("there is no point `{0}`: give varied values, such as `{1}`, or a design's name")]
     NoBaseline(String, String),
     /// There is no curve to add points to.
     #[error(
-        "--refine adds points to one varied number of three values or more\n  help: vary one number, \
-         such as --vary fixed.faces.east.profile.depth=0:0.04:5"
+        "--refine adds points to one varied number of three values or more\n  help: vary one \
+         number, such as --vary fixed.faces.east.profile.depth=0:0.04:5"
     )]
     NoCurve,
     /// A key cannot be varied.
@@ -41,9 +41,9 @@ pub enum PlanError {
     #[error("none of the {0} points is possible; the first: {1}")]
     NonePossible(usize, String),
     /// What was read is no manifest.
-    #[error("this is no manifest of a sweep: {0}")]
+    #[error("not a manifest of a sweep: {0}")]
     Malformed(String),
     /// The manifest was written by another version.
-    #[error("the manifest is of tilebind {0}, this is {here}: plan the sweep anew", here = env!("CARGO_PKG_VERSION"))]
+    #[error("the manifest is from tilebind {0}, this is {here}: plan the sweep again", here = env!("CARGO_PKG_VERSION"))]
     Version(String),
 }

@@ -109,7 +109,7 @@ impl Plan {
     fn check(&self) -> Result<(), PlanError> {
         let malformed = |message: String| Err(PlanError::Malformed(message));
         if self.designs.is_empty() {
-            return malformed("it holds no design".to_owned());
+            return malformed("it has no design".to_owned());
         }
         if let Some(axis) = self.axes.iter().find(|axis| axis.values.is_empty()) {
             return malformed(format!("`{}` has no values", axis.key));
@@ -283,7 +283,7 @@ impl Plan {
                 if reasons.len() == axis.values.len() {
                     let mut reason = reasons.into_iter().next().unwrap_or_default();
                     if let Some(meant) = document::paths(document, &axis.key).first() {
-                        reason = format!("it takes its whole path, such as `{meant}`");
+                        reason = format!("it needs the full path, such as `{meant}`");
                     }
                     let path = axis.key.clone();
                     return Err(PlanError::Unknown { path, reason });

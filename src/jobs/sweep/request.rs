@@ -18,12 +18,11 @@ const ROUNDS: usize = 3;
 /// What is asked of a sweep, besides the designs and what is varied of them.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Add so many points, between those at which the figures bend most, one number being varied
+    /// Add N points where the curves bend most (one varied number)
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub refine: Option<usize>,
 
-    /// The point that all are set against: values that are varied, such as depth=0, or a design's
-    /// name
+    /// Point to compare all points with: varied values (depth=0) or a design's name
     #[arg(long, value_name = "POINT")]
     pub baseline: Option<String>,
 

@@ -91,5 +91,5 @@ fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
 fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "the analysis broke down".to_owned())
+        .unwrap_or_else(|| "the analysis crashed".to_owned())
 }

@@ -99,13 +99,14 @@ impl std::str::FromStr for Axis {
         let (key, values) = text.split_once('=').ok_or(FORM)?;
         let key = key.trim();
         if key.is_empty() || key.split('.').any(|part| part.trim().is_empty()) {
-            return Err(format!("`{key}` is no dotted path; {FORM}"));
+            return Err(format!("`{key}` is not a dotted path; {FORM}"));
         }
         let values = match values.split(':').collect::<Vec<_>>()[..] {
             [from, to, count] => range(from, to, count)?,
             [from, to] if !values.contains('"') && end(from).is_ok() && end(to).is_ok() => {
                 return Err(format!(
-                    "`{values}` does not say how many values: write {key}={values}:11 for 11 of them"
+                    "`{values}` does not give the number of values: write {key}={values}:11 for \
+                     11 of them"
                 ));
             }
             _ => values
@@ -126,7 +127,7 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let steps = count.trim().parse().ok();
     let count: usize = steps
         .filter(|n| (1..=MOST_VALUES).contains(n))
-        .ok_or_else(|| format!("`{count}` is no whole number from 1 to {MOST_VALUES}"))?;
+        .ok_or_else(|| format!("`{count}` is not a whole number from 1 to {MOST_VALUES}"))?;
     let number = |k: usize| {
         let share = k as f64 / (count - 1).max(1) as f64;
         let value = rounded(first + (last - first) * share);
@@ -157,7 +158,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 
 /// An end of a range.
 fn end(text: &str) -> Result<f64, String> {
-    number(text).ok_or_else(|| format!("`{text}` is no number; a range is a:b:n"))
+    number(text).ok_or_else(|| format!("`{text}` is not a number; a range is a:b:n"))
 }
 
 /// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
@@ -177,7 +178,7 @@ fn value(word: &str) -> Result<Value, String> {
         // Nobody writes `04` but for what stands behind a decimal comma.
         return match word.len() > 1 && word.starts_with('0') {
             true => Err(format!(
-                "`{word}` begins with 0: a decimal number has a point, not a comma: 0.{word}"
+                "`{word}` begins with 0: use a decimal point, not a comma: 0.{word}"
             )),
             false => Ok(Value::Whole(whole)),
         };

@@ -22,34 +22,35 @@ const MOMENTS: f64 = 200.0;
 /// What is asked of a table.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Tiles of each kind: of a design the fixed tile's and the moving one's, of several designs these two
-    /// numbers of each or two numbers for each, of a tile set each tile's
+    /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
+    ///
+    /// For several designs, give two numbers for all of them or two for each.
     #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
     pub count: Vec<usize>,
 
-    /// How long each run lasts (s)
+    /// Duration of each run (s)
     #[arg(long, value_name = "S", value_parser = request::positive)]
     pub time: f64,
 
-    /// Runs, each from a start of its own
+    /// Number of runs, each from its own start
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
     pub runs: usize,
 
-    /// Make a part of the runs only, so that several machines share them: runs i, i + n, i + 2n, ... by
-    /// their numbers from 1
+    /// Compute only every nth run from the ith on, i/n
     #[arg(long, value_name = "i/n", value_parser = request::shard)]
     pub shard: Option<Shard>,
 
-    /// Effective energy kT (J) of shaking
+    /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub shaking: Option<f64>,
 
-    /// Correlation time of shaking (s): random kicks come so far apart, however short the steps are
-    /// [default: 0.005, or less where drag is above 50]
+    /// Time between random kicks of the shaking (s) [default: 0.005; less for drag above 50]
+    ///
+    /// It does not depend on the step.
     #[arg(long, value_name = "S", value_parser = request::positive)]
     pub correlation: Option<f64>,
 
-    /// Let the table go round in a circle: radius (m) and rounds a second (Hz)
+    /// Move the table in a circle of radius A (m) at F revolutions per second
     #[arg(long, value_name = "A,F", value_parser = orbital)]
     pub orbital: Option<Orbital>,
 
@@ -57,20 +58,21 @@ pub struct Request {
     #[command(flatten)]
     pub motion: MotionOptions,
 
-    /// Longest step (s); steps in contact are shorter, in proportion [default: 0.001, or less where the
-    /// drives ask for it]
+    /// Longest step (s) [default: 0.001, or less for fast drives]
+    ///
+    /// Steps in contact are shorter in proportion.
     #[arg(long, value_name = "S", value_parser = step)]
     pub step: Option<f64>,
 
-    /// Keep the tiles' places every so many seconds
+    /// Record the tiles' poses at this interval (s)
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
 
-    /// Set what `tilebind bond` and `tilebind yield` say of as many tiles at this kT beside it (seconds)
+    /// Compare with what `tilebind bond` and `tilebind yield` give for as many tiles at this kT
     #[arg(long)]
     pub compare: bool,
 
-    /// Seed of all random numbers; a run depends on it and on its own number only
+    /// Random seed; a run depends only on it and on its own number
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -166,12 +168,11 @@ impl Request {
     pub fn check(&self) -> Result<(), String> {
         if self.shaking.is_some() && self.motion.drag == 0.0 {
             return Err(
-                "--shaking heats tiles without end where there is no drag: set --drag above 0"
-                    .into(),
+                "--shaking without drag heats the tiles without limit: set --drag above 0".into(),
             );
         }
         if self.correlation.is_some() && self.shaking.is_none() {
-            return Err("--correlation is that of --shaking: set that, too".into());
+            return Err("--correlation needs --shaking: add it".into());
         }
         if self.made().is_empty() {
             return Err(format!("--shard: of {} runs this part has none", self.runs));

@@ -20,7 +20,7 @@ pub fn bar(
             let (pair, why) = (&design.pair, "words need equal magnets behind a flat face");
             let pitch = pitch
                 .or(design.pitch)
-                .ok_or("the design gives no pitch; say it, such as 0.04 (m)")?;
+                .ok_or("the design has no pitch; give one, such as 0.04 (m)")?;
             let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch)
                 .map_err(|error| format!("{error}; {why}, as in shapes/paper-tile.toml"))?;
             (bar, Some(pair.fixed.faces[pair.target.0].length()))

@@ -9,16 +9,16 @@ use physics::words::crosstalk::{Crosstalk, TOLERANCE};
 /// The attraction of every two words over all poses, and how closely it is bounded.
 #[derive(Clone, Debug, Args)]
 pub struct CrosstalkRequest {
-    /// Prove that no attraction is stronger, to within E_J [default: a quarter of a contact]
+    /// Prove that no attraction is stronger, to within E_J [default: 1/4 of a contact]
     #[arg(long, value_name = "E_J", num_args = 0..=1, require_equals = true,
           value_parser = request::energy)]
     pub certify: Option<Option<f64>>,
 
-    /// Cells spent on the proof at most
+    /// Most cells for the proof
     #[arg(long, alias = "cells", value_name = "N", default_value_t = 8_000_000, value_parser = request::count)]
     pub certify_cells: usize,
 
-    /// Model of the magnets, dipole or cuboid [default: the set's]
+    /// Magnet model, dipole or cuboid [default: the set's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     pub model: Option<MagnetModel>,

@@ -56,8 +56,8 @@ fn text(
     }
     let _ = writeln!(text, "\n[tile]\nside = {:?}", rounded(side));
     let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
-    text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, by the name of a \
-             face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
+    text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, under the name \
+        of a face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
     for (k, [word, mate]) in faces.enumerate() {
         let name = name(k);
         let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");

@@ -11,67 +11,74 @@ use physics::words::{Bar, Constraints, Faces, Fault, Shape};
 /// What words are wanted, of what magnets, and how much work they are worth.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
-    /// Magnets of a word
+    /// Magnets per word
     #[arg(long, value_name = "L", value_parser = request::count, required_unless_present_any = ["slots", "magnets"])]
     pub length: Option<usize>,
 
-    /// Least gap, from 0 to 1
+    /// Smallest gap, 0 to 1: find the largest set
     #[arg(long, value_name = "G", value_parser = gap)]
     pub gap: Option<f64>,
 
-    /// Words wanted: with the widest gap
+    /// Number of words: find the set with the widest gap
     #[arg(long, value_name = "M", value_parser = request::count, conflicts_with = "gap")]
     pub count: Option<usize>,
 
-    /// Judge by counted contacts: wrong meetings have at most T matches more than mismatches
+    /// Count contacts: at most T more matches than mismatches in wrong meetings
     #[arg(long, value_name = "T", value_parser = request::count_or_none,
           conflicts_with_all = ["gap", "count"])]
     pub contacts: Option<usize>,
 
-    /// Which faces can meet: all, or words mates only
+    /// Which faces can meet: all, or mates (words meet only mates)
     #[arg(long, value_name = "WHICH", default_value = "all", value_parser = faces(),
           hide_possible_values = true)]
     pub faces: Faces,
 
-    /// Complementary shapes: none; shared, one that any two faces have and that forbids slides;
-    /// polar, knobs on words and slots on mates
+    /// Complementary shapes of the faces: none, shared or polar
+    ///
+    /// shared: all faces have one shape, which prevents slides. polar: words have knobs and mates have
+    /// slots.
     #[arg(long, value_name = "KIND", default_value = "none", value_parser = shape(),
           hide_possible_values = true)]
     pub shape: Shape,
 
-    /// Tiles may lie upside down: every face may also be turned over
+    /// Tiles can lie upside down: every face can also be turned over
     #[arg(long)]
     pub flip: bool,
 
-    /// Spacing is code: words have N places, most of them empty
+    /// Spacing is code: words have N positions, most of them empty
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub slots: Option<usize>,
 
-    /// Magnets of a word with --slots or --continuous [default: --length]
+    /// Magnets per word with --slots or --continuous [default: --length]
     #[arg(long, value_name = "K", value_parser = request::count)]
     pub magnets: Option<usize>,
 
-    /// Magnets may lie anywhere along the face: positions and poles are found together, with wrong
-    /// meetings judged over all poses, tilted ones too. Takes --gap or --count
+    /// Place magnets anywhere along the face; needs --gap or --count
+    ///
+    /// Positions and poles are optimised together. Wrong meetings are searched over all poses,
+    /// including tilted ones.
     #[arg(long, conflicts_with_all = ["slots", "contacts", "shape", "min_mismatch", "consecutive",
           "min_bond", "tolerate", "word_word", "word_mate", "mate_mate"])]
     pub continuous: bool,
 
-    /// Length of the face (m) with --continuous [default: the design's, or 0.43]
+    /// Face length (m) with --continuous [default: the design's, or 0.43]
     #[arg(long, value_name = "M", value_parser = request::length, requires = "continuous")]
     pub face: Option<f64>,
 
-    /// The gap holds though one magnet of every face is missing (missing=1) or the wrong way round
-    /// (flipped=1): bonds and wrong meetings are those of the worst such faults
+    /// Keep the gap even if one magnet per face is missing or flipped: missing=1 or flipped=1
+    ///
+    /// Bonds and wrong meetings are those with the worst such fault on every face.
     #[arg(long, value_name = "FAULT", value_parser = fault(), conflicts_with = "contacts",
           hide_possible_values = true)]
     pub tolerate: Option<Fault>,
 
-    /// From place to place (m), the least spacing with --continuous [default: the design's, or 0.04]
+    /// Distance between positions (m) [default: the design's, or 0.04]
+    ///
+    /// With --continuous, the smallest distance.
     #[arg(long, value_name = "M", value_parser = request::length)]
     pub pitch: Option<f64>,
 
-    /// As many north as south poles, or one more
+    /// As many north poles as south poles, or one more
     #[arg(long)]
     pub balanced: bool,
 
@@ -79,16 +86,18 @@ pub struct Request {
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub max_run: Option<usize>,
 
-    /// Least mismatches of two words aligned, of a word and a complement aligned, and of either
-    /// over every slide (what hangs over counts)
+    /// Smallest numbers of mismatches: words aligned, word and complement aligned, any slide
+    ///
+    /// A: between two aligned words. C: between an aligned word and complement. S: of either at any
+    /// slide, where overhanging magnets count as mismatches.
     #[arg(long, value_name = "A,C,S", value_parser = mismatches)]
     pub min_mismatch: Option<[usize; 3]>,
 
-    /// Longest run of consecutive matches of two words over all slides, from A to B
+    /// Range of the longest run of consecutive matches of two words over all slides
     #[arg(long, value_name = "A:B", value_parser = whole_range)]
     pub consecutive: Option<[usize; 2]>,
 
-    /// Least depth of a bond (J)
+    /// Smallest depth of a bond (J)
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub min_bond: Option<f64>,
 
@@ -96,7 +105,7 @@ pub struct Request {
     #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
     pub word_word: Option<[f64; 2]>,
 
-    /// Range of the lowest energy (J) of a word and another's mate
+    /// Range of the lowest energy (J) of a word and another word's mate
     #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
     pub word_mate: Option<[f64; 2]>,
 
@@ -104,17 +113,18 @@ pub struct Request {
     #[arg(long, value_name = "E_J:E_J", value_parser = range, allow_hyphen_values = true)]
     pub mate_mate: Option<[f64; 2]>,
 
-    /// Model of the magnets, dipole or cuboid [default: the design's]
+    /// Magnet model, dipole or cuboid [default: the design's]
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     pub model: Option<MagnetModel>,
 
-    /// Work to spend, as what takes about so many seconds of a core; it is counted, so that the
-    /// same work gives the same words everywhere
+    /// Search effort in core-seconds, counted in steps
+    ///
+    /// Steps are counted, not timed, so the same effort gives the same words on any machine.
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]
     pub seconds: f64,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -126,44 +136,45 @@ impl Request {
         let (places, magnets) = match (self.slots, self.magnets, self.length) {
             (Some(slots), Some(magnets), Some(length)) if length != magnets && length != slots => {
                 return wrong(format!(
-                    "--length {length} is neither --magnets {magnets} nor --slots {slots}: leave it out"
+                    "--length {length} is neither --magnets {magnets} nor --slots {slots}: leave \
+                     it out"
                 ));
             }
             (Some(slots), Some(magnets), _) | (Some(slots), None, Some(magnets)) => {
                 (slots, magnets)
             }
             (Some(_), None, None) => {
-                return wrong("say how many of the slots hold magnets: --magnets 4".to_owned());
+                return wrong("give the number of magnets in the slots: --magnets 4".to_owned());
             }
             (None, Some(magnets), Some(length)) if self.continuous && length != magnets => {
                 return wrong(format!(
-                    "--length {length} is not --magnets {magnets}: leave it out"
+                    "--length {length} differs from --magnets {magnets}: leave it out"
                 ));
             }
             (None, Some(magnets), _) if self.continuous => (magnets, magnets),
             (None, Some(_), _) => {
                 return wrong(
-                    "--magnets goes with --slots or --continuous; else say --length".to_owned(),
+                    "--magnets needs --slots or --continuous; otherwise use --length".to_owned(),
                 );
             }
             (None, None, Some(length)) => (length, length),
-            (None, None, None) => return wrong("say how long words are: --length 8".to_owned()),
+            (None, None, None) => return wrong("give the length of words: --length 8".to_owned()),
         };
         if places > MOST_PLACES {
             return wrong(format!(
-                "a word of {places} places is too long: give at most {MOST_PLACES}"
+                "a word of {places} positions is too long: use at most {MOST_PLACES}"
             ));
         }
         if magnets > places {
             return wrong(format!(
-                "{magnets} magnets do not fit into {places} slots: give --slots {magnets} or more"
+                "{magnets} magnets do not fit into {places} slots: use --slots {magnets} or more"
             ));
         }
         match self.contacts.filter(|most| *most >= magnets) {
             None => Ok((places, magnets)),
             Some(most) => wrong(format!(
-                "--contacts {most} forbids nothing: words of {magnets} magnets have at most \
-                 {magnets}; give fewer"
+                "--contacts {most} excludes nothing: words of {magnets} magnets have at most \
+                 {magnets}; use fewer"
             )),
         }
     }
@@ -178,7 +189,7 @@ impl Request {
         if (magnets - 1) * least_spacing >= places {
             let width = bar.size[1];
             return Err(format!(
-                "magnets {} mm wide do not fit side by side {} mm apart: give --pitch {width} or \
+                "magnets {} mm wide do not fit side by side {} mm apart: use --pitch {width} or \
                  more, or more --slots",
                 1e3 * width,
                 1e3 * bar.pitch
@@ -204,7 +215,7 @@ impl Request {
 /// A gap.
 pub fn gap(text: &str) -> Result<f64, String> {
     let gap = request::share(text);
-    gap.map_err(|_| "a gap lies between 0 (wrong as strong as right) and 1".to_owned())
+    gap.map_err(|_| "a gap is between 0 (wrong as strong as right) and 1".to_owned())
 }
 
 /// A complementary shape.
@@ -236,8 +247,7 @@ fn whole_range(text: &str) -> Result<[usize; 2], String> {
 }
 
 fn range(text: &str) -> Result<[f64; 2], String> {
-    let wrong =
-        "a range is E:E in J, from the lower to the higher, such as -0.02:0 or \"-20 mJ:0\"";
+    let wrong = "a range is E:E in J, lower value first, such as -0.02:0 or \"-20 mJ:0\"";
     ends(text, design::energy).ok_or_else(|| wrong.to_owned())
 }
 

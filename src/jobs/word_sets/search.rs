@@ -16,8 +16,8 @@ pub enum Found {
     Anywhere(Box<Spaced>),
 }
 
-const UPSIDE_DOWN: &str = "--flip: magnets that stand exchange their poles when their tile lies upside down, \
-                           so that every face is its own mate and no such words exist; leave it out";
+const UPSIDE_DOWN: &str = "--flip: upright magnets exchange their poles when their tile lies \
+    upside down, so every face is its own mate and no such words exist; leave it out";
 
 impl Request {
     /// Searches the words, of the magnets of a design's target face or of the paper's.

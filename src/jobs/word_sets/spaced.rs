@@ -51,7 +51,7 @@ impl Spaced {
             (Some(count), _) => of_count(wanted, count, &mut effort)?,
             (_, Some(gap)) => of_gap(wanted, gap, &mut effort)?,
             _ => {
-                return Err("--continuous takes --count 4 or --gap 0.5"
+                return Err("--continuous needs --count 4 or --gap 0.5"
                     .to_owned()
                     .into());
             }
@@ -71,21 +71,22 @@ fn check(wanted: &Wanted, count: Option<usize>) -> Result<(), String> {
     let most = MOST_PLACES / (2 * magnets);
     Err(if pitch < width * (1.0 - 1e-9) {
         format!(
-            "magnets {} mm wide do not fit side by side {} mm apart: give a pitch of {width} m or more",
+            "magnets {} mm wide do not fit side by side {} mm apart: use a pitch of {width} m or \
+             more",
             1e3 * width,
             1e3 * pitch
         )
     } else if wanted.room() < 0.0 {
         format!(
-            "{magnets} magnets at least {} mm apart do not fit on a face of {} mm: give fewer \
+            "{magnets} magnets at least {} mm apart do not fit on a face of {} mm: use fewer \
              magnets, a smaller pitch or a longer face",
             1e3 * pitch,
             1e3 * wanted.face
         )
     } else if most == 0 || count.is_some_and(|count| count > most) {
         format!(
-            "words and mates with magnets at more than {MOST_PLACES} places are not judged: give at \
-             most {most} words of {magnets} magnets"
+            "words and mates with magnets at more than {MOST_PLACES} positions are not supported: \
+             use at most {most} words of {magnets} magnets"
         )
     } else {
         return Ok(());

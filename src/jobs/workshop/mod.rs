@@ -27,11 +27,13 @@ const LONGEST: f64 = 0.01;
 /// What the workshop needs to know.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Making {
-    /// Width of the cut (m), or with a unit: lines run half of it outside the parts
+    /// Width of the cut (m), or with a unit
+    ///
+    /// Outlines are offset outwards by half of it.
     #[arg(long, value_name = "M", default_value = "0", value_parser = small)]
     pub kerf: f64,
 
-    /// By how much pockets are larger than their magnets on every side (m)
+    /// Gap between magnet and pocket on each side (m), or with a unit
     #[arg(long, value_name = "M", default_value = "0.1 mm", value_parser = small)]
     pub clearance: f64,
 }

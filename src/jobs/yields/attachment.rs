@@ -25,23 +25,25 @@ const FARTHEST: f64 = 1.6;
 /// How attachment is found, and how tiles move meanwhile.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Effort {
-    /// Docking runs for each kT
+    /// Docking runs per kT
     #[arg(long, value_name = "N", default_value_t = 400, value_parser = request::runs)]
     pub runs: usize,
 
-    /// How long each docking run lasts (s)
+    /// Duration of each docking run (s)
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = request::time)]
     pub duration: f64,
 
-    /// Where attachment rates come from: docking runs, or overdamped motion as in `tilebind rates`
+    /// Source of attachment rates
+    ///
+    /// docking: docking runs. overdamped: overdamped motion, as in `tilebind rates`.
     #[arg(long = "rates", value_enum, default_value_t)]
     pub source: Source,
 
-    /// Drag rate (1/s) [default: 0.005 of docking runs, 50 of overdamped motion]
+    /// Drag rate (1/s) [default: 0.005 for docking runs, 50 for overdamped motion]
     #[arg(long, value_name = "C", value_parser = request::positive)]
     pub drag: Option<f64>,
 
-    /// Share of the approach velocity that a knock gives back
+    /// Coefficient of restitution
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = request::share)]
     pub restitution: f64,
@@ -82,8 +84,8 @@ impl Effort {
                 self.runs
             ),
             Source::Overdamped => format!(
-                "attachment of overdamped motion, solved on a mesh (drag {drag} per s, knocks \
-                 without loss)"
+                "attachment of overdamped motion, solved on a mesh (drag {drag} per s, \
+                 elastic collisions)"
             ),
         }
     }

@@ -35,7 +35,7 @@ const MOST_TILES: usize = 10_000;
 /// What is asked.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Question {
-    /// Tiles on the table, half of either kind
+    /// Number of tiles on the table, half of each kind
     #[arg(long, value_name = "N", value_parser = tiles)]
     pub tiles: usize,
 
@@ -43,12 +43,12 @@ pub struct Question {
     #[arg(long, value_name = "S", value_parser = request::time)]
     pub time: f64,
 
-    /// Effective energy kT of the shaking (J); of several, the best and a schedule are found
+    /// Effective energy kT of shaking (J); several: find the best and a schedule
     #[arg(long = "kt", value_name = "E_J[,E_J...]", value_parser = request::shaking,
           value_delimiter = ',', required = true)]
     pub kts: Vec<f64>,
 
-    /// Share of the table that tiles cover
+    /// Fraction of the table covered by tiles
     #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
     pub coverage: f64,
 
@@ -56,11 +56,11 @@ pub struct Question {
     #[command(flatten)]
     pub effort: Effort,
 
-    /// Runs of the exact simulation by which the numbers are checked; 0 for none
+    /// Runs of the exact simulation that checks the result; 0: none
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = request::runs_or_none)]
     pub simulations: usize,
 
-    /// Seed of all random numbers: the same seed gives the same results
+    /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
 }
@@ -92,23 +92,23 @@ pub enum YieldError {
     Rates(#[from] RatesError),
     /// At this kT (J) the bond of this energy (J) holds nothing.
     #[error(
-        "at kT = {} the bond of {} is less than {LEAST_DEPTH} kT deep and holds nothing: choose a \
+        "at kT = {} the bond of {} is less than {LEAST_DEPTH} kT deep and does not hold: choose a \
          --kt below {}", si(*.0, "J", 4), si(*.1, "J", 4), si(-.1 / LEAST_DEPTH, "J", 3)
     )]
     Hot(f64, f64),
     /// At this kT (J) the bond's well is narrower than contact is known.
     #[error(
-        "at kT = {} tiles move by less than {} in the bond, which is closer than contact is known: \
+        "at kT = {} tiles move by less than {} in the bond, which is below the contact tolerance: \
          choose a larger --kt", si(*.0, "J", 4), si(NO_PLAY, "m", 2)
     )]
     Cold(f64),
     /// The bond's basin has no volume.
-    #[error("the bond has no play at all: shaken tiles never find it, and nothing is yielded")]
+    #[error("the bond has no clearance at all: shaken tiles never find it, and the yield is 0")]
     NoPlay,
     /// The mesh has no way into the bond, and contact does not prove that there is none.
     #[error(
-        "no way into the bond was found, so that nothing is known of how fast tiles attach: count \
-         them in docking runs (--rates docking)"
+        "no path into the bond was found, so attachment rates are unknown: count them in docking \
+         runs (--rates docking)"
     )]
     Lost,
 }

@@ -66,7 +66,7 @@ pub enum SettingsError {
         value: f64,
     },
     /// Shaking with nothing to damp it.
-    #[error("shaking heats the tile without end where there is no drag: set a drag rate above 0")]
+    #[error("shaking without drag heats the tile without limit: set a drag rate above 0")]
     ShakingWithoutDrag,
 }
 
@@ -96,7 +96,7 @@ impl MotionSettings {
         positive("the longest step", self.longest_step)?;
         positive("the contact range", self.contact_range)?;
         positive("the contact step", self.contact_step)?;
-        positive("the way of a contact step", self.contact_travel)?;
+        positive("the path of a contact step", self.contact_travel)?;
         for fan in &self.fans {
             positive("a fan's width", fan.width)?;
         }

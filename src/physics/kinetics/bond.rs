@@ -27,8 +27,8 @@ const DEPTHS: [f64; 2] = [2.0, 120.0];
 pub enum BondError {
     /// No state where the target faces meet.
     #[error(
-        "the tiles do not hold where the target faces meet: there is no bond to speak of \
-         (`tilebind show` tells more)"
+        "the tiles do not hold where the target faces meet, so there is no bond (see `tilebind \
+         show`)"
     )]
     NoBond,
     /// An energy over which there are no two tiles.

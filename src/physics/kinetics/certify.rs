@@ -9,8 +9,8 @@ use crate::problem::Problem;
 const MARGIN: f64 = 0.1;
 
 /// Why nothing is proved of blocks.
-const BLOCKS_HAVE_NO_PROOF: &str = "of blocks nothing can be proved here: where they touch their \
-    energy is not enclosed closely enough; ask for the model dipole, or for no proof";
+const BLOCKS_HAVE_NO_PROOF: &str = "for blocks nothing can be proved here: the bounds on their \
+    energy in contact are too wide; use the dipole model, or leave out --prove";
 
 /// Why nothing can be proved of a pair of tiles whose magnets are modelled so, whatever their shapes;
 /// `None` where it can be tried.
@@ -20,7 +20,7 @@ pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     }
     let why = problem.bounds().err()?;
     Some(format!(
-        "nothing can be proved here: {why}; ask for no proof"
+        "nothing can be proved here: {why}; leave out --prove"
     ))
 }
 

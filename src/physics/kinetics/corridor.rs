@@ -37,11 +37,11 @@ impl Way {
     /// What is to be said of it.
     pub fn told(self) -> String {
         match self {
-            Self::Open => "a way leads to free tiles".to_owned(),
-            Self::Blocked => "contact blocks every way to free tiles".to_owned(),
+            Self::Open => "a path leads to free tiles".to_owned(),
+            Self::Blocked => "contact blocks every path to free tiles".to_owned(),
             Self::Lost => format!(
-                "no way to free tiles was found; ways narrower than {} of a tile's circumradius are \
-                 not excluded",
+                "no path to free tiles was found; paths narrower than {} of a tile's circumradius \
+                 are not excluded",
                 "a 3000th"
             ),
         }

@@ -227,19 +227,19 @@ pub enum RatesError {
     /// The basins with these numbers are one.
     #[error(
         "two basins are joined by configurations below {}: states that shallow have no rates at \
-         this kT; ask for fewer --traps", si(*.0, "J", 4)
+         this kT; use fewer --traps", si(*.0, "J", 4)
     )]
     Joined(f64),
     /// `free` begins where the table ends, or in a basin.
     #[error(
-        "centres {0:.4} m apart are no place for free tiles: a basin reaches as far, or the table \
+        "with centres {0:.4} m apart tiles cannot be free: a basin extends that far, or the table \
          ends before; choose another --free-at"
     )]
     NoFree(f64),
     /// At this kT (J) the deepest basin is so many kT deep.
     #[error(
-        "at kT = {} the deepest state is {:.0} kT deep, and no tile ever leaves it; rates are told up \
-         to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
+        "at kT = {} the deepest state is {:.0} kT deep, and no tile ever leaves it; rates are \
+         computed up to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
     )]
     Cold(f64, f64),
     /// A linear system could not be solved.
@@ -429,19 +429,19 @@ pub enum ExitError {
     Overlap(Configuration, f64),
     /// A pose lies beyond the distance (m) at which tiles are free.
     #[error(
-        "the centres are {:.4} m apart at {}, and tiles count as free from {:.4} m on: choose a \
+        "the centres are {:.4} m apart at {}, but tiles count as free from {:.4} m: choose a \
          larger --free-at or another start", .0, .1, .2
     )]
     Free(f64, &'static str, f64),
     /// The limit (J) of the bond's basin is not above the bond's energy (J).
     #[error(
-        "no configuration of the bond lies below the basin energy of {}: the bond has {}; choose a \
+        "no configuration of the bond is below the basin energy of {}: the bond has {}; choose a \
          --basin-energy between that and 0", si(*.0, "J", 4), si(*.1, "J", 4)
     )]
     NoBasin(f64, f64),
     /// The start lies in the bond's basin.
     #[error(
-        "the start lies in the bond's basin, which reaches up to {}: choose a lower --basin-energy \
+        "the start is in the bond's basin, which extends up to {}: choose a lower --basin-energy \
          or another start", si(*.0, "J", 4)
     )]
     Bound(f64),
@@ -453,13 +453,13 @@ pub enum ExitError {
     Open(f64),
     /// The mesh has no way from the start to an end.
     #[error(
-        "no way leads from the start to the bond or to where tiles are free; {}", .0.told()
+        "no path leads from the start to the bond or to free tiles; {}", .0.told()
     )]
     Closed(Way),
     /// At this kT (J) the start lies so many kT deep.
     #[error(
-        "at kT = {} the start is {:.0} kT deep, and no tile ever leaves it; exits are told up to \
-         {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
+        "at kT = {} the start is {:.0} kT deep, and no tile ever leaves it; exits are computed up \
+         to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
     )]
     Cold(f64, f64),
     /// The mean exit time is no number any more.

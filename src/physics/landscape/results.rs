@@ -217,7 +217,7 @@ impl SaddleBounds {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Uncertified {
     /// None was asked for.
-    #[error("no proof was asked for")]
+    #[error("no proof was requested")]
     Unasked,
     /// It took more.
     #[error("{} before the first bounds", .0.describe())]

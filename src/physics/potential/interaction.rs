@@ -23,7 +23,7 @@
 
 use std::sync::LazyLock;
 
-use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
+use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds};
 use super::shielding::{ShieldRule, Shields};
 use super::{
     BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
@@ -45,16 +45,13 @@ pub struct Interaction {
 )]
 pub enum Unbounded {
     /// Discs, and magnets that stand.
-    #[error("bounds over cells are not known for discs and standing magnets")]
+    #[error("bounds over cells are not available for discs and upright magnets")]
     Bodies,
-    /// Blocks behind shields.
-    #[error("bounds over cells are not known for blocks with shields; for dipoles they are")]
-    ShieldedBlocks,
     /// The nearest-face rule, see [`super::shielding`].
-    #[error("the energy jumps where the nearest-face rule changes faces")]
+    #[error("the energy is discontinuous where the nearest-face rule changes faces")]
     NearestFace,
     /// An energy that came without bounds.
-    #[error("bounds over cells are not known for this energy")]
+    #[error("bounds over cells are not available for this energy")]
     Unknown,
 }
 
@@ -88,7 +85,9 @@ impl Interaction {
             MagnetModel::Cuboid if shields.is_none() => {
                 Ok(|a, b, _| Box::new(CuboidBounds::new(a, b)))
             }
-            MagnetModel::Cuboid => Err(Unbounded::ShieldedBlocks),
+            MagnetModel::Cuboid => {
+                Ok(|a, b, shields| Box::new(ShieldedBlockBounds::new(a, b, shields)))
+            }
         };
         let bounds = bounds.map(|make| {
             let (fixed, moving, shields) = (fixed.clone(), moving.clone(), shields.clone());

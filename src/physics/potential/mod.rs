@@ -28,8 +28,8 @@
 //! what the pairs are.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
-//! ([`bounds`]), of which barriers are certified. With shields dipoles have them, where the shields
-//! act smoothly; blocks behind shields and the nearest-face rule have none.
+//! ([`bounds`]), of which barriers are certified, with shields that act smoothly, too. The
+//! nearest-face rule, discs and magnets that stand have none.
 //!
 //! Sources: Jackson, *Classical Electrodynamics* (3rd ed.), chapter 5, for the dipole; Akoun and
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, of whose integrals

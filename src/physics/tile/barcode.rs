@@ -77,7 +77,9 @@ pub struct Barcode(Vec<Option<Pole>>);
 
 /// A character that stands for no pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("'{character}' is no pole; a code is made of N and S, or of U and D, and . (no magnet)")]
+#[error(
+    "'{character}' is not a pole; a code consists of N and S, or of U and D, and . (no magnet)"
+)]
 pub struct BarcodeError {
     /// Which character, counted from 0.
     pub index: usize,

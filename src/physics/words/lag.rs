@@ -217,10 +217,10 @@ pub enum BarError {
     #[error("the magnets of its target face differ in size, strength or depth")]
     Differ,
     /// Words are made of magnets along the normal.
-    #[error("the magnets of its target face are turned from the normal")]
+    #[error("the magnets of its target face are turned away from the normal")]
     Turned,
     /// Energies behind shields are not known by lags.
-    #[error("its magnets have shields, of which words know nothing")]
+    #[error("its magnets have shields, which word searches do not support")]
     Shielded,
 }
 

@@ -26,10 +26,10 @@ pub enum WordError {
     #[error(transparent)]
     Character(#[from] BarcodeError),
     /// It has no places, or too many.
-    #[error("a word has from 1 to {MOST_PLACES} places, not {0}")]
+    #[error("a word has 1 to {MOST_PLACES} positions, not {0}")]
     Places(usize),
     /// N or S beside U or D.
-    #[error("magnets of a word lie (N, S) or stand (U, D), all of them")]
+    #[error("magnets of a word are all in the plane (N, S) or all upright (U, D)")]
     Mixed,
 }
 

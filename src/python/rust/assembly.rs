@@ -13,57 +13,60 @@ use crate::request::request;
 use crate::words::word_set;
 use crate::{convert, fault, job};
 
-/// Build a tile set of words: what engines of tile assembly read, with energies in units of kT.
+/// Realise a tile set with words of magnets: input files for xgrow and rgrow, with
+/// energies in units of kT.
 ///
 /// Parameters
 /// ----------
 /// tiles : str or os.PathLike
-///     A tile set as xgrow (``.tiles``) or rgrow (YAML, JSON) read it; or ``"lattice"`` (every tile its
-///     own place) or ``"homogeneous"`` (all the same tile) with `lattice`, ``"square"`` with `side`.
+///     A tile set for xgrow (``.tiles``) or rgrow (YAML, JSON); or ``"lattice"`` (every
+///     tile has its own place) or ``"homogeneous"`` (all tiles are the same) with
+///     ``lattice``; or ``"square"`` with ``side``.
 /// words : sequence of str or Mapping, optional
-///     Words enough for its glues, one for each axis on which a glue is used: those of
-///     :func:`words`, or a whole set with the keys of its file. Searched by default.
+///     Words for its glues, one for each axis on which a glue is used: those of :func:`words`,
+///     or a whole set with the keys of its file. Searched by default.
 /// design : Design, optional
-///     From whose target face magnets, pitch and side are taken; the paper's tile by default.
+///     Its target face gives magnets, pitch and side; the paper's tile by default.
 /// kt : float
-///     Effective energy of the shaking (J).
+///     Effective energy kT of the shaking (J).
 /// coverage : float, optional
-///     Share of the table that tiles cover.
+///     Fraction of the table covered by tiles.
 /// lattice : sequence of int, optional
 ///     Rows and columns of a lattice.
 /// side : int, optional
-///     Of a counted square, in tiles.
+///     Side of a counted square (tiles).
 /// proofread : int, optional
-///     Blocks of so many tiles a side in place of tiles.
+///     Replace each tile by a block with this many tiles per side.
 /// length : int, optional
-///     Places of a face where words are searched; the fewest that carry them by default.
+///     Magnet positions per face; the fewest that carry the words by default.
 /// magnets : int, optional
-///     Magnets of the strongest bonds' words, where spacing is code too.
+///     Magnets per word of the strongest bonds, if spacing is part of the code.
 /// gap : float, optional
-///     Least gap of the words: 0.5 by default, with `length` the widest there is.
+///     Smallest gap of the words: 0.5 by default, with `length` the widest.
 /// shape : {"none", "shared", "polar"}, optional
 ///     Complementary shapes of the faces.
 /// pitch : float, optional
-///     From place to place (m).
+///     Distance between magnet positions (m).
 /// model : {"dipole", "cuboid"}, optional
-///     Of the magnets; the design's by default.
+///     Magnet model; the design's by default.
 /// seconds : float, optional
-///     Work to spend on words, as what takes about so many seconds of a core; it is counted.
+///     Effort of the word search in core-seconds, counted in steps.
 /// seed : int, optional
 /// progress : bool, optional
 ///
 /// Returns
 /// -------
 /// dict of str to bytes
-///     By their names, as ``tilebind assemble`` writes them: `assembly.yaml` (rgrow),
-///     `assembly.tiles` (xgrow), a design for each pair that meets, sheet, matrix, page, report.
+///     File names and contents, as ``tilebind assemble`` writes them: ``assembly.yaml``
+///     (rgrow), ``assembly.tiles`` (xgrow), a design for each pair that meets, sheet,
+///     matrix, page, report.
 ///
 /// Raises
 /// ------
 /// DesignError
-///     With the line of what is wrong with the tile set or the words.
+///     If the tile set or the words are wrong; gives the line.
 /// ValueError
-///     Where the words do not suffice.
+///     If there are not enough words.
 #[pyfunction]
 #[pyo3(signature = (tiles, words = None, *, design = None, progress = None, **asked))]
 pub fn assemble<'py>(

@@ -19,17 +19,17 @@ fn quantity(key: &str) -> PyResult<&'static Quantity> {
         .ok_or_else(|| fault::value(format!("by = {key:?}: known are {}", known().join(", "))))
 }
 
-/// Set designs side by side: bond, traps, barriers with bounds, capture range.
+/// Compare designs: bond, traps, barriers with bounds, capture range.
 ///
 /// Parameters
 /// ----------
 /// designs : sequence of Design
 /// by : str, optional
-///     What to rank by, "selectivity" by default; largest first.
+///     Figure to rank by, "selectivity" by default; largest first.
 /// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
 /// complete_cells, dynamics_runs, seed
-///     As for :meth:`Design.analyse`, but for `certify_cells`: cells spent on the bounds of a
-///     barrier at most; 0 for no bounds.
+///     As for :meth:`Design.analyse`, except `certify_cells`: most cells for the bounds of one
+///     barrier; 0 for no bounds.
 /// progress : bool, optional
 ///
 /// Returns
@@ -61,26 +61,26 @@ pub fn compare(
     Ok(Comparison(Compared::new(&found, by, question.request)))
 }
 
-/// Designs side by side, best first. It never changes.
+/// A comparison of designs, best first. Immutable.
 #[pyclass(frozen, module = "tilebind")]
 pub struct Comparison(Compared);
 
 #[pymethods]
 impl Comparison {
-    /// numpy.ndarray : One row a design, best first, structured, for ``pandas.DataFrame``: every
-    /// figure with its bounds, units in the names.
+    /// numpy.ndarray : One row per design, best first, structured, for
+    /// ``pandas.DataFrame``: every figure with its bounds; names contain the units.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table::array(py, &self.0.table())
     }
 
-    /// dict : Everything, with what reproduces it, as ``report.json`` has it.
+    /// dict : All results and settings, as in ``report.json``.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         shown::report(py, &self.0.document())
     }
 
-    /// The tables and the proved orders as text.
+    /// The tables and the certified orders as text.
     ///
     /// Returns
     /// -------
@@ -89,7 +89,7 @@ impl Comparison {
         self.0.document().text(Some(100))
     }
 
-    /// The same as Markdown.
+    /// The summary as Markdown.
     ///
     /// Returns
     /// -------

@@ -39,7 +39,7 @@ fn within(value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     }
     let kind = value.get_type().name()?;
     Err(fault::value(format!(
-        "a design holds numbers, texts, truths, lists and mappings of them, not a {kind}"
+        "a design consists of numbers, strings, booleans, lists and dicts of them, not a {kind}"
     )))
 }
 

@@ -16,32 +16,31 @@ use crate::request::request;
 use crate::shown::{self, Reduced};
 use crate::{convert, fault, job, pickle, table};
 
-/// Send the moving tile towards the fixed one many times and count how it ends.
+/// Launch the moving tile at the fixed one many times and count the outcomes.
 ///
 /// Parameters
 /// ----------
 /// design : Design
 /// runs : int, optional
-///     Trajectories, 2000 by default.
+///     Number of trajectories, 2000 by default.
 /// seed : int, optional
 /// duration : float, optional
-///     Of each, in s.
+///     Duration of each (s).
 /// drag, friction, restitution : float, optional
-///     Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
-///     back.
+///     Drag rate (1/s), coefficient of friction, coefficient of restitution.
 /// no_walls : bool, optional
 ///     Let tiles leave the table.
 /// shaking : float, optional
-///     Effective energy kT (J) of a random force.
+///     Effective energy kT of random shaking (J).
 /// fan : sequence, optional
-///     Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and how
-///     often a second.
+///     (x, y, energy, width) in m, m, J and m, optionally followed by relative amplitude
+///     and frequency (Hz).
 /// threshold : float, optional
-///     Distance (m) within which magnets match.
+///     Distance (m) within which target magnets count as matched.
 /// distance, speed : tuple of float, optional
-///     Lowest and highest at the start (m, m/s).
+///     Lowest and highest initial values (m, m/s).
 /// direction, orientation, aim, spin : float, optional
-///     Widths of the starts (rad, rad, rad, rad/s).
+///     Largest initial deviations (rad, rad, rad, rad/s).
 /// progress : bool, optional
 ///
 /// Returns
@@ -66,7 +65,7 @@ pub fn dock(
 /// Most points of a trajectory, which are all held in memory.
 const MOST_POINTS: f64 = 1e7;
 
-/// How tiles ended that were sent towards each other. It never changes.
+/// Outcomes of a docking experiment. Immutable.
 #[pyclass(frozen, module = "tilebind")]
 pub struct Docking {
     content: Arc<Content>,
@@ -93,33 +92,33 @@ fn share<'py>(py: Python<'py>, proportion: &Proportion) -> PyResult<Bound<'py, P
 
 #[pymethods]
 impl Docking {
-    /// Share : Of the runs that ended bound, with its 95 % interval.
+    /// Share : Fraction of runs that ended bound, with its 95 % interval.
     #[getter]
     fn bound<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         share(py, &self.found.bound)
     }
 
-    /// Share : Of those that ended in a trap.
+    /// Share : Fraction of runs that ended in a trap.
     #[getter]
     fn trapped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         share(py, &self.found.trapped)
     }
 
-    /// Share : Of those that ended otherwise.
+    /// Share : Fraction of runs that ended free.
     #[getter]
     fn free<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         share(py, &self.found.free)
     }
 
-    /// numpy.ndarray : One row a trajectory, structured: start, end ("bound", "misbound", "free"),
-    /// number of the trap, time to bind.
+    /// numpy.ndarray : One row per trajectory, structured: start, end ("bound", "misbound",
+    /// "free"), number of the trap, time to bind.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table::array(py, &report::runs(&self.found))
     }
 
-    /// numpy.ndarray : The traps, structured, the one with most trajectories first: pose,
-    /// `energy_J`, `share` with its 95 % interval.
+    /// numpy.ndarray : The traps, structured, most frequent first: pose, `energy_J`,
+    /// `share` with its 95 % interval.
     #[getter]
     fn traps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let traps = rows(&self.found.traps)
@@ -131,7 +130,8 @@ impl Docking {
         table::array(py, &traps.table("traps"))
     }
 
-    /// numpy.ndarray : The chance of a match over orientation and speed at the start, structured.
+    /// numpy.ndarray : The probability of a match over initial orientation and speed,
+    /// structured.
     #[getter]
     fn chances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let map = DockingMap::new(&self.found, report::CELLS);
@@ -143,9 +143,9 @@ impl Docking {
     /// Parameters
     /// ----------
     /// index : int
-    ///     Its number.
+    ///     Its number, from 0.
     /// interval : float, optional
-    ///     Time (s) between two points of free flight, at most.
+    ///     Longest time (s) between two points of free flight.
     ///
     /// Returns
     /// -------
@@ -168,7 +168,7 @@ impl Docking {
         let duration = self.found.settings.duration;
         if duration / interval > MOST_POINTS {
             return Err(fault::value(format!(
-                "of {duration} s every {interval:e} s are more than {MOST_POINTS:e} points"
+                "{} s every {interval:e} s are more than {MOST_POINTS:e} points"
             )));
         }
         let snapshots = job::answer(py, Some(false), |_| {
@@ -178,13 +178,13 @@ impl Docking {
         table::array(py, &report::trajectory(&snapshots))
     }
 
-    /// dict : Everything, as ``report.json`` has it.
+    /// dict : All results, as in ``report.json``.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         shown::report(py, &self.document())
     }
 
-    /// What came of it, in a few lines.
+    /// A short summary of the results.
     ///
     /// Returns
     /// -------
@@ -193,7 +193,7 @@ impl Docking {
         self.document().text(None)
     }
 
-    /// The chances of a match over orientation and speed, an SVG document.
+    /// The probability of a match over orientation and speed, as an SVG document.
     ///
     /// Returns
     /// -------

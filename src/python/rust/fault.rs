@@ -1,4 +1,4 @@
-//! Exceptions: what is wrong and how to mend it.
+//! Exceptions: what is wrong and how to fix it.
 
 use std::ffi::CString;
 use std::fmt::Display;
@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyTuple};
 use tilebind::request::Unanswered;
 use tilebind::{Refused, design};
 
-/// The exception `tilebind.DesignError` of a fault, with its place and its mend.
+/// The exception `tilebind.DesignError` of a fault, with its place and its fix.
 pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
     exception(py, fault).map_or_else(|error| error, PyErr::from_value)
 }

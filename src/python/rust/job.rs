@@ -144,7 +144,7 @@ fn broken(payload: &(dyn Any + Send)) -> PyErr {
     let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
     let text = text.unwrap_or_else(|| "no message".to_owned());
     fault::run(format!(
-        "a fault of tilebind, please report it with the design: {text}"
+        "a bug in tilebind, please report it with the design: {text}"
     ))
 }
 

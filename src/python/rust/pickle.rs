@@ -22,12 +22,12 @@ pub fn load<T: DeserializeOwned>(bytes: &[u8]) -> PyResult<T> {
         Some((version, _)) if version == here => {}
         Some((version, _)) => {
             return Err(fault::value(format!(
-                "this was pickled by tilebind {version}, this is {here}: compute it anew"
+                "this was pickled by tilebind {version}, this is {here}: compute it again"
             )));
         }
-        None => return Err(fault::value("these bytes are no result of tilebind")),
+        None => return Err(fault::value("these bytes are not a tilebind result")),
     }
     let (_, value): (String, T) = rmp_serde::from_slice(bytes)
-        .map_err(|error| fault::value(format!("these bytes are no such result: {error}")))?;
+        .map_err(|error| fault::value(format!("these bytes are not such a result: {error}")))?;
     Ok(value)
 }

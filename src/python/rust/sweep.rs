@@ -24,7 +24,7 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
         toml::Value::Float(number) => Ok(Value::Number(number)),
         toml::Value::String(text) => Ok(Value::Text(text)),
         other => Err(fault::value(format!(
-            "{key}: a value is a number, a text or a truth, not {other}"
+            "{key}: a value is a number, a string or a boolean, not {other}"
         ))),
     };
     let values = values.try_iter()?.map(|value| one(value?));
@@ -32,18 +32,18 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
     Ok(Axis { key, values })
 }
 
-/// Vary keys of a design and assess every design that comes of it.
+/// Vary keys of a design and analyse every resulting design.
 ///
 /// Parameters
 /// ----------
 /// design : Design
 /// vary : Mapping
-///     Dotted path of a key to its values, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``; several
-///     keys make a grid, of which the first varies slowest.
+///     Values by dotted path of the key, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``;
+///     several keys make a grid, in which the first varies slowest.
 /// baseline : str, optional
-///     The point that all are set against: values that are varied, such as ``"depth=0"``.
+///     Point to compare all points with: varied values, such as ``"depth=0"``.
 /// refine : int, optional
-///     Add so many points between those at which the figures bend most, one number being varied.
+///     Add this many points where the curves bend most (one varied number).
 /// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
 /// complete_cells, dynamics_runs, seed
 ///     As for :func:`compare`.
@@ -52,8 +52,8 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
 /// Returns
 /// -------
 /// Sweep
-///     The results of a point are those of ``tilebind sweep``: they depend neither on the other
-///     points nor on the number of threads.
+///     Results are those of ``tilebind sweep``; a point's results do not depend on the
+///     other points or the number of threads.
 #[pyfunction]
 #[pyo3(signature = (design, vary, *, progress = None, **settings))]
 pub fn sweep(
@@ -110,7 +110,7 @@ impl Known {
     fn outcomes(&self, plan: &Plan) -> Vec<Outcome> {
         let all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let missing = || Outcome::Failed {
-            reason: "it was not worked on".to_owned(),
+            reason: "it was not computed".to_owned(),
         };
         let points = plan.points().into_iter();
         points
@@ -119,7 +119,7 @@ impl Known {
     }
 }
 
-/// Many designs made from one. It never changes.
+/// Results of a sweep. Immutable.
 #[pyclass(frozen, module = "tilebind")]
 pub struct Sweep {
     plan: Plan,
@@ -138,20 +138,21 @@ impl Sweep {
 
 #[pymethods]
 impl Sweep {
-    /// numpy.ndarray : One row a point, structured, for ``pandas.DataFrame``: the varied keys,
-    /// `status` ("done", "impossible" or "failed"), `reason`, every figure with its bounds.
+    /// numpy.ndarray : One row per point, structured, for ``pandas.DataFrame``: the varied
+    /// keys, ``status`` ("done", "impossible" or "failed"), ``reason``, every figure with
+    /// its bounds.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table::array(py, &self.swept().numbers())
     }
 
-    /// dict : Everything, with what reproduces it, as ``report.json`` has it.
+    /// dict : All results and settings, as in ``report.json``.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         shown::report(py, &self.swept().document())
     }
 
-    /// What came of it.
+    /// A short summary of the results.
     ///
     /// Returns
     /// -------

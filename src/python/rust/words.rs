@@ -15,53 +15,55 @@ use crate::{convert, fault, job};
 /// Parameters
 /// ----------
 /// length : int, optional
-///     Magnets of a word; with `slots`, `magnets` says the same.
+///     Magnets per word; with `slots`, the same as `magnets`.
 /// gap : float, optional
-///     Least gap, from 0 to 1: the answer is the largest set.
+///     Smallest gap, 0 to 1: find the largest set.
 /// count : int, optional
-///     Words wanted: the answer is the set with the widest gap. With neither, the number of words
-///     for every number of contacts.
+///     Number of words: find the set with the widest gap. With neither, find the number of
+///     words for every number of matching contacts.
 /// contacts : int, optional
-///     Judge by counted contacts: wrong meetings have at most so many matches more than mismatches.
+///     Count contacts: at most this many more matches than mismatches in wrong meetings.
 /// slots : int, optional
-///     Places of a face, of which `length` hold magnets: spacing is part of the code.
+///     Positions per face, of which `length` have magnets: spacing is part of the code.
 /// magnets : int, optional
-///     Magnets of a word with `slots` or `continuous`; `length` by default.
+///     Magnets per word with `slots` or `continuous`; `length` by default.
 /// continuous : bool, optional
-///     Magnets may lie anywhere along the face, at least a pitch apart: positions and poles are
-///     found together, wrong meetings judged over all poses. Takes `gap` or `count`.
+///     Place magnets anywhere along the face, at least a pitch apart. Positions and poles
+///     are optimised together, and wrong meetings are searched over all poses. Needs `gap`
+///     or `count`.
 /// face : float, optional
-///     Length of the face (m) with `continuous`; the design's by default, or the paper's.
+///     Face length (m) with `continuous`; the design's by default, or the paper's.
 /// design : Design, optional
-///     From whose target face magnets and pitch are taken; the paper's tile by default.
+///     Its target face gives magnets and pitch; the paper's tile by default.
 /// faces : {"all", "mates"}, optional
 ///     Which faces can meet.
 /// shape : {"none", "shared", "polar"}, optional
 ///     Complementary shapes.
 /// flip : bool, optional
-///     Tiles may lie upside down.
+///     Tiles can lie upside down.
 /// tolerate : {"missing=1", "flipped=1"}, optional
-///     The words hold though one magnet of every face is missing, or lies the wrong way round.
+///     Keep the gap even if one magnet per face is missing or flipped.
 /// pitch : float, optional
-///     From place to place (m).
+///     Distance between magnet positions (m).
 /// balanced : bool, optional
-///     As many north as south poles, or one more.
+///     As many north poles as south poles, or one more.
 /// max_run : int, optional
 ///     Longest run of equal poles.
 /// min_mismatch : sequence of int, optional
-///     Least mismatches of two words aligned, of a word and a complement aligned, and of either over
-///     every slide (what hangs over counts).
+///     Smallest numbers of mismatches: between two aligned words, between an aligned word
+///     and complement, and of either at any slide (overhanging magnets count as
+///     mismatches).
 /// consecutive : sequence of int, optional
-///     Least and greatest length of the longest run of consecutive matches of two words over all slides.
+///     Range of the longest run of consecutive matches of two words over all slides.
 /// min_bond : float, optional
-///     Least depth of a bond (J).
+///     Smallest depth of a bond (J).
 /// word_word, word_mate, mate_mate : sequence of float, optional
-///     Between which two energies (J) the lowest one of two words, of a word and another's mate, of two
-///     mates lies, over all slides.
+///     Range of the lowest energy (J) over all slides of two words, of a word and another
+///     word's mate, and of two mates.
 /// model : {"dipole", "cuboid"}, optional
-///     Of the magnets; the design's by default.
+///     Magnet model; the design's by default.
 /// seconds : float, optional
-///     Work to spend, as what takes about so many seconds of a core; it is counted.
+///     Search effort in core-seconds, counted in steps.
 /// seed : int, optional
 /// progress : bool, optional
 ///
@@ -91,18 +93,20 @@ pub fn words<'py>(
     convert::json(py, &report::document(&found).report())
 }
 
-/// The strongest attraction of every two words of a set over all poses, with their mates.
+/// Find the strongest attraction between every two words of a set, mates included, over
+/// all poses.
 ///
 /// Parameters
 /// ----------
 /// words : sequence of str or Mapping
 ///     The words, without their mates, or a whole set with the keys of its file.
 /// certify : float or bool, optional
-///     Prove that no attraction is stronger, to within so many J; True for a quarter of a contact.
+///     Prove that no attraction is stronger, to within this energy (J); True for 1/4 of a
+///     contact.
 /// certify_cells : int, optional
-///     Cells spent on the proof at most.
+///     Most cells for the proof.
 /// model : {"dipole", "cuboid"}, optional
-///     Of the magnets; the set's by default.
+///     Magnet model; the set's by default.
 /// progress : bool, optional
 ///
 /// Returns

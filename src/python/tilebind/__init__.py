@@ -2,8 +2,8 @@
 
 Everything is in SI units (m, kg, s, T, J, N, rad). A pose is ``(x, y, theta)``: the moving tile's
 reference point in the fixed tile's frame and its orientation, counter-clockwise; arrays of poses
-are ``(n, 3)``. The wanted meeting of the tiles is the *bond*, every other held one a *trap*, far
-apart is *free*.
+are ``(n, 3)``. The intended contact of the tiles is the *bond*, any other stable
+contact is a *trap*, and tiles far apart are *free*.
 
 >>> import tilebind
 >>> design = tilebind.Design.load("shapes/paper-tile.toml")

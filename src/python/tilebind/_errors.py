@@ -1,26 +1,26 @@
-"""What is wrong with a design, where, and how to mend it."""
+"""What is wrong with a design, where, and how to fix it."""
 
 from __future__ import annotations
 
 
 class DesignError(ValueError):
-    """A fault of a design.
+    """A mistake in a design.
 
-    As a text it shows the place, what is wrong, the line with the place marked, and the mend; then
-    the same of every further fault.
+    As a string it shows the place, what is wrong, the marked line and the fix, for
+    every mistake.
 
     Attributes
     ----------
     file : str
-        The file's name, as it was given.
+        The file name as given.
     line, column : int or None
-        Where, counted from 1; None where the design as a whole is at fault.
+        The place, counted from 1; None if the design as a whole is wrong.
     message : str
         What is wrong.
     mend : str
-        How to mend it.
+        How to fix it.
     also : tuple of DesignError
-        What else is wrong, in the order of the file.
+        Further mistakes, in the order of the file.
     """
 
     def __init__(self, text, file=None, line=None, column=None, message=None, mend=None, also=()):

@@ -1,4 +1,4 @@
-"""To magpylib and back."""
+"""Conversion to and from magpylib."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _cuboid(magnet):
 
 
 class Tile(Mapping):
-    """A tile as a design has it under ``fixed`` or ``moving``. It never changes.
+    """A tile, as under ``fixed`` or ``moving`` in a design. Immutable.
 
     Parameters
     ----------
@@ -94,20 +94,20 @@ class Tile(Mapping):
         Parameters
         ----------
         magnets : magpylib.Collection or sequence of magpylib.magnet.Cuboid
-            In the tile's frame, in the plane z = 0, turned about z only and magnetised along a side
-            in the plane. Of a path, the first position counts.
+            In the tile's frame, in the plane z = 0, rotated only about z and magnetised along a
+            side in the plane. Only a path's first position is used.
         thickness, mass : float
-            Of the tile, in m and kg.
+            Thickness (m) and mass (kg) of the tile.
         side : float, optional
-            Length (m) of each of the `sides` of a regular tile, whose centre is the origin.
+            Side length (m) of a regular tile with `sides` sides, centred on the origin.
         sides : int, optional
         vertices : array_like, optional
-            (n, 2) in m, counter-clockwise, in place of `side`.
+            (n, 2) in m, counter-clockwise, instead of `side`.
 
         Returns
         -------
         Tile
-            Each magnet belongs to the face that is nearest to it.
+            Each magnet belongs to its nearest face.
         """
         if (side is None) == (vertices is None):
             raise ValueError("give either side or vertices")
@@ -143,7 +143,7 @@ def _block(magnet):
     matrix = np.reshape(magnet.orientation.as_matrix(), (-1, 3, 3))[0]
     polarization = np.array(magnet.polarization, dtype=float)
     if abs(position[2]) > _SAME * size[2] or abs(matrix[2, 2]) < 1 - _SAME:
-        raise ValueError("tiles are flat: a magnet lies in the plane z = 0, turned about z only")
+        raise ValueError("tiles are flat: magnets must lie in the plane z = 0, rotated only about z")
     along = int(np.argmax(np.abs(polarization)))
     rest = np.delete(polarization, along)
     if along == 2 or np.any(np.abs(rest) > _SAME * abs(polarization[along])):

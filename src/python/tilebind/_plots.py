@@ -1,4 +1,4 @@
-"""Figures in matplotlib, in the style that is set there."""
+"""Figures in matplotlib, in its current style."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def plot_profile(analysis, start=None, end=None, ax=None, **style):
     (line,) = ax.plot(path["s_m"], 1e3 * path["energy_J"], **style)
     top = path[np.argmax(path["energy_J"])]
     ax.plot(top["s_m"], 1e3 * top["energy_J"], "o", ms=5, mfc="w", mec=line.get_color())
-    ax.set(xlabel="length of the way (m)", ylabel="energy (mJ)")
+    ax.set(xlabel="length of the path (m)", ylabel="energy (mJ)")
     ax.legend()
     return ax
 
 
 def plot_disconnectivity(analysis, ax=None, **style):
-    """Which kinds of states merge at which energy."""
+    """The energies at which kinds of states merge."""
     ax = _axes(ax)
     style = {"color": "k", "lw": 1.2, **style}
     lines = analysis.disconnectivity()

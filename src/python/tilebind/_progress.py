@@ -1,4 +1,4 @@
-"""A bar by tqdm, where it is installed and somebody would see it."""
+"""A tqdm progress bar, if tqdm is installed and the bar would be visible."""
 
 from __future__ import annotations
 

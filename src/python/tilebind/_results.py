@@ -8,7 +8,7 @@ import numpy as np
 
 
 class AirTable(tuple):  # type: ignore[type-arg]
-    """Size of the air table (m) along x and along y; called, it has many tiles put on it."""
+    """Size of the air table (m) along x and y. Call it to simulate many tiles."""
 
     def __new__(cls, size, put):
         table = super().__new__(cls, size)
@@ -16,16 +16,16 @@ class AirTable(tuple):  # type: ignore[type-arg]
         return table
 
     def __call__(self, time, **settings):
-        """Many tiles on one table, with contact, friction and drives, and what they hold.
+        """Simulate many tiles on one table, with contact, friction and drives; count bonds and traps.
 
         Parameters
         ----------
         time : float
-            How long each run lasts (s).
+            Duration of each run (s).
         count : sequence of int, optional
-            Tiles of the fixed tile's kind and of the moving one's, at random places.
+            Numbers of tiles of the fixed and of the moving kind, at random positions.
         start : str or os.PathLike, optional
-            In place of `count`: a CSV file of the tiles at the start, with the columns `tile`, `kind`
+            Instead of `count`: a CSV file of the initial tiles, with the columns `tile`, `kind`
             ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
         runs : int, optional
         shard : str, optional
@@ -33,21 +33,20 @@ class AirTable(tuple):  # type: ignore[type-arg]
         shaking : float, optional
             Effective energy kT (J) of shaking.
         correlation : float, optional
-            Its correlation time (s): that between two random kicks.
+            Time between random kicks of the shaking (s).
         orbital : tuple of float, optional
-            The table goes round in a circle: radius (m) and rounds a second (Hz).
+            Move the table in a circle: radius (m) and revolutions per second (Hz).
         drag, friction, restitution : float, optional
-            Drag rate (1/s), Coulomb's coefficient, share of the approach velocity that a knock gives
-            back.
+            Drag rate (1/s), coefficient of friction, coefficient of restitution.
         fan : sequence, optional
-            Of (x, y, energy, width) in m, m, J and m, and perhaps the share by which it swings and
-            how often a second.
+            (x, y, energy, width) in m, m, J and m, optionally followed by relative amplitude
+            and frequency (Hz).
         step : float, optional
             Longest step (s).
         frames : float, optional
-            Time (s) between two moments whose places are kept.
+            Interval (s) at which poses are recorded.
         compare : bool, optional
-            Set what `yields` says of as many tiles at this kT beside it.
+            Compare with what `bond` and `yields` give for as many tiles at this kT.
         seed : int, optional
         progress : bool, optional
 
@@ -63,45 +62,45 @@ class AirTable(tuple):  # type: ignore[type-arg]
 
 
 class Barrier(NamedTuple):
-    """One barrier: the lowest possible value of the highest energy on the way."""
+    """One barrier: the lowest maximum energy over all collision-free paths."""
 
     lower: float | None
-    """Every free way reaches at least this energy (J); None where nothing is proved."""
+    """Every collision-free path reaches at least this energy (J); None if nothing is proved."""
     upper: float | None
-    """A free way is known that nowhere exceeds this energy (J)."""
+    """A collision-free path is known that never exceeds this energy (J)."""
     path: np.ndarray
-    """The best way found, structured: s_m, x_m, y_m, theta_rad, energy_J, clearance_m."""
+    """The best path found, structured: s_m, x_m, y_m, theta_rad, energy_J, clearance_m."""
     saddle_energy: float
-    """Highest energy on it (J); infinite where no way is known."""
+    """Highest energy on it (J); infinite if no path is known."""
     saddle_pose: np.ndarray
-    """Where that is, (3,) in m, m and rad."""
+    """The pose of that energy, (3,) in m, m and rad."""
     forward: float
-    """Saddle less the energy of the start (J)."""
+    """Saddle energy minus the energy of the start (J)."""
     reverse: float
-    """Saddle less the energy of the end (J)."""
+    """Saddle energy minus the energy of the end (J)."""
     caged: bool
-    """Proved that there is no free way at all."""
+    """Whether it is proved that there is no collision-free path."""
     uncertified: str | None
-    """Why there are no bounds, where there are none."""
+    """Why there are no bounds; None if there are."""
     ended_by: str | None
-    """What ended the narrowing before it was done: "work" or "clock"."""
+    """What ended the bounds before they reached the target width: "work" or "clock"."""
 
 
 class LandscapeMap(NamedTuple):
-    """The lowest energy over the orientation at each place about the fixed tile."""
+    """The lowest energy over all orientations at each position around the fixed tile."""
 
     x: np.ndarray
     """(columns,) in m."""
     y: np.ndarray
     """(rows,) in m."""
     energy: np.ndarray
-    """(rows, columns) in J; NaN where no orientation is free."""
+    """(rows, columns) in J; NaN where the tiles overlap in every orientation."""
     theta: np.ndarray
     """(rows, columns) in rad: the orientation of that energy."""
 
 
 class Share(NamedTuple):
-    """A share that was counted, with its 95 % interval."""
+    """A counted fraction with its 95 % interval."""
 
     value: float
     """From 0 to 1."""
@@ -110,6 +109,6 @@ class Share(NamedTuple):
     high: float
     """Upper end of the interval."""
     count: int
-    """How many were counted."""
+    """Number of hits."""
     of: int
-    """Of how many."""
+    """Number of trials."""

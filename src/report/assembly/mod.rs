@@ -27,7 +27,7 @@ const LISTED: usize = 5;
 /// What there is to know of a tile set that was built.
 pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
     let slides = assembly.slides();
-    let title = "What grows without errors";
+    let title = "Error-free growth";
     Document {
         title: format!("Assembly {}", assembly.built.set.name),
         answer: text::headline(assembly),
@@ -73,20 +73,20 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
             "lattice": request.lattice,
         }))
         .fact("tiles", "tiles", set.tiles.len()).in_view()
-        .fact("words", "words", built.wiring.bonds.len()).in_view().noted("one a glue and axis")
+        .fact("words", "words", built.wiring.bonds.len()).in_view().noted("one per glue and axis")
         .fact("kt_J", "kT", built.shaking.kt)
         .fact("coverage", "covered", built.shaking.coverage).share().noted("of the table")
         .fact("Gse", "Gse", built.gse()).viewed(kt(built.gse())).noted("weakest bond of strength 1")
-        .fact("Gmc", "Gmc", built.gmc).viewed(kt(built.gmc)).noted("cost of docking, of a kind of tile")
+        .fact("Gmc", "Gmc", built.gmc).viewed(kt(built.gmc)).noted("docking cost, per kind of tile")
         .data("bond_J", built.unit)
         .data("bond_volume_m2_rad", built.volume)
         .data("docking_cost_kT", built.docking_cost)
-        .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("below tau it grows")
+        .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("grows if below tau")
         .data("window_kt_J", built.window().map(|ends| json!(ends)))
         .data("errors_at_standstill", built.errors_at_standstill())
         .fact("errors_a_tile", "errors a tile", assembly.growth.errors_a_tile)
             .viewed(format!("{:.1e}", assembly.growth.errors_a_tile)).noted("as grown, wrong tiles that stay")
-        .fact("grown_right", "grown right", json!([assembly.growth.right, assembly.growth.runs]))
+        .fact("grown_right", "grown correctly", json!([assembly.growth.right, assembly.growth.runs]))
             .viewed(format!("{} of {}", assembly.growth.right, assembly.growth.runs)).in_view()
         .data("proposed_kt_J", assembly.proposal().map(|it| it.0))
         .data("verdict", verdict(assembly))
@@ -96,15 +96,15 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         .data("mates", codes(n..2 * n))
         .table(bonds(assembly))
         .table(slid(assembly, deepest).titled("Slid traps", format!(
-            "the {SHOWN} deepest; the engines do not know them: what exceeds Gmc holds a tile by itself"
+            "the {SHOWN} deepest; the engines ignore them. Deeper than Gmc, one holds a tile alone"
         )).listing(LISTED).in_view())
         .table(all.in_csv("slides"))
         .data("matrix_J", matrix.energies.iter().map(|row| row.iter().copied().map(positive_zero).collect()).collect::<Vec<Value>>())
         .table(energies(assembly))
         .fact("strongest_mismatch", "strongest mismatch", mismatch)
             .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
-        .fact("deeper_in_whole_tiles", "bonds in whole tiles", deeper.map(|ends| json!(ends)))
-            .viewed(deeper.map_or(String::new(), told)).noted("deeper than of two faces")
+        .fact("deeper_in_whole_tiles", "bonds between whole tiles", deeper.map(|ends| json!(ends)))
+            .viewed(deeper.map_or(String::new(), told)).noted("deeper than between two faces")
         .data("slides", slides::summary(built, slides).map(|it| json!({
             "deepest_J": it.deepest,
             "pairs_that_hold_alone": it.holding,
@@ -144,11 +144,12 @@ fn growths(assembly: &Assembly) -> Table {
     all.order_by(|a, b| a.0.total_cmp(&b.0));
     rows(all)
         .column("kT_J", "kT", "effective energy of shaking", |it| it.0).digits(3)
-        .column("runs", "growths", "that were followed tile by tile", |it| it.1.runs)
-        .column("right", "right", "of them, with every tile where it belongs", |it| it.1.right)
-        .column("wrong", "wrong", "of them, with wrong tiles that stay", |it| it.1.wrong)
-        .column("errors_a_tile", "errors a tile", "wrong tiles that stay", |it| it.1.errors_a_tile).digits(2)
-        .column("waits", "waits", "until it is done; in one a tile of each kind comes to every place", |it| it.1.waits).digits(2)
+        .column("runs", "growths", "simulated tile by tile", |it| it.1.runs)
+        .column("right", "right", "growths with every tile in its place", |it| it.1.right)
+        .column("wrong", "wrong", "growths in which wrong tiles remain", |it| it.1.wrong)
+        .column("errors_a_tile", "errors a tile", "wrong tiles that remain", |it| it.1.errors_a_tile).digits(2)
+        .column("waits", "waits", "time to completion; in one unit a tile of each kind arrives at \
+            every place", |it| it.1.waits).digits(2)
         .table("growths")
         .titled("Growth over kT", "")
         .listing(2 * LISTED)
@@ -200,7 +201,7 @@ fn tiles(assembly: &Assembly) -> Table {
     rows(built.set.tiles.iter().enumerate())
         .column("name", "tile", "", |it: &Row| it.1.name.clone())
         .column("faces", "", "", faces)
-        .column("grown", "grown", "how many are in what grows without errors", move |it| counts[it.0]).in_view()
+        .column("grown", "grown", "copies in the error-free growth", move |it| counts[it.0]).in_view()
         .column("north", "north", "the word of the face, read counter-clockwise", face(0)).in_view()
         .column("east", "east", "the word of the face, read counter-clockwise", face(1)).in_view()
         .column("south", "south", "the word of the face, read counter-clockwise", face(2)).in_view()
@@ -226,8 +227,8 @@ fn bonds(assembly: &Assembly) -> Table {
         .column("code", "code", "read counter-clockwise", |it| built.matrix.words[it.0].to_string()).in_view()
         .column("axis", "axis", "on which the tiles meet", axis)
         .column("strength", "strength", "of the glue", |it| it.1.strength)
-        .column("energy_J", "bond", "energy, flush and aligned, as the engines have it", |it| -built.matrix.bond(it.0)).digits(4)
-        .column("depth_kT", "depth", "of the bond, over kT", |it| built.matrix.bond(it.0) / built.shaking.kt)
+        .column("energy_J", "bond", "flush and aligned, as used by the engines", |it| -built.matrix.bond(it.0)).digits(4)
+        .column("depth_kT", "depth", "of the bond, in kT", |it| built.matrix.bond(it.0) / built.shaking.kt)
         .column("glues", "", "", glues)
         .table("bonds")
         .titled("Bonds", "")
@@ -246,9 +247,9 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
         .column("second", "second", "the face that it meets", |it| assembly.face(it.faces[1]))
         .column("slide", "slid by", "places", move |it| slide(it))
         .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
-        .column("energy_J", "energy", "of the deepest slid meeting that holds", |it| it.energy()).digits(4)
-        .column("energy_kT", "depth", "over kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
-        .column("holds_alone", "holds alone", "whether it holds a tile by itself, against Gmc", move |it| -depth(it) > built.gmc)
+        .column("energy_J", "energy", "of the deepest slid contact that holds", |it| it.energy()).digits(4)
+        .column("energy_kT", "depth", "in kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
+        .column("holds_alone", "holds alone", "whether it holds a tile alone: depth above Gmc", move |it| -depth(it) > built.gmc)
         .column("slides_to_aligned", "", "", |it| it.captured[0])
         .column("slides_to_slid", "", "", |it| it.captured[1])
         .table("slid")

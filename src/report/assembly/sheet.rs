@@ -32,16 +32,16 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
     let all = counts.iter().enumerate();
     let all: usize = all.map(|(tile, count)| count * magnets(tile)).sum();
     let text = format!(
-        "# {}: to be made\n\n{tiles} tiles with {all} magnets {bought}, \
-         {} each){}.\n\nTiles are squares of {} seen from above; a code is \
-         read counter-clockwise along its face, {letters}, . for an \
-         empty place, places {} apart, the middle of the code in the middle of the face. `tilebind make` \
-         draws the tiles of any file in `designs/` for a cutter.\n\n## Tiles\n\n",
+        "# {}: to be made\n\n{tiles} tiles with {all} magnets {bought}, {} each){}.\n\nTiles are \
+         squares of {}, seen from above. A code is read counter-clockwise along its face: \
+         {letters}, . for an empty position. Positions are {} apart, and the middle of the code \
+         is in the middle of the face. `tilebind make` draws the tiles of any file in `designs/` \
+         for a laser cutter.\n\n## Tiles\n\n",
         set.name,
         si(magnet.moment, "A m2", 4),
         match grown.complete {
             true => "",
-            false => ", of which the assembly can have more: these are the first",
+            false => ", of which the assembly can need more; these are the first",
         },
         si(assembly.words.stage.pair.fixed.faces[0].length(), "m", 4),
         si(assembly.words.stage.pitch.unwrap_or_default(), "m", 4),
@@ -55,7 +55,7 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
     let tiles = rows(set.tiles.iter().enumerate())
         .column("", "tile", "", |it: &(usize, &TileType)| it.1.name.clone())
         .column("", "how many", "", |it| counts[it.0])
-        .column("", "magnets each", "", |it| magnets(it.0))
+        .column("", "magnets per tile", "", |it| magnets(it.0))
         .column("", "north", "", face(0))
         .column("", "east", "", face(1))
         .column("", "south", "", face(2))

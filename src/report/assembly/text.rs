@@ -13,16 +13,16 @@ pub(super) fn headline(assembly: &Assembly) -> String {
     let (set, gse) = (&built.set, built.gse());
     let told;
     let verdict = match assembly.verdict() {
-        Growth::TooHard => "too hard: nothing holds, so nothing grows",
-        Growth::FewerHold => "too softly: fewer bonds than tau hold as well, so anything grows",
+        Growth::TooHard => "too hard, so nothing holds and nothing grows",
+        Growth::FewerHold => "too soft: fewer bonds than tau also hold, so anything grows",
         Growth::MismatchHolds => {
-            "too softly: a single aligned mismatch holds a tile as well, so errors grow"
+            "too soft: a single aligned mismatch also holds a tile, so errors grow"
         }
-        Growth::TauHolds => "right: bonds of tau hold a tile and weaker ones do not",
-        Growth::OneHolds => "right: one bond holds a tile",
+        Growth::TauHolds => "right: bonds of strength tau hold a tile and weaker ones do not",
+        Growth::OneHolds => "right, so one bond holds a tile",
         Growth::ErrorsStay => {
             told = format!(
-                "too softly: {} of {} growth runs end with errors that stay",
+                "too soft: {} of {} simulated growths end with errors that remain",
                 assembly.growth.wrong, assembly.growth.runs
             );
             &told
@@ -30,8 +30,8 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         Growth::Slow => "too hard: growth does not finish",
     };
     format!(
-        "{}: {} with {} words of {} places; shaken at {} with {:.1} % covered Gse (a bond) is {} \
-         kT and Gmc (docking) {:.2} kT, which is {verdict}",
+        "{}: {} with {} words of {} positions; at kT = {} and {:.1} % coverage Gse (a bond) is {} kT \
+         and Gmc (docking) {:.2} kT; shaking is {verdict}",
         set.name,
         match set.tiles.len() {
             1 => "1 tile".to_owned(),
@@ -58,7 +58,8 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
         format!("{name} as magnets build it, by tilebind {version}"),
         format!("kT {kt:e} J, coverage {coverage}; energies are Gse times a strength, in kT"),
         "X is a word on east or north faces, X* its mate on west or south faces;".to_owned(),
-        "wrong meetings have their own energies, below 0 where they repel (for xgrow 0)".to_owned(),
+        "wrong contacts have their own energies; repulsive ones are negative (0 in the xgrow file)"
+            .to_owned(),
         "letters as in words.toml, matrix.csv and sheet.md".to_owned(),
         "rgrow: import rgrow; system, state = \
          rgrow.rgrow.TileSet.from_file('assembly.yaml').create_system_and_state()"
@@ -81,9 +82,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     });
     let lattice = assembly.request.lattice.map(|[rows, columns]| {
         let needed = lattice::words(rows, columns);
-        format!(
-            "a lattice of {rows} x {columns} tiles with places of their own needs {needed} words"
-        )
+        format!("a lattice of {rows} x {columns} distinct tiles needs {needed} words")
     });
     let mismatch = match built.strongest_wrong() {
         Some((i, j, energy)) => format!(
@@ -97,9 +96,9 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     };
     let slid = slides::summary(built, slides).map(|slid| {
         format!(
-            "outside of the model: slid by whole places faces hold with up to {} ({:.1} kT, Gmc \
-             {:.1}); {} of {} pairs of faces would so hold a tile alone, and of a word's slides along \
-             its mate {:.0} % of those that hold end slid",
+            "not in the engines' model: faces slid by whole positions bind with up to {} ({:.1} \
+             kT, Gmc {:.1}); {} of {} pairs of faces hold a tile alone in this way; {:.0} % of \
+             the slid starts that stick stay slid",
             si(slid.deepest, "J", 4),
             -slid.deepest / built.shaking.kt,
             built.gmc,
@@ -110,12 +109,15 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     });
     let tiles = grown.tiles.len();
     let ends = match grown.complete {
-        true => format!("without errors it ends as {tiles} tiles"),
-        false => format!("without errors it grows on; {tiles} tiles were looked at"),
+        true => format!("without errors growth ends with {tiles} tiles"),
+        false => format!(
+            "without errors growth never ends; the first {tiles} tiles were \
+            computed"
+        ),
     };
     let choices = (grown.choices > 0).then(|| {
         format!(
-            "at {} places more than one tile fits: the set is not directed",
+            "at {} places more than one tile fits: the tile set is not directed",
             grown.choices
         )
     });
@@ -141,8 +143,8 @@ fn grown_at(kt: f64, growth: &Kinetic) -> String {
         runs, right, wrong, ..
     } = growth;
     format!(
-        "kinetic growth (kTAM) at kT = {}: {right} of {runs} runs correct, {wrong} with errors that \
-         stay, {} unfinished; errors per tile {:.2e}",
+        "kinetic growth (kTAM) at kT = {}: {right} of {runs} runs correct, {wrong} with errors \
+         that remain, {} unfinished; errors per tile {:.2e}",
         si(kt, "J", 3),
         runs - right - wrong,
         growth.errors_a_tile
@@ -157,8 +159,8 @@ fn proposal(assembly: &Assembly) -> String {
             let others = assembly.others.iter();
             let kts: Vec<String> = others.map(|it| si(it.0, "J", 2)).collect();
             format!(
-                "no kT tried grows correctly in most runs ({}): a wider gap (--length) or a lower \
-                 coverage makes fewer errors",
+                "no kT tried grows correctly in most runs ({}): widen the gap (--length) or lower \
+                 the coverage to reduce errors",
                 kts.join(", ")
             )
         }
@@ -173,8 +175,8 @@ fn strengths(assembly: &Assembly) -> Option<String> {
         .filter(|it| (it.2 / it.1 - 1.0).abs() > 0.01)?;
     let glue = built.wiring.bonds[bond].glues[0][0];
     Some(format!(
-        "strengths differ slightly from the file's, in units of the weakest bond: `{}` (word {}) should \
-         have {asked} and has {has:.3}; more magnets (--length) come closer",
+        "strengths differ slightly from the file, in units of the weakest bond: `{}` (word {}) \
+         should have {asked} and has {has:.3}; more magnets (--length) reduce the difference",
         built.set.glues[glue].name,
         assembly.face(bond),
     ))
@@ -194,8 +196,8 @@ fn repelled(assembly: &Assembly) -> Option<String> {
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "their strengths in the file are below 0, so these glues bind nothing, have no magnets and do \
-             not repel either: {}",
+            "glues with negative strength in the file: they have no magnets, so they neither bind \
+             nor repel: {}",
             names.join(", ")
         )
     })
@@ -216,8 +218,8 @@ fn canvas(assembly: &Assembly) -> Option<String> {
     let engine = built.engine().size?;
     (engine != [rows, columns]).then(|| {
         format!(
-            "the file's canvas of {rows} x {columns} does not bound a real table; the files for engines have \
-             one of {} x {}, large enough for what grows",
+            "the file's canvas is {rows} x {columns}, but a real table has no such limit; the engine \
+             files use {} x {}, large enough for the whole growth",
             engine[0], engine[1]
         )
     })
@@ -231,9 +233,9 @@ fn found(assembly: &Assembly) -> Option<String> {
     let shorter = || failed().filter(|it| it.places != last.places);
     let shorter = match (shorter().count(), shorter().filter(refuted).count()) {
         (0, _) => String::new(),
-        (all, proved) if all == proved => "; on fewer places there are none, proved".to_owned(),
+        (all, proved) if all == proved => "; on fewer positions there are none, proved".to_owned(),
         (all, proved) => format!(
-            "; fewer: {proved} lengths proved impossible, {} open",
+            "; on fewer positions: {proved} lengths proved impossible, {} open",
             all - proved
         ),
     };
@@ -244,7 +246,7 @@ fn found(assembly: &Assembly) -> Option<String> {
         _ => format!("; with {:.3} none were found", it.gap),
     });
     Some(format!(
-        "words found with a gap of {:.3} on {} places{shorter}{wider}",
+        "words found with a gap of {:.3} on {} positions{shorter}{wider}",
         last.gap, last.places
     ))
 }
@@ -255,9 +257,12 @@ fn whole(ends: [f64; 2]) -> String {
     // Less than a tenth of a percent is neither.
     let told = match (ends[0] < -5e-4, ends[1] > 5e-4) {
         (true, true) => format!("from {least} shallower to {most} deeper"),
-        (true, false) => format!("up to {least} shallower and none deeper"),
-        (false, true) => format!("up to {most} deeper and none shallower"),
-        (false, false) => "as deep".to_owned(),
+        (true, false) => format!("up to {least} shallower"),
+        (false, true) => format!("up to {most} deeper"),
+        (false, false) => "equally deep".to_owned(),
     };
-    format!("in whole tiles bonds are {told} than of two faces, as engines have them")
+    format!(
+        "bonds between whole tiles, compared with isolated pairs of faces (which the engines use): \
+         {told}"
+    )
 }

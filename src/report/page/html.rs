@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use physics::order::Order;
 use sha2::{Digest, Sha256};
 
-/// What to cite.
+/// What to cite, as BibTeX: the program, and the paper that it follows.
 pub const CITATION: &str = concat!(
     "@software{tilebind,\n",
     "  title   = {tilebind: how two magnetic tiles bind},\n",
@@ -14,7 +14,10 @@ pub const CITATION: &str = concat!(
     env!("CARGO_PKG_VERSION"),
     "},\n",
     "  year    = {2026},\n",
-    "  note    = {Follows U. Majumder and J. Reif, Barcoded Magnetic Tiles for Programmable Assemblies},\n",
+    "}\n",
+    "@misc{majumder-reif,\n",
+    "  title   = {Barcoded Magnetic Tiles for Programmable Assemblies},\n",
+    "  author  = {Majumder, U. and Reif, J.},\n",
     "}\n"
 );
 

@@ -21,7 +21,7 @@ function drawMeeting() {
   const [first, second] = [meetings.names[i], meetings.names[j]];
   const codes = `${first} = ${meetings.codes[i]}, ${second} = ${meetings.codes[j]}`;
   if (!pose) {
-    told.textContent = `${first} on ${second}: they meet in no wrong way. ${codes}.`;
+    told.textContent = `${first} on ${second}: no wrong contact. ${codes}.`;
     return;
   }
   const corners = [...meetings.outline, ...meetings.outline.map((p) => placed(p, pose))];
@@ -32,8 +32,8 @@ function drawMeeting() {
   drawTile(pen, faceTile(meetings.second[j], over), pose, at, theme.moving);
   scaleBar(pen, scale, width, height);
   const energy = meetings.energies_J[i][j], lower = meetings.lower_J?.[i]?.[j] ?? null;
-  const bond = areMates(i, j) ? " (its own mate: the strongest meeting beside the bond)" : "";
-  const proved = lower === null || areMates(i, j) ? "" : `, proved no lower than ${si(lower, "J")}`;
+  const bond = areMates(i, j) ? " (its own mate: the strongest contact other than the bond)" : "";
+  const proved = lower === null || areMates(i, j) ? "" : `, proved lower bound ${si(lower, "J")}`;
   told.textContent = `${first} on ${second}${over ? ", turned over" : ""}${bond}: ${si(energy, "J")}${proved},`
     + ` ${shareOf(energy).toFixed(3)} of the weakest bond; ${poseText(pose)}. ${codes}.`;
 }

@@ -209,7 +209,8 @@ impl Meetings {
             numbers: numbers.table("crosstalk").csv(),
             shares,
             is_framed: |row, column, count| 2 * row.abs_diff(column) == count,
-            legend: "Attraction over the weakest bond; framed: a word and its own mate".to_owned(),
+            legend: "Attraction relative to the weakest bond. Framed: a word and its own mate"
+                .to_owned(),
         }
         .into()
     }

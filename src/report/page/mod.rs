@@ -17,10 +17,11 @@ mod thumbnail;
 use serde::Serialize;
 use serde_json::Value;
 
-use html::{CITATION, escaped, filled, hash};
+use html::{escaped, filled, hash};
 
 pub use charts::Charts;
 pub use crowd::Crowd;
+pub use html::CITATION;
 pub use landscape::Landscape;
 pub use meetings::Meetings;
 pub use pathways::Played;

@@ -103,7 +103,7 @@ impl Played {
 }
 
 /// What the ways are the best by.
-const LOWEST: &str = "lowest highest point";
+const LOWEST: &str = "lowest maximum energy";
 const LEAST_WORK: &str = "least work";
 const MOST_PROBABLE: &str = "most probable";
 
@@ -117,23 +117,25 @@ pub fn table(played: &[Played]) -> Table {
     };
     let shown: Vec<usize> = (0..played.len()).filter(|&k| between(&played[k])).collect();
     rows(shown.iter().map(|&k| &played[k]))
-        .column("", "way", "from where to where", |way| {
+        .column("", "way", "start and end", |way| {
             way.name.split(',').next().unwrap_or_default().to_owned()
         })
-        .column("", "chosen by", "", |way| way.by)
-        .column("_J", "barrier", "the highest energy above the start", |way| way.climb())
+        .column("", "criterion", "", |way| way.by)
+        .column("_J", "barrier", "maximum energy above the start", |way| {
+            way.climb()
+        })
         .digits(4)
-        .column("_J", "work", "what all climbs add up to", |way| way.work)
+        .column("_J", "work", "sum of all climbs", |way| way.work)
         .digits(4)
-        .column("_m", "length", "of the way", |way| way.length)
+        .column("_m", "length", "length of the path", |way| way.length)
         .table("")
         .in_view()
         .on_page()
         .titled(
             "Ways",
-            "Between the bond, the deepest trap and free. One with a low barrier may be long or climb \
-             often; the others take the least work, or are the most probable at the thermal energy. A \
-             click plays a way.",
+            "Between the bond, the deepest trap and free. A path with a low barrier can be long \
+             or climb often; other paths take the least work, or are most probable at the thermal \
+             energy. Click a row to play its path.",
         )
         .linked(shown.iter().map(|&k| Some(Link::Way(k))))
 }

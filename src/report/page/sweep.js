@@ -51,7 +51,7 @@ function showPoint() {
   const [canvas, text] = card.children;
   text.replaceChildren();
   if (point === null) {
-    text.textContent = "Point at a dot, a cell or a row to see its tiles and figures; a click keeps it.";
+    text.textContent = "Point at a dot, a cell or a row to see its tiles and figures; click to keep it.";
     canvas.hidden = true;
     return;
   }
@@ -134,7 +134,7 @@ function showCharts() {
   }
 
   const names = charts.points.map(({ name }) => name);
-  const [against, baselines] = chooser("baseline", "set against", ["nothing", ...names]);
+  const [against, baselines] = chooser("baseline", "baseline", ["none", ...names]);
   baseline = charts.baseline;
   baselines.value = baseline === null ? 0 : baseline + 1;
   baselines.addEventListener("change", () => {
@@ -172,8 +172,8 @@ function showCharts() {
 /** The panel of whatever is chosen. */
 function addChosen(section, against, panels, watch, drawAll) {
   const figures = charts.figures.map(({ label }) => label);
-  const [across, xs] = chooser("across", "to the right", [...charts.axes, ...figures]);
-  const [upwards, ys] = chooser("upwards", "upwards", figures);
+  const [across, xs] = chooser("across", "x axis", [...charts.axes, ...figures]);
+  const [upwards, ys] = chooser("upwards", "y axis", figures);
   const choices = make("p", "", "legend");
   choices.id = "controls";
   choices.append(across, upwards, against);

@@ -14,7 +14,7 @@ function make(name, text = "", className = "") {
 
 /** Says that a box scrolls, where it does. */
 function hintScroll(box, what) {
-  const hint = make("p", `the ${what} goes on: scroll sideways \u2192`, "more");
+  const hint = make("p", `the ${what} continues: scroll sideways \u2192`, "more");
   hint.hidden = true;
   box.before(hint);
   const look = () => {

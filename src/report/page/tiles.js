@@ -46,7 +46,7 @@ function drawPose() {
   const canvas = element("pose");
   if (!state) {
     drawTiles(canvas, null, extent([]), 0.9);
-    element("pose-readout").textContent = "The tiles apart: U = 0.";
+    element("pose-readout").textContent = "The tiles are apart: U = 0.";
     return;
   }
   drawTiles(canvas, state.pose, extent([state.pose]), 0.9);

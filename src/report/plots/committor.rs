@@ -33,7 +33,7 @@ pub fn committor(
 ) -> Result<Figure, PictureError> {
     let square = |width| width - MARGIN[1] - MARGIN[3] + MARGIN[0] + MARGIN[2];
     let panel = Panel::alone(square, |canvas, place| draw(canvas, place, design, map));
-    let said = "arrows: the flux of tiles on their way from free to the bond, lengths by its root";
+    let said = "arrows: flux of tiles on their way from free to the bond; lengths by square root";
     let quarters = (0..=4).map(|quarter| Marked {
         at: f64::from(quarter) / 4.0,
         text: format!("{} %", 25 * quarter),
@@ -45,7 +45,7 @@ pub fn committor(
         width: WIDTH,
         panels: vec![panel],
         keys: vec![
-            bar("how often the bond comes before free", colour, quarters),
+            bar("probability of the bond before free", colour, quarters),
             remark(said.to_owned()),
         ],
         ..Composition::default()

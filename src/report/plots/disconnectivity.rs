@@ -68,7 +68,7 @@ fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
     match tree.holds(None) {
         true => None,
         false if kinds.any(is_caged) => Some("caged, proved"),
-        false => Some("no way found"),
+        false => Some("no path found"),
     }
 }
 
@@ -92,8 +92,7 @@ pub fn composed<'a>(
     if kinds.is_empty() {
         return None;
     }
-    let mut key = "each line a kind of state: its letter, its energy, \u{d7} the copies of it \
-        that symmetry makes"
+    let mut key = "each line is a kind of state: letter, energy, \u{d7} number of symmetric copies"
         .to_owned();
     if scene.barriers().any(|b| b.bounds.both().is_some()) {
         key.push_str("; green: certified bounds");
@@ -101,7 +100,7 @@ pub fn composed<'a>(
     let data = lines(scene, &kinds, &scale);
     let graph = Composition {
         name: name.to_owned(),
-        title: format!("{}: which states merge at which energy", scene.name),
+        title: format!("{}: energies at which states merge", scene.name),
         note: left_out(all.len(), kinds.len(), "not shown"),
         width: WIDTH,
         panels: vec![panel(scene, kinds, scale)],

@@ -24,7 +24,7 @@ const MARGIN: f64 = 40.0;
 /// Height of a line of text (pixels).
 const LINE: f64 = 22.0;
 /// What the letters at the magnets are.
-const KEY: &str = "letters: the pole that each magnet turns outwards; U, D: north pole up, down";
+const KEY: &str = "letters: outward pole of each magnet; U, D: north pole up, down";
 /// Most faults that are told on the picture.
 const TOLD: usize = 3;
 
@@ -163,7 +163,7 @@ fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;
     let faults = wrong(design, inspection);
     if faults.is_empty() {
-        let sound = "nothing wrong at a glance; whether the tiles find each other, analyse tells";
+        let sound = "no mistakes found; run `analyse` to see whether the tiles dock";
         return canvas.write(SMALL.colour(SOFT), sound, (MARGIN, top), Anchor::TopLeft);
     }
     let room = SIZE[0] - 2.0 * MARGIN;

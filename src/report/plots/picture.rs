@@ -38,7 +38,10 @@ pub enum PictureError {
     #[error("could not write a picture as PNG: {0}")]
     Png(#[from] png::EncodingError),
     /// Its drawing broke down.
-    #[error("a picture ({0}) could not be drawn, by a fault of tilebind; all else is there")]
+    #[error(
+        "could not draw a picture ({0}): this is a bug of tilebind; all other results are \
+        complete"
+    )]
     Fault(String),
 }
 

@@ -39,8 +39,8 @@ pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composit
     };
     let note = match barriers.len().saturating_sub(MOST) {
         0 => String::new(),
-        1 => "1 way out of a shallower state not shown".to_owned(),
-        more => format!("{more} ways out of shallower states not shown"),
+        1 => "1 path out of a shallower state not shown".to_owned(),
+        more => format!("{more} paths out of shallower states not shown"),
     };
     (!barriers.is_empty()).then(|| Composition {
         name: "profiles".to_owned(),

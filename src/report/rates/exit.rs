@@ -22,16 +22,16 @@ pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) 
     Document {
         title: format!("Exit of {}", design.name),
         answer: format!(
-            "{}: a tile let go at {x},{y},{theta} is bound or free after {} on average: bound first \
-             in {} of all cases, free first in {}",
+            "{}: a tile released at {x},{y},{theta} is bound or free after {} on average; bound \
+             first with probability {}, free first with {}",
             design.name,
             duration(exit.mean(), known_digits(exit)),
             percent(finest.bound),
             percent(1.0 - finest.bound),
         ),
         remarks: vec![format!(
-            "(kT = {}, drag {} /s: D = {}; the mean exit time times D is {}; bound: U < {} in the \
-             basin of the bond or of one of its copies; free: centres {} apart)",
+            "(kT = {}, drag {} /s: D = {}; mean exit time times D = {}; bound: U < {} in the \
+             basin of the bond or a symmetric copy; free: centres {} apart)",
             si(exit.asked.kt, "J", 4),
             exit.drag,
             si(exit.diffusion, "m²/s", 4),
@@ -73,8 +73,8 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
         // Of the well about the start, apart from any mesh.
         .data("proved", proved_entry(exit.diffusion, found.proved.as_ref()))
         .group("exits", Entries::default()
-            .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("share of all cases")
-            .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("share of all cases"))
+            .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("probability")
+            .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("probability"))
         .fact("kt_J", "kT", asked.kt).noted(format!("drag {} /s", exit.drag))
         .fact("drag_per_s", "", exit.drag)
         .fact("start", "start", asked.start).noted("x (mm), y (mm), theta")
@@ -94,11 +94,11 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
 #[rustfmt::skip]
 fn meshes(exit: &PoseExit) -> Table {
     rows(&exit.found.meshes)
-        .column("unknowns", "unknowns", "of the mesh, each finer than the last", |mesh| mesh.unknowns)
+        .column("unknowns", "unknowns", "of the mesh, each finer than the one before", |mesh| mesh.unknowns)
         .column("mean_exit_s", "mean exit time", "", |mesh| mesh.time / exit.diffusion)
-        .column("bound", "bound first", "share of all cases", |mesh| mesh.bound).viewed(|mesh| percent(mesh.bound))
+        .column("bound", "bound first", "probability", |mesh| mesh.bound).viewed(|mesh| percent(mesh.bound))
         .column("error", "error of flows", "estimated, relative", |mesh| mesh.error).viewed(|mesh| percent(mesh.error))
-        .column("of_basins", "of basins", "what of it is due to the basin being made of whole cells", |mesh| mesh.of_rims)
+        .column("of_basins", "of basins", "effect of making the basin of whole cells", |mesh| mesh.of_rims)
             .viewed(|mesh| percent(mesh.of_rims))
         .table("meshes").titled("Meshes", "").in_file("meshes")
 }
@@ -119,7 +119,7 @@ fn by_mesh(exit: &PoseExit) -> Chart {
     });
     let mut chart = Chart {
         name: "meshes",
-        title: "Mean exit time on finer and finer meshes".to_owned(),
+        title: "Mean exit time on successively finer meshes".to_owned(),
         x: Dimension::new("unknowns", "unknowns of the mesh")
             .logarithmic()
             .marked(
@@ -157,7 +157,7 @@ fn told_bounds(exit: &PoseExit) -> Option<String> {
                 apart([lower, upper])
             )
         }
-        false => format!("{least} at least; {ONE_SIDED}"),
+        false => format!("at least {least}; {ONE_SIDED}"),
     })
 }
 
@@ -166,16 +166,16 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
     let [time, bound] = exit.found.spread().map(|spread| 100.0 * spread);
     let mut notes = vec![format!(
         "the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the shares; the basin, made of whole cells, is off by an estimated {:.1} % of its \
-         capacity; estimated error of flows {:.1} %",
+         points in the probabilities; making the basin of whole cells changes its capacity by an \
+         estimated {:.1} %; estimated error of flows {:.1} %",
         finest.unknowns,
         100.0 * finest.of_rims,
         100.0 * finest.error,
     )];
     if exit.found.midway.is_some() {
         notes.push(format!(
-            "this mesh has {}, which is not between the bounds below: what is told lies midway between \
-             them",
+            "this mesh has {}, which is outside the bounds below: the time given is the middle of \
+             the bounds",
             duration(finest.time / exit.diffusion, 2),
         ));
     }
@@ -184,7 +184,7 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
     }
     notes.push(match told_bounds(exit) {
         Some(told) => {
-            format!("from the well about the start the mean exit time is {told}; {ON_THE_MESH}")
+            format!("from the well around the start the mean exit time is {told}; {ON_THE_MESH}")
         }
         None => NO_BOUNDS.to_owned(),
     });
@@ -193,9 +193,9 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
             let leaving = leaving_set(exit.diffusion, proved);
             let [low, high] = outwards(leaving).map(|end| plain(end, 3));
             notes.push(format!(
-                "{PROVED}: while it is in the well about the start, U < {}, a tile sets out for an \
-                 end, not to come back before, {low} to {high} times per second ({} apart); from where \
-                 it last leaves the well the mean exit time is {}",
+                "{PROVED}: from the well around the start, U < {}, a tile leaves for an exit \
+                 without returning {low} to {high} times per second ({} apart); after it last \
+                 leaves the well the mean exit time is {}",
                 si(proved.below, "J", 4),
                 apart(leaving),
                 mean_exit_words(mean_exit(exit.diffusion, proved)),
@@ -241,8 +241,8 @@ fn check_notes(exit: &PoseExit, runs: &ExitRuns) -> Vec<String> {
         ),
     };
     let mut notes = vec![format!(
-        "check: {} rigid bodies with inertia take {least}{} +- {} on average, {least}{:.2} +- {:.2} \
-         times as long{first}",
+        "check: {} rigid bodies with inertia take {least}{} +- {} on average, {least}{:.2} +- \
+         {:.2} times the overdamped time{first}",
         ended + runs.given_up,
         duration(time, 3),
         duration(error, 2),
@@ -251,23 +251,21 @@ fn check_notes(exit: &PoseExit, runs: &ExitRuns) -> Vec<String> {
     )];
     if runs.given_up > 0 {
         notes.push(format!(
-            "{} were given up under way, and count with the time until then",
+            "{} were stopped before the end, and count with the time until then",
             runs.given_up
         ));
     }
     let lost = match runs.has_temperature() {
         true => "",
-        false => {
-            ": knocks take energy that the shaking does not give back, so no temperature exists"
-        }
+        false => ": collisions lose energy, so no temperature exists",
     };
     notes.push(format!(
-        "their kinetic energy is {warmth:.2} +- {of_warmth:.2} times that of kT{lost}"
+        "their kinetic energy is {warmth:.2} +- {of_warmth:.2} times that at kT{lost}"
     ));
     if exit.drag < OVERDAMPED {
         notes.push(format!(
-            "a drag of {} /s lets tiles glide: overdamped rates are not theirs, and the ratio says by \
-             how much",
+            "at a drag of {} /s tiles glide: overdamped rates do not apply, and the ratio gives \
+             the error",
             exit.drag
         ));
     }

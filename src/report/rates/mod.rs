@@ -12,23 +12,24 @@ use physics::kinetics::Capacity;
 use physics::units::{duration_to, plain};
 
 /// Where kT means something.
-const SCOPE: &str = "overdamped motion, knocks without loss: drag of 50 /s and more; at less drag, or \
-    where knocks take energy that shaking does not give back, there is no such kT";
+const SCOPE: &str = "valid for overdamped motion (drag of at least 50 /s) and elastic collisions; \
+    at less drag, or with lossy collisions, no kT exists";
 /// What is said of bounds.
-const ON_THE_MESH: &str = "bounds hold on the mesh (Dirichlet, Thomson); what its integrals over \
-    cells are off by is not bounded";
+const ON_THE_MESH: &str = "the bounds hold on the mesh (Dirichlet, Thomson) and exclude its \
+    discretisation error";
 /// What is not in bounds that hold on the mesh.
 const NOT_BOUNDED: [&str; 2] = [
     "the integrals of exp(-U/kT) and exp(U/kT) over cells, by Gauss' rule",
-    "basins made of whole cells: mesh.of_basins is what that shifts capacities by, an estimate",
+    "basins made of whole cells: mesh.of_basins estimates how much that changes capacities",
 ];
-const NO_BOUNDS: &str = "no bounds: they are of a start in a well";
+const NO_BOUNDS: &str = "no bounds: they need a start in a well";
 /// Of outlines with walls along rays or across them twice.
-const ONE_SIDED: &str = "the other bound needs fluxes along contact, which are laid where every ray \
-    from the centre leaves contact once";
+const ONE_SIDED: &str = "the other bound needs a flux along the contact, which exists only if \
+    every ray from the centre crosses the contact boundary once";
 /// What is said where a proof was asked for and there is none.
-const NOT_PROVED: &str = "nothing is proved: that takes tiles that are convex about their centres of \
-    mass, of few corners, an energy with bounds over cells, and sets that the mesh tells apart";
+const NOT_PROVED: &str = "nothing is proved: a proof needs tiles that are convex about their \
+    centres of mass and have few corners, an energy with bounds over cells, and sets that the \
+    mesh separates";
 /// What is proved.
 const PROVED: &str = "proved (integrals and sets enclosed, rounding included)";
 /// Bounds that are farther apart than so many times say nothing worth telling.
@@ -72,7 +73,7 @@ fn mean_exit_words(ends: [f64; 2]) -> String {
     let least = least.unwrap_or_default();
     match most {
         Some(most) => format!("{least} to {most} ({} apart)", apart(ends)),
-        None => format!("{least} at least"),
+        None => format!("at least {least}"),
     }
 }
 

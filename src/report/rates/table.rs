@@ -51,16 +51,16 @@ fn headline(design: &Design, found: &StateRates) -> String {
     let [width, height] = design.space().half_size.map(|half| 2.0 * half);
     match (found.known_rate(free, 0), found.known_rate_out(0)) {
         (Some(0.0), Some(0.0)) => {
-            "no tile ever binds or comes off: contact blocks every way".to_owned()
+            "tiles never bind or unbind: contact blocks every path".to_owned()
         }
         (Some(on), Some(off)) => format!(
-            "free tiles bind at {} and the bond is left at {}, on a table of {width} by {height} m",
+            "free tiles bind at {} and bonds break at {}, on a table of {width} by {height} m",
             per_second(on, digits_of(found, free, 0)),
             per_second(off, digits_out(found, 0)),
         ),
-        _ => "no way into the bond was found, so that nothing is known of how fast tiles bind or come \
-              off"
-            .to_owned(),
+        _ => {
+            "no path into the bond was found, so binding and unbinding rates are unknown".to_owned()
+        }
     }
 }
 
@@ -97,7 +97,7 @@ fn told_end(end: Option<f64>, is_upper: bool) -> String {
 /// The bounds of the rate out of a place.
 fn told_bounds(found: &StateRates, place: usize) -> String {
     match found.bounds_out(place) {
-        [_, Some(0.0)] => "contact blocks every way".to_owned(),
+        [_, Some(0.0)] => "contact blocks every path".to_owned(),
         [Some(lower), Some(upper)] => {
             let [lower, upper] = outwards([lower, upper]).map(|end| plain(end, 3));
             format!("{lower} to {upper} /s")
@@ -127,8 +127,9 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
     let of_basins = finite(finest.of_rims).filter(|_| error.is_finite());
     entries(design)
         .data("seed", seed)
-        .fact("leaving_per_s", "the bond is left", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_bounds(found, 0)).in_view()
-        .fact("binding_per_s", "free tiles bind", found.known_rate(free, 0)).digits(digits_of(found, free, 0)).noted("by any way").in_view()
+        .fact("leaving_per_s", "bonds break", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_bounds(found, 0)).in_view()
+        .fact("binding_per_s", "free tiles bind", found.known_rate(free, 0)).digits(digits_of(found, free, 0)).noted("by \
+            any path").in_view()
         .fact("diffusion_m2_s", "", found.diffusion)
         .fact("kt_J", "kT", found.asked.kt).noted(format!("drag {} /s", found.drag))
         .fact("drag_per_s", "", found.drag)
@@ -167,23 +168,23 @@ fn places(found: &StateRates) -> Table {
     rows(0..found.count())
         .column("name", "place", "", |k| found.name(*k)).without_csv()
         .column("place", "", "", |k| found.name(*k)).in_csv()
-        .column("copies", "copies", "states that symmetries make of it", |k| found.states.get(*k).map(|it| it.copies))
-        .column("occupation", "share of all time", "what lies between places is shared out by committors", occupation)
+        .column("copies", "copies", "copies by symmetry", |k| found.states.get(*k).map(|it| it.copies))
+        .column("occupation", "fraction of all time", "time between states is divided by committors", occupation)
             .viewed(move |k| told(occupation(k)))
         .column("energy_J", "energy", "of the state", of(|it| it.energy)).digits(4)
         .column("basin_energy_J", "", "", of(|it| it.below)).in_json()
         .column("basin_J", "", "", of(|it| it.below)).in_csv()
-        .column("set", "its set", "the configurations that the place is made of", |k| told_set(found, *k)).in_view()
+        .column("set", "its set", "configurations that make up the state", |k| told_set(found, *k)).in_view()
         .column("free_at_m", "", "", |k| (*k == found.states.len()).then_some(found.asked.free_at)).in_data()
-        .column("inside", "inside alone", "share of all time that is spent in the set itself", inside)
+        .column("inside", "set alone", "fraction of all time spent in the set itself", inside)
             .viewed(move |k| told(inside(k)))
         .column("pose", "", "", |k| found.states.get(*k).map(|it| it.at)).in_json()
         .column("way_out", "", "", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
         .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
-        .column("leaving_per_s", "is left", "rate out of it for any other place", |k| found.known_rate_out(*k))
+        .column("leaving_per_s", "is left", "rate to any other state", |k| found.known_rate_out(*k))
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
         .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
-        .column("bounds", "bounds", "between which that rate lies", |k| told_bounds(found, *k)).in_view()
+        .column("bounds", "bounds", "bounds of that rate", |k| told_bounds(found, *k)).in_view()
         .column("proved", "", "", proved).in_json()
         .table("places").titled("Places", "").in_file("occupation")
 }
@@ -202,9 +203,10 @@ fn pairs(found: &StateRates) -> Table {
         .column("value_per_s", "rate", "", |(i, j)| found.known_rate(*i, *j))
             .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
         .column("upper_per_s", "upper bound", "of the rate", upper).viewed(move |row| told_end(upper(row), true))
-        .column("spread", "", "by how much it differs on the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
-        .column("first", "comes first", "share of all that leave for which it is the next place", |(i, j)| found.first(*i, *j)).share()
-        .column("mean_first_passage_s", "mean first passage", "time from one to the other, by whatever way", passage)
+        .column("spread", "", "difference between the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
+        .column("first", "comes first", "probability that it is the next state", |(i, j)| found.first(*i, *j)).share()
+        .column("mean_first_passage_s", "mean first passage", "mean time from one to the other, \
+            by any path", passage)
             .viewed(move |row| passage(row).map_or("-".to_owned(), |time| duration(time, digits_of(found, row.0, row.1))))
         .column("from_basin_J", "", "", move |(i, _)| limit(*i)).in_csv()
         .column("to_basin_J", "", "", move |(_, j)| limit(*j)).in_csv()
@@ -230,13 +232,13 @@ fn proofs(found: &StateRates) -> Table {
     let is_known = (0..found.states.len()).any(|k| found.proved(k).is_some());
     let note = match is_known {
         true => format!(
-            "{PROVED}: mean time until a tile that leaves a basin for another or free tiles is there; \
-             no upper bound where it would be {FAR} times the lower one or more"
+            "{PROVED}: mean time for a tile that leaves a basin to reach another or to become \
+             free; no upper bound if it would be {FAR} times the lower one or more"
         ),
         false => NOT_PROVED.to_owned(),
     };
     rows(0..found.states.len())
-        .column("from", "from", "the basin that is left", |k| found.name(*k))
+        .column("from", "from", "the basin left", |k| found.name(*k))
         .column("set_below_J", "its set", "", move |k| proved(k).map(|it| it.capacity.below)).viewed(move |k| proved(k).map_or("-".to_owned(), |it| below(it.capacity.below)))
         .column("others_below_J", "", "", others).in_data()
         .column("free_at_m", "", "", |_| found.asked.free_at).in_data()
@@ -245,7 +247,7 @@ fn proofs(found: &StateRates) -> Table {
         .column("mean_exit_upper_s", "proved: at most", "", move |k| mean(k).map(|it| it[1])).viewed(told(1))
         .column("sets_out_lower_per_s", "", "", move |k| leaving(k).map(|it| it[0])).in_data()
         .column("sets_out_upper_per_s", "", "", move |k| leaving(k).map(|it| it[1])).in_data()
-        .column("end", "as an end", "its set where the others' proofs end in it", move |k| proved(k).map(|it| below(it.end_below))).in_view()
+        .column("end", "as an end", "its set as an end for the other states", move |k| proved(k).map(|it| below(it.end_below))).in_view()
         .table("proved").titled("Proved", note).in_view().in_file("proved")
 }
 
@@ -287,7 +289,7 @@ fn squares(map: &Map) -> Table {
 }
 
 fn pictures<'a>(design: &'a Design, found: &'a StateRates) -> Vec<Drawing<'a>> {
-    let title = "How often the bond comes before free, and where the flux into it goes";
+    let title = "Probability of the bond before free, and the flux into the bond";
     let map = found.map().map(|map| {
         Drawing::new(title, move |sheet| {
             committor(design, map, squares(map).csv(), sheet)
@@ -310,7 +312,7 @@ fn over_kt(found: &StateRates) -> Chart {
             .marked(found.over_kt.iter().map(|at| at.kt)),
         y: Dimension::new("leaving_per_s", "rate out").logarithmic(),
         series: Vec::new(),
-        remark: "closed form: with the wells as corners".to_owned(),
+        remark: "closed form: wells as corners".to_owned(),
     };
     for (k, state) in found.states.iter().enumerate() {
         let line = |of: &dyn Fn(&AtKt) -> Option<f64>| -> Vec<[f64; 2]> {
@@ -335,8 +337,8 @@ fn notes(found: &StateRates) -> Vec<String> {
     let shallow = shallow.filter(|state| -state.energy < LEAST_DEPTH * kt);
     notes.extend(shallow.map(|state| {
         format!(
-            "{} is less than {LEAST_DEPTH} kT deep and holds nothing: these rates tell how often its \
-             set is passed through",
+            "{} is less than {LEAST_DEPTH} kT deep and does not hold tiles: these rates count how \
+             often its set is crossed",
             state.name
         )
     }));
@@ -351,9 +353,10 @@ fn notes(found: &StateRates) -> Vec<String> {
         Some(bounds) => notes.extend(of_bounds(found, bounds)),
     }
     notes.push(format!(
-        "lifetimes depend on the drag: these are for {} /s, overdamped, and proportional to it. \
-         `tilebind yield` counts docking runs with inertia, by default at {} /s, where states live \
-         shorter; --rates overdamped --drag {} gives these there",
+        "lifetimes depend on the drag: these are for overdamped motion at {} /s; rates are \
+         inversely proportional to the drag. `tilebind yield` counts docking runs with inertia, \
+         by default at {} /s, and gives shorter lifetimes; its option --rates overdamped --drag \
+         {} gives these rates",
         found.drag,
         MotionSettings::default().drag,
         found.drag
@@ -368,13 +371,13 @@ fn of_meshes(found: &StateRates) -> String {
     let worst = worst.fold(0.0, f64::max);
     let unknowns = found.found.finest().unknowns;
     let unsettled = match worst > UNSETTLED {
-        true => "; rates that differ that much are unknown: their spread stands in rates.csv",
+        true => "; rates that differ that much are unknown: see their spread in rates.csv",
         false => "",
     };
     match found.found.error() {
         error if error.is_finite() => format!(
-            "the two finest meshes ({unknowns} unknowns) differ by {} % at most; estimated error of \
-             flows {:.1} %{unsettled}",
+            "the two finest meshes ({unknowns} unknowns) differ by at most {} %; estimated error \
+             of flows {:.1} %{unsettled}",
             plain(100.0 * worst, 2),
             100.0 * error,
         ),
@@ -388,7 +391,7 @@ fn of_bounds(found: &StateRates, bounds: &RateBounds) -> Vec<String> {
         let told = wells.map(|(state, ends)| format!("{} {}", state.name, apart(*ends)));
         let told = told.collect::<Vec<_>>().join(", ");
         return vec![format!(
-            "bounds of the rates out are apart by: {told}; {ON_THE_MESH}"
+            "relative width of the bounds of the rates out: {told}; {ON_THE_MESH}"
         )];
     }
     // The first basin that has most of its occupation outside of it: upper bounds of rates that count
@@ -399,8 +402,8 @@ fn of_bounds(found: &StateRates, bounds: &RateBounds) -> Vec<String> {
     let told = mostly_outside.map(|k| {
         let ((inside, all), name) = (shares(k), found.name(k));
         format!(
-            "upper bounds count as {name}'s time what is spent inside its basin, {} of all, where its \
-             occupation is {}: how much of what lies between places is its own nothing bounds here",
+            "upper bounds use only the time inside {name}'s basin, {} of all; its full occupation \
+             is {}, and the share of the time between states is not bounded",
             share(inside),
             share(all),
         )

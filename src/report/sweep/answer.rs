@@ -65,7 +65,7 @@ impl Sweep<'_> {
             )
         };
         if best.1.obstacle().is_some() {
-            return Some(format!("no point finds into its bond; {}", told(best)));
+            return Some(format!("no point reaches its bond; {}", told(best)));
         }
         let mut sentence = format!("best {}", told(best));
         let ratio = value(best.1) / value(base.1);

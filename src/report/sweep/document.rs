@@ -30,7 +30,7 @@ impl Sweep<'_> {
         let beside = self.designs();
         let beside = beside.map(|(name, text)| (name, text.as_bytes().to_vec()));
         Document {
-            title: format!("{}: a sweep over {}", names.join(", "), keys.join(", ")),
+            title: format!("{}: sweep of {}", names.join(", "), keys.join(", ")),
             answer: self.answer().unwrap_or_else(|| counts.clone()),
             entries: self.entries(),
             part: Some(Part::Charts(Charts::new(self))),
@@ -42,7 +42,7 @@ impl Sweep<'_> {
                 .chain(checked(designs))
                 .collect(),
             beside: beside.collect(),
-            origin: format!("seed {}; plan.json holds what reproduces it", plan.seed),
+            origin: format!("seed {}; plan.json has all settings", plan.seed),
             ..Document::default()
         }
     }

@@ -33,7 +33,7 @@ const MOST_DECADES: f64 = 2.0;
 
 /// What the marks mean, of curves and of maps.
 const SIGNS: [&str; 2] = [
-    "bands: certified bounds, 95 % intervals of shares; \u{25cb} no trap; ^ caged, proved; \u{d7} \
+    "bands: certified bounds, 95 % intervals; \u{25cb} no trap; ^ caged, proved; \u{d7} \
      impossible design",
     "\u{25cb} no trap; \u{2013} not known; \u{221e} caged, proved; \u{d7} impossible design",
 ];

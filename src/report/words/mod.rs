@@ -51,19 +51,24 @@ fn of_sought(sought: &Sought) -> Document<'_> {
         let gap = point.judgement.as_ref()?.gap;
         (point.found.words.len() > words.len()).then(|| {
             format!(
-                "This gap is a tie of contacts, which neighbours' magnets decide: {many} with the gap \
-                 {gap:.4}."
+                "At this gap contact counts tie, and neighbouring magnets decide: {many} with the \
+                 gap {gap:.4}."
             )
         })
     });
     let drawn = (!answer.complete).then(|| {
         format!(
-            "Chosen from {} words drawn at random: there are too many to look at all.",
+            "Chosen from {} randomly drawn words: there are too many to search all.",
             answer.candidates
         )
     });
     let fault = sought.request.tolerate.map(Fault::name);
-    let faulty = fault.map(|kind| format!("All figures with the worst of {kind} in every face."));
+    let faulty = fault.map(|kind| {
+        format!(
+            "All figures are for the worst case of {kind} in every \
+        face."
+        )
+    });
     Document {
         title: format!("{} words of {} magnets", words.len(), sought.task.magnets),
         answer: headline,
@@ -74,7 +79,7 @@ fn of_sought(sought: &Sought) -> Document<'_> {
         beside: [("words.toml".to_owned(), set.into_bytes())].into(),
         notes: beyond.into_iter().chain(drawn).collect(),
         origin: format!(
-            "seed {}; {}; {} magnets, places {} apart",
+            "seed {}; {}; {} magnets, positions {} apart",
             sought.request.seed,
             meetings(&sought.task.rules),
             bar.model.name(),
@@ -98,13 +103,13 @@ fn too_long(sought: &Sought) -> Option<String> {
     let way_out = match fits * (1.0 + 1e-9) >= width || (slots && fits > 0.0) {
         // Rounded down, so that it fits.
         true => format!(
-            "give --pitch {:.4} or less, fewer places, or make tiles that long",
+            "use --pitch {:.4} or less, fewer positions, or longer tiles",
             (fits * 1e4 + 1e-6).floor() / 1e4
         ),
-        false => "give fewer places, or make tiles that long".to_owned(),
+        false => "use fewer positions or longer tiles".to_owned(),
     };
     Some(format!(
-        "! {} places {pitch} apart take {needed} of face, and {whose} has {face}: {way_out}",
+        "! {} positions {pitch} apart take {needed} of face, and {whose} has {face}: {way_out}",
         sought.task.places
     ))
 }
@@ -119,7 +124,7 @@ fn entries(sought: &Sought) -> Entries {
         true => "proved".to_owned(),
         false => format!("at most {}", answer.upper),
     };
-    let points = points(&answer.frontier).titled("Number of words against the gap", "");
+    let points = points(&answer.frontier).titled("Number of words versus gap", "");
     Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("words", texts(&answer.words))
@@ -127,7 +132,8 @@ fn entries(sought: &Sought) -> Entries {
         .data("upper_bound", answer.upper)
         .data("proved", answer.proved)
         .fact("gap", "gap", judgement.map(|it| it.gap)).digits(4)
-        .fact("bond_J", "weakest bond", judgement.map(|it| it.bond)).digits(4).noted("depth, flush, at contact")
+        .fact("bond_J", "weakest bond", judgement.map(|it| it.bond)).digits(4).noted("depth, \
+            flush, in contact")
         .fact("worst", "strongest wrong meeting", worst.map(|it| meeting(&it, bar)))
             .viewed(worst.map_or(String::new(), |it| si(it.energy, "J", 4)))
             .noted(worst.map_or(String::new(), |it| told(&it, sought)))
@@ -190,12 +196,12 @@ fn meeting(meeting: &Meeting, bar: &Bar) -> Value {
 #[rustfmt::skip]
 fn points(points: &[Point]) -> Table {
     rows(points)
-        .column("asked_gap", "gap asked", "the least gap of the words", |it| it.asked).digits(4)
-        .column("count", "words", "as many were found", |it| it.found.words.len())
-        .column("upper_bound", "at most", "there are no more, proved", |it| it.found.upper)
+        .column("asked_gap", "gap asked", "smallest gap of the words", |it| it.asked).digits(4)
+        .column("count", "words", "number found", |it| it.found.words.len())
+        .column("upper_bound", "at most", "proved upper bound", |it| it.found.upper)
             .viewed(|it| if it.found.is_proved() { "proved".to_owned() } else { it.found.upper.to_string() })
         .column("proved", "", "", |it| it.found.is_proved())
-        .column("gap", "gap reached", "of the words that were found", |it| it.judgement.as_ref().map(|it| it.gap)).digits(4)
+        .column("gap", "gap reached", "of the words found", |it| it.judgement.as_ref().map(|it| it.gap)).digits(4)
         .column("words", "", "", |it| json!(texts(&it.found.words))).in_json()
         .table("frontier")
 }
@@ -207,12 +213,12 @@ fn list(sought: &Sought) -> Table {
     let all = sought.answer.words.iter().enumerate();
     let all = all.map(|(k, word)| -> Row { (k, *word, sought.worst(*word)) });
     rows(all)
-        .column("name", "name", "of the word; its mate is marked with *", |it| name(it.0))
+        .column("name", "name", "of the word; mates are marked with *", |it| name(it.0))
         .column("word", "word", "read counter-clockwise: N or S out of the face, U or D north up or down", |it| it.1.to_string())
-        .column("mate", "mate", "the word that it binds", |it| it.1.mate().to_string())
-        .column("bond_J", "bond", "depth of its bond, flush, at contact", |it| sought.task.rules.bond(&sought.energies, it.1)).digits(4)
-        .column("worst_J", "worst meeting", "energy of the wrong meeting that attracts most", |it| it.2.map(|it| it.energy)).digits(4)
-        .column("worst_with", "with", "the face of that meeting", |it| it.2.map(|it| it.second.to_string()))
+        .column("mate", "mate", "the word that binds it", |it| it.1.mate().to_string())
+        .column("bond_J", "bond", "depth of its bond, flush, in contact", |it| sought.task.rules.bond(&sought.energies, it.1)).digits(4)
+        .column("worst_J", "worst meeting", "energy of the strongest wrong attraction", |it| it.2.map(|it| it.energy)).digits(4)
+        .column("worst_with", "with", "the face in that contact", |it| it.2.map(|it| it.second.to_string()))
             .viewed(|it| it.2.map_or("-".to_owned(), |it| face(it.second, sought)))
         .column("worst_slide", "slid by", "places", |it| it.2.map(|it| it.slide))
         .column("worst_flipped", "", "", |it| it.2.map(|it| it.flipped))
@@ -258,7 +264,7 @@ fn frontier_chart(answer: &Answer) -> Chart {
     };
     Chart {
         name: "frontier",
-        title: "Number of words against the gap".to_owned(),
+        title: "Number of words versus gap".to_owned(),
         x: Dimension::new("asked_gap", "gap asked for").within([0.0, 1.0]),
         y: Dimension::new("words", "words").counting(),
         series: Vec::new(),
@@ -305,9 +311,9 @@ fn map(sought: &Sought) -> Meetings {
     };
     let bond = answer.judgement.as_ref().map_or(1.0, |it| it.bond);
     Meetings::new(&carrier, &faces, bond, met).titled(
-        "Strongest wrong meeting of every two faces",
-        "Rows and columns are words and their mates; a number is the attraction as a share of the \
-         weakest bond, of flush faces at every slide by whole places. Framed: a word and its own \
-         mate, slid. Click a cell to see the tiles.",
+        "Strongest wrong attraction between every two faces",
+        "Rows and columns are words and their mates. Numbers are attractions relative to the \
+         weakest bond, for flush faces at every slide by whole positions. Framed: a word and its \
+         own mate, slid. Click a cell to see the tiles.",
     )
 }

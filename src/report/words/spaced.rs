@@ -40,7 +40,7 @@ pub(super) fn document(spaced: &Spaced) -> Document<'_> {
 fn headline(spaced: &Spaced) -> String {
     match (&spaced.judged, spaced.request.gap) {
         (Some((set, found)), _) => format!(
-            "{}; at least so many, no upper bound known",
+            "{}; at least this many, no upper bound known",
             crosstalk::headline(set, found)
         ),
         (None, Some(gap)) => format!("none found with the gap {gap}, nothing proved"),
@@ -118,9 +118,9 @@ fn words(spaced: &Spaced) -> Table {
         places.collect::<Vec<_>>().join(", ") + " mm"
     };
     rows(spaced.words.iter().enumerate())
-        .column("name", "name", "of the word; its mate is marked with *", |it| name(it.0))
+        .column("name", "name", "of the word; mates are marked with *", |it| name(it.0))
         .column("word", "word", "its poles in order: N or S out of the face, U or D north up or down", |it| it.1.code(stands))
-        .column("positions", "magnets at", "along the face, from its middle", move |it| places(it.1))
+        .column("positions", "magnets at", "along the face, from its centre", move |it| places(it.1))
         .column("magnets", "", "", move |it| magnets(it.1))
         .table("words")
         .titled("Words", "")

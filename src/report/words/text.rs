@@ -57,7 +57,7 @@ pub(super) fn how_many(count: usize, upper: usize) -> String {
     match (count, upper) {
         (0, 0) => "none exists, proved".to_owned(),
         (0, _) => format!("none found, at most {upper}"),
-        (count, upper) if count == upper => format!("{count} {}, proved largest", words(count)),
+        (count, upper) if count == upper => format!("{count} {}, proved maximal", words(count)),
         (count, upper) => format!("at least {count} {}, at most {upper}", words(count)),
     }
 }
@@ -85,16 +85,16 @@ pub(super) fn told(meeting: &Meeting, sought: &Sought) -> String {
 pub(super) fn meetings(rules: &Rules) -> String {
     let who = match rules.words_meet() {
         true => "every face can meet every face",
-        false => "words meet mates only",
+        false => "words meet only mates",
     };
     let slides = match rules.shape {
-        Shape::None => "at every slide by whole places",
-        _ => "held by their shape, without slides",
+        Shape::None => "at every slide by whole positions",
+        _ => "held in place by their shape",
     };
     let flip = if rules.flip { ", also turned over" } else { "" };
     let fault = rules.fault.map_or("", |fault| match fault {
-        Fault::Missing => ", one magnet of each face missing",
-        Fault::Flipped => ", one magnet of each face the wrong way round",
+        Fault::Missing => ", one magnet per face missing",
+        Fault::Flipped => ", one magnet per face reversed",
     });
     format!("{who}, {slides}{flip}{fault}")
 }

@@ -30,7 +30,7 @@ fn wrong_tables_are_refused_with_the_place() {
     assert!(message("").contains("x_m,y_m"));
     assert!(message("x_m,y_m,theta,iron").contains("`theta`"));
     assert!(message("x_m,y_m,iron,energy_J").contains("`theta_rad`"));
-    assert!(message("x_m,y_m,theta_rad,iron").contains("nothing was measured"));
+    assert!(message("x_m,y_m,theta_rad,iron").contains("there are no measurements"));
     assert!(message("x_m,x_m").contains("twice"));
     let head = "x_m,y_m,theta_rad,iron,energy_J\n";
     assert!(message(head).contains("no rows"));

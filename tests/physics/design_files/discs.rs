@@ -42,7 +42,7 @@ fn keys_of_discs_by_other_names_are_answered_with_ours() {
 fn codes_have_the_letters_of_their_magnets() {
     let up = format!("{DISC}\naxis = \"up\"");
     for (magnet, codes, help) in [
-        (&*up, ["NNNS", "NSSS"], "write U for a north pole up"),
+        (&*up, ["NNNS", "NSSS"], "use U for a north pole up"),
         (DISC, ["UUUD", "UDDD"], "write axis = \"up\""),
     ] {
         let told = Design::parse(&text(magnet, codes), "disc.toml").unwrap_err();
@@ -124,7 +124,7 @@ fn what_is_wrong_with_a_disc_is_told() {
         (
             "shape = \"disc\"\ndiameter = 0.01",
             "N",
-            "the height of this magnet is not given",
+            "the height of this magnet is missing",
         ),
         (
             "size = [0.01, 0.01, 0.005]\ndiameter = 0.01",
@@ -132,7 +132,7 @@ fn what_is_wrong_with_a_disc_is_told() {
             "a block has no `diameter`",
         ),
         ("shape = \"cone\"", "N", "`shape` cannot be \"cone\""),
-        (DISC, "U", "these magnets lie"),
+        (DISC, "U", "these magnets are not upright"),
         (
             &format!("{DISC}\naxis = \"down\""),
             "N",

@@ -41,19 +41,19 @@ fn drawings_are_refused_where_the_fault_is() {
         ),
         (
             "<path d=\"M0 0h9v9z\"/>\n<circle id=\"b\" r=\"9\"/>",
-            "holds 2 shapes",
+            "has 2 shapes",
             "3:2",
         ),
         (
             "<text>a</text><use href=\"#b\"/>",
-            "the drawing holds no shape that can be read, but <text> in line 2, <use> of \"#b\", which \
+            "the drawing has no shape that can be read, but <text> in line 2, <use> of \"#b\", which \
              is not in the drawing in line 2",
             "2:2",
         ),
-        ("", "the drawing holds no shape", "1:1"),
+        ("", "the drawing has no shape", "1:1"),
         (
             "<g id=\"a\"><use href=\"#b\"/></g><g id=\"b\"><use href=\"#a\"/></g>",
-            "draws itself",
+            "refers to itself",
             "2:42",
         ),
         (
@@ -92,31 +92,31 @@ fn drawings_are_refused_where_the_fault_is() {
     }
     let square = "<rect width=\"100\" height=\"100\"/>";
     for (head, keys, expected) in [
-        ("", "", "does not say how large it is"),
+        ("", "", "does not give its size"),
         (
             "width=\"400px\" height=\"400px\"",
             "",
-            "does not say how large it is",
+            "does not give its size",
         ),
         (
             "width=\"40mm\" height=\"40px\" viewBox=\"0 0 4 4\"",
             "",
-            "does not say how large",
+            "does not give its size",
         ),
         (
             "width=\"100%\" viewBox=\"0 0 4 4\"",
             "",
-            "does not say how large it is",
+            "does not give its size",
         ),
         (
             "width=\"40mm\" height=\"50mm\" viewBox=\"0 0 4 4\"",
             "",
-            "do not fit the view box",
+            "do not match the view box",
         ),
         (
             "width=\"40mm\" viewBox=\"0 0 40 40\"",
             ", unit = \"cm\"",
-            "user unit is 1 mm, the design 10",
+            "user unit is 1 mm in the drawing but 10",
         ),
         ("width=\"40mm\" viewBox=\"0 0 4\"", "", "viewBox"),
         (
@@ -131,13 +131,10 @@ fn drawings_are_refused_where_the_fault_is() {
         assert_eq!(error.place.as_ref().unwrap().line, 1);
     }
     for (content, expected) in [
-        ("<path d=\"M0 0h100v10h100\"/>", "one lies 10 mm higher"),
+        ("<path d=\"M0 0h100v10h100\"/>", "one is 10 mm higher"),
         ("<path d=\"M0 0h100v-10h-100z\"/>", ""),
         ("<path d=\"M0 0v-10h10v10h-10\"/>", ""),
-        (
-            "<circle r=\"50\"/>",
-            "must stand on the base line with one edge",
-        ),
+        ("<circle r=\"50\"/>", "must have one edge on the base line"),
         ("<path d=\"M0 0v10\"/>", "the line's width"),
         (
             "<path d=\"M0 0L60-40L40-40L100 0\"/>",
@@ -162,7 +159,7 @@ fn a_fault_in_the_design_is_told_there() {
     let square = drawn("<rect id=\"plate\" width=\"100\" height=\"100\"/>");
     for (keys, expected) in [
         (", id = \"plat\"", "did you mean `plate`?"),
-        (", unit = \"inch\"", "known here: mm, cm, m, in, pt, px"),
+        (", unit = \"inch\"", "known: mm, cm, m, in, pt, px"),
         (", corner = []", "did you mean `corners`?"),
         (", corners = [[0.05, 0.05]]", "two corners or more"),
     ] {

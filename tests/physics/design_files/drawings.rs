@@ -115,7 +115,7 @@ fn what_is_not_read_of_a_drawing_is_named() {
     let [doubt] = doubts(&design)[..] else {
         panic!("{:?}", design.warnings);
     };
-    let told = "not read of the drawing: <text> in line 50, <image> in line 55";
+    let told = "ignored in the drawing: <text> in line 50, <image> in line 55";
     assert_eq!(doubt.message, told);
     assert_eq!(doubt.place.as_ref().unwrap().line, 50);
     assert!(doubt.file.ends_with("a.svg"));
@@ -130,7 +130,7 @@ fn what_is_not_read_of_a_drawing_is_named() {
     let design = outlined(&hidden, "").unwrap();
     assert_eq!(
         doubts(&design)[0].message,
-        "not read of the drawing: <style> in line 2, <path> (not displayed) in line 2, \
+        "ignored in the drawing: <style> in line 2, <path> (not displayed) in line 2, \
          <g> (hidden) in line 3, <path> that draws nothing in line 3 and 1 more of it, \
          <line> that draws nothing in line 4, the clip-path of <path> in line 4"
     );
@@ -439,7 +439,7 @@ fn view_boxes_are_fitted_wherever_they_stand() {
         // Only what is cut off is told.
         let cut = doubts(&design)
             .iter()
-            .any(|d| d.message.contains("cuts its content off"));
+            .any(|d| d.message.contains("clips its content"));
         assert_eq!(cut, content.contains("slice"), "{:?}", design.warnings);
     }
 }
@@ -486,7 +486,7 @@ fn lines_join_where_their_ends_meet() {
         outlined(&drawn(&group), "")
             .unwrap_err()
             .message
-            .contains("holds 5 shapes")
+            .contains("has 5 shapes")
     );
     // What is drawn in pieces has the chords of the whole.
     let quarters = [
@@ -549,9 +549,9 @@ fn a_drawing_without_a_size_is_told_what_units_make_of_it() {
     let drawing = load("illustrator-80mm-square-in-pt.svg");
     let help = outlined(&drawing, "").unwrap_err().help;
     for said in [
-        "unit = \"pt\" (what is drawn is 80 x 80 mm then)",
-        "unit = \"px\" (what is drawn is 60 x 60 mm then)",
-        "dpi = 300 (what is drawn is 19.2 x 19.2 mm then)",
+        "unit = \"pt\" (the drawing is then 80 x 80 mm)",
+        "unit = \"px\" (the drawing is then 60 x 60 mm)",
+        "dpi = 300 (the drawing is then 19.2 x 19.2 mm)",
     ] {
         assert!(help.contains(said), "{help}");
     }

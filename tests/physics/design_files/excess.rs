@@ -122,7 +122,7 @@ fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
         ),
         (
             "<path d=\"M0 0A1e100 1e100 0 0 0 9 9z\"/>",
-            "all but straight",
+            "almost straight",
         ),
         ("<circle r=\"1e100\"/>", far),
         ("<ellipse rx=\"1e300\" ry=\"1\"/>", far),
@@ -190,7 +190,7 @@ fn traced_lines_are_simplified_within_the_chord_error() {
         let outline = &design.pair.fixed.outline;
         let left = outline.vertices().len();
         assert!((60..=200).contains(&left), "{left}");
-        let told = format!("of the line's {n} points are left out");
+        let told = format!("of its {n} points are left out");
         let doubts = design
             .warnings
             .iter()

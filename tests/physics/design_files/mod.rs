@@ -266,7 +266,7 @@ fn a_doubtful_design_loads_with_a_warning() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("shapes/sine-teeth-20mm.toml");
     let text = std::fs::read_to_string(path).unwrap();
     let shallow = Design::parse(&text.replace("inset = 0.004", "inset = 0.0"), "a.toml").unwrap();
-    // One for each face with magnets, and the mend is enough of a mend.
+    // One for each face with magnets, and the fix is enough of a fix.
     assert_eq!(shallow.warnings.len(), 2);
     let help = &shallow.warnings[0].help;
     let more: f64 = help.split(' ').nth(3).unwrap().parse().unwrap();

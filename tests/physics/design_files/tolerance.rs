@@ -60,8 +60,8 @@ fn sides_that_differ_by_less_than_a_cutter_resolves_meet_middle_on_middle() {
             for said in [
                 told,
                 "80 mm",
-                "less than a cutter resolves",
-                "middle on middle",
+                "less than a cutter can resolve",
+                "centre to centre",
             ] {
                 assert!(told_of.contains(said), "{said} in {told_of}");
             }
@@ -123,7 +123,10 @@ fn a_tab_with_upright_flanks_that_is_a_little_too_wide_has_its_slot_drawn_back()
     let slot = |play: f64| tab(2, "NSSS", wide - play, -depth, 0.0);
     let design = pair([SIDE, &fixed], [SIDE, &slot(1e-5)]).unwrap();
     let told = design.warnings[0].to_string();
-    assert!(told.contains("drawn back by 5.00 um, as `fit`"), "{told}");
+    assert!(
+        told.contains("drawn back by 5.00 um, as by `fit`"),
+        "{told}"
+    );
     check_bound(&design);
     let refused = pair([SIDE, &fixed], [SIDE, &slot(2e-4)]).unwrap_err();
     assert!(refused.contains("overlap by 0.1 mm"), "{refused}");

@@ -7,7 +7,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::batch::Level;
-use tilebind::potential::bounds::{CuboidBounds, DipoleBounds, ShieldedBounds};
+use tilebind::potential::bounds::{
+    CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds,
+};
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::{
     BodyPotential, CellBounds, CuboidPotential, DipolePotential, MagnetModel, Potential,
@@ -141,6 +143,10 @@ pub fn block_bounds([a, b]: [&Tile; 2], _: &Shields, level: Level) -> Box<dyn Ce
 
 pub fn shielded_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn CellBounds> {
     Box::new(ShieldedBounds::with_level(a, b, s, level))
+}
+
+pub fn shielded_block_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn CellBounds> {
+    Box::new(ShieldedBlockBounds::with_level(a, b, s, level))
 }
 
 /// Of point dipoles, by whatever is computed in the same way.
@@ -441,7 +447,11 @@ pub fn shielded(model: MagnetModel, rule: ShieldRule) -> Kind {
         } else {
             shielded_blocks
         },
-        bounds: (of_dipoles && smooth).then_some(shielded_bounds),
+        bounds: smooth.then_some(if of_dipoles {
+            shielded_bounds as Make<dyn CellBounds>
+        } else {
+            shielded_block_bounds
+        }),
         anywhere: poses.clone(),
         poses,
         exact: Exact {

@@ -153,7 +153,7 @@ fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
         assert_eq!(alone.0["inventory"]["complete"], name == "done");
         let told = alone
             .2
-            .contains("(--complete-work 0.1): more of it goes on");
+            .contains("(--complete-work 0.1): raise it to continue");
         assert_eq!(told, name == "ended", "{}", alone.2);
         let busy = beside_busy_loops(|| run("2"));
         assert_same(&busy.1, &alone.1, name);
@@ -180,7 +180,7 @@ fn a_clock_that_ends_a_proof_is_told() {
     assert_eq!(report["settings"]["complete_work"], 180.0);
     assert_eq!(report["inventory"]["ended_by"], "clock");
     let text = stdout(&output);
-    let told = "the clock ended the proof (--complete-seconds 0.01): another run may differ";
+    let told = "the proof reached its time limit (--complete-seconds 0.01): another run may differ";
     assert!(text.contains(told), "{text}");
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains(told));

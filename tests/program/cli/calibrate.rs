@@ -136,7 +136,7 @@ fn a_wrong_table_is_answered_with_file_line_and_mend() {
         ("x,y\n", "unknown column `x`"),
         (
             &format!("{head}0.44,0,0,1,a\n"),
-            "line 2: `a` is no number for energy_J",
+            "line 2: `a` is not a number for energy_J",
         ),
         (&format!("{head}440,0,0,yes,-1\n"), "line 2: `yes`"),
         (

@@ -106,7 +106,7 @@ impl Told {
             let caged = barrier["caged"].to_string();
             assert_eq!(cell(&self.barriers, k + 1, "caged"), caged);
         }
-        for word in ["misbound", "no way found"] {
+        for word in ["misbound", "no path found"] {
             assert!(
                 !self.summary.contains(word) && !self.graph.contains(word),
                 "{word}"

@@ -28,7 +28,7 @@ fn barriers_are_checked_by_moving_tiles_and_the_check_is_reported() {
     arguments.push("--dynamics=20");
     let output = tilebind(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).contains("moving tiles: 0 of "));
+    assert!(stdout(&output).contains("simulated tiles: 0 of "));
     let report = std::fs::read_to_string(format!("{out}/report.json")).unwrap();
     let report: Value = serde_json::from_str(&report).unwrap();
     let dynamics = &report["dynamics"];
@@ -138,7 +138,7 @@ fn a_fan_behind_the_tile_blows_it_in_and_one_before_it_keeps_it_away() {
 
 #[test]
 fn wrong_docking_options_are_refused_with_their_mend() {
-    for (wrong, mend) in [
+    for (wrong, fix) in [
         (["--fan", "1,2,3"], "a fan is X,Y,E_J,S"),
         (["--speed", "1,0"], "a range is LOW,HIGH"),
         (["--trajectory", "9"], "ask for more --runs"),
@@ -152,7 +152,7 @@ fn wrong_docking_options_are_refused_with_their_mend() {
         .concat();
         let output = tilebind(&arguments);
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");
-        assert!(stderr(&output).contains(mend), "{}", stderr(&output));
+        assert!(stderr(&output).contains(fix), "{}", stderr(&output));
     }
     let shaken = [
         "dock",

@@ -58,7 +58,7 @@ fn thousands_of_threads_are_more_than_are_used() {
     let output = tilebind(&[&design, &poses[..], &["--threads", "60000"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(
-        stderr(&output).contains("threads are used"),
+        stderr(&output).contains("note: using"),
         "{}",
         stderr(&output)
     );

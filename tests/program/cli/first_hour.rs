@@ -77,7 +77,7 @@ fn impossible_designs_say_what_to_ask_for() {
         (&["--side", "500"], "give sides of 0.01 to"),
         (
             &["--side", "2 cm", "--magnets", "8"],
-            "or for --side 0.029 or longer",
+            "or --side 0.029 or longer",
         ),
         (&["--shape", "dovetail"], "a shape is one of flat, tab"),
         (&["--side", "2 kg"], "such as 0.12 (m) or \"12 cm\""),
@@ -134,7 +134,7 @@ fn energies_of_a_file_of_poses() {
     for (text, said) in [
         ("x,y\n1,2\n", "line 1: there is no column `theta`"),
         ("0.43,0,0\n0.43,zero,0\n", "line 2: y is `zero`"),
-        ("", "there are no poses"),
+        ("", "it has no poses"),
     ] {
         fs::write(&file, text).unwrap();
         let output = tilebind(&["energy", design, "--poses", name]);
@@ -187,7 +187,7 @@ fn a_design_at_a_glance() {
 #[test]
 fn what_is_wrong_with_a_design_is_shown() {
     let hooked = stdout(&tilebind(&["show", "shapes/dovetail.toml"]));
-    assert!(hooked.contains("the shapes hook"), "{hooked}");
+    assert!(hooked.contains("the shapes interlock"), "{hooked}");
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("all.toml");
     // The same code on every face, a shape on the target's alone.

@@ -1,4 +1,4 @@
-//! What is wrong on the command line or in a design file ends with status 2, says how to mend it,
+//! What is wrong on the command line or in a design file ends with status 2, says how to fix it,
 //! and leaves nothing behind.
 
 use std::path::Path;
@@ -103,7 +103,7 @@ fn decimal_commas_are_named() {
         (["bond", paper, "--coverage", "0,3"], "0.3"),
         (["rates", paper, "--drag", "0,5"], "0.5"),
     ] {
-        let said = format!("a decimal number has a point, not a comma: {meant}");
+        let said = format!("use a decimal point, not a comma: {meant}");
         refused(&arguments, &[&said]);
     }
     let folder = tempfile::tempdir().unwrap();
@@ -116,7 +116,7 @@ fn decimal_commas_are_named() {
         "x,y,theta\n\"0,43\",0,0\n",
     ] {
         std::fs::write(&file, text).unwrap();
-        let said = ["line", "a decimal number has a point, not a comma: 0.4"];
+        let said = ["line", "use a decimal point, not a comma: 0.4"];
         refused(&["energy", paper, "--poses", poses], &said);
     }
     // An empty entry behind the last comma, as spreadsheets write it.
@@ -135,7 +135,11 @@ fn decimal_commas_are_named() {
             "[0,010, 0,010, 0,003]",
             "write 0.010",
         ),
-        ("[2.0, 2.0]", "[2,0, 2,0]", "a point, not a comma"),
+        (
+            "[2.0, 2.0]",
+            "[2,0, 2,0]",
+            "use a decimal point, not a comma",
+        ),
         ("{ code", "{ magnet = { pitch = 0,04 }, code", "write 0.04"),
     ] {
         assert!(text.contains(from), "{from}");

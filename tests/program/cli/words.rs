@@ -215,8 +215,8 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
     assert!(found["lower_J"].is_null());
     for (text, told) in [
         ("words = []", "no words"),
-        ("words = [\"NNS\", \"NN\"]", "2 places"),
-        ("words = [\"NNX\"]", "no pole"),
+        ("words = [\"NNS\", \"NN\"]", "2 positions"),
+        ("words = [\"NNX\"]", "not a pole"),
         ("words = [\"NNS\", \"NNS\"]", "twice"),
         ("words = [\"NNS\"]\nside = 3", "side"),
         (
@@ -225,11 +225,11 @@ fn sets_from_elsewhere_are_judged_and_faults_are_told() {
         ),
         (
             "[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }] }",
-            "how long its faces are",
+            "the length of its faces",
         ),
         (
             "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.05, pole = \"N\" }] }",
-            "reaches beyond",
+            "extends beyond",
         ),
         (
             "[tile]\nside = 0.1\n[faces]\nA = { magnets = [{ at = 0.0, pole = \"N\" }, \
@@ -400,11 +400,11 @@ fn words_longer_than_the_face_are_remarked_on() {
         let words: Vec<&str> = ["words"].into_iter().chain(design).chain(length).collect();
         let told = stdout(&tilebind(&words)).replace('\n', " ");
         assert!(
-            told.contains("! 14 places 40.00 mm apart take 530.0 mm of face"),
+            told.contains("! 14 positions 40.00 mm apart take 530.0 mm of face"),
             "{told}"
         );
         assert!(
-            told.contains("430.0 mm: give --pitch 0.0323 or less"),
+            told.contains("430.0 mm: use --pitch 0.0323 or less"),
             "{told}"
         );
         let fits = [&words[..], &["--pitch", "0.0323"]].concat();

@@ -60,7 +60,7 @@ fn a_design_to_start_from_is_the_users_at_once() {
     refused(
         here,
         &["init", "a.toml", "--sides", "6"],
-        &["a.toml exists", "another name", "--force"],
+        &["a.toml already exists", "another name", "--force"],
     );
     done(here, &["init", "a.toml", "--sides", "6", "--force"]);
     assert!(
@@ -91,7 +91,7 @@ fn names_may_be_unusual() {
         assert_eq!(fs::read(here.join(name)).unwrap(), b"edited");
     }
     let barrier = words("barrier d.toml --from 0.43,0,0 --to free --milestones 200 --pathway");
-    for (name, said) in [(".", "folder"), ("R/..", "folder"), (RECORD, "notes")] {
+    for (name, said) in [(".", "folder"), ("R/..", "folder"), (RECORD, "records")] {
         fs::create_dir_all(here.join("R")).unwrap();
         refused(here, &[&barrier[..], &[name, "--force"]].concat(), &[said]);
     }

@@ -16,7 +16,7 @@ fn wrong_axes_designs_and_parts_are_refused() {
             ],
             "did you mean `depth`",
         ),
-        (&[DESIGN, "--vary", "fixed.side.depth=1"], "leads nowhere"),
+        (&[DESIGN, "--vary", "fixed.side.depth=1"], "does not exist"),
         (&[DESIGN, "--vary", "magnet.size.3=0.01"], "array of 3"),
         (&[DESIGN, "--vary", "magnet.pitch"], "KEY="),
         (&[DESIGN, "--vary", "magnet.pitch=0:1:0"], "whole number"),
@@ -100,8 +100,8 @@ fn manifests_and_parts_are_checked() {
     };
     let axis = |k: usize| serde_json::json!({"key": format!("a.{k}"), "values": vec![0; 1000]});
     for (content, said) in [
-        (older.as_str(), "plan the sweep anew"),
-        (&with("/designs", serde_json::json!([])), "holds no design"),
+        (older.as_str(), "plan the sweep again"),
+        (&with("/designs", serde_json::json!([])), "has no design"),
         (
             &with("/axes/0/values", serde_json::json!([])),
             "has no values",
@@ -126,7 +126,7 @@ fn manifests_and_parts_are_checked() {
             &with("/settings/milestones", serde_json::json!(0)),
             "milestones = 0",
         ),
-        ("{}", "no manifest"),
+        ("{}", "not a manifest"),
     ] {
         std::fs::write(&file, content).unwrap();
         for what in ["--run", "--status", "--merge"] {

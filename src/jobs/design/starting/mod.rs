@@ -78,16 +78,16 @@ impl Default for Start {
 
 /// Why there is no such design, and what to ask for instead.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{wrong}\n  help: {mend}")]
+#[error("{wrong}\n  help: {fix}")]
 pub struct StartError {
     wrong: String,
-    mend: String,
+    fix: String,
 }
 
-fn wrong(wrong: impl Into<String>, mend: impl Into<String>) -> StartError {
+fn wrong(wrong: impl Into<String>, fix: impl Into<String>) -> StartError {
     StartError {
         wrong: wrong.into(),
-        mend: mend.into(),
+        fix: fix.into(),
     }
 }
 
@@ -146,21 +146,22 @@ impl Start {
             ..
         } = *self;
         if !(3..=MOST_SIDES).contains(&sides) {
-            let fault = format!("a tile of {sides} sides cannot be started from");
+            let fault = format!("a tile cannot have {sides} sides here");
             return Err(wrong(fault, format!("give 3 to {MOST_SIDES}: --sides 6")));
         }
         if !(1..=MOST_MAGNETS).contains(&magnets) {
             return Err(wrong(
                 format!("{magnets} magnets on a face are none or too many to choose a code for"),
                 format!(
-                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start from fewer and edit the code"
+                    "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start with fewer and edit \
+                     the code"
                 ),
             ));
         }
         let largest = rounded_down(LARGEST * side / self.radius());
         if !(0.01..=largest).contains(&side) {
             return Err(wrong(
-                format!("{sides} sides of {side} m make no tile that can be held and floated"),
+                format!("{sides} sides of {side} m are not a practical tile"),
                 format!("give sides of 0.01 to {largest} m: --side 0.12, or --side \"12 cm\""),
             ));
         }
@@ -181,14 +182,14 @@ impl Start {
         match fault {
             Some(fault) if needed <= self.side => wrong(
                 format!("the magnets do not fit into this shape: {}", fault.message),
-                "ask for fewer --magnets, a longer --side, or --shape flat",
+                "use fewer --magnets, a longer --side, or --shape flat",
             ),
             _ => wrong(
                 format!(
-                    "{} magnets have no room on a side of {} m",
+                    "{} magnets do not fit on a side of {} m",
                     self.magnets, self.side
                 ),
-                format!("ask for --magnets {most} or fewer, or for --side {side} or longer"),
+                format!("use --magnets {most} or fewer, or --side {side} or longer"),
             ),
         }
     }
@@ -202,7 +203,7 @@ impl Start {
             magnet,
         } = *self;
         let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
-        let thickness = tenths((side / 5.0).clamp(block[2] + 1e-3, 0.013));
+        let thickness = tenths((side / 5.0).min(0.013).max(block[2] + 1e-3));
         let mass = four_digits(DENSITY * area * thickness);
         let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;
         let (from, to) = match sides {
@@ -215,7 +216,8 @@ impl Start {
             Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
             None => Default::default(),
         };
-        let size = block.map(|x| x.to_string()).join(", ");
+        let shape_of_magnets = magnet.map_or(Default::default(), |own| own.shape);
+        let lengths = ShopMagnet::lengths(block, shape_of_magnets);
         let strength = magnet.map_or_else(|| "remanence = 1.2".to_owned(), |own| own.strength());
         let tile =
             format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
@@ -233,7 +235,7 @@ description = \"tiles of {sides} sides that bind{how}\"
 size = [{table}, {table}]
 
 [magnet]
-size = [{size}]  # along its axis, along the face, through the thickness
+{lengths}
 {strength}
 pitch = {pitch}                  # centre to centre along the face
 inset = {inset}                  # from the face's surface to the magnet

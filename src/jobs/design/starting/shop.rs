@@ -1,29 +1,33 @@
-//! Magnets as shops describe them: `10 x 5 x 2 mm N42`.
+//! Magnets as shops describe them: `10 x 5 x 2 mm N42`, or discs: `10 x 3 mm N42`.
 
 use crate::design::quantity::{MAGNET_SIZE, PULL, REMANENCE, four_digits};
 use crate::design::units;
 use physics::tile::grade::Grade;
+use physics::tile::magnet::Shape;
 use physics::tile::strength::Strength;
 
-/// A block magnet of a shop.
+/// A magnet of a shop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShopMagnet {
     /// Along its magnetic axis, along the face, through the tile's thickness (m).
     pub size: [f64; 3],
+    pub(super) shape: Shape,
     strength: Strength,
 }
 
-const HELP: &str = "write length x width x height as shops do, magnetised through the last: \
-                    \"10 x 5 x 2 mm N42\"; in place of the grade, a pull (\"1.8 kg\") or a remanence \
-                    (\"1.2 T\")";
+const HELP: &str = "write length x width x height as sold, magnetised along the last: \"10 x 5 x \
+    2 mm N42\", or diameter x height of a disc: \"10 x 3 mm N42\"; instead of the grade, a pull \
+    (\"1.8 kg\") or a remanence (\"1.2 T\")";
 
 impl ShopMagnet {
-    /// Reads length x width x height, of which the last is the one that shops' blocks are
-    /// magnetised through, with a unit, and a grade, a pull or a remanence behind it.
+    /// Reads the lengths of a block, of which the last is the one that shops' blocks are magnetised
+    /// through, or the diameter and the height of a disc, with a unit, and a grade, a pull or a
+    /// remanence behind or before them.
     ///
     /// ```
     /// use tilebind_jobs::design::ShopMagnet;
     /// assert_eq!(ShopMagnet::parse("10 x 5 x 2 mm N42")?.size, [0.002, 0.010, 0.005]);
+    /// assert_eq!(ShopMagnet::parse("N42 10 x 3 mm disc")?.size, [0.003, 0.010, 0.010]);
     /// # Ok::<(), String>(())
     /// ```
     ///
@@ -31,45 +35,55 @@ impl ShopMagnet {
     /// Where it is no such description; the message says what is missing.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = |what: &str| format!("{what}; {HELP}");
-        let plain = text
-            .trim()
-            .replace(['\u{d7}', 'X', '*'], "x")
-            .replace(',', " ");
+        let plain = plain(text);
         let parts: Vec<&str> = plain.splitn(3, 'x').map(str::trim).collect();
-        let &[first, second, rest] = parts.as_slice() else {
-            return Err(wrong(match parts.len() {
-                2 => {
-                    "a block has three lengths; for discs write shape = \"disc\" with `diameter` and \
-                     `height` into [magnet] of the design made for a block of that size"
-                }
-                _ => "a block has three lengths",
-            }));
+        let (before, [.., last]) = (&parts[..parts.len() - 1], &parts[..]) else {
+            return Err(wrong("there are no lengths"));
         };
-        let (third, unit, rest) = last_length(rest).ok_or_else(|| {
-            wrong("the lengths have no unit, or one that is not known (mm, cm, in)")
-        })?;
+        let (last, unit, rest) = last_length(last)
+            .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
         // A unit of its own behind a length, or the one behind the last.
-        let length = |text: &str| {
+        let length = |text: &&str| {
             let own = units::read(text, units::LENGTH);
             own.or_else(|| units::read(&format!("{text} {unit}"), units::LENGTH))
         };
-        let lengths = [length(first), length(second), Some(third)];
-        let [Some(long), Some(wide), Some(through)] = lengths else {
-            return Err(wrong("a block has three lengths"));
+        let lengths: Option<Vec<f64>> = before.iter().map(length).chain([Some(last)]).collect();
+        let (size, shape) = match lengths.as_deref() {
+            // The longer side along the face: that leaves the tile thin.
+            Some(&[long, wide, through]) => {
+                ([through, long.max(wide), long.min(wide)], Shape::Block)
+            }
+            Some(&[diameter, height]) => ([height, diameter, diameter], Shape::Disc),
+            _ => return Err(wrong("a block has three lengths, a disc two")),
         };
-        for length in [long, wide, through] {
+        for length in size {
             let checked = MAGNET_SIZE.check("a length of the magnet", length);
             checked.map_err(|(message, _)| message)?;
         }
         let strength = match rest {
             "" => Strength::Remanence(1.2),
-            rest => strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is no grade")))?,
+            rest => {
+                strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is not a known grade")))?
+            }
         };
         Ok(Self {
-            // The longer side along the face: that leaves the tile thin.
-            size: [through, long.max(wide), long.min(wide)],
+            size,
+            shape,
             strength,
         })
+    }
+
+    /// The lines of a design file that say how large it is.
+    pub(super) fn lengths(size: [f64; 3], shape: Shape) -> String {
+        match (shape, size) {
+            (Shape::Block, [a, b, c]) => format!(
+                "size = [{a}, {b}, {c}]  # along its axis, along the face, through the thickness"
+            ),
+            (Shape::Disc, [height, diameter, _]) => format!(
+                "shape = \"disc\"\ndiameter = {diameter}\nheight = {height}                # along \
+                 its axis, which is the face's normal"
+            ),
+        }
     }
 
     /// The line of a design file that says how strong it is.
@@ -84,6 +98,24 @@ impl ShopMagnet {
             _ => String::new(),
         }
     }
+}
+
+/// One way of writing for all: `x` between lengths, `in` for inches, the grade behind them, and no
+/// word that says what the number of lengths does.
+fn plain(text: &str) -> String {
+    let text = text
+        .replace(['\u{d7}', 'X', '*'], "x")
+        .replace(['"', '\u{2033}', '\u{201d}'], " in ")
+        .replace([',', '\u{d8}', '\u{f8}', '\u{2300}'], " ");
+    let is_shape = |word: &&str| ["disc", "disk", "block"].contains(&word.to_lowercase().as_str());
+    let mut words: Vec<&str> = text.split_whitespace().filter(|w| !is_shape(w)).collect();
+    if words
+        .first()
+        .is_some_and(|word| Grade::named(word).is_some())
+    {
+        words.rotate_left(1);
+    }
+    words.join(" ")
 }
 
 /// A length (m) at the beginning of a text, its unit and what is left.
@@ -118,33 +150,70 @@ mod tests {
     #[test]
     fn magnets_are_read_as_shops_write_them() {
         let n42 = Strength::Grade(Grade::named("N42").unwrap());
-        for (text, size, strength) in [
-            ("10 x 5 x 2 mm N42", [0.002, 0.010, 0.005], n42),
-            ("5x10x2mm, N42", [0.002, 0.010, 0.005], n42),
+        let [block, disc] = [Shape::Block, Shape::Disc];
+        for (text, size, shape, strength) in [
+            ("10 x 5 x 2 mm N42", [0.002, 0.010, 0.005], block, n42),
+            ("5x10x2mm, N42", [0.002, 0.010, 0.005], block, n42),
             (
                 "1 cm \u{d7} 5 mm \u{d7} 2 mm N42SH",
                 [0.002, 0.010, 0.005],
+                block,
                 n42,
             ),
-            ("10*5*2 mm", [0.002, 0.010, 0.005], Strength::Remanence(1.2)),
-            ("1/2 x 1/4 x 1/8 in N42", [0.003175, 0.0127, 0.00635], n42),
+            (
+                "10*5*2 mm",
+                [0.002, 0.010, 0.005],
+                block,
+                Strength::Remanence(1.2),
+            ),
+            (
+                "1/2 x 1/4 x 1/8 in N42",
+                [0.003175, 0.0127, 0.00635],
+                block,
+                n42,
+            ),
+            (
+                "1/2\" x 1/4\" x 1/8\" N42",
+                [0.003175, 0.0127, 0.00635],
+                block,
+                n42,
+            ),
+            ("N42 10 x 5 x 2 mm block", [0.002, 0.010, 0.005], block, n42),
+            ("\u{d8}10 x 3 mm N42", [0.003, 0.010, 0.010], disc, n42),
+            (
+                "Disc N42, 1/2\" x 1/8\"",
+                [0.003175, 0.0127, 0.0127],
+                disc,
+                n42,
+            ),
             (
                 "10 x 5 x 2 mm 1.1 T",
                 [0.002, 0.010, 0.005],
+                block,
                 Strength::Remanence(1.1),
             ),
             (
                 "10 x 5 x 2 mm 18 N",
                 [0.002, 0.010, 0.005],
+                block,
                 Strength::Pull(18.0),
             ),
         ] {
             let read = ShopMagnet::parse(text);
-            assert_eq!(read, Ok(ShopMagnet { size, strength }), "{text}");
+            assert_eq!(
+                read,
+                Ok(ShopMagnet {
+                    size,
+                    shape,
+                    strength
+                }),
+                "{text}"
+            );
         }
         for text in [
             "",
-            "10 x 5 mm",
+            "10 mm",
+            "10 x 5 x 2 x 1 mm",
             "10 x 5 x 2",
             "10 x 5 x 2 mm N43",
             "10 x 5 x 2 m",

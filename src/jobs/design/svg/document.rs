@@ -184,7 +184,7 @@ pub(super) fn read(source: Source, unit: Option<f64>) -> Result<Drawing> {
         source.error(
             (at..at + 1).into(),
             format!("the drawing is not well-formed XML: {error}"),
-            "write it anew with the program that drew it",
+            "save it again with the program that drew it",
         )
     })?;
     let root = document.root_element();
@@ -304,7 +304,7 @@ impl<'d> Reader<'_, 'd> {
     /// Reads what an element holds.
     fn children(&mut self, parent: Node<'d, 'd>, context: &Context) -> Result<()> {
         if context.depth > MOST_NESTED {
-            let message = format!("more than {MOST_NESTED} elements are within one another");
+            let message = format!("more than {MOST_NESTED} elements are nested");
             let help = "ungroup the drawing's shapes in the drawing program";
             return Err(self.source.error(span(parent), message, help));
         }
@@ -337,8 +337,8 @@ impl<'d> Reader<'_, 'd> {
     fn element(&mut self, node: Node<'d, 'd>, context: &Context) -> Result<()> {
         self.elements += 1;
         if self.elements > MOST_NODES {
-            let message = format!("the drawing draws more than {MOST_NODES} elements");
-            let help = "keep the shapes that are needed: a <use> draws all that it refers to";
+            let message = format!("the drawing has more than {MOST_NODES} elements");
+            let help = "keep only the shapes that are needed: a <use> draws all that it refers to";
             return Err(self.source.error(span(node), message, help));
         }
         let name = node.tag_name().name();
@@ -389,8 +389,8 @@ impl<'d> Reader<'_, 'd> {
         };
         context.depth += 1;
         if context.depth > MOST_NESTED || node.ancestors().any(|above| above == target) {
-            let message = "this <use> draws itself, over and over";
-            let help = "take it away, or let it refer to a shape";
+            let message = "this <use> refers to itself";
+            let help = "remove it, or let it refer to a shape";
             return Err(self.source.error(span(node), message, help));
         }
         let (x, y) = (
@@ -471,7 +471,7 @@ impl<'d> Reader<'_, 'd> {
         if property(node, "overflow").is_none_or(|value| value != "visible")
             && drawn.flat_map(Line::points).any(outside)
         {
-            let note = format!("that <{}> cuts its content off", node.tag_name().name());
+            let note = format!("that <{}> clips its content", node.tag_name().name());
             self.skipped.push((span(node), note));
         }
         Ok(())
@@ -503,7 +503,7 @@ impl<'d> Reader<'_, 'd> {
                 None => value.into(),
             }
         });
-        let help = "mend the shape, or convert it to a path in the drawing program";
+        let help = "fix the shape, or convert it to a path in the drawing program";
         self.source.error(place, fault.message, help)
     }
 
@@ -518,14 +518,14 @@ impl<'d> Reader<'_, 'd> {
         self.check_extent(node, &strokes)?;
         if overdrawn {
             let message =
-                "an arc is all but straight: its radius is over a million times its length";
+                "an arc is almost straight: its radius is over a million times its length";
             let help = "draw it as a line";
             return Err(self.source.error(span(node), message, help));
         }
         let chord_error = chord_error(&strokes);
         let lines = lines(&strokes, chord_error, MOST_POINTS - self.points).ok_or_else(|| {
             let message = format!("the drawing has more than {MOST_POINTS} points");
-            let help = "keep the shapes that are needed, and draw them simpler";
+            let help = "keep only the shapes that are needed, and simplify them";
             self.source.error(span(node), message, help)
         })?;
         if lines.is_empty() {

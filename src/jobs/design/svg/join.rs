@@ -44,13 +44,13 @@ pub(super) fn joined(source: &Source, shapes: &[Shape]) -> (Vec<Line>, f64) {
         let [gap, x, y] = [gap, x, y].map(|length| four_digits(1e3 * length));
         let place = format!("near x = {x} mm, y = {y} mm (y upwards)");
         let message = match gaps.len() {
-            1 => format!("a gap of {gap} mm between ends of the line, {place}, is closed"),
+            1 => format!("closed a gap of {gap} mm between ends of the line, {place}"),
             many => format!(
-                "{many} gaps between ends of lines are closed; the widest, {gap} mm, is {place}"
+                "closed {many} gaps between ends of lines; the widest, {gap} mm, is {place}"
             ),
         };
         let limit = four_digits(1e3 * widest);
-        let help = format!("draw the ends at one point; gaps up to {limit} mm are closed");
+        let help = format!("let the ends meet; gaps up to {limit} mm are closed");
         source
             .drawings
             .note(source.doubt(first.span, message, help));

@@ -82,7 +82,7 @@ fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>
     let [base] = on_it[..] else {
         return Err(source.error(
             shape.span,
-            "a closed line must stand on the base line with one edge",
+            "a closed line must have one edge on the base line",
             "draw the profile as an open line, from its left end to its right end",
         ));
     };
@@ -105,13 +105,13 @@ fn on_base_line(
     let ([left, h_left], [right, h_right]) = (points[0], points[last]);
     let width = right - left;
     if let Err((message, _)) = quantity::PROFILE_WIDTH.check("the line's width", width) {
-        let help = "its ends lie on the face's base line, left and right; \
-                    check the drawing's size and unit";
+        let help = "its ends are on the face's base line, left and right; check the drawing's \
+            size and unit";
         return fault(message, help);
     }
     if (h_left - h_right).abs() > SAME_HEIGHT {
         let message = format!(
-            "the line's ends are not on one base line: one lies {} mm higher",
+            "the line's ends are not on one base line: one is {} mm higher",
             quantity::four_digits(1e3 * (h_left - h_right).abs())
         );
         return fault(message, "draw both ends at the same height");

@@ -79,7 +79,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
         let message = format!("cannot read the drawing \"{name}\": {error}");
         entry.error(
             message,
-            "paths of drawings start from the design file's folder",
+            "paths of drawings are relative to the design file's folder",
         )
     })?;
     use_it(&Source {
@@ -96,8 +96,8 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
     if let Some((at, told)) = told(source, skipped) {
         source.drawings.note(source.doubt(
             at,
-            format!("not read of the drawing: {told}"),
-            "what belongs to the shape is to be converted to a path; delete the rest",
+            format!("ignored in the drawing: {told}"),
+            "convert whatever belongs to the shape to a path; delete the rest",
         ));
     }
 }
@@ -134,7 +134,7 @@ fn told(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
 fn user_unit(section: &Section) -> Result<Option<f64>> {
     match (section.get("unit"), section.get("dpi")) {
         (Some(_), Some(dpi)) => Err(dpi.key_error(
-            "`unit` and `dpi` both say how long a user unit is",
+            "`unit` and `dpi` both set the length of a user unit",
             "keep one of the two",
         )),
         (None, Some(dpi)) => Ok(Some(INCH / dpi.number(quantity::DPI)?)),
@@ -152,7 +152,7 @@ fn with_shape<T>(
     section: &Section,
     use_it: impl FnOnce(&Source, &Shape) -> Result<T>,
 ) -> Result<T> {
-    let file = section.require("file", "name the drawing: file = \"tile.svg\"")?;
+    let file = section.require("file", "give the drawing: file = \"tile.svg\"")?;
     let unit = user_unit(section)?;
     let id = section.get("id");
     with_drawing(&file, |source| {
@@ -200,7 +200,7 @@ fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<u
         ids.dedup();
         return Err(match drawing.ids.get(wanted) {
             Some(element) => entry.error(
-                format!("nothing that can be read is drawn by \"{wanted}\", a <{element}>"),
+                format!("\"{wanted}\", a <{element}>, draws nothing that can be read"),
                 "convert it to a path in the drawing program",
             ),
             None => entry.error(
@@ -232,11 +232,11 @@ fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<u
         let (at, message) = match told(source, &drawing.skipped) {
             Some((at, told)) => (
                 at,
-                format!("the drawing holds no shape that can be read, but {told}"),
+                format!("the drawing has no shape that can be read, but {told}"),
             ),
-            None => ((0..0).into(), "the drawing holds no shape".to_owned()),
+            None => ((0..0).into(), "the drawing has no shape".to_owned()),
         };
-        let help = "draw a path; text and strokes are to be converted to paths";
+        let help = "draw a path; convert text and strokes to paths";
         return Err(source.error(at, message, help));
     }
     Ok(all)
@@ -254,24 +254,24 @@ fn merged(source: &Source, shapes: &[Shape]) -> Result<Shape> {
             return Err(source.error(
                 second.span,
                 format!(
-                    "the drawing's {} shapes join to {} open lines, not to one: the nearest ends \
-                     left are {gap} mm apart, near x = {x} mm, y = {y} mm (y upwards)",
+                    "the drawing's {} shapes join to {} open lines instead of one: the nearest \
+                     open ends are {gap} mm apart, near x = {x} mm, y = {y} mm (y upwards)",
                     shapes.len(),
                     lines.len()
                 ),
-                format!("draw the ends at one point; gaps up to {widest} mm are closed"),
+                format!("let the ends meet; gaps up to {widest} mm are closed"),
             ));
         }
         let ids = shapes.iter().find_map(|shape| shape.ids.last());
         return Err(source.error(
             second.span,
             format!(
-                "the drawing holds {} shapes; this is the second",
+                "the drawing has {} shapes; this is the second",
                 shapes.len()
             ),
             match ids {
                 None => "keep one shape".to_owned(),
-                Some(id) => format!("keep one, or say which in the design: id = \"{id}\""),
+                Some(id) => format!("keep one, or select one in the design: id = \"{id}\""),
             },
         ));
     }
@@ -292,7 +292,7 @@ fn unsized_error(source: &Source, drawing: &Drawing, chosen: &[usize]) -> Design
     let [width, height] = join::size(meant.flat_map(document::Line::points));
     let drawn = |name: &str, unit: f64| {
         let [width, height] = [width, height].map(|x| quantity::four_digits(1e6 * x * unit));
-        format!("{name} (what is drawn is {width} x {height} mm then)")
+        format!("{name} (the drawing is then {width} x {height} mm)")
     };
     let units = UNITS
         .iter()
@@ -302,8 +302,7 @@ fn unsized_error(source: &Source, drawing: &Drawing, chosen: &[usize]) -> Design
     units.push(drawn("dpi = 300", INCH / 300.0));
     source.error(
         drawing.root,
-        "the drawing does not say how large it is: its width and height are not in mm, cm, in, pt \
-         or pc",
+        "the drawing does not give its size: its width and height are not in mm, cm, in, pt or pc",
         format!(
             "give the length of a user unit in the design: {}; or write width and height with \
              units in the drawing, such as width=\"430mm\"",
@@ -329,7 +328,7 @@ fn only_line<'a>(source: &Source, shape: &'a Shape) -> Result<&'a document::Line
                     quantity::four_digits(1e3 * gap)
                 ),
                 None => "a tile has one outline and no holes; break the path apart and delete the \
-                         others"
+                    others"
                     .to_owned(),
             },
         )),

@@ -52,10 +52,12 @@ pub(in crate::design) fn read_outline(entry: &Entry) -> Result<Vec<Drawn>> {
         if segments.len() > MOST_FACES {
             return Err(entry.error(
                 format!(
-                    "the outline is drawn in {} segments, and a tile has at most {MOST_FACES} faces",
+                    "the outline is drawn in {} segments, but a tile has at most {MOST_FACES} \
+                     faces",
                     segments.len()
                 ),
-                "say where its faces meet: corners = [[x, y], ...] (m, from the centre of its area)",
+                "mark where its faces meet: corners = [[x, y], ...] (m, from the centre of its \
+                 area)",
             ));
         }
         let drawn = ring(&segments).len();
@@ -137,7 +139,7 @@ fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec
         sound(source, shape, ring)?.centroid()
     };
     if !(centre.x.is_finite() && centre.y.is_finite()) {
-        let message = "this is no outline: it encloses no area".to_owned();
+        let message = "the outline encloses no area".to_owned();
         return Err(fault(
             message,
             "draw the tile's outline as one line around it",
@@ -165,7 +167,7 @@ fn sound(source: &Source, shape: &Shape, ring: Vec<Vector2<f64>>) -> Result<Outl
                     quantity::four_digits(1e3 * near.y)
                 )
             }
-            other => format!("this is no outline: {other}"),
+            other => format!("not a valid outline: {other}"),
         };
         let help = "draw the tile's outline as one line around it";
         source.error(shape.span, message, help)
@@ -197,7 +199,7 @@ fn joined(segments: &Segments, corners: &Entry) -> Result<Segments> {
         if apart(wanted, nearest) > near {
             let [x, y] = nearest.map(quantity::four_digits);
             return Err(item.error(
-                "no point of the outline is drawn there",
+                "no point of the outline is here",
                 format!("the nearest drawn point is [{x}, {y}]"),
             ));
         }

@@ -148,7 +148,7 @@ fn polyline(node: Node, pen: &mut Pen) -> Result<(), Fault> {
     let numbers = numbers.map_err(|error| malformed("points", value, &error))?;
     if numbers.is_empty() || numbers.len() % 2 == 1 {
         let message = format!(
-            "`points` holds {} numbers, and points are pairs of them",
+            "`points` has {} numbers, but points are pairs of numbers",
             numbers.len()
         );
         return Err(fault("points", message));
@@ -185,7 +185,7 @@ pub(super) fn length(
     let length = Length::from_str(text.trim()).map_err(|_| {
         fault(
             attribute,
-            format!("`{attribute}` = \"{text}\" is no length"),
+            format!("`{attribute}` = \"{text}\" is not a length"),
         )
     })?;
     let whole = || {

@@ -31,11 +31,11 @@ pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Opt
     let [x, y] = match (unit, stated) {
         (Some(unit), Some(stated)) if !agree(unit, stated[0]) || !agree(unit, stated[1]) => {
             let message = format!(
-                "the drawing says that a user unit is {} mm, the design {} mm",
+                "a user unit is {} mm in the drawing but {} mm in the design",
                 1e3 * stated[0],
                 1e3 * unit
             );
-            let help = "take `unit` or `dpi` away: the drawing knows its size";
+            let help = "remove `unit` or `dpi`: the drawing has its own size";
             return Err(source.error(span(root), message, help));
         }
         (_, Some(stated)) => stated,
@@ -133,11 +133,11 @@ fn stated_scale(
         None => {}
     }
     let message = format!(
-        "width and height do not fit the view box: a user unit is {} mm along x, {} mm along y",
+        "width and height do not match the view box: a user unit is {} mm along x, {} mm along y",
         1e3 * scales[0],
         1e3 * scales[1]
     );
-    let help = "give the drawing a size of the proportions of its view box";
+    let help = "give the drawing a size with the proportions of its view box";
     Err(source.error(span(root), message, help))
 }
 

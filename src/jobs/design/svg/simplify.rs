@@ -36,7 +36,7 @@ pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     if drawn <= MANY {
         return Ok(lines);
     }
-    let help = "draw it with fewer points: drawing programs have a command for that";
+    let help = "draw it with fewer points: use the drawing program's simplify command";
     if drawn > MOST_DRAWN {
         let message = format!("the line has {drawn} points, more than {MOST_DRAWN}");
         return Err(source.error(shape.span, message, help));
@@ -47,15 +47,15 @@ pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     let tolerance = four_digits(1e3 * tolerance);
     if left > MOST_LEFT {
         let message = format!(
-            "the line has {drawn} points; without those within {tolerance} mm of the rest there \
-             still are {left}, more than {MOST_LEFT}"
+            "the line has {drawn} points; simplified to {tolerance} mm it still has {left}, more \
+             than {MOST_LEFT}"
         );
         return Err(source.error(shape.span, message, help));
     }
     if left < drawn {
         let message = format!(
-            "{} of the line's {drawn} points are left out: they lie within {tolerance} mm of the \
-             other {left}",
+            "simplified the line to {tolerance} mm: {} of its {drawn} points are left out, {left} \
+             remain",
             drawn - left
         );
         source

@@ -179,7 +179,7 @@ impl BarrierCheck {
         };
         let ceiling = si(self.ceiling, "J", 4);
         let claim = match self.certified {
-            _ if self.ceiling.is_infinite() => "proved to have no way over it".to_owned(),
+            _ if self.ceiling.is_infinite() => "proved to have no path over it".to_owned(),
             true => format!("certified to be above {ceiling}"),
             false => format!("estimated to be above {ceiling}"),
         };

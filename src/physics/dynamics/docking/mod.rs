@@ -60,7 +60,7 @@ pub enum DockingError {
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// A target face has no magnets to match by.
-    #[error("a match is declared by the magnets of the target faces, but one of them has none")]
+    #[error("a match needs magnets on both target faces, but one of them has none")]
     NoMagnets,
 }
 

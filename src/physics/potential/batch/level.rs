@@ -63,7 +63,7 @@ impl Level {
                 word.display()
             )),
             None => Err(format!(
-                "{VARIABLE} is '{}', which is no instruction set of tilebind; {fix}",
+                "{VARIABLE} is '{}', which is not an instruction set of tilebind; {fix}",
                 word.display()
             )),
         }

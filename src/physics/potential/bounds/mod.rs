@@ -1,5 +1,6 @@
 //! Guaranteed bounds of the energy over cells of configurations: of point dipoles
-//! ([`DipoleBounds`]), also behind shields ([`ShieldedBounds`]), and of blocks ([`CuboidBounds`]).
+//! ([`DipoleBounds`]) and of blocks ([`CuboidBounds`]), also behind shields ([`ShieldedBounds`],
+//! [`ShieldedBlockBounds`]).
 
 mod cuboid;
 pub(super) mod dipole;
@@ -9,7 +10,7 @@ mod shielded;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
 use near::{Interval, NearPair, depths};
-pub use shielded::ShieldedBounds;
+pub use shielded::{ShieldedBlockBounds, ShieldedBounds};
 
 use nalgebra::Vector3;
 

@@ -18,7 +18,8 @@ use crate::design::{Content, Design};
 use crate::table::FREE;
 use crate::{fault, shown};
 
-/// What the main job found: states, traps, barriers with their proofs, pathways. It never changes.
+/// Result of an analysis: states, traps, barriers with their bounds, pathways.
+/// Immutable.
 #[pyclass(frozen, module = "tilebind")]
 pub struct Analysis {
     design: Py<Design>,

@@ -17,7 +17,7 @@ use crate::{convert, fault, job, shown, table};
 
 #[pymethods]
 impl Analysis {
-    /// Design : What was analysed.
+    /// Design : The analysed design.
     #[getter]
     fn design(&self, py: Python<'_>) -> Py<Design> {
         self.design.clone_ref(py)
@@ -61,21 +61,21 @@ impl Analysis {
         self.found.bound.1
     }
 
-    /// dict : Everything that is known, as ``report.json`` has it.
+    /// dict : All results, as in ``report.json``.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         convert::json(py, &self.report_json())
     }
 
-    /// dict : What is proved of the states that the list may lack: besides the listed ones nothing
-    /// lies below `below_J` from which every way out rises by more than `escape_J`, except in the
-    /// `open` regions.
+    /// dict : What is proved about missing states: apart from the listed states, there is
+    /// none below `below_J` from which every way out rises by more than `escape_J`, except
+    /// in the `open` regions.
     #[getter]
     fn inventory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.report(py)?.get_item("inventory")
     }
 
-    /// The best known way between two places.
+    /// The best known path between two states.
     ///
     /// Parameters
     /// ----------
@@ -85,13 +85,13 @@ impl Analysis {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     Structured: `s_m`, `x_m`, `y_m`, `theta_rad`, `energy_J`, `clearance_m`. From point to
-    ///     point the motion is straight in x, y and theta, the shorter way round.
+    ///     Structured: `s_m`, `x_m`, `y_m`, `theta_rad`, `energy_J`, `clearance_m`. Between
+    ///     points the motion is linear in x, y and theta; theta takes the shorter way round.
     ///
     /// Raises
     /// ------
     /// LookupError
-    ///     Where no way was sought between the two, or none found.
+    ///     If no path between the two was searched for, or none was found.
     #[pyo3(signature = (start, end = None))]
     fn pathway<'py>(
         &self,
@@ -104,25 +104,25 @@ impl Analysis {
         match self.way(from, to) {
             Some(pathway) => table::pathway(py, &pathway),
             None => Err(pyo3::exceptions::PyLookupError::new_err(
-                "no way is known between the two: design.barrier(start, end) looks for one",
+                "no path is known between the two: design.barrier(start, end) searches for one",
             )),
         }
     }
 
-    /// The lowest energy over the orientation at each place about the fixed tile.
+    /// The lowest energy over all orientations at each position around the fixed tile.
     ///
     /// Parameters
     /// ----------
     /// samples : int, optional
     ///     Grid points along the longer side.
     /// orientations : int, optional
-    ///     Orientations tried at each of them, besides those that lay faces flush.
+    ///     Orientations tried at each point, in addition to those with flush faces.
     ///
     /// Returns
     /// -------
     /// LandscapeMap
     ///     A named tuple: `x` (columns,), `y` (rows,) in m, `energy` (rows, columns) in J and
-    ///     `theta` (rows, columns) in rad; NaN where no orientation is free.
+    ///     `theta` (rows, columns) in rad; NaN where the tiles overlap in every orientation.
     #[pyo3(signature = (samples = 160, orientations = 48))]
     fn landscape_map<'py>(
         &self,
@@ -165,14 +165,14 @@ impl Analysis {
         convert::named(py, "LandscapeMap", &fields)
     }
 
-    /// How strongly the bond and the traps hold shaken tiles.
+    /// Compute how strongly the bond and the traps hold shaken tiles.
     ///
     /// Parameters
     /// ----------
     /// kt : float
-    ///     Effective energy of the shaking (J).
+    ///     Effective energy kT of the shaking (J).
     /// coverage : float
-    ///     Share of the table that tiles cover.
+    ///     Fraction of the table covered by tiles.
     ///
     /// Returns
     /// -------
@@ -196,27 +196,29 @@ impl Analysis {
         shown::report(py, &report::bond::document(design, &held))
     }
 
-    /// How fast shaken tiles bind, come off and change between bond and traps: overdamped motion at
-    /// kT between stated basins.
+    /// Compute how fast shaken tiles bind, unbind and change between bond and traps:
+    /// overdamped motion at kT between stated basins.
     ///
     /// Parameters
     /// ----------
     /// kt : float
-    ///     Effective energy of the shaking (J).
+    ///     Effective energy kT of the shaking (J).
     /// drag : float, optional
-    ///     Drag rate (1/s): the drag is this times the mass.
+    ///     Drag rate (1/s); the drag coefficient is this times the mass.
     /// traps : int, optional
-    ///     Kinds of traps with rates, the deepest first, as far as they hold at kT.
+    ///     Number of kinds of traps with rates, deepest first, if they hold at kT.
     /// basin_energy : float, optional
-    ///     The bond's basin is where U (J) is lower; half way up to its lowest barrier by default.
+    ///     Energy (J) below which the tile counts as bound; by default half way from the bond
+    ///     up to its lowest barrier.
     /// free_at : float, optional
-    ///     Tiles are free where the centres are so far apart (m).
+    ///     Distance (m) between centres at which tiles are free.
     /// certify : float, optional
-    ///     Refine until the bounds of the rates out of the bond and the traps, and of all that make
-    ///     up a tenth of these, are apart by this share at most.
+    ///     Target relative width of the bounds of the rates out of the bond and the traps, and
+    ///     of every rate that is at least a tenth of these.
     /// prove : bool, optional
-    ///     Prove how often tiles set out from each basin, and bounds of the mean time until they are
-    ///     in another or free: for tiles that are convex about their centres of mass, of dipoles.
+    ///     Prove how often tiles leave each basin, and bounds on the mean time until they reach
+    ///     another or are free. Only for dipoles in tiles that are convex about their centres
+    ///     of mass.
     ///
     /// Returns
     /// -------
@@ -237,14 +239,14 @@ impl Analysis {
         shown::report(py, &document)
     }
 
-    /// Which kinds of states merge at which energy.
+    /// The energies at which kinds of states merge.
     ///
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     Structured, a row for each line of the graph: `states` (the names of those that hang on
-    ///     it), `energy_J` (of its foot), `copies`, `joins_at_J` (NaN for a line that joins none)
-    ///     with certified bounds `lower_J` and `upper_J`.
+    ///     Structured, one row per line of the graph: `states` (names of the states below it),
+    ///     `energy_J` (of its lower end), `copies`, `joins_at_J` (NaN for a line that joins no
+    ///     other) with certified bounds `lower_J` and `upper_J`.
     fn disconnectivity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table::array(py, &table::of_csv(&plots::merge_lines(&self.scene())))
     }

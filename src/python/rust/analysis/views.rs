@@ -34,7 +34,7 @@ impl Analysis {
     /// Returns
     /// -------
     /// str
-    ///     Empty where there is nothing to draw.
+    ///     Empty if there is nothing to draw.
     fn svg(&self, py: Python<'_>, name: &str) -> PyResult<String> {
         if !PICTURES.contains(&name) {
             return Err(fault::value(format!(
@@ -46,7 +46,7 @@ impl Analysis {
         Ok(drawn.pop().unwrap_or_default())
     }
 
-    /// What was found, in a few lines.
+    /// A short summary of the results.
     ///
     /// Returns
     /// -------
@@ -57,20 +57,20 @@ impl Analysis {
             .text(Some(COLUMNS))
     }
 
-    /// The page with the landscape to move about in, pathways that play and tables that sort.
+    /// An interactive HTML page with the landscape, animated pathways and sortable tables.
     ///
     /// Returns
     /// -------
     /// str
-    ///     HTML that needs nothing but a browser.
+    ///     Self-contained HTML.
     fn report_html(&self, py: Python<'_>) -> PyResult<String> {
         let scene = self.scene();
         let document = self.document(Extent::Full, &scene);
         shown::page(py, &document, &self.command())
     }
 
-    /// The text of ``report.json``: every byte as ``tilebind analyse`` writes it, but for what
-    /// depends on the machine (`timing`).
+    /// The text of ``report.json``, byte for byte as ``tilebind analyse`` writes it, except
+    /// for the machine-dependent ``timing``.
     ///
     /// Returns
     /// -------
@@ -79,27 +79,26 @@ impl Analysis {
         analysis::report(&self.content.design, &self.found, true, self.wall_s).report()
     }
 
-    /// Write all files of ``tilebind analyse``, or none of them. They replace those of an earlier
-    /// analysis; what else is in the way is refused.
+    /// Write all files of ``tilebind analyse``, or none of them. They replace those of an
+    /// earlier analysis; any other file in the way is an error.
     ///
     /// Parameters
     /// ----------
     /// folder : str or os.PathLike
-    ///     Made if need be.
+    ///     Created if missing.
     /// compact : bool, optional
-    ///     Leave out the page, PNG pictures and pathways of copies.
+    ///     Omit the page, PNG pictures and pathways of symmetric copies.
     /// command : str, optional
-    ///     The line on the page that tells how it was made.
+    ///     The command line to show on the page.
     /// force : bool, optional
-    ///     Replace files in the way, too, that tilebind did not write, that were changed since, or
-    ///     that are results of another command; never the design's file and its drawings.
+    ///     Replace existing files, whoever wrote them; never the design file and its drawings.
     ///
     /// Raises
     /// ------
     /// ValueError
-    ///     Where a file is in the way: which, and what to do.
+    ///     If a file is in the way; the message names it and gives a fix.
     /// OSError
-    ///     Where the file system refuses; all files are then as they were.
+    ///     If the file system refuses; all files are then unchanged.
     #[pyo3(signature = (folder, *, compact = false, command = None, force = false))]
     fn write(
         &self,
@@ -130,7 +129,7 @@ impl Analysis {
         drawn.map_err(fault::run)
     }
 
-    /// Draw the lowest energy about the fixed tile with the states on it.
+    /// Draw the lowest energy around the fixed tile, with the states.
     ///
     /// Parameters
     /// ----------
@@ -175,7 +174,7 @@ impl Analysis {
         shown::plotted(slf.py(), "plot_profile", (slf, start, end, ax), style)
     }
 
-    /// Draw which kinds of states merge at which energy.
+    /// Draw the energies at which kinds of states merge.
     ///
     /// Parameters
     /// ----------

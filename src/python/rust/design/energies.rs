@@ -25,12 +25,12 @@ impl Design {
     /// Returns
     /// -------
     /// float or numpy.ndarray
-    ///     (...), in J; 0 at infinity. Given where tiles overlap, too; NaN where a pose is not
-    ///     finite.
+    ///     (...), in J; 0 at infinity. Also defined where tiles overlap; NaN where a pose is
+    ///     not finite.
     ///
     /// Notes
     /// -----
-    /// Many poses are worked on by all cores, with the interpreter's lock released.
+    /// Many poses use all cores, with the GIL released.
     #[pyo3(signature = (poses, *, model = None))]
     fn energy<'py>(
         &self,
@@ -114,12 +114,12 @@ impl Design {
         poses::truths(py, &poses, |q| problem.is_clear(q))
     }
 
-    /// How the two outlines, magnets aside, fit together.
+    /// List how the two outlines fit together, ignoring magnets.
     ///
     /// Parameters
     /// ----------
     /// most : int, optional
-    ///     Most fits listed.
+    ///     Largest number of fits to list.
     ///
     /// Returns
     /// -------

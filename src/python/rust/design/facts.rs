@@ -13,13 +13,13 @@ use crate::{shown, table};
 
 #[pymethods]
 impl Design {
-    /// str : Its name.
+    /// str : The name of the design.
     #[getter]
     fn name(&self) -> &str {
         &self.content.design.name
     }
 
-    /// str : What the file says of it.
+    /// str : The description in the design file.
     #[getter]
     fn description(&self) -> &str {
         &self.content.design.description
@@ -31,13 +31,13 @@ impl Design {
         &self.content.design.sha256
     }
 
-    /// str : How magnets are modelled, "dipole" or "cuboid", unless a call says otherwise.
+    /// str : The default magnet model, "dipole" or "cuboid".
     #[getter]
     fn model(&self) -> &'static str {
         self.content.design.interaction.model.name()
     }
 
-    /// tuple of str : Doubts that do not keep the design from being used.
+    /// tuple of str : Non-fatal warnings.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let warnings = self.content.design.warnings.iter();
@@ -51,7 +51,7 @@ impl Design {
         table::fixed(PyArray1::from_slice(py, &bound).into_any())
     }
 
-    /// AirTable : Size of the air table (m) along x and along y; called, it has many tiles put on it.
+    /// AirTable : Size of the air table (m) along x and y. Call it to simulate many tiles.
     #[getter]
     fn table<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         let class = slf.py().import("tilebind._results")?.getattr("AirTable")?;
@@ -100,7 +100,7 @@ impl Design {
         table::array(py, &magnets.table("magnets"))
     }
 
-    /// The design at a glance: its bond, the forces that hold it, what is wrong with it.
+    /// A short summary of the design: bond, forces, mistakes.
     ///
     /// Returns
     /// -------
@@ -110,7 +110,7 @@ impl Design {
         document(&self.content.design, &found).text(Some(100))
     }
 
-    /// The same as numbers.
+    /// The summary as numbers.
     ///
     /// Returns
     /// -------
@@ -120,7 +120,7 @@ impl Design {
         shown::report(py, &document(&self.content.design, &found))
     }
 
-    /// The two tiles bound, as an SVG document.
+    /// The two bound tiles as an SVG document.
     ///
     /// Returns
     /// -------
@@ -131,7 +131,7 @@ impl Design {
         Ok(pictures?.concat())
     }
 
-    /// The magnets as magpylib collections, and, with poses, the moving ones' path.
+    /// The magnets as magpylib collections, with the moving tile's path if poses are given.
     ///
     /// Parameters
     /// ----------

@@ -60,7 +60,7 @@ pub fn model(name: Option<&str>) -> PyResult<Option<MagnetModel>> {
     }
 }
 
-/// A pair of tiles and how they are meant to bind. It never changes: :meth:`replace` gives another.
+/// A pair of tiles and their intended bond. Immutable: :meth:`replace` returns a new design.
 ///
 /// Read one with :meth:`load`, :meth:`loads` or :meth:`from_dict`. Lengths are in m, angles in rad,
 /// energies in J. A pose is (x, y, theta): the moving tile's reference point in the fixed tile's

@@ -22,7 +22,7 @@ impl Design {
     /// Parameters
     /// ----------
     /// path : str or os.PathLike
-    ///     The TOML file. Drawings that it names lie beside it.
+    ///     The TOML file. Paths of drawings are relative to it.
     ///
     /// Returns
     /// -------
@@ -31,9 +31,9 @@ impl Design {
     /// Raises
     /// ------
     /// DesignError
-    ///     With line, column and mend of everything that is wrong with the file.
+    ///     If the file is wrong; lists every mistake with line, column and fix.
     /// FileNotFoundError
-    ///     Where there is no such file.
+    ///     If the file does not exist.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         fault::if_missing(&path)?;
@@ -48,8 +48,8 @@ impl Design {
     /// text : str
     ///     TOML, as in a design file.
     /// file : str, optional
-    ///     What errors call it; it lies where the drawings lie, and the design is named after it
-    ///     where it gives no name.
+    ///     File name for error messages. Drawings are relative to it, and it is the default
+    ///     name of the design.
     ///
     /// Returns
     /// -------
@@ -65,7 +65,7 @@ impl Design {
         Self::read(py, read)
     }
 
-    /// Make a design of nested dictionaries with the keys of a design file.
+    /// Make a design from nested dictionaries with the keys of a design file.
     ///
     /// Parameters
     /// ----------
@@ -79,7 +79,7 @@ impl Design {
     /// Raises
     /// ------
     /// DesignError
-    ///     Its lines are those of :attr:`text`, which is made of the dictionaries.
+    ///     Its line numbers refer to :attr:`text`, which is generated from the dictionaries.
     #[staticmethod]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let text = convert::table(tables)?.to_string();
@@ -92,13 +92,12 @@ impl Design {
     /// ----------
     /// name : str, optional
     /// sides, side, magnets : int, float, int, optional
-    ///     Sides of both tiles, length of a side (m), magnets on each of the two faces that are to
-    ///     bind.
+    ///     Sides of both tiles, side length (m), magnets on each of the two binding faces.
     /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
     ///     Of those faces.
     /// magnet : str, optional
-    ///     As a shop describes it, length x width x height, magnetised through the last:
-    ///     ``"10 x 5 x 2 mm N42"``.
+    ///     A magnet as sold, a block or a disc, magnetised along the last length:
+    ///     ``"10 x 5 x 2 mm N42"``, ``"10 x 3 mm N42"``.
     ///
     /// Returns
     /// -------
@@ -115,20 +114,20 @@ impl Design {
     /// Parameters
     /// ----------
     /// key : str
-    ///     Dotted path, such as ``"fixed.faces.east.profile.depth"``; a number counts the items of
-    ///     a list from 0. Tables on the way that are missing are made.
+    ///     Dotted path, such as ``"fixed.faces.east.profile.depth"``; a number is the index of
+    ///     a list item, from 0. Missing tables are created.
     /// value : float, int, bool, str, list or Mapping
-    ///     In SI units, or as a text with a unit, ``"20 mm"``.
+    ///     In SI units, or a string with a unit, ``"20 mm"``.
     ///
     /// Returns
     /// -------
     /// Design
-    ///     This one stays as it is.
+    ///     A new design.
     ///
     /// Raises
     /// ------
     /// DesignError
-    ///     Where the key leads nowhere or there is no such design.
+    ///     If the key does not exist or the resulting design is wrong.
     fn replace(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let source = &self.content.source;
         let value = convert::toml(value)?;
@@ -151,7 +150,7 @@ impl Design {
     /// Returns
     /// -------
     /// dict
-    ///     What :meth:`from_dict` takes.
+    ///     The argument of :meth:`from_dict`.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let source = &self.content.source;
         let tables = py

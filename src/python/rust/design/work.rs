@@ -24,39 +24,40 @@ use crate::{convert, job, shown, table};
 
 #[pymethods]
 impl Design {
-    /// The main job: states, traps, barriers with their proofs, pathways.
+    /// Find states, traps, barriers with their bounds, and pathways.
     ///
     /// Parameters
     /// ----------
     /// seed : int, optional
-    ///     Of all random numbers.
+    ///     Random seed.
     /// milestones, neighbours : int, optional
-    ///     Of the roadmap.
+    ///     Size of the roadmap.
     /// boltzmann, thermal_energy : float, optional
-    ///     Energies (J) by which milestones are accepted and transitions weighed.
+    ///     Energies (J) of the Boltzmann rule for milestones and of the transition
+    ///     probabilities.
     /// settled : float, optional
-    ///     A barrier is settled when it moves by less than this fraction.
+    ///     A barrier has converged when it changes by less than this fraction.
     /// far_starts : int, optional
-    ///     Starts from which capture shares are counted.
+    ///     Number of far starts for the capture shares.
     /// kinds : int, optional
-    ///     Kinds of states that are looked at closely, the deepest; all by default.
+    ///     Number of kinds of state to analyse, deepest first; all by default.
     /// repeats : int, optional
-    ///     Runs, each with the next seed, whose spread is reported.
+    ///     Number of runs with consecutive seeds; the spread is reported.
     /// tolerance : float, optional
-    ///     Width (J) to which certified bounds are narrowed.
+    ///     Target width (J) of the certified bounds.
     /// certify_work, complete_work : float, optional
-    ///     Work given to the bounds of barriers, and to the proof that no state is missing, as what
-    ///     takes about so many seconds of a core; it is counted. 0 for none.
+    ///     Effort of the bounds of barriers, and of the proof that no state is missing, in
+    ///     core-seconds, counted in steps. 0 for none.
     /// certify_seconds, complete_seconds : float, optional
-    ///     Time (s) by the clock after which they are left as they are, so that another run may
-    ///     differ; no limit by default, 0 for none.
+    ///     Wall-clock limits (s) of the same, with which two runs can differ; no limit by
+    ///     default, 0 for none.
     /// complete_below, complete_escape : float, optional
-    ///     Shares of the bond's depth: traps below the one that need more than the other to leave
-    ///     are to be listed.
+    ///     Fractions of the bond's energy: list all traps deeper than the first whose escape
+    ///     barrier exceeds the second.
     /// dynamics_runs : int, optional
-    ///     Moving tiles that check each barrier.
+    ///     Simulated trajectories that check each barrier.
     /// progress : bool, optional
-    ///     A tqdm bar; by default where somebody would see it.
+    ///     Show a tqdm progress bar; shown by default in terminals and notebooks.
     ///
     /// Returns
     /// -------
@@ -64,9 +65,9 @@ impl Design {
     ///
     /// Notes
     /// -----
-    /// The defaults are those of ``tilebind analyse``, and so are the results, byte by byte. Of very
-    /// many magnets they are less, so that a result comes within minutes.
-    /// Ctrl-C stops it within a second.
+    /// Defaults and results are those of ``tilebind analyse``, byte for byte. For very many
+    /// magnets the defaults are reduced, so that a result takes minutes. Ctrl-C stops the
+    /// analysis within a second.
     #[pyo3(signature = (*, progress = None, **settings))]
     fn analyse(
         slf: Py<Self>,
@@ -85,22 +86,22 @@ impl Design {
         Ok(Analysis::new(slf, found, wall_s))
     }
 
-    /// One barrier, between certified bounds: the lowest possible value of the highest energy on the
-    /// way, over all free ways.
+    /// Compute one barrier with certified bounds: the lowest maximum energy over all
+    /// collision-free paths.
     ///
     /// Parameters
     /// ----------
     /// start : array_like
-    ///     Pose (3,) at which the way starts (m, m, rad).
+    ///     Initial pose (3,) (m, m, rad).
     /// end : array_like or "free", optional
-    ///     Pose at which it ends; "free" for anywhere with the tiles far apart.
+    ///     Final pose; "free" for anywhere with the tiles far apart.
     /// tolerance : float, optional
-    ///     Width (J) to which the bounds are narrowed; a hundredth of the bond's depth by default.
+    ///     Target width (J) of the bounds; 1/100 of the bond's depth by default.
     /// certify_work : float, optional
-    ///     Work given to them, as what takes about so many seconds of a core; 0 for no bounds.
+    ///     Effort of the bounds in core-seconds, counted in steps; 0 for no bounds.
     /// certify_seconds : float, optional
-    ///     Time (s) by the clock after which they are left as they are, so that another run may
-    ///     differ; no limit by default, 0 for no bounds.
+    ///     Wall-clock limit (s) of the bounds, with which two runs can differ; no limit by
+    ///     default, 0 for no bounds.
     /// milestones, seed : int, optional
     /// progress : bool, optional
     ///
@@ -149,7 +150,7 @@ impl Design {
         convert::named(py, "Barrier", &fields)
     }
 
-    /// Send the moving tile towards the fixed one many times; see :func:`tilebind.dock`.
+    /// Launch the moving tile at the fixed one many times; see :func:`tilebind.dock`.
     #[pyo3(signature = (*, progress = None, **settings))]
     fn dock(
         slf: Py<Self>,
@@ -160,40 +161,43 @@ impl Design {
         dock::dock(py, slf, progress, settings)
     }
 
-    /// Where a shaken tile that is let go ends, and how soon: overdamped motion at kT.
+    /// Compute where and how soon a shaken tile ends after its release: overdamped motion
+    /// at kT.
     ///
     /// Parameters
     /// ----------
     /// start : array_like
-    ///     Pose (3,) at which it is let go (m, m, rad).
+    ///     Initial pose (3,) (m, m, rad).
     /// kt : float
-    ///     Effective energy of the shaking (J).
+    ///     Effective energy kT of the shaking (J).
     /// drag : float, optional
-    ///     Drag rate (1/s): the drag is this times the mass.
+    ///     Drag rate (1/s); the drag coefficient is this times the mass.
     /// basin_energy : float, optional
-    ///     The tile is bound where its energy (J) is lower, in the basin of the bond or of one of
-    ///     its copies; half the bond's by default.
+    ///     Energy (J) below which the tile counts as bound, in the basin of the bond or a
+    ///     symmetric copy; half the bond's energy by default.
     /// free_at : float, optional
-    ///     It is free where the centres are so far apart (m).
+    ///     Distance (m) between centres at which the tile is free.
     /// certify : float, optional
-    ///     Refine until the bounds of the mean exit time are apart by this share at most; 0.1 by
-    ///     default, as far as it comes within seconds.
+    ///     Target relative width of the bounds of the mean exit time; by default 0.1, or what
+    ///     seconds of work reach.
     /// check : int, optional
-    ///     Let so many rigid bodies with inertia go at the start, too.
+    ///     Also simulate this many rigid bodies with inertia.
     /// restitution : float, optional
-    ///     Share of the approach velocity that a knock of these gives back; 1 by default.
+    ///     Their coefficient of restitution; 1 by default.
     /// seed : int, optional
-    ///     Of these.
+    ///     Their random seed.
     /// prove : bool, optional
-    ///     Prove how often tiles set out from the well about the start, and bounds of the mean time
-    ///     until they are at an end: for tiles that are convex about their centres of mass, of dipoles.
+    ///     Prove how often tiles leave the well around the start, and bounds on the mean time
+    ///     until they are bound or free. Only for dipoles in tiles that are convex about their
+    ///     centres of mass.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     As ``tilebind rates --start --json``: `mean_exit_s` and `mean_exit_bounds_s`, `exits`
-    ///     (shares that are first bound and free), `diffusion_m2_s`, `proved` (None where nothing
-    ///     is), `mesh` (how far the two finest meshes differ).
+    ///     As ``tilebind rates --start --json``: ``mean_exit_s`` and ``mean_exit_bounds_s``,
+    ///     ``exits`` (probabilities of bound first and free first), ``diffusion_m2_s``,
+    ///     ``proved`` (None if nothing is proved), ``mesh`` (difference between the two finest
+    ///     meshes).
     #[pyo3(signature = (start, **settings))]
     fn exits<'py>(
         &self,
@@ -210,28 +214,29 @@ impl Design {
         shown::report(py, &document)
     }
 
-    /// How many pairs are bound after a time on a shaken table, and at which shaking most are.
+    /// Compute how many pairs are bound after a time on a shaken table, and which shaking
+    /// binds most.
     ///
     /// Parameters
     /// ----------
     /// kt : sequence of float
-    ///     Effective energies of the shakings that are compared (J).
+    ///     Effective energies kT to compare (J).
     /// tiles : int
-    ///     Tiles on the table, half of either kind.
+    ///     Number of tiles on the table, half of each kind.
     /// time : float
     ///     How long the table is shaken (s).
     /// coverage : float, optional
-    ///     Share of the table that tiles cover.
+    ///     Fraction of the table covered by tiles.
     /// runs : int, optional
-    ///     Docking runs for each shaking, from which attachments are counted.
+    ///     Docking runs per kT, to count attachments.
     /// duration : float, optional
-    ///     How long each lasts (s).
+    ///     Duration of each run (s).
     /// rates : str, optional
-    ///     Where attachment rates come from: "docking" runs, or "overdamped" motion.
+    ///     Source of attachment rates: "docking" runs or "overdamped" motion.
     /// drag, restitution : float, optional
-    ///     Drag rate (1/s), and the share of the approach velocity that a knock gives back.
+    ///     Drag rate (1/s) and coefficient of restitution.
     /// simulations : int, optional
-    ///     Runs of the exact simulation by which the numbers are checked; 0 for none.
+    ///     Runs of the exact simulation that checks the result; 0 for none.
     /// seed : int, optional
     /// progress : bool, optional
     ///
@@ -284,19 +289,19 @@ impl Design {
         shown::report(py, &document)
     }
 
-    /// Files to make both tiles by: outlines with pockets, to scale, and a sheet for the magnets.
+    /// Workshop files for both tiles: outlines with pockets, to scale, and a magnet sheet.
     ///
     /// Parameters
     /// ----------
     /// kerf : float, optional
-    ///     Width of the cut (m); lines run half of it outside the parts.
+    ///     Width of the cut (m); outlines are offset outwards by half of it.
     /// clearance : float, optional
-    ///     By how much pockets are larger than their magnets on every side (m).
+    ///     Gap between magnet and pocket on each side (m).
     ///
     /// Returns
     /// -------
     /// dict of str to bytes
-    ///     By their names: DXF and SVG in mm, a sheet in Markdown.
+    ///     File names and contents: DXF and SVG in mm, a sheet in Markdown.
     #[pyo3(signature = (**settings))]
     fn make<'py>(
         &self,
@@ -317,12 +322,12 @@ impl Design {
     ///     shields in place, 0 without) and at least one of `energy_J`, `force_x_N`, `force_y_N`,
     ///     `torque_Nm`.
     /// hold_out : int, optional
-    ///     Of so many rows one is held out of the fit.
+    ///     Hold out one in this many rows from the fit.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     The constants with their errors, and how well they tell what was held out.
+    ///     The constants with their errors, and how well they predict the held-out rows.
     #[pyo3(signature = (table, *, hold_out = None))]
     fn calibrate<'py>(
         &self,
@@ -336,19 +341,18 @@ impl Design {
         shown::report(py, &report::calibration::document(design, &found))
     }
 
-    /// Fit the effective energy kT of a shaking to pairs that bind and part.
+    /// Fit the effective energy kT of the shaking to observed pairs.
     ///
     /// Parameters
     /// ----------
     /// table : pandas.DataFrame, str or os.PathLike
-    ///     The measurements or a CSV file of them: `bound_s` and `apart_s`, intervals for which
-    ///     a pair was bound, and for which it was apart (s), with a `>` before those that still
-    ///     lasted when watching ended; or `distance_m`, how far apart
-    ///     the reference points of a pair were, each time long after the last (m).
+    ///     The measurements or a CSV file: `bound_s` and `apart_s`, intervals (s) during which
+    ///     a pair was bound and apart, with unfinished intervals prefixed by `>`; or
+    ///     `distance_m`, independent distances (m) between the reference points of a pair.
     /// area : float, optional
-    ///     Area that a pair had for itself (m^2); the design's table by default. Of intervals only.
+    ///     Table area per pair (m^2); the design's table by default. For intervals only.
     /// within : float, optional
-    ///     Distances up to which they count (m); where tiles are free by default.
+    ///     Largest distance (m) of a pair that counts; where tiles are free by default.
     ///
     /// Returns
     /// -------
@@ -367,17 +371,18 @@ impl Design {
         shown::report(py, &report::calibration::document(design, &found))
     }
 
-    /// Start bound, with a thermal velocity, many times: the rate of detachment under shaking.
+    /// Start many times bound, with a thermal velocity, and measure the detachment rate
+    /// under shaking.
     ///
     /// Parameters
     /// ----------
     /// shaking : float
-    ///     Effective energy kT (J) of a random force.
+    ///     Effective energy kT of random shaking (J).
     /// overdamped : bool, optional
-    ///     Tell the rate of overdamped motion at the same kT and drag beside it.
+    ///     Also compute the overdamped rate at the same kT and drag.
     /// progress : bool, optional
     /// **settings
-    ///     As of :func:`tilebind.dock`; those of starts do not matter.
+    ///     As for :func:`tilebind.dock`; those of the start are ignored.
     ///
     /// Returns
     /// -------

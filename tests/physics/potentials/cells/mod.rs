@@ -20,8 +20,8 @@ use tilebind::tile::Tile;
 
 use super::any_shields;
 use super::kinds::{
-    Make, block_bounds, blocks, dipole_bounds, dipoles, paper_tile, shielded_bounds,
-    shielded_dipoles,
+    Make, block_bounds, blocks, dipole_bounds, dipoles, paper_tile, shielded_block_bounds,
+    shielded_blocks, shielded_bounds, shielded_dipoles,
 };
 use crate::designs;
 
@@ -127,7 +127,7 @@ fn all() -> Vec<Enclosed> {
         ],
     };
     let small = designs::load("shapes/shielded-backs.toml").pair;
-    let behind_shields = Enclosed {
+    let behind_shields = || Enclosed {
         name: "dipoles behind shields",
         tiles: [small.fixed.clone(), small.moving.clone()],
         energy: shielded_dipoles,
@@ -160,10 +160,33 @@ fn all() -> Vec<Enclosed> {
             [800.0, 1200.0],
         )],
     };
+    let blocks_behind_shields = Enclosed {
+        name: "blocks behind shields",
+        energy: shielded_blocks,
+        bounds: shielded_block_bounds,
+        levels: vec![Level::best()],
+        cells: 500,
+        met: [2_500, 500],
+        // The potential's quadrature at contact, as of bare blocks.
+        off: [3e-6 * 0.03, 3e-6],
+        centres: vec![[0.085, -0.02, 0.03], [0.2, 0.1, 2.0]],
+        value: [0.0, 2e-7],
+        gradient: [0.0, 1e-6],
+        hessian: f64::INFINITY,
+        width: 1e-7,
+        shrinking: vec![(
+            [0.11, 0.01, 0.1],
+            [1.0, 1.0, 10.0],
+            [1e-3, 2e-4],
+            [80.0, 180.0],
+        )],
+        ..behind_shields()
+    };
     let mut all = vec![
         of_dipoles,
         of_blocks(paper(), Level::available(), 3000, 15_000),
-        behind_shields,
+        behind_shields(),
+        blocks_behind_shields,
     ];
     all.extend((0..4).map(|_| {
         let tiles = [mixed_tile(&mut rng), mixed_tile(&mut rng)];

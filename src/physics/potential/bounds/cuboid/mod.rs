@@ -157,6 +157,32 @@ impl CuboidBounds {
 
     /// For the given instruction set.
     pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
+        let enclosed = [fixed, moving].map(|tile| enclosed(tile, level));
+        Self::of_enclosed([fixed, moving], enclosed, level)
+    }
+
+    /// Of every pair of magnets by itself, those of the first moving one first.
+    pub(super) fn of_pairs(fixed: &Tile, moving: &Tile, level: Level) -> Vec<Self> {
+        let [first, second] = [fixed, moving].map(|tile| {
+            let alone = |magnet: &Magnet| Tile {
+                magnets: vec![magnet.clone()],
+                ..tile.clone()
+            };
+            let tiles = tile.magnets.iter().map(alone);
+            tiles.zip(enclosed(tile, level)).collect::<Vec<_>>()
+        });
+        let pairs = second
+            .iter()
+            .flat_map(|b| first.iter().map(move |a| (a, b)));
+        pairs
+            .map(|((a, first), (b, second))| {
+                Self::of_enclosed([a, b], [vec![*first], vec![*second]], level)
+            })
+            .collect()
+    }
+
+    fn of_enclosed(tiles: [&Tile; 2], enclosed: [Vec<Enclosed>; 2], level: Level) -> Self {
+        let [fixed, moving] = tiles;
         let potential = CuboidPotential::with_level(&fixed.magnets, &moving.magnets, level);
         let largest = |size: &dyn Fn(&[f64; 3]) -> f64, tile: &Tile| {
             let sizes = tile.magnets.iter().map(|magnet| size(&magnet.size));
@@ -170,14 +196,13 @@ impl CuboidBounds {
             square: both(&|[a, b, c]| (a * a + b * b + c * c) / 12.0),
             error: SERIES,
         };
-        let enclosed = |tile| enclosed(tile, level);
-        let tiles = [fixed, moving];
+        let [first, second] = enclosed;
         Self {
             level,
             dipoles: DipoleBounds::with_level(fixed, moving, level).with_spread(spread),
             potential,
-            fixed: enclosed(fixed),
-            moving: enclosed(moving),
+            fixed: first,
+            moving: second,
             slack: Scale::of(tiles.map(|tile| tile.outline.circumradius())).length(SLACK),
         }
     }

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 
-use super::curvature::{Around, dipole_limits, factor_limits, product};
-use super::jet::{Place, dipoles, factors};
+use super::curvature::{Around, Limits, dipole_limits, pair_limits, product};
+use super::jet::{Jet, Place, dipoles};
 use super::{Columns, Magnet, Vectors, Way};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
@@ -37,7 +37,7 @@ impl Magnet {
 ///
 /// On the straight way from the centre to a configuration of the cell a magnet is at most as fast
 /// as its reach V and turns at half the cell's angle W. In units in which it is no faster than 1 it
-/// turns at the rate W / V, so that [`dipole_limits`] and [`factor_limits`], taken at the distance
+/// turns at the rate W / V, so that [`dipole_limits`] and [`pair_limits`], taken at the distance
 /// `r - V`, bound the third derivative of the energy u times the factor w along the way, and the
 /// form is wrong by at most
 ///
@@ -75,7 +75,7 @@ impl Task for Forms<'_> {
         for (j, magnet) in self.moving.iter().enumerate() {
             let lever = magnet.lever();
             let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
-            let turn = l.splat(self.cell.half[2] / speed);
+            let v = l.splat(speed);
             let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
             let moved = magnet.moved(q, &rotation);
             let second = Vectors::splat(l, &moved);
@@ -83,30 +83,19 @@ impl Task for Forms<'_> {
             for from in (0..self.fixed.len()).step_by(WIDTH) {
                 let first = Vectors::load(l, self.fixed, from);
                 let way = Way::new(l, &first, &second);
-                let room = l.sub(way.distance, l.splat(NEAR * speed + TINY));
-                let r = l.select(room, l.sub(way.distance, l.splat(speed)), one);
-                let v = l.splat(speed);
-                let around = Around {
-                    reach: v,
-                    turn,
-                    r,
-                    inverse: l.reciprocal(r),
-                };
-                let ([a, b], [steep_a, steep_b]) = factors(l, &first, &second, &way);
-                let (here_a, here_b) = (l.abs(a.0[0]), l.abs(b.0[0]));
-                let of_a = factor_limits(l, first.shield, &around, steep_a, here_a);
-                let of_b = factor_limits(l, second.shield, &around, steep_b, here_b);
+                let near = Near::new(l, [&first, &second], &way, [speed, self.cell.half[2]]);
                 let u = dipoles(l, &first, &second, &way);
-                let mut of_u = dipole_limits(l, &first, &second, turn, around.inverse);
+                let Around { turn, inverse, .. } = near.around;
+                let mut of_u = dipole_limits(l, &first, &second, turn, inverse);
                 of_u[0] = l.min(of_u[0], l.mul_add(of_u[1], v, l.abs(u.0[0])));
-                let [whole, slope, bend, twist] = product(l, product(l, of_a, of_b), of_u);
+                let [whole, slope, bend, twist] = product(l, near.limits, of_u);
                 let left_out = l.mul(l.splat(speed * speed * speed / 6.0), twist);
                 // Negative where there is no form.
                 let worth = l.sub(l.mul(l.splat(2.0), whole), left_out);
-                let mask = l.select(l.min(room, worth), one, zero);
+                let mask = l.select(l.min(near.room, worth), one, zero);
                 self.note_rest(l, mask, j, from);
 
-                let pair = a.times(l, &b).times(l, &u).by_place(l, &way);
+                let pair = near.factor.times(l, &u).by_place(l, &way);
                 for (sum, entry) in sums.iter_mut().zip(pair) {
                     *sum = l.mul_add(mask, entry, *sum);
                 }
@@ -125,6 +114,114 @@ impl Task for Forms<'_> {
         }
         (form, l.sum(all_left_out))
     }
+}
+
+/// The factor of pairs of magnets over a cell.
+struct Near<F> {
+    /// The factor at the cell's centre, and the bounds of it within the cell.
+    factor: Jet<F>,
+    limits: Limits<F>,
+    around: Around<F>,
+    /// Negative where the magnets are too near each other for these to hold.
+    room: F,
+}
+
+impl<F: Copy> Near<F> {
+    /// For a second magnet that moves by up to `speed` (m) and turns by up to `turn` (rad).
+    #[inline(always)]
+    fn new<L: Lanes<F = F>>(
+        l: L,
+        [first, second]: [&Vectors<F>; 2],
+        way: &Way<F>,
+        [speed, turn]: [f64; 2],
+    ) -> Self {
+        let room = l.sub(way.distance, l.splat(NEAR * speed + TINY));
+        let r = l.select(room, l.sub(way.distance, l.splat(speed)), l.splat(1.0));
+        let around = Around {
+            reach: l.splat(speed),
+            turn: l.splat(turn / speed),
+            r,
+            inverse: l.reciprocal(r),
+        };
+        let (factor, limits) = pair_limits(l, first, second, way, &around);
+        Self {
+            factor,
+            limits,
+            around,
+            room,
+        }
+    }
+}
+
+/// The factors of all pairs over a cell, those of the first moving magnet first, as forms of second
+/// order.
+pub(in crate::potential) struct Factors<'a> {
+    pub fixed: &'a Columns,
+    pub moving: &'a [Magnet],
+    pub cell: &'a Cell,
+    /// How many fixed magnets there are, and the farthest one's distance from the origin (m).
+    pub count: usize,
+    pub extent: f64,
+}
+
+/// A factor over a cell.
+pub(in crate::potential) struct FactorForm {
+    pub form: Quadratic,
+    /// What the form leaves out at most, rounding included; infinite where the magnets are too near
+    /// each other.
+    pub left_out: f64,
+    /// The largest magnitude, and the most that it changes on a way of half the cell.
+    pub size: f64,
+    pub change: f64,
+}
+
+impl Task for Factors<'_> {
+    type Output = Vec<FactorForm>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Vec<FactorForm> {
+        let q = &self.cell.centre;
+        let rotation = q.rotation();
+        let mut out = Vec::with_capacity(self.count * self.moving.len());
+        for magnet in self.moving {
+            let lever = magnet.lever();
+            let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
+            let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
+            let moved = magnet.moved(q, &rotation);
+            let second = Vectors::splat(l, &moved);
+            for from in (0..self.count).step_by(WIDTH) {
+                let first = Vectors::load(l, self.fixed, from);
+                let way = Way::new(l, &first, &second);
+                let near = Near::new(l, [&first, &second], &way, [speed, self.cell.half[2]]);
+                let place = near.factor.by_place(l, &way).map(|entry| stored(l, entry));
+                let limits = near.limits.map(|limit| stored(l, limit));
+                let room = stored(l, near.room);
+                for k in 0..WIDTH.min(self.count - from) {
+                    let [size, slope, bend, twist] = limits.map(|limit| limit[k]);
+                    let change = slope * speed;
+                    let bend = bend * speed * speed;
+                    let twist = twist * speed * speed * speed;
+                    let rounding = ROUNDING * (size + change + bend)
+                        + placing / speed * (change + bend + twist);
+                    let known = if room[k] > 0.0 { 0.0 } else { f64::INFINITY };
+                    out.push(FactorForm {
+                        form: turned(place.map(|entry| entry[k]), moved.position - q.position()),
+                        left_out: known + twist / 6.0 + rounding,
+                        size,
+                        change,
+                    });
+                }
+            }
+        }
+        out
+    }
+}
+
+#[inline(always)]
+fn stored<L: Lanes>(l: L, lanes: L::F) -> [f64; WIDTH] {
+    let mut out = [0.0; WIDTH];
+    l.store(lanes, &mut out);
+    out
 }
 
 /// The form by the tile's x, y and theta of a magnet at the end of `arm` whose energy has these

@@ -1,6 +1,6 @@
 //! Bounds of the second and third derivatives.
 
-use super::jet::factors;
+use super::jet::{Jet, factors};
 use super::{COINCIDING, Columns, Magnet, Vectors, Way, dot};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
@@ -57,7 +57,7 @@ impl Task for Curvature<'_> {
                     r,
                     inverse,
                 };
-                let w = pair_limits(l, &first, &second, &way, &around);
+                let (_, w) = pair_limits(l, &first, &second, &way, &around);
                 let [.., second, third] = product(l, w, u);
                 sums = [l.add(sums[0], second), l.add(sums[1], third)];
             }
@@ -66,20 +66,20 @@ impl Task for Curvature<'_> {
     }
 }
 
-/// Bounds of the factor of two magnets on a way near where they are.
+/// The factor of two magnets, and its bounds on a way near where they are.
 #[inline(always)]
-fn pair_limits<L: Lanes>(
+pub(super) fn pair_limits<L: Lanes>(
     l: L,
     first: &Vectors<L::F>,
     second: &Vectors<L::F>,
     way: &Way<L::F>,
     around: &Around<L::F>,
-) -> Limits<L::F> {
+) -> (Jet<L::F>, Limits<L::F>) {
     let ([a, b], [steep_a, steep_b]) = factors(l, first, second, way);
     let (here_a, here_b) = (l.abs(a.0[0]), l.abs(b.0[0]));
-    let a = factor_limits(l, first.shield, around, steep_a, here_a);
-    let b = factor_limits(l, second.shield, around, steep_b, here_b);
-    product(l, a, b)
+    let of_a = factor_limits(l, first.shield, around, steep_a, here_a);
+    let of_b = factor_limits(l, second.shield, around, steep_b, here_b);
+    (a.times(l, &b), product(l, of_a, of_b))
 }
 
 /// Bounds of the magnitudes of a quantity and of its first three derivatives along a motion.
@@ -172,7 +172,7 @@ pub(super) struct Around<F> {
 /// 1/8`; and because of the first, S' grows by no more than `exp(e) <= 1 + e + e^2` where its argument
 /// changes by e <= 1.
 #[inline(always)]
-pub(super) fn factor_limits<L: Lanes>(
+fn factor_limits<L: Lanes>(
     l: L,
     shield: [L::F; 4],
     around: &Around<L::F>,

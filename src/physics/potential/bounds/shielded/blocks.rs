@@ -1,0 +1,132 @@
+//! Bounds of the energy of shielded blocks over a cell.
+//!
+//! Each pair's bare energy u has a form p with `u - p` within +-R, as in [`CuboidBounds`], and its
+//! factor w, which depends on the blocks' centres, a form f with `w - f` within +-E (see
+//! [`Factors`](crate::potential::shielding::kernel::Factors)). The product has the form `p f` without
+//! its terms of third and fourth order, and
+//!
+//! ```text
+//! u w - p f = (u - p) w + p (w - f)
+//! ```
+//!
+//! is at most `R |w| + |p| E`. With P1, P2 and F1, F2 the most that the terms of first and second
+//! order of p and f can be, the terms left out are at most `P1 F2 + P2 F1` and `P2 F2`.
+//!
+//! On a way that counts as the share s of the cell (see [`Enclosure::slope`]) terms of the order n
+//! change by at most n s times what they are at most, `w - f`, of third order, by 3 s E, and w by s
+//! times its change over half the cell.
+//!
+//! **Rounding.** Those of u and of w are in R and E. A product loses a few units in the last place of
+//! what `|u| |w|` is at most, which [`ROUNDING`] covers with the sum over the pairs.
+
+use super::Fronts;
+use crate::cell::Cell;
+use crate::potential::batch::Level;
+use crate::potential::bounds::{CellBounds, CuboidBounds, Enclosure, Interval};
+use crate::potential::shielding::Shields;
+use crate::potential::shielding::kernel::FactorForm;
+use crate::tile::Tile;
+
+/// Share of a pair's greatest energy by which its product with the factor may be rounded.
+const ROUNDING: f64 = 1e-12;
+
+/// Cell bounds of the interaction energy of two tiles' blocks behind shields that act smoothly.
+#[derive(Clone, Debug)]
+pub struct ShieldedBlockBounds {
+    level: Level,
+    fronts: Fronts,
+    /// The bare bounds of each pair, those of the first moving block first.
+    pairs: Vec<CuboidBounds>,
+}
+
+impl ShieldedBlockBounds {
+    /// For shields that act by the smooth rule; `shields.rule` is not looked at. Faces beyond the
+    /// ends of the lists of shields have none.
+    pub fn new(fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
+        Self::with_level(fixed, moving, shields, Level::best())
+    }
+
+    /// The same for the given instruction set.
+    pub fn with_level(fixed: &Tile, moving: &Tile, shields: &Shields, level: Level) -> Self {
+        Self {
+            level,
+            fronts: Fronts::new(fixed, moving, shields),
+            pairs: CuboidBounds::of_pairs(fixed, moving, level),
+        }
+    }
+}
+
+impl CellBounds for ShieldedBlockBounds {
+    fn enclose(&self, cell: &Cell) -> Enclosure {
+        let mut out = Enclosure::default();
+        let rotation = cell.centre.rotation();
+        let factors = self.level.run(self.fronts.factors(cell));
+        let count = self.fronts.fixed.len();
+        for (k, (bare, mut factor)) in self.pairs.iter().zip(factors).enumerate() {
+            let (i, j) = (k % count, k / count);
+            let mut pair = bare.enclose(cell);
+            if self.fronts.act(i, j) {
+                if factor.left_out >= factor.size {
+                    let (_, interval) = self.fronts.interval((cell, &rotation), i, j);
+                    factor = of_interval(interval);
+                }
+                pair = product(&pair, &factor, &cell.half);
+            }
+            out.form = out.form.minus(-1.0, &pair.form);
+            out.low += pair.low;
+            out.high += pair.high;
+            out.slope += pair.slope;
+            out.jump += pair.jump;
+        }
+        out
+    }
+
+    fn work(&self) -> u64 {
+        self.pairs.iter().map(CellBounds::work).sum()
+    }
+}
+
+/// A factor of which only the interval is known.
+fn of_interval(interval: Interval) -> FactorForm {
+    let Interval { low, high } = interval.widened(super::MARGIN * interval.size());
+    FactorForm {
+        form: crate::cell::Quadratic {
+            value: (low + high) / 2.0,
+            ..Default::default()
+        },
+        left_out: (high - low) / 2.0,
+        size: interval.size(),
+        change: f64::INFINITY,
+    }
+}
+
+/// What is known of an energy times a factor, over a cell of these half sizes.
+fn product(bare: &Enclosure, factor: &FactorForm, half: &[f64; 3]) -> Enclosure {
+    let (p, f) = (&bare.form, &factor.form);
+    let rest = bare.high.max(-bare.low);
+    let [first, second] = p.orders(half);
+    let [factor_first, factor_second] = f.orders(half);
+    let size = p.value.abs() + first + second;
+    let third = first * factor_second + second * factor_first;
+    let fourth = second * factor_second;
+    let rounding = ROUNDING * (size + rest) * factor.size;
+    let left_out = rest * factor.size + size * factor.left_out + third + fourth + rounding;
+    let slope = match factor.change.is_finite() {
+        true => {
+            bare.slope * factor.size
+                + rest * factor.change
+                + (first + 2.0 * second + 3.0 * size) * factor.left_out
+                + 3.0 * third
+                + 4.0 * (fourth + rounding)
+        }
+        false => f64::INFINITY,
+    };
+    Enclosure {
+        form: p.times(f),
+        low: -left_out,
+        high: left_out,
+        slope,
+        jump: bare.jump * factor.size,
+        levers: None,
+    }
+}
