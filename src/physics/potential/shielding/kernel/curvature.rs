@@ -172,7 +172,7 @@ pub(super) struct Around<F> {
 /// 1/8`; and because of the first, S' grows by no more than `exp(e) <= 1 + e + e^2` where its argument
 /// changes by e <= 1.
 #[inline(always)]
-fn factor_limits<L: Lanes>(
+pub(super) fn factor_limits<L: Lanes>(
     l: L,
     shield: [L::F; 4],
     around: &Around<L::F>,
