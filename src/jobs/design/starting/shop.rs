@@ -40,9 +40,8 @@ impl ShopMagnet {
         let (before, [.., last]) = (&parts[..parts.len() - 1], &parts[..]) else {
             return Err(wrong("there are no lengths"));
         };
-        let (last, unit, rest) = last_length(last).ok_or_else(|| {
-            wrong("the lengths have no unit, or an unknown one (use mm, cm, in)")
-        })?;
+        let (last, unit, rest) = last_length(last)
+            .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
         // A unit of its own behind a length, or the one behind the last.
         let length = |text: &&str| {
             let own = units::read(text, units::LENGTH);
