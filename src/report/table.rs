@@ -48,7 +48,7 @@ pub fn document<'a>(
         beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
         notes: notes(found, request)
             .into_iter()
-            .chain(unanswered(beside))
+            .chain(beside.map(|beside| against_yield(found, beside)))
             .collect(),
         origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
@@ -97,14 +97,6 @@ fn compared(found: &Found, beside: Option<&Beside>) -> Entries {
     };
     let best = yields.best();
     let ln_k = best.states.first().map(|bond| bond.ln_k);
-    let here = &found.target.share;
-    let differs = match (here.low, here.high) {
-        (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
-            "; the share on this table differs by more than both intervals"
-        }
-        (Some(_), Some(_)) => "; the share on this table is the same within the intervals",
-        _ => "",
-    };
     Entries::default().group(
         "yield",
         Entries::default()
@@ -114,12 +106,7 @@ fn compared(found: &Found, beside: Option<&Beside>) -> Entries {
             .noted("of the bond, as `tilebind bond` has it")
             .fact("bound", "`yield` says", best.bound)
             .share()
-            .noted(format!(
-                "of {} pairs, {} to {}{differs}",
-                question.tiles / 2,
-                share(best.interval[0]),
-                share(best.interval[1])
-            ))
+            .noted(in_pairs(question, best.interval))
             .fact("bound_interval", "", best.interval)
             .fact("equilibrium", "in equilibrium", best.equilibrium)
             .share()
@@ -127,11 +114,35 @@ fn compared(found: &Found, beside: Option<&Beside>) -> Entries {
     )
 }
 
-fn unanswered(beside: Option<&Beside>) -> Option<String> {
-    let why = beside?.as_ref().err()?;
-    Some(format!(
-        "`tilebind yield` has no answer to set beside this: {why}"
-    ))
+fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
+    format!(
+        "of {} pairs, {} to {}",
+        question.tiles / 2,
+        share(low),
+        share(high)
+    )
+}
+
+/// What `yield` says beside the share of the target, in a sentence, or why it says nothing.
+fn against_yield(found: &Found, beside: &Beside) -> String {
+    let (question, yields) = match beside {
+        Ok(both) => both,
+        Err(why) => return format!("`tilebind yield` has no answer to compare with: {why}"),
+    };
+    let best = yields.best();
+    let here = &found.target.share;
+    let verdict = match (here.low, here.high) {
+        (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
+            ": the two differ by more than both intervals"
+        }
+        (Some(_), Some(_)) => ": the two agree within their intervals",
+        _ => "",
+    };
+    format!(
+        "`tilebind yield` says that {} are bound {}{verdict}",
+        share(best.bound),
+        in_pairs(question, best.interval)
+    )
 }
 
 fn notes(found: &Found, request: &Request) -> Vec<String> {

@@ -59,7 +59,7 @@ impl Verdict {
     }
 }
 
-/// The kinetic energy of a thermal table is that of kT within this share.
+/// The kinetic energy of a thermal table is that of kT within this share, or within that of chance.
 pub const THERMAL: f64 = 0.1;
 
 /// How long bonds or traps last.
@@ -126,7 +126,9 @@ impl Statistics {
         let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
         let is_driven = !settings.fans.is_empty() || settings.orbital.is_some();
         let verdict = match kinetic_kt {
-            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL => Verdict::Thermal,
+            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL.max(chance(runs, settings)) => {
+                Verdict::Thermal
+            }
             Some(share) if share < 0.5 => Verdict::Frozen,
             None if !is_driven => Verdict::Frozen,
             _ => Verdict::Driven,
@@ -147,6 +149,15 @@ impl Statistics {
             lifetimes: [Tie::Bond, Tie::Trap].map(|tie| lifetime(runs, tie)),
         }
     }
+}
+
+/// By how large a share the mean kinetic energy of thermal tiles may be off by chance, twice the
+/// standard deviation: the square of a normal velocity varies by sqrt(2) of its mean, and the second
+/// half of a run of the time T has `drag T / 2` independent ones of each degree of freedom.
+fn chance(runs: &[Run], settings: &TableSettings) -> f64 {
+    let tiles: usize = runs.iter().map(|run| run.movers.len()).sum();
+    let independent = (settings.drag * settings.duration / 2.0).max(1.0);
+    2.0 * (2.0 / (3.0 * tiles as f64 * independent)).sqrt()
 }
 
 fn clusters(runs: &[Run]) -> Vec<(usize, f64)> {
