@@ -177,8 +177,9 @@ fn all() -> Vec<Enclosed> {
         shrinking: vec![(
             [0.11, 0.01, 0.1],
             [1.0, 1.0, 10.0],
-            [1e-3, 2e-4],
-            [80.0, 180.0],
+            [4e-4, 8e-5],
+            // Of second order, as of bare blocks.
+            [20.0, 1000.0],
         )],
         ..behind_shields()
     };
