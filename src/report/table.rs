@@ -42,7 +42,7 @@ pub fn document<'a>(
             },
         ),
         remarks: vec![meaning(found)],
-        entries: entries(about, found, seed).and(compared(found, beside)),
+        entries: entries(about, found, seed).and(compared(beside)),
         part: Some(Part::Crowd(Crowd::new(found))),
         pictures: pictures(found),
         beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
@@ -91,7 +91,7 @@ fn meaning(found: &Found) -> String {
 type Beside = Result<(Question, Yields), YieldError>;
 
 /// What detailed balance says of as many pairs with one partner each.
-fn compared(found: &Found, beside: Option<&Beside>) -> Entries {
+fn compared(beside: Option<&Beside>) -> Entries {
     let Some(Ok((question, yields))) = beside else {
         return Entries::default();
     };
