@@ -487,7 +487,8 @@ fn two_tiles_dock_as_often_as_one_at_a_fixed_one() {
             let overlap = by_dock.low <= there.high && there.low <= by_dock.high;
             assert!(overlap, "{by_dock:?} {there:?}");
         }
-        assert!(counts[0][0] > runs / 16, "{counts:?}");
+        // Enough of them end in contact for this to say something.
+        assert!(counts[0][0] + counts[1][0] > runs / 16, "{counts:?}");
         assert!(others < runs / 20, "{others} of {runs}");
     }
 }
