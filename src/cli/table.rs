@@ -33,7 +33,6 @@ Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --runs 20 --shaking 3e-3 --drag 0.5 \\
     --out target/table
   tilebind table shapes/tab-10mm.toml shapes/arc-20mm.toml --count 3,3 --time 60 --shaking 3e-3 --drag 0.5
-  tilebind table lattice --count 2,2,2,2 --time 60 --shaking 7e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {

@@ -168,7 +168,7 @@ impl Docking {
         let duration = self.found.settings.duration;
         if duration / interval > MOST_POINTS {
             return Err(fault::value(format!(
-                "{} s every {interval:e} s are more than {MOST_POINTS:e} points"
+                "{duration} s every {interval:e} s are more than {MOST_POINTS:e} points"
             )));
         }
         let snapshots = job::answer(py, Some(false), |_| {

@@ -111,9 +111,13 @@ fn parts_of_the_runs_are_those_of_the_whole() {
 
 #[test]
 fn tiles_of_a_set_are_set_against_its_pattern() {
-    let found = json(&[
-        "table", "lattice", "--count", "1,1,1,1", "--time", "0.1", "--json",
-    ]);
+    let folder = tempfile::tempdir().unwrap();
+    let set = folder.path().join("two.yaml");
+    let text = "size: 2\ntau: 1\ntiles:\n- {name: a, edges: [0, g, 0, 0]}\n\
+                - {name: b, edges: [0, 0, 0, g]}\nseed: [1, 1, a]\n";
+    std::fs::write(&set, text).unwrap();
+    let set = set.to_str().unwrap();
+    let found = json(&["table", set, "--count", "1,1", "--time", "0.1", "--json"]);
     let target = &found["target"];
     // Each alone, a tile has one of the pattern's places.
     let share = target["share"]["mean"].as_f64().unwrap();
