@@ -88,7 +88,7 @@ impl TableCommand {
         });
         let file = file.transpose()?;
         let start = self.request.start(
-            (&about, &crowd),
+            (about.designs.len(), &crowd),
             file.as_ref().map(|it| (it.0.as_str(), it.1.as_str())),
         );
         let start = start.map_err(Failure::Usage)?;

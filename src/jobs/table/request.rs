@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{About, start_file};
+use super::start_file;
 use crate::request::{self, MotionOptions, Shard};
 use physics::table::run::Start;
 use physics::table::start::check;
@@ -122,13 +122,14 @@ impl Request {
         self.frames.is_some()
     }
 
-    /// Where tiles start: as the file says whose name and text are given, or at random.
+    /// Where tiles start: as the file says whose name and text are given, or at random. `designs` is how
+    /// many designs they are of, 0 of a tile set.
     ///
     /// # Errors
     /// Where the file cannot be read, or there are not as many counts as kinds.
     pub fn start(
         &self,
-        (about, crowd): (&About, &Crowd),
+        (designs, crowd): (usize, &Crowd),
         file: Option<(&str, &str)>,
     ) -> Result<Start, String> {
         if let Some((name, text)) = file {
@@ -143,7 +144,7 @@ impl Request {
         let mut counts = self.count.clone();
         // Two numbers are those of every design.
         let each = counts.len();
-        if each == 2 && about.pattern.is_none() {
+        if each == 2 && designs > 0 {
             counts = counts.repeat(kinds.len() / each);
         }
         if counts.len() != kinds.len() {

@@ -277,7 +277,7 @@ impl Design {
             let designs = std::slice::from_ref(design);
             let (about, crowd) = About::of_designs(designs)?;
             let text = text.as_deref().map(|text| ("start", text));
-            let start = asked.start((&about, &crowd), text)?;
+            let start = asked.start((about.designs.len(), &crowd), text)?;
             asked.check()?;
             let found = put((&about, crowd), &asked, &start, told);
             let found = found.map_err(|error| error.to_string())?;
