@@ -2,7 +2,7 @@
 //!
 //! Each pair's bare energy u has a form p with `u - p` within +-R, as in [`CuboidBounds`], and its
 //! factor w, which depends on the blocks' centres, a form f with `w - f` within +-E (see
-//! [`Factors`](crate::potential::shielding::kernel::Factors)). The product has the form `p f` without
+//! [`Factors`]). The product has the form `p f` without
 //! its terms of third and fourth order, and
 //!
 //! ```text
@@ -24,7 +24,7 @@ use crate::cell::Cell;
 use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, CuboidBounds, Enclosure, Interval};
 use crate::potential::shielding::Shields;
-use crate::potential::shielding::kernel::FactorForm;
+use crate::potential::shielding::kernel::{FactorForm, Factors};
 use crate::tile::Tile;
 
 /// Share of a pair's greatest energy by which its product with the factor may be rounded.
@@ -60,7 +60,7 @@ impl CellBounds for ShieldedBlockBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         let mut out = Enclosure::default();
         let rotation = cell.centre.rotation();
-        let factors = self.level.run(self.fronts.factors(cell));
+        let factors = self.level.run(Factors(self.fronts.pairs(cell)));
         let count = self.fronts.fixed.len();
         for (k, (bare, mut factor)) in self.pairs.iter().zip(factors).enumerate() {
             let (i, j) = (k % count, k / count);

@@ -62,11 +62,7 @@ impl CellBounds for ShieldedBounds {
     fn enclose(&self, cell: &Cell) -> Enclosure {
         let mut rest = Vec::new();
         let (form, left_out) = self.level.run(Forms {
-            fixed: &self.fronts.columns,
-            moving: &self.fronts.moving,
-            cell,
-            count: self.fronts.fixed.len(),
-            extent: self.fronts.extent,
+            pairs: self.fronts.pairs(cell),
             rest: &mut rest,
         });
         let mut out = Enclosure::of_order(3.0, form, left_out);

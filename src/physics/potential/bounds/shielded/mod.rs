@@ -2,7 +2,7 @@
 //! ([`ShieldedBounds`]) and of blocks ([`ShieldedBlockBounds`]).
 //!
 //! Most pairs' factors have a second-order form with a bound of what it leaves out (see
-//! [`Factors`]). A factor that changes too fast for one has an interval. A magnet's factor is
+//! [`Factors`](crate::potential::shielding::kernel::Factors)). A factor that changes too fast for one has an interval. A magnet's factor is
 //! `g = eta (1 - S) + G S`, in which eta grows with the distance and S with the cosine: linear in
 //! either, it lies between its values at the corners of their ranges.
 
@@ -16,7 +16,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::{Interval, NearPair, depths};
 use crate::cell::Cell;
-use crate::potential::shielding::kernel::{Columns, Factors, Magnet, magnets};
+use crate::potential::shielding::kernel::{Columns, Magnet, Pairs, magnets};
 use crate::potential::shielding::{Shield, Shields};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
@@ -50,9 +50,9 @@ impl Fronts {
         }
     }
 
-    /// The forms of all factors over a cell.
-    fn factors<'a>(&'a self, cell: &'a Cell) -> Factors<'a> {
-        Factors {
+    /// The pairs of magnets over a cell.
+    fn pairs<'a>(&'a self, cell: &'a Cell) -> Pairs<'a> {
+        Pairs {
             fixed: &self.columns,
             moving: &self.moving,
             cell,

@@ -1,6 +1,6 @@
 //! The pairs of a cell that Taylor's theorem bounds.
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 
 use super::curvature::{Around, Limits, dipole_limits, pair_limits, product};
 use super::jet::{Jet, Place, dipoles};
@@ -48,13 +48,46 @@ impl Magnet {
 /// Pairs for which this is more than the energy itself can be, `2 |w| |u|`, get no form: their
 /// numbers (fixed, moving) are appended to `rest`.
 pub(in crate::potential) struct Forms<'a> {
+    pub pairs: Pairs<'a>,
+    pub rest: &'a mut Vec<(usize, usize)>,
+}
+
+/// The pairs of magnets over a cell.
+pub(in crate::potential) struct Pairs<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub cell: &'a Cell,
     /// How many fixed magnets there are, and the farthest one's distance from the origin (m).
     pub count: usize,
     pub extent: f64,
-    pub rest: &'a mut Vec<(usize, usize)>,
+}
+
+/// A moving magnet over a cell.
+struct Moved<F> {
+    /// At the cell's centre, and from the tile's reference point (m).
+    vectors: Vectors<F>,
+    arm: Vector2<f64>,
+    /// How far it moves (m) and turns (rad) at most.
+    speed: f64,
+    turn: f64,
+    /// By how much rounding may displace it (m).
+    placing: f64,
+}
+
+impl Pairs<'_> {
+    #[inline(always)]
+    fn moved<L: Lanes>(&self, l: L, magnet: &Magnet, rotation: &Rotation2<f64>) -> Moved<L::F> {
+        let q = &self.cell.centre;
+        let lever = magnet.lever();
+        let moved = magnet.moved(q, rotation);
+        Moved {
+            vectors: Vectors::splat(l, &moved),
+            arm: moved.position - q.position(),
+            speed: self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt()),
+            turn: self.cell.half[2],
+            placing: PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0),
+        }
+    }
 }
 
 /// The form, and the bound of what it leaves out (J).
@@ -65,31 +98,30 @@ impl Task for Forms<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, l: L) -> Form {
-        let q = &self.cell.centre;
-        let rotation = q.rotation();
-        let pairs = (self.count * self.moving.len()) as f64;
+        let rotation = self.pairs.cell.centre.rotation();
+        let pairs = (self.pairs.count * self.pairs.moving.len()) as f64;
         let rounding = ROUNDING + 16.0 * pairs * f64::EPSILON;
         let (zero, one) = (l.splat(0.0), l.splat(1.0));
         let mut form = Quadratic::default();
         let mut all_left_out = zero;
-        for (j, magnet) in self.moving.iter().enumerate() {
-            let lever = magnet.lever();
-            let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
-            let v = l.splat(speed);
-            let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
-            let moved = magnet.moved(q, &rotation);
-            let second = Vectors::splat(l, &moved);
+        for (j, magnet) in self.pairs.moving.iter().enumerate() {
+            let moved = self.pairs.moved(l, magnet, &rotation);
+            let second = &moved.vectors;
+            let v = l.splat(moved.speed);
             let mut sums = [zero; 10];
-            for from in (0..self.fixed.len()).step_by(WIDTH) {
-                let first = Vectors::load(l, self.fixed, from);
-                let way = Way::new(l, &first, &second);
-                let near = Near::new(l, [&first, &second], &way, [speed, self.cell.half[2]]);
-                let u = dipoles(l, &first, &second, &way);
+            for from in (0..self.pairs.fixed.len()).step_by(WIDTH) {
+                let first = Vectors::load(l, self.pairs.fixed, from);
+                let way = Way::new(l, &first, second);
+                let near = Near::new(l, &first, &moved, &way);
+                let u = dipoles(l, &first, second, &way);
                 let Around { turn, inverse, .. } = near.around;
-                let mut of_u = dipole_limits(l, &first, &second, turn, inverse);
+                let mut of_u = dipole_limits(l, &first, second, turn, inverse);
                 of_u[0] = l.min(of_u[0], l.mul_add(of_u[1], v, l.abs(u.0[0])));
                 let [whole, slope, bend, twist] = product(l, near.limits, of_u);
-                let left_out = l.mul(l.splat(speed * speed * speed / 6.0), twist);
+                let left_out = l.mul(
+                    l.splat(moved.speed * moved.speed * moved.speed / 6.0),
+                    twist,
+                );
                 // Negative where there is no form.
                 let worth = l.sub(l.mul(l.splat(2.0), whole), left_out);
                 let mask = l.select(l.min(near.room, worth), one, zero);
@@ -103,14 +135,14 @@ impl Task for Forms<'_> {
                 let relative = l.mul_add(l.mul(bend, v), v, first_order);
                 let placed = l.mul_add(l.mul(twist, v), v, l.mul_add(bend, v, slope));
                 let error = l.mul(l.splat(rounding), relative);
-                let error = l.mul_add(l.splat(placing), placed, error);
+                let error = l.mul_add(l.splat(moved.placing), placed, error);
                 all_left_out = l.mul_add(mask, l.add(left_out, error), all_left_out);
             }
             let mut place = [0.0; 10];
             for (entry, sum) in place.iter_mut().zip(sums) {
                 *entry = l.sum(sum);
             }
-            form = form.minus(-1.0, &turned(place, moved.position - q.position()));
+            form = form.minus(-1.0, &turned(place, moved.arm));
         }
         (form, l.sum(all_left_out))
     }
@@ -127,22 +159,18 @@ struct Near<F> {
 }
 
 impl<F: Copy> Near<F> {
-    /// For a second magnet that moves by up to `speed` (m) and turns by up to `turn` (rad).
     #[inline(always)]
-    fn new<L: Lanes<F = F>>(
-        l: L,
-        [first, second]: [&Vectors<F>; 2],
-        way: &Way<F>,
-        [speed, turn]: [f64; 2],
-    ) -> Self {
+    fn new<L: Lanes<F = F>>(l: L, first: &Vectors<F>, second: &Moved<F>, way: &Way<F>) -> Self {
+        let speed = second.speed;
         let room = l.sub(way.distance, l.splat(NEAR * speed + TINY));
         let r = l.select(room, l.sub(way.distance, l.splat(speed)), l.splat(1.0));
         let around = Around {
             reach: l.splat(speed),
-            turn: l.splat(turn / speed),
+            turn: l.splat(second.turn / speed),
             r,
             inverse: l.reciprocal(r),
         };
+        let second = &second.vectors;
         let (factor, limits) = pair_limits(l, first, second, way, &around);
         Self {
             factor,
@@ -155,14 +183,7 @@ impl<F: Copy> Near<F> {
 
 /// The factors of all pairs over a cell, those of the first moving magnet first, as forms of second
 /// order.
-pub(in crate::potential) struct Factors<'a> {
-    pub fixed: &'a Columns,
-    pub moving: &'a [Magnet],
-    pub cell: &'a Cell,
-    /// How many fixed magnets there are, and the farthest one's distance from the origin (m).
-    pub count: usize,
-    pub extent: f64,
-}
+pub(in crate::potential) struct Factors<'a>(pub Pairs<'a>);
 
 /// A factor over a cell.
 pub(in crate::potential) struct FactorForm {
@@ -180,23 +201,20 @@ impl Task for Factors<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Vec<FactorForm> {
-        let q = &self.cell.centre;
-        let rotation = q.rotation();
-        let mut out = Vec::with_capacity(self.count * self.moving.len());
-        for magnet in self.moving {
-            let lever = magnet.lever();
-            let speed = self.cell.reach(lever).max(f64::MIN_POSITIVE.sqrt());
-            let placing = PLACING * (self.extent + q.x.abs() + q.y.abs() + lever + 1.0);
-            let moved = magnet.moved(q, &rotation);
-            let second = Vectors::splat(l, &moved);
-            for from in (0..self.count).step_by(WIDTH) {
-                let first = Vectors::load(l, self.fixed, from);
-                let way = Way::new(l, &first, &second);
-                let near = Near::new(l, [&first, &second], &way, [speed, self.cell.half[2]]);
+        let Self(pairs) = self;
+        let rotation = pairs.cell.centre.rotation();
+        let mut out = Vec::with_capacity(pairs.count * pairs.moving.len());
+        for magnet in pairs.moving {
+            let moved = pairs.moved(l, magnet, &rotation);
+            let Moved { speed, placing, .. } = moved;
+            for from in (0..pairs.count).step_by(WIDTH) {
+                let first = Vectors::load(l, pairs.fixed, from);
+                let way = Way::new(l, &first, &moved.vectors);
+                let near = Near::new(l, &first, &moved, &way);
                 let place = near.factor.by_place(l, &way).map(|entry| stored(l, entry));
                 let limits = near.limits.map(|limit| stored(l, limit));
                 let room = stored(l, near.room);
-                for k in 0..WIDTH.min(self.count - from) {
+                for k in 0..WIDTH.min(pairs.count - from) {
                     let [size, slope, bend, twist] = limits.map(|limit| limit[k]);
                     let change = slope * speed;
                     let bend = bend * speed * speed;
@@ -205,7 +223,7 @@ impl Task for Factors<'_> {
                         + placing / speed * (change + bend + twist);
                     let known = if room[k] > 0.0 { 0.0 } else { f64::INFINITY };
                     out.push(FactorForm {
-                        form: turned(place.map(|entry| entry[k]), moved.position - q.position()),
+                        form: turned(place.map(|entry| entry[k]), moved.arm),
                         left_out: known + twist / 6.0 + rounding,
                         size,
                         change,
@@ -253,7 +271,7 @@ impl Forms<'_> {
         }
         let mut lanes = [0.0; WIDTH];
         l.store(mask, &mut lanes);
-        let end = self.count.min(from + WIDTH);
+        let end = self.pairs.count.min(from + WIDTH);
         let near = (from..end).filter(|i| lanes[i - from] == 0.0);
         self.rest.extend(near.map(|i| (i, j)));
     }

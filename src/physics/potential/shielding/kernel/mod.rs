@@ -15,7 +15,7 @@ use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::block::PairEnergy;
 use crate::tile::{self, Tile};
 use crate::units::MU0_OVER_4PI;
-pub(in crate::potential) use cell::{FactorForm, Factors, Forms};
+pub(in crate::potential) use cell::{FactorForm, Factors, Forms, Pairs};
 pub(in crate::potential) use curvature::Curvature;
 use factor::pair_factor;
 
