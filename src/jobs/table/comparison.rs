@@ -8,10 +8,11 @@ use physics::observer::Observer;
 
 /// What is asked of `yield`: as many pairs, on a table as large, as long, with the same drag and
 /// restitution. The tiles of the scarcer kind decide.
-pub fn question(design: &Design, request: &Request, counts: &[usize]) -> Option<Question> {
-    let pairs = counts.iter().copied().min().filter(|pairs| *pairs > 0)?;
+fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
+    let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
+    let pairs = counts.into_iter().min().filter(|pairs| *pairs > 0)?;
     let area = design.pair.moving.outline.area();
-    let table = 4.0 * design.space().half_size.iter().product::<f64>();
+    let table = found.crowd.area();
     let words = [
         ("tiles", (2 * pairs).to_string()),
         ("time", request.time.to_string()),
@@ -34,8 +35,7 @@ pub fn compared(
     progress: &dyn Observer,
 ) -> Option<Result<(Question, Yields), YieldError>> {
     let [design] = designs else { return None };
-    let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
-    let question = question(design, request, &counts).filter(|_| request.compare)?;
+    let question = question(design, request, found).filter(|_| request.compare)?;
     let answer = yields(design, &question, progress);
     Some(answer.map(|yields| (question, yields)))
 }

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use super::{About, Interval};
 use crate::assembly::growth::{Place, STEPS};
-use physics::table::contacts::Tie;
+use petgraph::algo::maximum_matching;
+use petgraph::graph::UnGraph;
+use physics::table::contacts::{Tie, cluster_of_each};
 use physics::table::run::Run;
 use physics::table::{Crowd, Mover};
 
@@ -66,7 +68,6 @@ fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
                     let [a, b] = tiles.map(|tile| kinds[tile]);
                     (a.min(b), a.max(b)) == (first, second)
                 })
-                .map(|[a, b]| if kinds[a] == first { [a, b] } else { [b, a] })
                 .collect();
             bound += matched(&pairs);
         }
@@ -74,59 +75,34 @@ fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
     bound as f64 / possible.max(1) as f64
 }
 
-/// The largest number of pairs of which no two share a tile, by augmenting paths.
+/// The largest number of pairs of which no two share a tile.
 fn matched(pairs: &[[usize; 2]]) -> usize {
-    fn takes(
-        first: usize,
-        pairs: &[[usize; 2]],
-        seen: &mut Vec<usize>,
-        owner: &mut BTreeMap<usize, usize>,
-    ) -> bool {
-        for [_, second] in pairs.iter().filter(|pair| pair[0] == first) {
-            if seen.contains(second) {
-                continue;
-            }
-            seen.push(*second);
-            let before = owner.get(second).copied();
-            if before.is_none_or(|before| takes(before, pairs, seen, owner)) {
-                owner.insert(*second, first);
-                return true;
-            }
-        }
-        false
-    }
-    let mut owner = BTreeMap::new();
-    let mut firsts: Vec<usize> = pairs.iter().map(|pair| pair[0]).collect();
-    firsts.sort_unstable();
-    firsts.dedup();
-    let takes_one = |first: &&usize| takes(**first, pairs, &mut Vec::new(), &mut owner);
-    firsts.iter().filter(takes_one).count()
+    let pairs = pairs.iter().map(|tiles| tiles.map(|tile| tile as u32));
+    let graph = UnGraph::<(), ()>::from_edges(pairs.map(<(u32, u32)>::from));
+    maximum_matching(&graph).len()
 }
 
 /// Of the cluster that has most of the pattern: how many of its tiles are in their places, and how
 /// many are not.
 fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, usize) {
     let held = run.samples.last().map_or(&[][..], |last| &last.held);
-    let mut beside: Vec<Vec<usize>> = vec![Vec::new(); run.movers.len()];
-    let mut bound: Vec<Vec<(usize, Place)>> = vec![Vec::new(); run.movers.len()];
-    for held in held {
+    let tiles = run.movers.len();
+    let mut bound: Vec<Vec<(usize, Place)>> = vec![Vec::new(); tiles];
+    for held in held.iter().filter(|held| held.tie == Tie::Bond) {
         let [a, b] = held.tiles;
         for (one, other) in [(a, b), (b, a)] {
-            beside[one].push(other);
-            if held.tie == Tie::Bond {
-                bound[one].push((other, step(crowd, [one, other].map(|it| &run.movers[it]))));
-            }
+            bound[one].push((other, step(crowd, [one, other].map(|it| &run.movers[it]))));
         }
     }
-    let mut is_known = vec![false; run.movers.len()];
+    let mut clusters: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (tile, cluster) in cluster_of_each(tiles, held).into_iter().enumerate() {
+        clusters.entry(cluster).or_default().push(tile);
+    }
     let mut best = (0, 0);
-    for tile in 0..run.movers.len() {
-        if is_known[tile] {
-            continue;
-        }
-        let cluster = reached(tile, &beside, &mut is_known);
+    for cluster in clusters.into_values() {
         // Within it, tiles that bonds tie to each other have places against each other.
-        let mut rest = cluster.clone();
+        let size = cluster.len();
+        let mut rest = cluster;
         while let Some(&first) = rest.first() {
             let places = placed(first, &bound);
             rest.retain(|it| !places.contains_key(it));
@@ -134,7 +110,7 @@ fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, 
                 .iter()
                 .map(|(tile, at)| (run.movers[*tile].kind, *at));
             let right = overlap(pattern, &kinds.collect::<Vec<_>>());
-            let found = (right, cluster.len() - right);
+            let found = (right, size - right);
             if found.0 > best.0 || (found.0 == best.0 && found.1 < best.1) {
                 best = found;
             }
@@ -154,22 +130,6 @@ fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
         false if p.y > 0.0 => north,
         false => south,
     }
-}
-
-/// The tiles that hang together with one, of those that are not known yet; they are now.
-fn reached(tile: usize, beside: &[Vec<usize>], is_known: &mut [bool]) -> Vec<usize> {
-    is_known[tile] = true;
-    let mut found = vec![tile];
-    let mut k = 0;
-    while k < found.len() {
-        for &other in &beside[found[k]] {
-            if !std::mem::replace(&mut is_known[other], true) {
-                found.push(other);
-            }
-        }
-        k += 1;
-    }
-    found
 }
 
 /// Where tiles lie that bonds tie to one.

@@ -95,15 +95,20 @@ fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
     (whole - 0.5 * turn * turn / together).max(0.0)
 }
 
+/// The cluster of tiles that hold each other that each tile is in, by the first of its tiles.
+pub fn cluster_of_each(tiles: usize, held: &[Held]) -> Vec<usize> {
+    let mut roots: Vec<usize> = (0..tiles).collect();
+    for held in held {
+        join(&mut roots, held.tiles[0], held.tiles[1]);
+    }
+    (0..tiles).map(|k| root(&mut roots, k)).collect()
+}
+
 /// The sizes of all clusters of tiles that hold each other, single tiles among them, falling.
 pub fn clusters(tiles: usize, held: &[Held]) -> Vec<usize> {
-    let mut cluster: Vec<usize> = (0..tiles).collect();
-    for held in held {
-        join(&mut cluster, held.tiles[0], held.tiles[1]);
-    }
     let mut sizes = vec![0; tiles];
-    for k in 0..tiles {
-        sizes[root(&mut cluster, k)] += 1;
+    for cluster in cluster_of_each(tiles, held) {
+        sizes[cluster] += 1;
     }
     sizes.retain(|size| *size > 0);
     sizes.sort_unstable_by(|a, b| b.cmp(a));
