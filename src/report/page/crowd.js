@@ -71,12 +71,6 @@ function showCrowd() {
     drawCrowd();
   });
   element("crowd-play").addEventListener("click", playCrowd);
-  const anew = () => {
-    readTheme();
-    drawCrowd();
-  };
   moment.frame = crowd.frames.length - 1;
-  anew();
-  addEventListener("resize", anew);
-  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
+  followPage(drawCrowd);
 }

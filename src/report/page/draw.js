@@ -2,6 +2,17 @@
 
 let theme = {};
 
+/** Draws the page, now and whenever its width, its colours or its medium change. */
+function followPage(draw) {
+  const anew = () => {
+    readTheme();
+    draw();
+  };
+  anew();
+  for (const event of ["resize", "beforeprint", "afterprint"]) addEventListener(event, anew);
+  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
+}
+
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["page", "ink", "soft", "line", "panel", "accent", "fixed", "moving", "edge", "hatch",

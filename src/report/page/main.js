@@ -209,17 +209,10 @@ async function showLandscape() {
   }
   now.chosen = world.states.length ? world.states[0].id : null;
   markChosen();
-  const anew = () => {
-    readTheme();
+  followPage(() => {
     drawColourBar();
     draw();
-  };
-  drawColourBar();
-  draw();
-  addEventListener("resize", anew);
-  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
-  addEventListener("beforeprint", anew);
-  addEventListener("afterprint", anew);
+  });
 }
 
 showPage();

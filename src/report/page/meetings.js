@@ -65,11 +65,5 @@ function showMeetings() {
     event.preventDefault();
     showMeeting([met[0] + move[0], met[1] + move[1]]);
   });
-  const anew = () => {
-    readTheme();
-    showMeeting(met ?? meetings.worst);
-  };
-  anew();
-  addEventListener("resize", anew);
-  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
+  followPage(() => showMeeting(met ?? meetings.worst));
 }

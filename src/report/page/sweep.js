@@ -156,17 +156,11 @@ function showCharts() {
     if (!charts.tiles.length) return;
     row.cells[0].prepend(make("canvas"));
   });
-  const anew = () => {
-    readTheme();
+  followPage(() => {
     for (const panel of panels) panel.draw();
     rows.forEach((row, point) => charts.tiles.length && drawThumbnail(row.cells[0].firstChild, point));
     showPoint();
-  };
-  anew();
-  addEventListener("resize", anew);
-  for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
-  addEventListener("beforeprint", anew);
-  addEventListener("afterprint", anew);
+  });
 }
 
 /** The panel of whatever is chosen. */
