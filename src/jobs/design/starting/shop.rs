@@ -37,9 +37,7 @@ impl ShopMagnet {
         let wrong = |what: &str| format!("{what}; {HELP}");
         let plain = plain(text);
         let parts: Vec<&str> = plain.splitn(3, 'x').map(str::trim).collect();
-        let (before, [.., last]) = (&parts[..parts.len() - 1], &parts[..]) else {
-            return Err(wrong("there are no lengths"));
-        };
+        let (last, before) = parts.split_last().unwrap_or((&"", &[]));
         let (last, unit, rest) = last_length(last)
             .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
         // A unit of its own behind a length, or the one behind the last.
