@@ -281,19 +281,30 @@ fn bound_tiles_have_the_temperature_of_their_shaking() {
     }
 }
 
+/// Whether a tile there lies within the rim.
+fn is_on_table(problem: &Problem, tile: &Tile, q: &Configuration) -> bool {
+    let half = problem.space.half_size;
+    tile.outline.vertices().iter().all(|corner| {
+        let p = q.transform(*corner);
+        p.x.abs() <= half[0] && p.y.abs() <= half[1]
+    })
+}
+
+/// Two small tiles of dipoles that bind by one face, on a table of so large a half.
+fn two_small(half: f64) -> (Problem, Crowd) {
+    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles, model, [half; 2]);
+    let crowd = crowd(&problem, model);
+    (problem, crowd)
+}
+
 /// The share of time in which two tiles are bound on a small table, by the method of Metropolis.
 fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
     let pair = problem.pair.as_ref().unwrap();
     let rule = MatchRule::new(problem, None).unwrap();
     let tiles = [&pair.fixed, &pair.moving];
     let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
-    let half = problem.space.half_size;
-    let is_on_table = |tile: &Tile, q: &Configuration| {
-        tile.outline.vertices().iter().all(|corner| {
-            let p = q.transform(*corner);
-            p.x.abs() <= half[0] && p.y.abs() <= half[1]
-        })
-    };
     let relative = |[a, b]: [Configuration; 2]| {
         let p = a.inverse_transform(b.position());
         Configuration::new(p.x, p.y, b.theta - a.theta)
@@ -314,7 +325,7 @@ fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
         let mut tried = places;
         tried[tile] = places[tile].moved(Vector3::new(x, y, turn));
         let q = relative(tried);
-        if is_on_table(tiles[tile], &tried[tile]) && contact.is_free(&q) {
+        if is_on_table(problem, tiles[tile], &tried[tile]) && contact.is_free(&q) {
             let there = problem.potential().energy(&q);
             if rng.random::<f64>() < libm::exp((energy - there) / kt) {
                 (places, energy) = (tried, there);
@@ -327,10 +338,7 @@ fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
 
 #[test]
 fn two_tiles_are_bound_as_often_as_boltzmann_says() {
-    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
-    let model = MagnetModel::Dipole;
-    let problem = problem(tiles, model, [0.14; 2]);
-    let crowd = crowd(&problem, model);
+    let (problem, crowd) = two_small(0.14);
     let kt = problem.depth() / 12.5;
     let expected = share_by_metropolis(&problem, kt);
     let [mean, error] = share_bound(&crowd, kt);
@@ -366,12 +374,6 @@ fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
     let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
     let tiles = [&pair.fixed, &pair.moving];
     let half = problem.space.half_size;
-    let is_on_table = |tile: usize, q: &Configuration| {
-        tiles[tile].outline.vertices().iter().all(|corner| {
-            let p = q.transform(*corner);
-            p.x.abs() <= half[0] && p.y.abs() <= half[1]
-        })
-    };
     let couple = crowd.couple(0, 1).0;
     let mut rng = stream(12);
     let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
@@ -381,13 +383,13 @@ fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
         let [a, b] = [place(), place()];
         let partner = a.transform(pair.bound.position());
         let partner = Configuration::new(partner.x, partner.y, a.theta + pair.bound.theta);
-        if !is_on_table(0, &a) {
+        if !is_on_table(problem, tiles[0], &a) {
             continue;
         }
-        bound += f64::from(u8::from(is_on_table(1, &partner)));
+        bound += f64::from(u8::from(is_on_table(problem, tiles[1], &partner)));
         let p = a.inverse_transform(b.position());
         let q = Configuration::new(p.x, p.y, b.theta - a.theta);
-        if is_on_table(1, &b) && contact.is_free(&q) && !rule.holds(&q) {
+        if is_on_table(problem, tiles[1], &b) && contact.is_free(&q) && !rule.holds(&q) {
             apart += libm::exp(-couple.potential.energy(&q) / kt);
         }
     }
@@ -396,10 +398,7 @@ fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
 
 #[test]
 fn two_tiles_are_bound_as_often_as_ln_k_says() {
-    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
-    let model = MagnetModel::Dipole;
-    let problem = problem(tiles, model, [0.16; 2]);
-    let crowd = crowd(&problem, model);
+    let (problem, crowd) = two_small(0.16);
     let minimum = Point::new(&problem, problem.pair.as_ref().unwrap().bound);
     let kt = -minimum.energy / 14.0;
     // ln K of one partner on the table, as `tilebind bond` has it.
