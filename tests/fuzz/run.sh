@@ -36,8 +36,9 @@ declare -A seeds=(
 declare -A inputs=(
     [design]=15000 [drawing]=20000 [tileset]=40000 [words]=10000 [plan]=60000 [table]=1000 [bounds]=200
 )
-for target in "${targets[@]}"; do
-    grown="$CARGO_TARGET_DIR/corpus/$target" found="$CARGO_TARGET_DIR/found/$target"
+try() {
+    local target="$1" limit options cases=() executed
+    local grown="$CARGO_TARGET_DIR/corpus/$target" found="$CARGO_TARGET_DIR/found/$target"
     if [[ "$effort" == same ]]; then
         rm -rf "$grown"
         limit=(-seed=1 -runs="${inputs[$target]}")
@@ -48,15 +49,28 @@ for target in "${targets[@]}"; do
     options=("${limit[@]}" -timeout=20 -rss_limit_mb=2048 -max_len=32768
         -artifact_prefix="$found/" -print_final_stats=1)
     [[ -f "$target.dict" ]] && options+=(-dict="$target.dict")
-    cases=()
     [[ -d "cases/$target" ]] && cases=("cases/$target")
     # shellcheck disable=SC2086 # folders without spaces
     if ! "$CARGO_TARGET_DIR/x86_64-unknown-linux-gnu/release/$target" "${options[@]}" \
         "$grown" "${cases[@]}" ${seeds[$target]} 2>"$found/log"; then
         tail -n 40 "$found/log"
         echo "fuzz: a finding in $target: see $found"
-        exit 1
+        return 1
     fi
     executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$found/log")
     echo "fuzz: $target: $executed inputs, no finding"
+}
+
+# One target a core.
+running=0 failed=0
+finish_one() {
+    wait -n || failed=1
+    running=$((running - 1))
+}
+for target in "${targets[@]}"; do
+    ((running < $(nproc))) || finish_one
+    try "$target" &
+    running=$((running + 1))
 done
+while ((running)); do finish_one; done
+exit "$failed"

@@ -6,12 +6,12 @@
 mod truth;
 
 use libfuzzer_sys::fuzz_target;
-use tilebind::Configuration;
-use tilebind::cell::Cell;
-use tilebind::contact::Contact;
-use tilebind::potential::CellBounds;
-use tilebind::potential::bounds::{CuboidBounds, DipoleBounds};
-use tilebind::tile::{Magnet, Outline, Tile};
+use physics::Configuration;
+use physics::cell::Cell;
+use physics::contact::Contact;
+use physics::potential::CellBounds;
+use physics::potential::bounds::{CuboidBounds, DipoleBounds};
+use physics::tile::{Magnet, Outline, Tile};
 
 /// Half a tile's side (m).
 const HALF: f64 = 0.1;

@@ -2,8 +2,8 @@
 
 #![no_main]
 
+use jobs::Design;
 use libfuzzer_sys::fuzz_target;
-use tilebind::Design;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = str::from_utf8(bytes) else {

@@ -4,8 +4,8 @@
 
 use std::collections::BTreeMap;
 
+use jobs::Design;
 use libfuzzer_sys::fuzz_target;
-use tilebind::Design;
 
 /// Tiles that are drawn, and a face that is.
 const DESIGNS: [&str; 2] = [include_str!("outline.toml"), include_str!("line.toml")];

@@ -2,14 +2,15 @@
 
 use std::fmt::Display;
 
-use tilebind::assembly::{TileSet, rgrow, xgrow};
-use tilebind::calibration::{bonds, distances, read_rows};
-use tilebind::design::{DesignError, WordSet};
-use tilebind::query::poses;
-use tilebind::sweep::Plan;
-use tilebind::table::{About, read_start};
-use tilebind::text::with_commas;
-use tilebind::{Configuration, Design};
+use jobs::Design;
+use jobs::assembly::{TileSet, rgrow, xgrow};
+use jobs::calibration::{bonds, distances, read_rows};
+use jobs::design::{DesignError, WordSet};
+use jobs::query::poses;
+use jobs::sweep::Plan;
+use jobs::table::{About, read_start};
+use jobs::text::with_commas;
+use physics::Configuration;
 
 /// Whether an answer can be told in a terminal, and a design that was read is sound.
 ///

@@ -4,8 +4,8 @@
 
 use std::sync::LazyLock;
 
+use jobs::Design;
 use libfuzzer_sys::fuzz_target;
-use tilebind::Design;
 
 static PAIR: LazyLock<Design> = LazyLock::new(|| {
     let text = include_str!("../../../shapes/tab-20mm.toml");

@@ -1,9 +1,9 @@
 //! Energies of dipoles and blocks, enclosed in plain interval arithmetic.
 
 use inari::Interval;
-use tilebind::Configuration;
-use tilebind::tile::{Magnet, Tile};
-use tilebind::units::MU0_OVER_4PI;
+use physics::Configuration;
+use physics::tile::{Magnet, Tile};
+use physics::units::MU0_OVER_4PI;
 
 type Pair = [Interval; 2];
 
