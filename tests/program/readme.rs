@@ -83,6 +83,7 @@ fn shortened(command: &str) -> String {
             " --milestones 300 --far-starts 10 --certify-cells 300 --complete-cells 0 --quiet"
         }
         "rates" => " --certify 0.5",
+        "assemble" => " --seconds 2",
         "yield" if words.contains(&"--runs") => " --quiet",
         "yield" => " --runs 8 --quiet",
         _ => "",
