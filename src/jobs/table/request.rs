@@ -58,7 +58,7 @@ pub struct Request {
     #[command(flatten)]
     pub motion: MotionOptions,
 
-    /// Longest step (s) [default: 0.001, or less for fast drives]
+    /// Longest step (s) [default: 0.0025, or less for fast drives]
     ///
     /// Steps in contact are shorter in proportion.
     #[arg(long, value_name = "S", value_parser = step)]

@@ -17,9 +17,10 @@ use nalgebra::{Vector2, Vector3};
 use super::union::{join, root};
 use crate::tile::outline::cross;
 
-/// Sweeps end with one that changes no velocity (m/s) by more than this. Some ten times as much may be
-/// wrong then: over a step of 1 ms that moves a tile by 1 nm.
-pub const ERROR: f64 = 1e-7;
+/// Sweeps end with one that changes no velocity (m/s) by more than this, a ten thousandth of what a kick of
+/// the shaking usually gives. Some ten times as much may be wrong then: over the usual step that moves a
+/// tile by 25 nm.
+pub const ERROR: f64 = 1e-6;
 /// Sweeps over the points, at most.
 const SWEEPS: usize = 1000;
 /// The last so many are plain ones, which always go on towards the solution.
@@ -132,32 +133,34 @@ impl Response {
     }
 }
 
-/// A point as it is solved for.
+/// A point as it is solved for, in velocities times the root of the mass (or inertia): a unit impulse then
+/// adds to them what the point's row is.
 struct Point {
     tiles: [usize; 2],
     rows: [[Vector3<f64>; 2]; 2],
-    /// What unit impulses along normal and tangent add to the velocities.
-    answers: [[Vector3<f64>; 2]; 2],
     response: Response,
     least: f64,
     impulses: [f64; 2],
+    /// The impulses before a sweep.
+    before: [f64; 2],
+    /// Where all sweeps before went.
+    direction: [f64; 2],
 }
 
 impl Point {
-    /// Of a hold between two tiles of a cluster.
-    fn new(hold: &Hold, tiles: [usize; 2], inverse: &[Vector3<f64>]) -> Self {
-        let rows = hold.rows;
-        let answers = rows.map(|row| [0, 1].map(|k| row[k].component_mul(&inverse[tiles[k]])));
+    /// Of a hold between two tiles of a cluster, whose masses have these roots, inverse.
+    fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>]) -> Self {
+        let scaled =
+            |row: [Vector3<f64>; 2]| [0, 1].map(|k| row[k].component_mul(&roots[tiles[k]]));
+        let rows = hold.rows.map(scaled);
         let product = |a: usize, b: usize| -> f64 {
-            (0..2)
-                .map(|side| rows[a][side].dot(&answers[b][side]))
-                .sum()
+            let sides = rows[a].iter().zip(&rows[b]);
+            sides.map(|(a, b)| a.dot(b)).sum()
         };
         let [nn, nt, tt] = [product(0, 0), product(0, 1), product(1, 1)];
         Self {
             tiles,
             rows,
-            answers,
             response: Response {
                 nn,
                 nt,
@@ -166,18 +169,21 @@ impl Point {
             },
             least: hold.least,
             impulses: hold.impulses,
+            before: [0.0; 2],
+            direction: [0.0; 2],
         }
     }
 
-    fn push(&self, impulses: [f64; 2], velocities: &mut [Vector3<f64>]) {
-        let [push, rub] = impulses;
+    fn push(&self, [push, rub]: [f64; 2], velocities: &mut [Vector3<f64>]) {
+        let [normal, tangent] = &self.rows;
         for (side, tile) in self.tiles.into_iter().enumerate() {
-            velocities[tile] += self.answers[0][side] * push + self.answers[1][side] * rub;
+            velocities[tile] += normal[side] * push + tangent[side] * rub;
         }
     }
 
     /// Gives the point what it asks for.
     fn solve(&mut self, velocities: &mut [Vector3<f64>], friction: f64) {
+        self.before = self.impulses;
         let [a, b] = self.tiles.map(|tile| velocities[tile]);
         let along = |row: &[Vector3<f64>; 2]| row[0].dot(&a) + row[1].dot(&b);
         let [push, rub] = self.impulses;
@@ -190,6 +196,19 @@ impl Point {
         let asked = self.response.impulses(lack, slip, friction);
         self.push([asked[0] - push, asked[1] - rub], velocities);
         self.impulses = asked;
+    }
+
+    /// After a sweep: goes on by a share of the direction of all sweeps before, within the cone of friction,
+    /// and makes the next direction.
+    fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>], friction: f64) {
+        let now = self.impulses;
+        let [push, rub] = [0, 1].map(|row| now[row] + self.direction[row] * share);
+        let push = push.max(0.0);
+        let most = friction * push;
+        self.impulses = [push, rub.clamp(-most, most)];
+        self.push([0, 1].map(|row| self.impulses[row] - now[row]), velocities);
+        self.direction =
+            [0, 1].map(|row| self.direction[row] * share + now[row] - self.before[row]);
     }
 }
 
@@ -222,16 +241,19 @@ pub fn hold_back(
             let second = second.or(first).unwrap_or(0);
             (&holds[*k], [first.unwrap_or(second), second])
         });
-        let inverse: Vec<_> = tiles.iter().map(|tile| inverse[*tile]).collect();
-        let points = points.map(|(hold, tiles)| Point::new(hold, tiles, &inverse));
+        let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
+        let roots: Vec<_> = roots.collect();
+        let points = points.map(|(hold, tiles)| Point::new(hold, tiles, &roots));
         let mut points: Vec<Point> = points.collect();
-        let mut own: Vec<_> = tiles.iter().map(|tile| velocities[*tile]).collect();
-        solve(&inverse, &mut own, &mut points, friction);
+        let own = tiles.iter().zip(&roots);
+        let own = own.map(|(tile, root)| velocities[*tile].component_div(root));
+        let mut own: Vec<_> = own.collect();
+        solve(&roots, &mut own, &mut points, friction);
         for (k, point) in cluster.iter().zip(&points) {
             holds[*k].impulses = point.impulses;
         }
-        for (tile, velocity) in tiles.iter().zip(own) {
-            velocities[*tile] = velocity;
+        for ((tile, velocity), root) in tiles.iter().zip(own).zip(&roots) {
+            velocities[*tile] = velocity.component_mul(root);
         }
     }
 }
@@ -260,9 +282,9 @@ fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
     found
 }
 
-/// Solves for all points of a cluster; in so many sweeps.
+/// Solves for all points of a cluster, whose masses have these roots, inverse; in so many sweeps.
 fn solve(
-    inverse: &[Vector3<f64>],
+    roots: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
     points: &mut [Point],
     friction: f64,
@@ -270,66 +292,34 @@ fn solve(
     for point in points.iter() {
         point.push(point.impulses, velocities);
     }
-    let (mut velocities_before, mut impulses_before) = (Vec::new(), Vec::new());
-    let mut direction = vec![[0.0; 2]; points.len()];
+    let mut before = velocities.to_vec();
     let mut last = f64::INFINITY;
     for sweep in 0..SWEEPS {
-        velocities_before.clear();
-        velocities_before.extend_from_slice(velocities);
-        impulses_before.clear();
-        impulses_before.extend(points.iter().map(|it| it.impulses));
+        before.copy_from_slice(velocities);
         for point in points.iter_mut() {
             point.solve(velocities, friction);
         }
         // Points that ask for all but the same may go on correcting each other: what counts is the sweep.
-        let changes = velocities.iter().zip(&velocities_before).zip(inverse);
-        let squares = changes.map(|((now, before), inverse)| {
-            let change = now - before;
-            (change.component_div(inverse).dot(&change), inverse.x)
-        });
+        let changes = velocities.iter().zip(&before).zip(roots);
         let [mut size, mut fastest] = [0.0; 2];
-        for (square, inverse) in squares {
+        for ((now, before), root) in changes {
+            let square = (now - before).norm_squared();
             size += square;
-            fastest = f64::max(fastest, square * inverse);
+            fastest = f64::max(fastest, square * root.x * root.x);
         }
         if fastest < ERROR * ERROR {
             return sweep + 1;
         }
         if sweep + PLAIN < SWEEPS {
+            // The share is that of the energies of the sweeps' changes.
             let share = if size <= last { size / last } else { 0.0 };
-            go_on(
-                velocities,
-                points,
-                &impulses_before,
-                &mut direction,
-                (share, friction),
-            );
+            for point in points.iter_mut() {
+                point.go_on(share, velocities, friction);
+            }
             last = size;
         }
     }
     SWEEPS
-}
-
-/// After a sweep: goes on by a share of the direction of all sweeps before, within the cones of friction,
-/// and makes the next direction. (The share is that of the energies of the sweeps' changes.)
-fn go_on(
-    velocities: &mut [Vector3<f64>],
-    points: &mut [Point],
-    before: &[[f64; 2]],
-    direction: &mut [[f64; 2]],
-    (share, friction): (f64, f64),
-) {
-    let each = points.iter_mut().zip(before);
-    for ((point, before), along) in each.zip(direction) {
-        let now = point.impulses;
-        let [push, rub] = [0, 1].map(|row| now[row] + along[row] * share);
-        let push = push.max(0.0);
-        let most = friction * push;
-        point.impulses = [push, rub.clamp(-most, most)];
-        let on = [0, 1].map(|row| point.impulses[row] - now[row]);
-        point.push(on, velocities);
-        *along = [0, 1].map(|row| along[row] * share + now[row] - before[row]);
-    }
 }
 
 /// Kinetic energy (J) of velocities.
@@ -410,11 +400,14 @@ mod tests {
                     Vector3::new(0.2 * x + even(), 0.2 * y + even(), even())
                 });
                 let start: Vec<_> = velocities.collect();
+                let roots: Vec<_> = inverse.iter().map(|it| it.map(f64::sqrt)).collect();
                 let mut points: Vec<Point> = holds
                     .iter()
-                    .map(|hold| Point::new(hold, hold.tiles.map(|it| it.unwrap_or(0)), &inverse))
+                    .map(|hold| Point::new(hold, hold.tiles.map(|it| it.unwrap_or(0)), &roots))
                     .collect();
-                let sweeps = solve(&inverse, &mut start.clone(), &mut points, friction);
+                let scaled = start.iter().zip(&roots);
+                let scaled: Vec<_> = scaled.map(|(v, root)| v.component_div(root)).collect();
+                let sweeps = solve(&roots, &mut scaled.clone(), &mut points, friction);
                 all += sweeps;
                 let mut now = start.clone();
                 hold_back(&inverse, &mut now, &mut holds, friction);
@@ -429,7 +422,7 @@ mod tests {
                     );
                 }
                 // From the impulses of the solution it is found at once.
-                let again = solve(&inverse, &mut start.clone(), &mut points, friction);
+                let again = solve(&roots, &mut scaled.clone(), &mut points, friction);
                 assert!(again <= sweeps, "{again} {sweeps}");
             }
             assert!(all < 20 * 200, "{all} sweeps at {friction}");

@@ -27,8 +27,8 @@ use super::settings::TableSettings;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
 
-/// Points are touched at gaps below this (m).
-const TOUCHED: f64 = 1e-9;
+/// Points are touched at gaps below this (m), about as far as [`hold_back`] may be off in a step.
+const TOUCHED: f64 = 2e-8;
 /// Outlines are kept apart by this (m). The force of two blocks turns round where their pole faces pass
 /// through each other, so that tiles must not overlap by the least; an energy is off by a force times
 /// this.

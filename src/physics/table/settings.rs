@@ -40,8 +40,8 @@ pub struct TableSettings {
 }
 
 impl TableSettings {
-    /// The usual longest step (s), for which the limits of steps in contact are made.
-    pub const USUAL_STEP: f64 = 1e-3;
+    /// The default longest step (s), for which the limits of steps in contact are made.
+    pub const USUAL_STEP: f64 = 2.5e-3;
 
     /// Steps between two kicks; drag alone acts at each.
     pub(super) fn steps_between_kicks(&self) -> usize {

@@ -718,7 +718,7 @@ fn halving_the_step_changes_nothing_that_seeds_do_not() {
         let all: Vec<[f64; 2]> = (0..16).map(run).collect();
         [0, 1].map(|k| mean(&all.iter().map(|it| it[k]).collect::<Vec<_>>()))
     };
-    let [usual, half] = [1e-3, 5e-4].map(held);
+    let [usual, half] = [1.0, 0.5].map(|share| held(share * TableSettings::USUAL_STEP));
     println!("{usual:?} {half:?}");
     for ([a, e], [b, f]) in usual.into_iter().zip(half) {
         assert!(
