@@ -1,4 +1,4 @@
-//! How a command ends when it does not succeed.
+//! The errors that end a command, and their exit status.
 
 use std::fmt::Display;
 use std::io;

@@ -1,4 +1,4 @@
-//! How pictures are to be drawn.
+//! The options for pictures.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What users type: designs, poses, numbers with limits.
+//! Parses user input: designs, poses, numbers with limits.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};

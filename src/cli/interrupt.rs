@@ -1,4 +1,4 @@
-//! Ctrl-C and SIGTERM: the command ends with status 75, results whole or not there at all.
+//! Ctrl-C and SIGTERM: the command ends with status 75, and its results are complete or absent.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};

@@ -1,4 +1,4 @@
-//! The commands, a file each, and what they share.
+//! The commands, one file each, and what they share.
 
 pub mod analyse;
 pub mod assemble;

@@ -1,4 +1,4 @@
-//! Options that several commands have, and what is done with them.
+//! Options that several commands share, and their handling.
 //!
 //! A command that means something of its own by one of them says so with `mut_arg`; not by an
 //! argument without a name, which `mut_arg` would move behind the others.

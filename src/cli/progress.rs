@@ -1,4 +1,4 @@
-//! Progress on a terminal; silence anywhere else.
+//! Progress bars on a terminal; no output elsewhere.
 
 use std::io::IsTerminal;
 use std::time::Duration;

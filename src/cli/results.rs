@@ -1,4 +1,4 @@
-//! Where results go.
+//! The destination of results.
 
 use std::path::{Path, PathBuf};
 

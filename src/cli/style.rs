@@ -1,4 +1,4 @@
-//! The terminal: its width, and whether it takes colours.
+//! Properties of the terminal: its width, and whether it supports colours.
 
 use std::io::IsTerminal;
 

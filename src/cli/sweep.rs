@@ -1,4 +1,4 @@
-//! `tilebind sweep`: many designs from one.
+//! `tilebind sweep`: many variants of a design.
 
 use std::path::{Path, PathBuf};
 

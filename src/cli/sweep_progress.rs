@@ -1,4 +1,4 @@
-//! How far a sweep is: a bar on a terminal, a line now and then anywhere else.
+//! The progress of a sweep: a bar on a terminal, occasional lines elsewhere.
 
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! How much less is asked for of very many magnets, told beforehand.
+//! Warns before an analysis of many magnets that it is sampled less.
 
 use tilebind::units::si;
 use tilebind::{Design, Settings};

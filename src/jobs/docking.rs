@@ -1,4 +1,4 @@
-//! Docking experiments: what is asked of them, and paths to be looked at.
+//! Docking experiments: the request, and trajectories for display.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

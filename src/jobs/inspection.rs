@@ -1,4 +1,4 @@
-//! What a design is, at a glance: its bond, the forces that hold it, and what is wrong with it.
+//! A quick inspection of a design: its bond, the forces that hold it, and the mistakes in it.
 //!
 //! Nothing is searched here: the tiles are looked at where their target faces meet, and drawn apart
 //! along the face's normal. Whether they find each other, only an analysis tells.

@@ -1,4 +1,4 @@
-//! From a design file to what is asked of it: each job in one call, its result as plain data.
+//! The jobs: each turns a design file or another input into a result, in one call, as plain data.
 //!
 //! | module | what it holds |
 //! |---|---|

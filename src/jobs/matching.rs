@@ -1,4 +1,4 @@
-//! How the two outlines of a design fit together.
+//! The ways in which the two outlines of a design fit together.
 
 use clap::Args;
 

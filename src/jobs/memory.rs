@@ -1,4 +1,4 @@
-//! Whether the machine has the memory that a request needs.
+//! Checks that the machine has the memory a request needs.
 
 use physics::roadmap;
 

@@ -1,4 +1,4 @@
-//! Why a job is not done: what was asked for, or a file that is read for it.
+//! Errors of requests that cannot be carried out: in the request itself or in a file it names.
 
 use crate::design::DesignError;
 

@@ -1,4 +1,4 @@
-//! A design to start from: what is asked of it.
+//! New designs: the request.
 
 use clap::Args;
 

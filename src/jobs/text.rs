@@ -1,5 +1,5 @@
-//! Text as programs save it: UTF-8 or UTF-16, with a byte-order mark or without, tables with commas or,
-//! where commas are decimal, with semicolons.
+//! Reads text as programs save it: UTF-8 or UTF-16, with or without a byte-order mark, tables with
+//! commas or, where commas are decimal, with semicolons.
 
 use std::borrow::Cow;
 use std::fs::File;

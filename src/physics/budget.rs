@@ -1,5 +1,5 @@
-//! How much work may be done, counted so that it ends at the same place on every machine, busy or
-//! idle, and on any number of threads.
+//! Work limits that are counted rather than timed: a computation ends at the same place on every
+//! machine, busy or idle, and on any number of threads.
 //!
 //! Work is counted in units that take about 4 ns of a core; what they stand for is counted out where
 //! they are spent. A clock may be set as well, and is asked only where work done on all threads has

@@ -1,4 +1,4 @@
-//! Long work that is given up when it is asked to be: ctrl-C in a session that goes on.
+//! Interruption of long computations, such as ctrl-C in a session that continues.
 //!
 //! [`Interruption::run`] works on threads of its own and leaves a mark on each; the library's inner
 //! loops [`check`] it and unwind, without a word, once the work is no longer wanted. What was found

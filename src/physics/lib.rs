@@ -1,4 +1,4 @@
-//! What two magnetic tiles do, from outlines and magnets to landscapes, kinetics and words.
+//! The physics of two magnetic tiles: from outlines and magnets to landscapes, kinetics and words.
 //!
 //! The only part of the program with `unsafe` code, and that in [`potential`] alone. It reads no
 //! files, and nothing in it formats results. A module uses those below it:

@@ -1,4 +1,4 @@
-//! Products of matrices, the same bits on every processor.
+//! Matrix products with the same bits on every processor.
 //!
 //! nalgebra multiplies matrices of more than five rows by the crate `matrixmultiply`, whose kernels,
 //! and with them the rounding, depend on the processor.

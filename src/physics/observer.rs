@@ -1,4 +1,4 @@
-//! Who is told what long work is doing.
+//! Progress reports of long computations.
 
 /// Is told what the main job is doing.
 pub trait Observer: Sync {

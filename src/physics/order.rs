@@ -1,4 +1,4 @@
-//! Stable sorts whose code is compiled once: what is sorted is the items' places.
+//! Stable sorting whose code is compiled only once: it sorts the items' indices.
 //!
 //! The standard library's stable sort is some 9 kB of code for each type of item and each order,
 //! and faster where very many items are sorted very often.

@@ -1,5 +1,5 @@
-//! Work on many items side by side, with results in the items' order, unless it is
-//! [given up](crate::interruption).
+//! Parallel work on many items. Results come in the items' order, unless the work is
+//! [interrupted](crate::interruption).
 //!
 //! What shares the work out is compiled once, for all items and all work, where each parallel
 //! iterator of rayon is some 10 kB of code. Those are left where items take less than a microsecond.

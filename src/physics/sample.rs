@@ -1,4 +1,4 @@
-//! Pairs of regular tiles for tests of what is not public.
+//! Pairs of regular tiles for unit tests.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Lengths that are told for tiles of one size, and what they are for tiles of another.
+//! Lengths that are stated for tiles of one size, scaled to tiles of another.
 //!
 //! Multiply all lengths of a problem by s and keep the remanence: energies are multiplied by s^3, and
 //! nothing else changes. So no step of a search and no tolerance may be a length by itself. Where it

@@ -1,5 +1,5 @@
-//! Best-first subdivision: cells wait by rank, so many at once are looked at side by side, and what
-//! is made of each is its owner's affair: it is done with, or its parts wait in its place.
+//! Best-first subdivision: cells wait in order of rank and are processed in parallel batches. For
+//! each cell the caller decides whether it is finished or replaced by its parts.
 //!
 //! Where the next cells follow from how all that there are touch each other, there is no rank to wait
 //! by: [`crate::landscape::minimax`] keeps all its cells, and a flood tells which are to be divided.

@@ -1,4 +1,4 @@
-//! Physical constants and the printing of quantities with SI prefixes.
+//! Physical constants, and quantities printed with SI prefixes.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The main job: an analysis as a document, with all its files.
+//! An analysis as a document, with all its files.
 //!
 //! Every number carries its unit in its key (`energy_J`); poses are `[x, y, theta]` in m, m and rad. All
 //! that depends on the machine is under `timing`: everything else is the same for the same design,

@@ -1,4 +1,4 @@
-//! Figures of designs in documents.
+//! The columns of assessed designs.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! One barrier between two poses.
+//! One barrier between two poses, as a document.
 
 use serde_json::json;
 

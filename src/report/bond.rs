@@ -1,4 +1,4 @@
-//! How strongly the bond and the traps hold shaken tiles.
+//! The strength of the bond and the traps, as a document.
 
 use serde_json::Value;
 

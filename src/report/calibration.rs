@@ -1,4 +1,4 @@
-//! Calibrations: shields fitted to measurements, and kT to pairs that were watched.
+//! Calibrations as documents: shields fitted to measurements, and kT fitted to observed pairs.
 
 use serde_json::{Value, json};
 

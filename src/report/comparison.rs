@@ -1,4 +1,4 @@
-//! Designs side by side.
+//! Comparisons of designs as documents.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Crosstalk: the attraction of every two words over all poses.
+//! Crosstalk as a document: the attraction of every two words over all poses.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! Docking experiments: how tiles end that are sent towards each other.
+//! Docking experiments as documents: how tiles launched towards each other end.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! DXF files that programs open at size.
+//! DXF files that programs open at true size.
 //!
 //! Release 2000 (AC1015) in ASCII: the oldest with `$INSUNITS`, which says what a unit of the drawing
 //! is, and read by whatever reads DXF. It wants more than lines: tables, blocks for model and paper,

@@ -1,4 +1,4 @@
-//! What moving tiles say of the barriers, as JSON, CSV and a few lines.
+//! The check of barriers by moving tiles, as JSON, CSV and a few lines of text.
 
 use serde_json::{Value, json};
 

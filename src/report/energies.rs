@@ -1,4 +1,4 @@
-//! Energies and forces at given poses.
+//! Energies and forces at given poses, as a document.
 
 use serde_json::json;
 

@@ -1,4 +1,4 @@
-//! Figures of designs for people: numbers with their bounds, or the word for why there is none.
+//! Figures of designs for people: numbers with their bounds, or a word that says why there is none.
 
 use jobs::comparison::quantity::{Measure, Reading};
 use jobs::comparison::{Assessment, Estimate, Quantity};

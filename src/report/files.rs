@@ -1,4 +1,4 @@
-//! The files of results by their names: which ones each command writes.
+//! The names of the files that each command writes.
 
 use jobs::output::Command;
 pub use jobs::output::{Files, PICTURES};

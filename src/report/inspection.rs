@@ -1,4 +1,4 @@
-//! A design at a glance.
+//! The inspection of a design, as a document.
 
 use nalgebra::Vector2;
 use serde_json::{Value, json};

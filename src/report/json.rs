@@ -1,4 +1,4 @@
-//! How JSON is laid out: objects indented, arrays of numbers on one line.
+//! The layout of JSON: objects indented, arrays of numbers on one line.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! Results for people and programs to read.
+//! Presents results: documents, tables, pictures and pages.
 //!
 //! Most modules make the [`document`] of one job's result, which the terminal, JSON, CSV, the page and
 //! pictures are made from:

@@ -1,4 +1,4 @@
-//! How two outlines fit together.
+//! Fits of two outlines, as a document.
 
 use super::document::{Document, Drawing, Table, entries, rows};
 use super::plots::poses;

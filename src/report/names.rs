@@ -1,4 +1,4 @@
-//! What states, places, faces and pathways are called in all files.
+//! The names of states, places, faces and pathways in all files.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! Bytes in fewer bytes.
+//! Compresses bytes.
 
 use std::io::Write;
 

@@ -1,4 +1,4 @@
-//! Bound tiles that are shaken loose.
+//! Bound tiles that are shaken loose, as a document.
 
 use serde_json::{Value, json};
 

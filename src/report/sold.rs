@@ -1,4 +1,4 @@
-//! Magnets that are given by what shops say of them, a grade or a pull, and how sure that is.
+//! Magnets specified by a shop's grade or pull, and the uncertainty of that specification.
 
 use serde_json::{Value, json};
 

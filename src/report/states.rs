@@ -1,5 +1,5 @@
-//! States and barriers as tables. Readers of their files may count columns: what has a place keeps it,
-//! and what is new comes last.
+//! States and barriers as tables. Scripts may count the columns of these files: existing columns
+//! keep their places, and new ones are appended.
 
 use serde_json::{Value, json};
 

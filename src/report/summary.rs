@@ -1,4 +1,4 @@
-//! The summary: some ten lines for the terminal.
+//! The summary: about ten lines for the terminal.
 //!
 //! It leads with where tiles that start far apart end. That there is no barrier on the way into
 //! the bond says little: without any barrier, many starts may run into traps first.

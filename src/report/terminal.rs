@@ -1,4 +1,4 @@
-//! Tables for a terminal.
+//! Tables for the terminal.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! What tiles carry and what holds them, in words.
+//! Descriptions of tiles and of the forces that hold them, in words.
 
 use crate::document::{Table, rows};
 use jobs::design::{Design, DesignError};

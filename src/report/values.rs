@@ -1,4 +1,4 @@
-//! Numbers, poses and shares as all outputs have them.
+//! The format of numbers, poses and shares in all outputs.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! A design to be made: what people work by, and files for the workshop.
+//! Workshop files: the sheet, and the drawings for the cutter.
 //!
 //! Lengths in files are in mm. In DXF there are closed polylines on the layers OUTLINE and POCKETS,
 //! letters on POLES; arcs are arcs, by their bulges. In SVG a user unit is a millimetre, and arcs are

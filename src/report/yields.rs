@@ -1,4 +1,4 @@
-//! What a shaken table yields.
+//! The yield of a shaken table, as a document.
 
 use serde_json::{Value, json};
 

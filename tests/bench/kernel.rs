@@ -1,4 +1,4 @@
-//! How fast the dipole kernel is, and how close to what the core can do.
+//! The speed of the dipole kernel, and how close it comes to the limit of the core.
 //!
 //! The ceiling is measured in the same run: a loop does as many simple and fused vector operations
 //! and guesses of `1 / sqrt` as the pairs take, but none that waits for another. A kernel's share

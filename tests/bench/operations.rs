@@ -1,5 +1,6 @@
-//! How many vector operations the dipole kernel does for a pair of dipoles: what the bench measures
-//! its ceiling with. A test of `potential::batch` counts them in the kernel's own arithmetic.
+//! The number of vector operations that the dipole kernel needs for a pair of dipoles, from which
+//! the bench computes the speed limit. A test of `potential::batch` counts them in the kernel's own
+//! arithmetic.
 
 /// Numbers of vector operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,5 +1,5 @@
-//! Barriers of real tiles: none lower by way of a third state, nor less proved of it than by that way;
-//! and a way out without play.
+//! Barriers of real tiles: no barrier is lower by way of a third state, nor are its bounds worse
+//! than that way's; and a way out without play.
 
 use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};

@@ -1,4 +1,4 @@
-//! Tiles with so many magnets that as little as possible is asked of their energy.
+//! Tiles with so many magnets that their energy is evaluated as rarely as possible.
 
 use tilebind::budget::Allowance;
 use tilebind::design::Design;

@@ -1,5 +1,5 @@
-//! Proofs that a list of states is complete: they find what was forgotten, claim nothing beside
-//! what was hidden from them, and say where they are open.
+//! Proofs that a list of states is complete: they find states that were removed, claim nothing
+//! about regions that were hidden from them, and report where they are unfinished.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,5 +1,5 @@
-//! The pathways that are written are the proved ones: joined by straight motions (linear in x, y and
-//! theta, theta the short way) they are free and rise nowhere above the stated peak. And tiles dock
+//! The written pathways are the proved ones: joined by straight motions (linear in x, y and theta,
+//! theta the short way) they are free and rise nowhere above the stated peak. And tiles dock along
 //! the natural way.
 
 use tilebind::budget::Allowance;

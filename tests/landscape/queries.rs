@@ -1,4 +1,5 @@
-//! One barrier, asked for: what its answer says of itself holds, and what has no answer says why.
+//! Queries for one barrier: what an answer states about itself is true, and a missing answer has a
+//! reason.
 
 use tilebind::budget::Allowance;
 use tilebind::landscape::Uncertified;

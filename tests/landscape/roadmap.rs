@@ -1,4 +1,4 @@
-//! Milestones and edges against what their definitions say.
+//! Milestones and edges against their definitions.
 
 use crate::plain::Plain;
 use crate::surfaces::DoubleWell;

@@ -1,5 +1,5 @@
-//! A landscape whose only low way leads over the seam of theta, from just below pi to just above
-//! -pi: what the survey, the certificate, the flow and the map make of it.
+//! A landscape whose only low way crosses the seam of theta, from just below pi to just above -pi,
+//! in the survey, the certificate, the flow and the map.
 
 use std::collections::HashSet;
 use std::f64::consts::PI;

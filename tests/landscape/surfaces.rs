@@ -1,4 +1,4 @@
-//! Landscapes with known minima and saddles, in x and y; theta does not matter to them.
+//! Landscapes with known minima and saddles in x and y, independent of theta.
 
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

@@ -1,4 +1,4 @@
-//! Surveys as the tests have them: from roadmaps all of whose motions are weighed.
+//! Surveys for tests: from roadmaps with the costs of all motions known.
 
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::problem::Problem;

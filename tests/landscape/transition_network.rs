@@ -1,5 +1,4 @@
-//! Networks: links that are tried and weighed when they are asked for, and copies of which all is known that
-//! is known of one.
+//! Networks: links whose cost is computed on demand, and copies that share all results.
 
 use std::collections::HashSet;
 

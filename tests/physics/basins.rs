@@ -1,4 +1,4 @@
-//! What the basins of rates hold, and what symmetry makes equal.
+//! The contents of the basins of rates, and equalities that follow from symmetry.
 
 use tilebind::kinetics::rates::{Basin, RateSettings, Rates, rates};
 use tilebind::observer::Silent;

@@ -1,7 +1,8 @@
-//! Exits against overdamped motion step by step: Metropolis' rule with steps of one size, which
-//! keeps e^(-U/kT) whatever the size, reflects at contact by rejection, and takes its time from the
-//! limit of small steps. (Rejection of steps whose size varies does not keep it, and a step beyond
-//! the end is too late by a share of its size: both are why several sizes are extrapolated.)
+//! Exits against overdamped motion simulated step by step: Metropolis' rule with steps of one size.
+//! It preserves e^(-U/kT) at any step size, reflects at contact by rejection, and its times are
+//! extrapolated to small steps. (Rejection of steps of varying size does not preserve e^(-U/kT),
+//! and a step beyond the end is too late by a share of its size: hence the extrapolation over
+//! several fixed sizes.)
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

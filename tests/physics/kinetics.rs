@@ -1,5 +1,5 @@
-//! Exits of overdamped motion: exact where the energy depends on the distance only, the paper's
-//! tile, and what holds for all.
+//! Exits of overdamped motion: exact where the energy depends only on the distance, the paper's
+//! tile, and properties of all exits.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

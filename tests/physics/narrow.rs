@@ -1,6 +1,6 @@
-//! Exits into a basin much smaller than the cells that a mesh begins with, against motion that is
-//! exact: in flat space a step to anywhere on a sphere about where the tile is, as large as fits
-//! between the ends, takes its radius squared over 6 D on average (Muller 1956,
+//! Exits into a basin much smaller than the initial cells of a mesh, against exact motion: in flat
+//! space a step to a uniformly chosen point of the largest sphere around the tile that fits between
+//! the ends takes its radius squared over 6 D on average (Muller 1956,
 //! doi:10.1214/aoms/1177728169).
 
 use std::f64::consts::TAU;

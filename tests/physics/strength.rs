@@ -1,4 +1,4 @@
-//! How strong a magnet is: the ways to say it.
+//! The ways to specify the strength of a magnet.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! `tilebind compare` as its users see it.
+//! `tilebind compare`.
 
 use std::path::Path;
 use std::process::Output;

@@ -1,4 +1,4 @@
-//! Every job's document says the same in all its forms.
+//! The document of every job agrees in all its forms.
 
 use std::collections::{HashMap, HashSet};
 

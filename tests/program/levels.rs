@@ -1,4 +1,4 @@
-//! The same bytes with every instruction set, and whatever the C library's functions are made of.
+//! The same bytes with every instruction set, and with every variant of the C library's functions.
 
 use std::collections::BTreeMap;
 use std::path::Path;

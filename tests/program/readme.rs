@@ -1,5 +1,5 @@
-//! The READMEs: every command they show runs, what they show of its output is what it prints, every
-//! link leads somewhere.
+//! The READMEs: every command they show runs, the output they show is the command's output, and
+//! every link works.
 
 use std::fs;
 use std::path::Path;

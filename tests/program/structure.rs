@@ -1,4 +1,4 @@
-//! The house as its front page tells it: within each crate files import one way, never in a circle.
+//! Imports within each crate: they follow the order that its front page states, without circles.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,4 +1,4 @@
-//! What lies in a folder.
+//! The contents of a folder.
 
 use std::collections::BTreeMap;
 use std::path::Path;

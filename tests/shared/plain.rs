@@ -1,5 +1,5 @@
-//! Point dipoles by the plain formulas, one pair after the other, bare or behind shields: what the
-//! kernels, groups and tables of many dipoles are checked against.
+//! Point dipoles by the plain formulas, one pair at a time, bare or behind shields: the reference
+//! for the kernels, groups and tables of many dipoles.
 
 use nalgebra::{Vector2, Vector3};
 use tilebind::Configuration;

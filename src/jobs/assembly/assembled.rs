@@ -1,4 +1,4 @@
-//! A tile set built of words, whole.
+//! A tile set with its words and simulated growths: the complete result.
 
 use std::path::Path;
 

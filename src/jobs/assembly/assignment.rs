@@ -1,4 +1,4 @@
-//! Which word for which bond.
+//! The assignment of words to bonds.
 //!
 //! Engines let a word of one bond meet the mate of another one on the same axis only, aligned. So
 //! among words of equal depth it matters which goes where, and whether a bond's east faces carry a

@@ -1,4 +1,4 @@
-//! Sides of tiles, and the axes along which these meet.
+//! The sides of tiles, and the axes along which sides meet.
 
 /// North, east, south and west: the order of a tile's glues.
 pub const SIDES: [&str; 4] = ["north", "east", "south", "west"];

@@ -1,4 +1,4 @@
-//! A tile set as magnets build it, for one shaking and one coverage of the table.
+//! A tile set built from magnets, at one kT and one coverage of the table.
 //!
 //! In kTAM a tile comes to a free place with the rate `k_f exp(-Gmc)` and leaves it with
 //! `k_f exp(-b Gse)`, b the strength that holds it there. Their ratio is the equilibrium constant of

@@ -1,4 +1,4 @@
-//! Words for a tile set: as many of each strength as it needs.
+//! The choice of words for a tile set: as many of each strength as it needs.
 //!
 //! A bond of half the strength has half the magnets, on a face of the same length: its word has
 //! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones

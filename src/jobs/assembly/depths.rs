@@ -1,5 +1,5 @@
-//! How much deeper bonds are in whole tiles than those of their faces alone, while words move from
-//! bond to bond.
+//! How much deeper bonds are between whole tiles than between their two faces alone, updated while
+//! words are exchanged between bonds.
 
 use std::collections::BTreeSet;
 

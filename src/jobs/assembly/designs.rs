@@ -1,4 +1,4 @@
-//! Designs of every two tiles that meet.
+//! The designs of every two tiles that meet.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

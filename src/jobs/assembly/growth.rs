@@ -1,4 +1,4 @@
-//! What a tile set grows into without errors: the abstract model (aTAM).
+//! Growth without errors: the abstract tile assembly model (aTAM).
 //!
 //! A tile stays where its bonds sum to tau at least, and never leaves. Places are filled in the
 //! order in which they become neighbours of tiles, so that what grows is round.

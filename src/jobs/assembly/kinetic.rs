@@ -1,4 +1,5 @@
-//! What grows at a shaking, errors included: the kinetic model (kTAM), followed tile by tile.
+//! Growth at a given kT, errors included: the kinetic tile assembly model (kTAM), simulated tile by
+//! tile.
 //!
 //! Winfree's model as the engines have it: to every free place beside a tile each kind of tile comes
 //! at a rate `s exp(-Gmc)` (s its share), and a tile that is held by neighbours with h (kT, repulsion

@@ -1,4 +1,4 @@
-//! Lattices: every place a tile of its own, or all places the same tile.
+//! Lattices: a different tile at every place, or the same tile at all places.
 
 use super::{TileSet, TileType};
 

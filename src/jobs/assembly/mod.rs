@@ -1,4 +1,4 @@
-//! From a pair of tiles to an assembly: tile sets whose glues are words.
+//! Tile sets whose glues are words of magnets.
 //!
 //! Models of tile assembly (Winfree's kTAM, and its abstract sister aTAM) know square tiles with a
 //! glue on each face, a matrix of strengths between glues, and two energies in kT: Gse, what a bond

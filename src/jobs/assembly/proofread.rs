@@ -1,4 +1,4 @@
-//! Blocks of K x K tiles in place of tiles.
+//! Proofreading: each tile becomes a block of K x K tiles.
 //!
 //! Winfree and Bekbolatov, *Proofreading tile sets: error correction for algorithmic self-assembly*
 //! (DNA9, 2003): each glue becomes K glues and each tile a block that glues of its own hold

@@ -1,4 +1,4 @@
-//! What an assembly is asked for.
+//! The request of an assembly.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! What the other faces of two tiles add to the bond of the two that meet.
+//! The contribution of the other faces of two tiles to the bond of the two faces that meet.
 //!
 //! The matrix knows two faces, as glues do. But a row of magnets ends half a pitch from the corner,
 //! and the row of the neighbour begins as far beyond it: with all four faces of either tile a bond is

@@ -1,4 +1,4 @@
-//! Tile sets as rgrow reads them: YAML, of which JSON is a part.
+//! Tile sets in rgrow's format: YAML, of which JSON is a part.
 //!
 //! Keys are those of rgrow 0.23 (`tiles` with `name`, `edges` clockwise from the north, `stoic`,
 //! `color`; `bonds`; `glues`; `seed` as row, column, tile; `size`, `tau`, `Gse`, `Gmc`), with

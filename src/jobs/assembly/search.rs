@@ -1,4 +1,4 @@
-//! The words of an assembly, searched.
+//! The search for the words of an assembly.
 
 use super::choice::{self, Choice, Class, Verdict};
 use super::{Request, Wiring};

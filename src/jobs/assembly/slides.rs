@@ -1,4 +1,4 @@
-//! What models of tile assembly leave out: faces that hold slid by some places.
+//! Slid contacts, which models of tile assembly leave out: faces that bind shifted by some places.
 //!
 //! A tile of the engines stands in its place or not at all. A magnetic one that comes along a face
 //! runs, flush and overdamped, down to the nearest slide at which it holds. Of all slides by whole

@@ -1,4 +1,4 @@
-//! Squares by counting: N x N tiles from O(log N) kinds of them.
+//! Counted squares: N x N tiles from O(log N) kinds of tiles.
 //!
 //! After Rothemund and Winfree, *The program-size complexity of self-assembled squares* (STOC
 //! 2000): a binary counter of n = O(log N) bits along the west edge and one along the south edge

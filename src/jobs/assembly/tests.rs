@@ -1,4 +1,4 @@
-//! Tile sets: what is read is what was written, and what grows is what the definitions say.
+//! Tests of tile sets: reading returns what was written, and growth follows the definitions.
 
 use super::choice::{self, Verdict};
 use super::growth::{Grown, grow};

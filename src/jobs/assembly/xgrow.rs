@@ -1,4 +1,4 @@
-//! Tile sets as xgrow reads them: `.tiles`.
+//! Tile sets in xgrow's format, `.tiles`.
 //!
 //! `num tile types`, `num binding types`, names of the latter if they have some, tiles as
 //! `{north east south west}[share](colour)`, strengths, `g(a,b)=x` between different glues, then

@@ -1,4 +1,4 @@
-//! YAML, of which JSON is a part, as a tree whose nodes know their places.
+//! YAML (and JSON, which is a part of it) as a tree whose nodes know their positions in the file.
 //!
 //! The parser is `saphyr-parser`: safe Rust without recursion, so that what nests without end or
 //! refers to itself is refused at once, in time linear in the text.

@@ -1,4 +1,4 @@
-//! From pairs that bind and part to the effective kT of their shaking.
+//! Fits the effective kT of shaking to the binding and parting of pairs.
 //!
 //! In equilibrium a pair is bound for K / S times as long as it is apart, K being the bond's constant
 //! of association at kT (see [`physics::kinetics::bond::Hold::association`]) and S the area that the

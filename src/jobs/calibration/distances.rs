@@ -1,4 +1,4 @@
-//! From how far apart pairs are found to the effective kT of their shaking.
+//! Fits the effective kT of shaking to the distances at which pairs are found.
 //!
 //! Distances of the centres of a pair, each taken when the pair has long forgotten the one before,
 //! are drawn from the distribution that [`Distances`] gives at every kT. The kT of the greatest

@@ -1,4 +1,4 @@
-//! Least squares by Levenberg's and Marquardt's method.
+//! Least squares by the Levenberg-Marquardt method.
 
 use nalgebra::{DMatrix, DVector};
 

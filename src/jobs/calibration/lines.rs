@@ -1,4 +1,4 @@
-//! The lines of files of measurements.
+//! The lines of measurement files.
 
 use std::io::Read;
 

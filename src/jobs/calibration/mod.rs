@@ -1,4 +1,4 @@
-//! Fitting a shield's constants to measured forces and energies.
+//! Fits the constants of a shield to measured forces and energies.
 //!
 //! Rows of poses, with and without iron, are compared with a shielded pair of tiles (see
 //! [`physics::potential::shielding`]). The constants A, l, delta and the front gain G of one shield,

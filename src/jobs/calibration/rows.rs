@@ -1,4 +1,4 @@
-//! Measurements from a CSV file.
+//! Reads measurements from a CSV file.
 
 use csv::StringRecord;
 

@@ -1,4 +1,4 @@
-//! The capture range: from how far off the way into the bond is downhill.
+//! The capture range: how far from the bond the way into it still leads downhill.
 //!
 //! Three straight lines of starts are tried, all with the moving tile's target face in front of the
 //! fixed one's and brought straight up to it until the tiles touch:

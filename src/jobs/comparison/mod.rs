@@ -1,4 +1,4 @@
-//! Designs side by side: what the main job says of each in a dozen figures.
+//! Compares designs: an analysis of each, summarised in a dozen figures.
 //!
 //! [`assess`] runs the main job on a design and keeps an [`Assessment`]; a [`Quantity`] reads one
 //! figure of it, with its bounds; [`ranking`] sorts designs by a figure and says which order is

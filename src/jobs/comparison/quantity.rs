@@ -1,4 +1,4 @@
-//! The quantities that are compared, in one table.
+//! The table of compared quantities.
 //!
 //! A new quantity is one entry of [`QUANTITIES`] and nothing else: files, the tables of `compare`,
 //! pages, the curves and maps of sweeps, the picture of the ranking and `--by` read from there all

@@ -1,4 +1,4 @@
-//! Designs sorted by a figure, and which order is proved.
+//! Ranks designs by a figure, and states which part of the order is proved.
 
 use super::{Assessment, Quantity};
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! What is asked of an assessment.
+//! The request of an assessment.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,5 @@
-//! What magnets cover of their tile: where they overlap, stick out or break through.
+//! Checks of the magnets' blocks: where they overlap, stick out of their tile or break through its
+//! outline.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! From the contents of its faces to a tile.
+//! Builds a tile from the contents of its faces.
 
 use super::DesignError;
 use super::error::{Result, Span};

@@ -1,4 +1,4 @@
-//! What may be meant otherwise, though it can be worked with.
+//! Warnings: entries that are usable but may be meant otherwise.
 
 use super::DesignError;
 use super::face::FaceContent;

@@ -1,4 +1,4 @@
-//! The drawings that a design refers to: where they are read from, and what was found.
+//! The drawings that a design refers to: where they are read from, and their contents.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! What is wrong with a design file, where, and how to fix it.
+//! The error of a design file: what is wrong, where, and how to fix it.
 
 use std::fmt::{self, Write};
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! The entries of `[fixed.faces]` and `[moving.faces]`: a face's line and its magnets.
+//! The entries of `[fixed.faces]` and `[moving.faces]`: a face's profile and its magnets.
 
 use super::error::{Result, Span};
 use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};

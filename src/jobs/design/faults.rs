@@ -1,4 +1,4 @@
-//! The faults of a design, gathered while it is read on, as compilers do.
+//! The faults of a design, collected as compilers do: reading continues after a fault.
 
 use physics::order::Order;
 use std::cell::{Cell, RefCell};

@@ -1,4 +1,4 @@
-//! The fix of magnets that stick out: another inset.
+//! Suggests an inset for magnets that stick out.
 
 use super::blocks::{block, breaks_through, overlap, sticks_out};
 use super::build::BuiltTile;

@@ -1,4 +1,4 @@
-//! Magnets where none can be: in one another, or out of the tile.
+//! Impossible placements: magnets that overlap each other or leave the tile.
 
 use ordered_float::OrderedFloat;
 

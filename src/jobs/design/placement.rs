@@ -1,4 +1,4 @@
-//! Where the magnets of a face sit in their tile.
+//! The positions of a face's magnets in their tile.
 
 use nalgebra::Vector2;
 

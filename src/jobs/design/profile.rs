@@ -1,4 +1,4 @@
-//! The key `profile` of a face: which line its outline follows.
+//! The key `profile` of a face: the shape of its outline.
 
 use ordered_float::OrderedFloat;
 

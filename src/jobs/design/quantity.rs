@@ -1,4 +1,4 @@
-//! Quantities of a design file: their units, and which magnitudes give one pause.
+//! The quantities of a design file: their units, and the magnitudes that are implausible.
 
 use std::f64::consts::{PI, TAU};
 

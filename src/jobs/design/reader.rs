@@ -1,4 +1,4 @@
-//! Typed reading of a TOML tree in which every key and value knows its place in the file.
+//! Typed reading of a TOML tree in which every key and value knows its position in the file.
 
 use physics::order::Order;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! From text to TOML.
+//! Parses text as TOML.
 
 use std::ops::Range;
 

@@ -1,4 +1,5 @@
-//! The section `[target]`: which faces are meant to bind, and where that puts the moving tile.
+//! The section `[target]`: which faces are meant to bind, and the pose of the moving tile when they
+//! do.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
+//! The sections `[fixed]` and `[moving]`: their faces, and which faces mate.
 
 use super::DesignError;
 use super::base::{self, Base};

@@ -1,4 +1,4 @@
-//! Lengths that differ by what no cutter resolves.
+//! Tolerance for lengths that differ by less than a cutter resolves.
 //!
 //! Faces that are meant to meet may differ by up to [`allowance`]: a side drawn in points or in
 //! inches, corners that a program rounded to 0.01 mm, an arc drawn once as an arc and once as

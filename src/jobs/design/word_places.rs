@@ -1,4 +1,5 @@
-//! Words whose magnets lie anywhere along the face, as words over places common to all of them.
+//! Words whose magnets lie anywhere along the face, expressed as words over one common list of
+//! places.
 //!
 //! The places are where any word or mate has a magnet: they lie mirror-symmetrically, so that the
 //! mate of a word is what it is for evenly spaced ones.

@@ -1,4 +1,4 @@
-//! Files of words: `words.toml`, and sets from elsewhere.
+//! Word files: `words.toml`, and sets from other sources.
 //!
 //! ```toml
 //! words = ["NNSN", "NSSN"]       # without their mates

@@ -1,4 +1,4 @@
-//! Magnets as design files have them.
+//! Magnets in the notation of design files.
 
 use physics::tile::magnet::{Form, Shape};
 

@@ -1,4 +1,4 @@
-//! The names that a command's files can have.
+//! The file names that a command writes.
 
 /// The folder of pictures.
 pub const PICTURES: &str = "pictures";

@@ -1,4 +1,4 @@
-//! Folders that cannot be written to.
+//! Errors of folders that cannot be written to.
 
 use std::ffi::OsStr;
 use std::fs;

@@ -1,4 +1,4 @@
-//! The files that commands write: nothing of the user's is lost, and a set of files is all new or
+//! Writes output files safely: no file of the user is lost, and a set of files is either all new or
 //! all old.
 //!
 //! - A file is replaced, or taken away with the results that it belonged to, only if the same command

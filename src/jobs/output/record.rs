@@ -1,4 +1,4 @@
-//! What tilebind wrote into a folder.
+//! The record of the files that tilebind wrote into a folder.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Files on the way to their places.
+//! Temporary files on the way to their final places.
 
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File, TryLockError};

@@ -1,4 +1,4 @@
-//! What the main job finds out about a design, as plain values.
+//! The result of an analysis, as plain values.
 
 use std::borrow::Cow;
 use std::sync::Arc;

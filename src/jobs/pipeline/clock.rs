@@ -1,4 +1,4 @@
-//! Measures the stages of the main job.
+//! Measures how long the stages of an analysis take.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! The main job in one readable page: from a design to its states, barriers and pathways.
+//! The analysis on one page: from a design to its states, barriers and pathways.
 
 mod analysis;
 mod clock;

@@ -1,4 +1,4 @@
-//! What the main job is asked for.
+//! The request of an analysis.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};

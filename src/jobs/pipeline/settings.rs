@@ -1,4 +1,4 @@
-//! What the main job is asked for, and what that means for each of its stages.
+//! The settings of an analysis, and the settings of its stages that follow from them.
 
 use crate::design::Design;
 use physics::budget::Allowance;

@@ -1,4 +1,4 @@
-//! One barrier, asked for: from a pose of the moving tile to another, or to anywhere far apart.
+//! Queries for one barrier: from a pose of the moving tile to another, or to anywhere far apart.
 
 pub mod poses;
 mod request;

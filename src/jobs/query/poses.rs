@@ -1,4 +1,4 @@
-//! Poses from a CSV file, and what is felt at a pose.
+//! Reads poses from a CSV file, and computes energy, force and torque at a pose.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 

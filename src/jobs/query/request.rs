@@ -1,4 +1,4 @@
-//! What is asked of a barrier.
+//! The request of a barrier.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! Ways between the ends of a query: from a roadmap, or from a certificate's pathway.
+//! Pathways between the ends of a query: from a roadmap, or from a certificate.
 
 use ordered_float::OrderedFloat;
 use std::cell::OnceCell;

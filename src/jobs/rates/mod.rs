@@ -1,5 +1,5 @@
-//! What shaken tiles do in overdamped motion: how soon a pose is left and whereto, and the rates
-//! between the bond, the deepest traps and free tiles.
+//! Overdamped motion of shaken tiles: how soon a tile leaves a pose and where it goes, and the
+//! rates between the bond, the deepest traps and free tiles.
 
 mod over_kt;
 mod states;

@@ -1,4 +1,4 @@
-//! Rates out of states over kT, and what corner wells in closed form say of them.
+//! Rates of states over a range of kT, compared with closed forms for corner wells.
 
 use super::diffusion;
 use super::table::{AtKt, StateRates};

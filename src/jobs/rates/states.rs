@@ -1,4 +1,4 @@
-//! The states that rates are told of.
+//! The states for which rates are reported.
 
 use crate::pipeline::Analysis;
 use physics::configuration::Configuration;

@@ -1,4 +1,4 @@
-//! Rates between states and `free`, and what follows from them.
+//! Rates between states and `free`, and quantities derived from them.
 
 use nalgebra::DMatrix;
 

@@ -1,4 +1,4 @@
-//! Requests made from keyword arguments.
+//! Requests from keyword arguments.
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Command};

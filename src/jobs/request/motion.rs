@@ -1,4 +1,4 @@
-//! How tiles move on the table: what docking runs and many tiles have in common.
+//! How tiles move on the table: the options shared by docking runs and many tiles.
 
 use clap::Args;
 

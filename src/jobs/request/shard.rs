@@ -1,4 +1,4 @@
-//! Parts of a job, each of which a machine of its own can do.
+//! Parts of a job that can run on different machines.
 
 /// Part `number`, from 1, of `of` parts: every `of`th thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

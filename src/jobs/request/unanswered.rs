@@ -1,4 +1,4 @@
-//! Why there is no answer: what was asked for has none, or the work failed.
+//! Errors of jobs without a result: the request has no answer, or the work failed.
 
 use std::fmt::Display;
 

@@ -1,4 +1,4 @@
-//! What users type: poses, numbers with limits.
+//! Parses user input: poses, numbers with limits.
 
 use crate::design;
 use crate::text::decimal_comma;

@@ -1,4 +1,4 @@
-//! A word out of a few, which shells complete.
+//! Options that take one of a few words, which shells complete.
 
 use std::ffi::OsStr;
 

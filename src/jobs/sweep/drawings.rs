@@ -1,5 +1,5 @@
-//! The drawings that the designs of a sweep refer to. The manifest holds them, so that a point is
-//! the same wherever it is worked on, and a changed drawing makes another point.
+//! The drawings that the designs of a sweep refer to. The manifest contains them, so that a point
+//! is the same on every machine, and a changed drawing makes another point.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Why there is no such sweep.
+//! Errors of sweeps that cannot be planned.
 
 use crate::design::DesignError;
 

@@ -1,5 +1,4 @@
-//! Many designs from one: keys of the design are varied, and every design that comes of it is
-//! assessed.
+//! Sweeps: keys of a design are varied, and every resulting design is assessed.
 //!
 //! A [`Plan`] holds all that decides a sweep: the text of the designs, the varied keys with their
 //! values, the settings and the seed. Each of its [`Point`]s is a design of its own and is named

@@ -1,4 +1,4 @@
-//! The manifest of a sweep: everything that decides it, and the points that come of it.
+//! The manifest of a sweep: all its inputs, and the points that follow from them.
 
 use std::collections::HashSet;
 

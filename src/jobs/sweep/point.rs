@@ -1,4 +1,4 @@
-//! One design of a sweep, and parts of all of them.
+//! One design of a sweep, and shards of all of them.
 
 use super::vary::Value;
 

@@ -1,4 +1,4 @@
-//! More points where the figures of a sweep bend.
+//! Adds points where the curves of a sweep bend most.
 
 use ordered_float::OrderedFloat;
 

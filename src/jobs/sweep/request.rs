@@ -1,4 +1,4 @@
-//! What is asked of a sweep.
+//! The request of a sweep.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! Working on points.
+//! Computes the points of a sweep.
 
 use std::any::Any;
 use std::collections::HashSet;

@@ -1,4 +1,4 @@
-//! What is varied: a key of the design and the values it takes.
+//! The varied keys of a design, and their values.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What `tilebind bond` and `tilebind yield` say of as many tiles.
+//! The predictions of `tilebind bond` and `tilebind yield` for the same number of tiles.
 
 use super::{Found, Request};
 use crate::design::Design;

@@ -1,4 +1,4 @@
-//! Kinds of tiles of a design, or of a tile set.
+//! The kinds of tiles of a design or of a tile set.
 
 use std::sync::Arc;
 
@@ -29,8 +29,8 @@ pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
     for other in designs {
         if other.interaction.model != model || other.interaction.shields.rule != rule {
             return Err(format!(
-                "{} and {} have magnets or shields of different models, which cannot be on one table: give \
-                 --model, or the designs the same [potential] and [shield]",
+                "{} and {} have different models of magnets or shields, which cannot share a table: give \
+                 --model, or both designs the same [potential] and [shield]",
                 first.name, other.name
             ));
         }
@@ -96,7 +96,7 @@ pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refuse
     let lone = tiles.iter().position(Option::is_none);
     if let Some(lone) = lone.or(pairs.is_empty().then_some(0)) {
         let name = types.get(lone).map_or("", |it| it.name.as_str());
-        let message = format!("the tile `{name}` meets no other in what grows: it has no bonds");
+        let message = format!("the tile `{name}` meets no other tile in the assembly, so it has no bonds");
         return Err(message.into());
     }
     let kinds = types.iter().zip(tiles.into_iter().flatten());

@@ -1,4 +1,4 @@
-//! Many tiles on a table: what is asked of it, the runs, and what they tell together.
+//! Simulations of many tiles on a table: the request, the runs, and their statistics.
 
 mod comparison;
 mod crowds;

@@ -1,4 +1,4 @@
-//! What is asked of a table.
+//! The request of a table.
 
 use clap::Args;
 
@@ -68,7 +68,7 @@ pub struct Request {
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
 
-    /// Compare with what `tilebind bond` and `tilebind yield` give for as many tiles at this kT
+    /// Compare with the predictions of `tilebind bond` and `tilebind yield`
     #[arg(long)]
     pub compare: bool,
 
@@ -157,7 +157,7 @@ impl Request {
         }
         let all = counts.iter().copied().fold(0, usize::saturating_add);
         if !(1..=MOST_TILES).contains(&all) {
-            return Err(format!("from 1 to {MOST_TILES} tiles can be on a table"));
+            return Err(format!("a table can have 1 to {MOST_TILES} tiles"));
         }
         Ok(Start::Random(counts))
     }
@@ -176,12 +176,11 @@ impl Request {
             return Err("--correlation needs --shaking: add it".into());
         }
         if self.made().is_empty() {
-            return Err(format!("--shard: of {} runs this part has none", self.runs));
+            return Err(format!("--shard: this part has none of the {} runs", self.runs));
         }
         if self.compare && self.shaking.is_none() {
             return Err(
-                "--compare sets what `yield` says at the kT of --shaking beside: set that, too"
-                    .into(),
+                "--compare needs a kT: add --shaking".into(),
             );
         }
         Ok(())
@@ -202,5 +201,5 @@ fn step(text: &str) -> Result<f64, String> {
     let found = request::positive(text)
         .ok()
         .filter(|it| *it <= LONGEST_STEP);
-    found.ok_or_else(|| format!("a step greater than 0 and at most {LONGEST_STEP} s is needed"))
+    found.ok_or_else(|| format!("a step is greater than 0 and at most {LONGEST_STEP} s"))
 }

@@ -1,4 +1,4 @@
-//! What runs tell together.
+//! Statistics over the runs of a table.
 
 use physics::dynamics::docking::poisson_interval;
 use physics::order::Order;

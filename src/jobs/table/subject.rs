@@ -1,4 +1,4 @@
-//! What is put on a table: the tiles of a design, or of a tile set.
+//! The tiles on a table: those of a design, or of a tile set.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! How much of what was meant has come about.
+//! How much of the target assembly is complete.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The magnets that words are made of.
+//! The magnets of words.
 
 use crate::design::{Design, MagnetModel};
 use physics::words::Bar;

@@ -1,4 +1,4 @@
-//! What is asked of the crosstalk of a set of words.
+//! The request of the crosstalk of a set of words.
 
 use clap::Args;
 

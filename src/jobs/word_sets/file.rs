@@ -1,4 +1,5 @@
-//! Sets of words as files: `tilebind crosstalk` reads them, and their faces can be pasted into a design.
+//! Sets of words as files: `tilebind crosstalk` reads them, and their faces can be pasted into a
+//! design.
 
 use std::fmt::Write;
 

@@ -1,5 +1,4 @@
-//! Sets of barcodes: what is asked, what is found, the magnets that words are made of, and sets as
-//! files.
+//! Sets of barcodes: requests, results, the magnets that words are made of, and sets as files.
 //!
 //! - [`Request`] - what is asked; [`Sought`] - what is found, with all that reproduces it;
 //! - [`Spaced`] - words with magnets anywhere along the face, searched and judged over all poses;

@@ -1,4 +1,4 @@
-//! What words are asked for.
+//! The request of a search for words.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! The search for words that are asked for.
+//! The search for the requested words.
 
 use super::spaced::Spaced;
 use super::{Request, Sought, bar};

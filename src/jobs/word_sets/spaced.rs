@@ -1,5 +1,5 @@
-//! The search for words with magnets anywhere along the face: what is found is judged over all poses
-//! as its file tells it.
+//! The search for words with magnets anywhere along the face. The result is evaluated over all
+//! poses as its file states it.
 
 use super::{Request, file};
 use crate::Refused;

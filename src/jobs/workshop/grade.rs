@@ -1,4 +1,4 @@
-//! Magnets of the catalogue.
+//! The nearest magnets of the catalogue.
 
 use physics::tile::grade::{Grade, NEODYMIUM};
 

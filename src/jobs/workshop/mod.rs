@@ -1,4 +1,4 @@
-//! A design to be made: outlines with pockets for the magnets, and how to put them in.
+//! Workshop files of a design: outlines with pockets for the magnets, and the order of assembly.
 //!
 //! - [`Part`]: the lines that a cutter follows, for each tile;
 //! - [`order`]: in which order the magnets of a face go in so that none is pushed out;

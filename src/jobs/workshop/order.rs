@@ -1,4 +1,4 @@
-//! In which order magnets go into their pockets.
+//! The order in which magnets go into their pockets.
 //!
 //! A magnet is put in from above. There, moved by z out of the plane of those that are in already,
 //! it feels their field: beside a magnet that points the same way it is pushed back out, beside one

@@ -1,4 +1,4 @@
-//! The lines of a tile that a cutter follows.
+//! The cutting lines of a tile.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! The rim of a tile as lines and arcs, drawn outwards by half a cut.
+//! The outline of a tile as lines and arcs, offset outwards by half the kerf.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! How often shaken tiles attach: counted in docking runs.
+//! How often shaken tiles attach, counted in docking runs.
 
 use std::f64::consts::PI;
 

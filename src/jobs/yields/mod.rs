@@ -1,4 +1,4 @@
-//! The yield of a shaken table: from a design and a shaking to what is bound after a time.
+//! The yield of a shaken table: how many pairs are bound after a given time.
 //!
 //! Attachment rates are counted in docking runs of shaken tiles ([`attachment`]); detachment rates
 //! follow from them by detailed balance, `k_off = k_on / K`, with the constants K of

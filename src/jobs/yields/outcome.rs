@@ -1,4 +1,4 @@
-//! What one setting yields: rates of the states, and the course of what is bound.
+//! The result of one setting: rates of the states, and the number of bound pairs over time.
 
 use super::Question;
 use super::attachment::Attachments;

@@ -1,4 +1,4 @@
-//! One shaking after another: which when.
+//! Schedules: which shaking at which time.
 
 use super::Question;
 use super::outcome::Outcome;

@@ -1,5 +1,5 @@
-//! The local constraints of contact: which vertices press against which edges, and the motion
-//! that comes closest to a wanted one without pushing the tiles into each other.
+//! Local contact constraints: which vertices press against which edges, and the motion closest to a
+//! wanted one that does not push the tiles into each other.
 
 use nalgebra::{Vector2, Vector3};
 use ordered_float::OrderedFloat;

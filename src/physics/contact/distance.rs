@@ -1,4 +1,4 @@
-//! How far two outlines are apart.
+//! The distance between two outlines.
 //!
 //! Outlines that do not overlap are nearest to each other at a convex corner of one of them and an
 //! edge of the other, so that their distance is the least of all such pairs. Of the trees over both,

@@ -1,4 +1,4 @@
-//! Motions halved again and again, until all of their stretches are proved free or one is met where
+//! Recursive bisection of a motion: until all its parts are proved free, or one is found at which
 //! the tiles overlap.
 
 use std::ops::Range;

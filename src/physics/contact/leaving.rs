@@ -1,4 +1,5 @@
-//! Whether rays from the fixed tile's centre leave contact once and for good.
+//! Tests whether a tile moved out along a ray from the fixed tile's centre leaves contact once and
+//! for all.
 
 use nalgebra::Vector2;
 

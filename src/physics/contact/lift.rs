@@ -1,4 +1,4 @@
-//! Moving the tile along a straight line until it is clear of the other, or touches it.
+//! Moves a tile along a straight line until it is clear of the other tile, or touches it.
 
 use nalgebra::Vector2;
 

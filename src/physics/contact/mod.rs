@@ -1,5 +1,5 @@
-//! Contact of two tiles: whether they overlap, how far apart they are, whether a motion is free,
-//! and the local constraints that contact puts on a motion.
+//! Contact of two tiles: overlap, distance, whether a motion is free, and the local constraints on
+//! a motion.
 //!
 //! A configuration is *free* where the interiors of the two outlines are disjoint. Flush mates
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than

@@ -1,5 +1,5 @@
-//! Straight motions, and how they are proved free of overlap from their start to their end and
-//! everywhere between.
+//! Straight motions, and the proof that a motion is free of overlap at every point between its
+//! ends.
 
 use nalgebra::{Rotation2, Vector2};
 

@@ -1,5 +1,5 @@
-//! Where two outlines touch, or soon will: the points of contact within a margin, each with the
-//! normal that keeps the tiles apart there.
+//! The points at which two outlines touch or are closer than a margin, each with its contact
+//! normal.
 //!
 //! Outlines that touch anywhere do so at a convex corner of one of them. What it meets is
 //!

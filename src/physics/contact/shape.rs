@@ -1,4 +1,4 @@
-//! One of two tiles, as the other meets it.
+//! The shape of one tile, as the contact queries use it.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

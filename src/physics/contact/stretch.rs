@@ -1,4 +1,4 @@
-//! Where along a straight line, without turning, the tiles are free: exactly.
+//! The exact intervals of a straight translation in which the tiles do not overlap.
 
 use nalgebra::Vector2;
 

@@ -1,5 +1,5 @@
-//! A tree of circles around the pieces of an outline: which of them are near a point, or near the
-//! pieces of another outline.
+//! A bounding-circle tree over the pieces of an outline, for queries by distance from a point or
+//! from another outline.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! What holds the moving tile back where it touches something.
+//! Contact impulses with friction on the moving tile.
 //!
 //! With the velocity v0 that a step would be made with freely, and for each point of contact the
 //! normal n and the tangent t as rows (direction, arm x direction) about the centre of mass, there

@@ -1,4 +1,4 @@
-//! Exits of moving tiles: how long a shaken tile takes from a start to one of two ends.
+//! Exit times of simulated tiles: how long a shaken tile takes from a start to one of two ends.
 
 use super::docking::stream;
 use super::trajectory::thermal_velocity;

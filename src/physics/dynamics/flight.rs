@@ -1,4 +1,4 @@
-//! Motion between contacts: an embedded Runge-Kutta pair with step control.
+//! Motion between contacts: an embedded Runge-Kutta pair with step-size control.
 
 use nalgebra::Vector3;
 

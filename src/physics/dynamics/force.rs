@@ -1,4 +1,4 @@
-//! What acts on the moving tile between contacts: magnets, fans and drag.
+//! The forces on the moving tile between contacts: magnets, fans and drag.
 
 use std::f64::consts::TAU;
 

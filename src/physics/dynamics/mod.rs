@@ -1,4 +1,4 @@
-//! Tiles that really move: the moving tile as a rigid body on the air table.
+//! Rigid-body dynamics of the moving tile on the air table.
 //!
 //! With q the centre of mass and the orientation, M = diag(m, m, I) about the centre of mass and
 //! C = c M for a drag rate c (1/s),

@@ -1,4 +1,4 @@
-//! What decides a trajectory besides the tiles and the start.
+//! The settings of a trajectory, other than the tiles and the start.
 
 use super::force::Fan;
 use crate::scale::Scale;

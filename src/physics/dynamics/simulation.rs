@@ -1,4 +1,4 @@
-//! What a trajectory is made with and what comes of it.
+//! A simulation: the model that a trajectory is computed with, and its result.
 
 use nalgebra::{Vector2, Vector3};
 

@@ -1,4 +1,4 @@
-//! One trajectory: free flight and contact in turn.
+//! One trajectory: free flight and contact steps in turn.
 
 use std::f64::consts::TAU;
 

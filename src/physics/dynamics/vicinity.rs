@@ -1,4 +1,4 @@
-//! What a tile in contact may touch in its next step.
+//! The contacts that a tile may make within its next step.
 
 use nalgebra::{Vector2, Vector3};
 

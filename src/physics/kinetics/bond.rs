@@ -1,4 +1,4 @@
-//! How strongly states hold shaken tiles: what models of tile assembly call Gse and Gmc.
+//! How strongly states hold shaken tiles: the Gse and Gmc of tile assembly models.
 
 use std::cell::RefCell;
 

@@ -1,5 +1,5 @@
-//! Two-sided bounds of capacities and of what follows from them: Dirichlet's principle from above,
-//! Thomson's from below, on one mesh.
+//! Two-sided bounds of capacities and of the quantities derived from them: Dirichlet's principle
+//! from above, Thomson's from below, on one mesh.
 //!
 //! A function f_h on the mesh differs from the exact one by e, and a flux J from the exact one by d,
 //! which is free of sources and so is orthogonal to every such e. Hence `J / w + grad f_h = d - e`

@@ -1,4 +1,4 @@
-//! Meshes refined until bounds are as near each other as asked.
+//! Refines a mesh until the bounds are as close to each other as requested.
 
 use super::field::{DIVIDED, Field};
 use super::results::{Certify, MeshRates};

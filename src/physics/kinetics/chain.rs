@@ -1,4 +1,4 @@
-//! Markov chains in continuous time, for rates that differ by many powers of ten.
+//! Continuous-time Markov chains whose rates differ by many powers of ten.
 //!
 //! Nothing is ever subtracted from anything close to it, so that small probabilities are as right as
 //! large ones, however stiff the chain: stationary distributions and mean first-passage times by

@@ -1,4 +1,4 @@
-//! Wells at hard contact in closed form.
+//! Closed forms for wells at hard contact.
 //!
 //! Where contacts hold a minimum, U rises linearly away from them and no Gaussian prefactor exists.
 //! To lowest order the free configurations are a cone `a_k . u >= 0` (a_k the gaps' gradients) times

@@ -1,4 +1,4 @@
-//! Corridors narrower than the cells of a mesh.
+//! Free corridors that are narrower than the cells of a mesh.
 //!
 //! Where none of the lines through a cell meets anything free the cell is closed, although contact
 //! may not prove it blocked. Where nothing but such cells parts a state from free tiles they are

@@ -1,4 +1,4 @@
-//! A crowd of tiles on a table, and the rates of a pair of them.
+//! The tiles on a table, and the rates of one pair of them.
 
 use nalgebra::DMatrix;
 

@@ -1,4 +1,4 @@
-//! How far apart a pair in equilibrium is.
+//! The distribution of the distance between a pair of tiles in equilibrium.
 
 use super::field::{DIVIDED, Field};
 use super::mesh::UNITS;

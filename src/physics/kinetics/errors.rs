@@ -1,4 +1,4 @@
-//! What functions on a mesh are off by, as far as the mesh tells.
+//! Estimates of the discretisation error of functions on a mesh.
 
 use nalgebra::Vector3;
 

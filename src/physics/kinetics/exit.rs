@@ -1,4 +1,4 @@
-//! How soon a tile leaves a configuration, and where it comes first.
+//! How soon a tile leaves a configuration, and which end it reaches first.
 
 use super::bracket::{Asked, Bracket};
 use super::certify::{Step, narrowed};

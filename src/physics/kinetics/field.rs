@@ -1,4 +1,4 @@
-//! A mesh at one temperature, and how it is refined.
+//! A mesh with its energies at one temperature, and its refinement.
 
 mod network;
 

@@ -1,4 +1,4 @@
-//! Coordinates in which contact is simple: slide, tilt and gap about a state.
+//! Coordinates that make contact simple: slide, tilt and gap relative to a state.
 
 use nalgebra::Vector2;
 

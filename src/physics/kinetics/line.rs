@@ -1,4 +1,4 @@
-//! Integrals over the gap alone: one line of configurations at a time.
+//! Integrals over the gap alone, along one line of configurations.
 
 use super::frame::Frame;
 use crate::interruption;

@@ -1,4 +1,4 @@
-//! What is known of ways between places.
+//! Which places of a mesh are known to be connected.
 
 use super::corridor::Way;
 use super::results::{RateBounds, Rates};

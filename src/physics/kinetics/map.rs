@@ -1,4 +1,4 @@
-//! A committor and its reactive flux, seen from above: over (x, y), theta taken together.
+//! A committor and its reactive flux projected onto (x, y), combined over theta.
 
 use std::f64::consts::TAU;
 

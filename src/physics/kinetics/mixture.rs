@@ -1,4 +1,5 @@
-//! What a passive table can choose: one setting after another, blind to the tiles.
+//! The best schedule of a passive table, which changes its setting over time without observing the
+//! tiles.
 //!
 //! Time is cut into equal slots; each has one of some settings, and each setting is a chain over
 //! the same states. A schedule is found by changing one slot after another as long as that gains.

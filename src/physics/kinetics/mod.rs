@@ -1,5 +1,5 @@
-//! Kinetics: what shaken tiles do with a landscape: how strongly a state holds at kT, how soon and
-//! whereto it is left, and what comes out in the end.
+//! Kinetics of shaken tiles on a landscape: how strongly a state holds at kT, how soon a tile
+//! leaves it and where it goes, and the yield in the end.
 //!
 //! kT (J) is an effective energy of shaking, see [`crate::dynamics`]; nothing here says that a
 //! table has one.

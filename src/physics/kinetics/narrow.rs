@@ -1,4 +1,4 @@
-//! Wells between contacts, narrower than the cells of a mesh.
+//! Wells between contacts that are narrower than the cells of a mesh.
 //!
 //! A tab in its slot moves by tenths of a millimetre. What such a well holds is told by few of the
 //! lines through a cell, if any meets it. So the cells that hold most of it are divided until what

@@ -1,4 +1,4 @@
-//! The chain over the numbers of pairs in all kinds of states: sparse, for stiff rates.
+//! The Markov chain over the numbers of pairs in each kind of state: sparse, for stiff rates.
 //!
 //! A state of a crowd is (n_0, n_1, ...): so many pairs in the bond and in each kind of trap, H of
 //! them in all. Attachment raises one number, detachment lowers one, and a pair that turns from state

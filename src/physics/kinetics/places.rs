@@ -1,4 +1,4 @@
-//! Basins and `free` on a mesh, and the rates between them that the mesh says.
+//! Basins and `free` on a mesh, and the rates between them computed from the mesh.
 
 use super::bracket::{Asked, Bracket};
 use super::certify::Step;

@@ -1,4 +1,4 @@
-//! Many tiles on a table: how many of them are bound, and how many caught, after a time.
+//! Many tiles on a table: how many are bound and how many are trapped after a given time.
 //!
 //! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds one
 //! partner at most (pairs are the product; no larger assembly is looked at), every tile of the one

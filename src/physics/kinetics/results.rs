@@ -1,4 +1,4 @@
-//! What is asked of overdamped motion, and what is found: exits from a pose, rates between basins.
+//! Requests and results of overdamped motion: exits from a pose, rates between basins.
 
 use super::corridor::Way;
 use super::map::Map;

@@ -1,4 +1,4 @@
-//! What it matters that basins are made of whole cells.
+//! The error made by building basins from whole cells.
 //!
 //! A basin is where U is below a limit; on the mesh it is made of the cells whose mean is. By
 //! Hadamard's formula the capacity changes by `w |grad q|^2` for every volume by which a basin's rim

@@ -1,4 +1,4 @@
-//! Where a bond's depth pays for what docking costs.
+//! The temperature at which a bond's depth equals the cost of docking.
 
 /// How near a root is found: of the function, and of where it is looked for.
 const CLOSE: [f64; 2] = [3e-3, 5e-4];

@@ -1,4 +1,4 @@
-//! Sets of cells: basins, and the ways between them.
+//! Sets of cells: basins, and the connections between them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,4 @@
-//! Courses in time of equations whose rates differ by many powers of ten.
+//! Time integration of stiff equations, whose rates differ by many powers of ten.
 //!
 //! Implicit Euler steps, extrapolated to ever smaller ones (Deuflhard 1985, doi:10.1137/1027140;
 //! Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.9): what is faster

@@ -1,5 +1,5 @@
-//! Partition functions of states: the integral of Boltzmann's factor over a basin, true contact
-//! included.
+//! Partition functions of states: the integral of the Boltzmann factor over a basin, with exact
+//! contact.
 
 use ordered_float::OrderedFloat;
 

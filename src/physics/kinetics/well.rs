@@ -1,4 +1,4 @@
-//! Wells of states: a basin, which is all configurations that can be reached from it without rising above a
+//! The well of a state: all configurations that can be reached from it without rising above a given
 //! level.
 //!
 //! The flood goes over a grid of slides and tilts about the state; on each line along which the gap

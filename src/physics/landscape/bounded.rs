@@ -1,4 +1,5 @@
-//! An energy over the free configurations of a space, bounded over cells, and the work that takes.
+//! An energy over the free configurations of a space with its bounds over cells, and the work they
+//! cost.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

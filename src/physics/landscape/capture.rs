@@ -1,4 +1,4 @@
-//! Capture: into which states overdamped motion takes tiles that start far apart.
+//! Capture: which states overdamped motion reaches from starts far apart.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! How an overdamped motion goes on turning, told by how it turned so far.
+//! Predicts how an overdamped motion continues to turn from how it has turned so far.
 
 use arrayvec::ArrayVec;
 use nalgebra::Vector3;

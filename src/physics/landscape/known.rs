@@ -1,6 +1,6 @@
-//! What is known of where motions end: in minima that were verified, and where motions did that slid
-//! along the same stretches. On these contact leaves the tiles one way only, so that every motion that
-//! comes there goes on as the known one did.
+//! Known ends of motions: verified minima, and earlier motions along the same stretches of contact.
+//! On these, contact allows only one direction, so every motion that arrives there continues as the
+//! earlier one did.
 
 use std::collections::HashMap;
 use std::sync::Arc;

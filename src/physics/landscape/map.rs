@@ -1,4 +1,4 @@
-//! The lowest energy over theta at each (x, y).
+//! The map of the lowest energy over theta at each (x, y).
 //!
 //! Every number is the energy of a free configuration, so that no map shows an energy that only
 //! overlapping tiles could have. Grids are computed row by row in parallel and gathered in order:

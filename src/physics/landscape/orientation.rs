@@ -1,4 +1,4 @@
-//! The search for the lowest energy over theta at a place.
+//! The search for the lowest energy over theta at a given position.
 
 use ordered_float::OrderedFloat;
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! What is found out about a landscape: states, barriers and pathways, as plain values.
+//! The results of a landscape as plain values: states, barriers and pathways.
 
 use ordered_float::OrderedFloat;
 use serde::{Deserialize, Serialize};

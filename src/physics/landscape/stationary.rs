@@ -1,5 +1,5 @@
-//! Stationary points of the energy on the contact surface, to full accuracy: minima and
-//! transition states by Newton's method on the surface on which the pressing contacts stay closed.
+//! Stationary points of the energy on the contact surface, to full accuracy: minima and transition
+//! states, by Newton's method on the surface on which the pressing contacts stay closed.
 //!
 //! With contacts `g_k(q) = 0` held closed, U is stationary where `grad U = sum_k l_k grad g_k`.
 //! A multiplier `l_k >= 0` presses the contact; a negative one would open it. The reduced Hessian

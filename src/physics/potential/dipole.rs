@@ -1,4 +1,4 @@
-//! Point dipoles: the plain scalar formula, the reference for everything faster.
+//! Point dipoles: the plain scalar formula, which is the reference for all faster ones.
 //!
 //! Two dipoles in the plane, with moments of magnitude `m1`, `m2` (A m^2) and directions `a`, `b`
 //! (rad), `r` (m) apart, where `phi` is the direction from the first to the second:

@@ -1,4 +1,4 @@
-//! Which energy acts between two tiles: the one place where it is chosen.
+//! The choice of the energy that acts between two tiles, in this one place.
 //!
 //! An [`Interaction`] is what a design says of the physics; [`Interaction::between`] makes of it an
 //! [`Energy`]: the potential with its feature length, and its bounds over cells, or why there are

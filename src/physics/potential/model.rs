@@ -1,4 +1,4 @@
-//! How magnets are modelled.
+//! The models of the magnets.
 
 use crate::tile::magnet::Form;
 use crate::tile::{Magnet, Pair};

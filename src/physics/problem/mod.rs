@@ -1,5 +1,4 @@
-//! What is asked about: a space of configurations, the energy on it, and the contact that blocks
-//! part of it.
+//! A problem: a space of configurations, the energy on it, and the contact that blocks part of it.
 
 mod rivals;
 mod symmetry;

@@ -1,4 +1,4 @@
-//! Faces that bind beside those that are meant to.
+//! Faces that bind besides the intended ones.
 
 use super::Problem;
 use crate::configuration::Configuration;

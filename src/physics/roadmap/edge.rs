@@ -1,4 +1,4 @@
-//! Motions between milestones and what they cost.
+//! Motions between milestones and their costs.
 
 use ordered_float::OrderedFloat;
 

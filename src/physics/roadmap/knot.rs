@@ -1,4 +1,5 @@
-//! Points of a motion where the energy and its slope are known, and the cubic between two of them.
+//! Points of a motion at which the energy and its slope are known, and the cubic between two of
+//! them.
 
 /// A point of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]

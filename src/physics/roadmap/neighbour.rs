@@ -1,4 +1,5 @@
-//! Pairs of neighbouring milestones, by k-d tree in the metric of the configuration space.
+//! Pairs of neighbouring milestones, found with a k-d tree in the metric of the configuration
+//! space.
 
 use std::f64::consts::{E, PI, TAU};
 use std::num::NonZeroUsize;

@@ -1,4 +1,4 @@
-//! A configuration with what is known of the energy there.
+//! A configuration with its energy data.
 
 use nalgebra::Vector3;
 

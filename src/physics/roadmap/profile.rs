@@ -1,4 +1,4 @@
-//! The energy along a straight motion, sampled as finely as its curvature demands.
+//! The energy along a straight motion, sampled as densely as its curvature requires.
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;

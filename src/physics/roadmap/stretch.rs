@@ -1,4 +1,5 @@
-//! A motion along which the energy is followed, and when a stretch of it is known well enough.
+//! A motion along which the energy is followed, and the criterion for sampling a part of it densely
+//! enough.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! From faces and their profiles to a tile's outline.
+//! Builds a tile's outline from its faces and their profiles.
 //!
 //! The profiles are strung together corner by corner. Where a profile runs back along its
 //! neighbour from their corner (square teeth that cut in right at the end of a square's face), the

@@ -1,4 +1,4 @@
-//! Grades under which magnets are sold, and the remanence that stands for each.
+//! Grades of magnets as sold, and the remanence of each.
 //!
 //! A grade is a maker's promise of an energy product; the remanence (T) that goes with it has a
 //! range, in which single magnets lie. The figure taken is the range's middle, rounded to 0.01 T.

@@ -1,4 +1,4 @@
-//! Two tiles and how they are meant to meet.
+//! Two tiles and their intended contact.
 
 use std::f64::consts::PI;
 

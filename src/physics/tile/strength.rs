@@ -1,4 +1,4 @@
-//! How strong a magnet is.
+//! The strength of a magnet.
 
 use std::f64::consts::PI;
 

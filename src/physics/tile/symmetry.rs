@@ -1,4 +1,4 @@
-//! The turns that map a tile onto itself.
+//! The rotations that map a tile onto itself.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! What is asked about words, and answered in one go.
+//! Searches for sets of words: the request and its result.
 
 use super::candidates::number;
 use super::effort::Effort;

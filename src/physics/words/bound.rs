@@ -1,4 +1,4 @@
-//! How many words there can be at most, without looking at any: bounds of binary codes.
+//! Upper bounds of the number of words without enumerating them: bounds of binary codes.
 //!
 //! With a magnet in every place, two words whose aligned mates attract by at most t contacts differ
 //! in at least d = (places - t) / 2 places: they are a binary code, and so are the words and the

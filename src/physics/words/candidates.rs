@@ -1,5 +1,5 @@
-//! The words that may be in a set at all: each sound by itself, one of a word and its mate where
-//! the two are interchangeable.
+//! The words that may belong to a set: each valid by itself, and only one of a word and its mate
+//! where the two are interchangeable.
 
 use crate::parallel;
 use rand::seq::index::sample;

@@ -1,4 +1,4 @@
-//! Largest cliques: a largest set of words that go together, with a proof.
+//! Maximum cliques: a largest set of compatible words, with a proof.
 //!
 //! Branch and bound over bit sets with a bound by greedy colouring (Tomita and Seki 2003, as laid
 //! out for bits by San Segundo, Rodriguez-Losada and Jimenez, *Comput. Oper. Res.* 38 (2011) 571):

@@ -1,4 +1,4 @@
-//! Known codes, from which searches of words set out.
+//! Known codes, from which searches for words start.
 //!
 //! Where faces meet aligned only, two words are the farther from attracting each other the more places
 //! they differ in: sets of words are binary codes of a least distance. The best of these have structure

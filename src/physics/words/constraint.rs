@@ -1,5 +1,5 @@
-//! The constraints that Majumder and Reif put on words (sections 4.3.1 and 4.3.2), after Tulpan,
-//! Hoos and Condon, *Stochastic local search algorithms for DNA word design* (DNA8, 2002).
+//! The constraints on words of Majumder and Reif (sections 4.3.1 and 4.3.2), after Tulpan, Hoos and
+//! Condon, *Stochastic local search algorithms for DNA word design* (DNA8, 2002).
 //!
 //! Two words *match* at a place where both have the same pole: there one attracts the other's mate.
 //! Slid over each other, places that hang over count as mismatches. The complement of a word is its

@@ -1,4 +1,4 @@
-//! How hard to search.
+//! The search effort.
 
 use crate::budget::Budget;
 

@@ -1,5 +1,5 @@
-//! Words that stay apart though a tile was made badly: one magnet of a face missing, or put in the
-//! wrong way round.
+//! Words that tolerate a faulty tile: one magnet of a face missing, or inserted the wrong way
+//! round.
 //!
 //! Every face may have one such fault, at any place, so that two faces that meet have two at most.
 //! With `e[k][j]` the energy of magnet k of the first and j of the second one, and f = 1 for a

@@ -1,4 +1,5 @@
-//! Gap against number: the widest gap of so many words, and the number of words at every gap.
+//! The trade-off between gap and number of words: the widest gap of a given number of words, and
+//! the number of words at every gap.
 
 use super::Task;
 use super::effort::Effort;

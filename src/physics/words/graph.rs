@@ -1,4 +1,5 @@
-//! Which words go together: a graph with a word at each vertex.
+//! The compatibility graph of words: a vertex for each word, an edge between words that can be in
+//! one set.
 
 use crate::parallel;
 use std::borrow::Cow;

@@ -1,4 +1,4 @@
-//! The energy of two magnets of flush faces by how many places lie between them.
+//! The energy of two magnets of flush faces as a function of the number of places between them.
 //!
 //! In flush faces every magnet faces along the normal, D from the one it meets (the length of a
 //! bar and both insets). With `J(d)` the energy of two north poles d places apart along the faces,

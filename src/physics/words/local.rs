@@ -1,4 +1,4 @@
-//! Large cliques by local search: sets of words grown, exchanged and shaken.
+//! Large cliques by local search: sets of words are grown, exchanged and perturbed.
 //!
 //! As in Tulpan, Hoos and Condon (DNA8, 2002) a set of words is improved by exchanging words that
 //! conflict; the rules of exchange are those of Pullan and Hoos, *Dynamic local search for the

@@ -1,4 +1,4 @@
-//! Sets of words: barcodes of which each binds its mate strongly and all else weakly.
+//! Sets of words: barcodes that bind their mates strongly and everything else weakly.
 //!
 //! A [`Task`] says what a word is (places, magnets, energies, constraints) and which meetings are
 //! wrong; [`search::largest`] finds a largest set with a given gap, [`frontier::widest`] the widest

@@ -1,4 +1,4 @@
-//! Which meetings of two words are wrong, and how strongly they attract.
+//! Which contacts of two words are wrong, and how strongly the words attract in them.
 //!
 //! A face carries a word u or its mate u*. Slid by s places, u meets v with the correlations of u
 //! and the reverse of v, and v* with those of u and -v. A face turned over carries its word

@@ -1,4 +1,4 @@
-//! Sets of words, judged.
+//! Sets of words and their evaluation.
 
 use super::lag::Lags;
 use super::rules::{Meeting, Rules};

@@ -1,4 +1,4 @@
-//! Words: barcodes as two sets of bits, for millions of them at once.
+//! Words: barcodes as two sets of bits, fast enough for millions of them.
 
 use std::cmp::Ordering;
 use std::fmt::{self, Write};

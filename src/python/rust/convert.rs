@@ -1,4 +1,4 @@
-//! Values of Python as values of a design file, and JSON as values of Python.
+//! Converts Python values to values of a design file, and JSON to Python values.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping, PyString};

@@ -1,4 +1,4 @@
-//! Docking: what becomes of tiles that are sent towards each other.
+//! Docking experiments.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! Long work: done beside the interpreter, whose lock is released, on threads of its own; progress
-//! is shown, ctrl-C heeded.
+//! Runs long work on threads of its own, without the interpreter's lock; it shows progress and
+//! heeds ctrl-C.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

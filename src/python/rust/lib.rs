@@ -1,4 +1,4 @@
-//! tilebind for Python: the classes and functions of the package, each a thin view of the library.
+//! The Python package: its classes and functions, each a thin wrapper of the library.
 //!
 //! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
 //!   configurations;

@@ -1,4 +1,4 @@
-//! What is known of many configurations at once: arrays in, arrays out.
+//! Functions of many configurations at once: arrays in, arrays out.
 
 use numpy::{
     AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods,

@@ -1,4 +1,4 @@
-//! What is asked by keyword arguments: the options of the program, with their limits and defaults.
+//! Requests from keyword arguments: the options of the program, with their limits and defaults.
 
 use clap::Args;
 use pyo3::exceptions::{PyTypeError, PyValueError};

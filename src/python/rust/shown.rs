@@ -1,4 +1,4 @@
-//! Results as people look at them, and as bytes: what all classes have.
+//! The methods that all results share: their display, and their pickling.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

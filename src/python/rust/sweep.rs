@@ -1,4 +1,4 @@
-//! Designs made from one by varying its keys.
+//! Sweeps: designs made from one by varying its keys.
 
 use std::collections::HashMap;
 use std::convert::Infallible;

@@ -1,4 +1,4 @@
-//! Structured arrays of NumPy, of which `pandas.DataFrame` makes tables. They cannot be written to.
+//! Read-only structured NumPy arrays, of which `pandas.DataFrame` makes tables.
 
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

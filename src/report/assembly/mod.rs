@@ -1,5 +1,5 @@
-//! Tile sets whose glues are words: what engines read, designs of all pairs that meet, the sheet for
-//! the workshop, and what is known of them.
+//! Assemblies as documents: files for the engines, designs of all pairs that meet, the workshop
+//! sheet and the results.
 
 mod picture;
 mod sheet;

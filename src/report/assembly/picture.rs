@@ -1,4 +1,4 @@
-//! What grows without errors, drawn tile by tile.
+//! A picture of the growth without errors, tile by tile.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The sheet for the workshop.
+//! The workshop sheet.
 
 use crate::document::rows;
 use crate::markdown::markdown_table;

@@ -1,4 +1,4 @@
-//! What is told of an assembly in words.
+//! The text of an assembly's summary.
 
 use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};

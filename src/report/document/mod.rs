@@ -1,4 +1,4 @@
-//! A result as one document that every output reads.
+//! The document of a result, from which every output is made.
 //!
 //! One function makes the [`Document`] of a result; the terminal's text, JSON, CSV, the page and
 //! pictures ([`super::plots`]) are made from it. A new figure or column is one entry of the document

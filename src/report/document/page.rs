@@ -1,4 +1,4 @@
-//! Documents as a page, and all files of a document.
+//! Documents as HTML pages, and all files of a document.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,5 @@
-//! Tables are made of rows, column by column, each declared once with its key, name, meaning and value.
+//! Tables built column by column; each column is declared once with its key, name, meaning and
+//! value.
 
 use std::borrow::Cow;
 

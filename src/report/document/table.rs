@@ -1,4 +1,4 @@
-//! Tables and their cells: what is known, and how people and programs read it.
+//! Tables and their cells, and how people and programs read them.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! Documents on a terminal.
+//! Documents as terminal text.
 
 use std::fmt::Write;
 

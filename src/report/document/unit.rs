@@ -1,4 +1,4 @@
-//! What quantities are measured in, and how people read them.
+//! Units of quantities, and how they are printed for people.
 
 use physics::units::{duration, plain, si};
 

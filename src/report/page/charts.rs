@@ -1,4 +1,4 @@
-//! The points of a sweep as a page's data.
+//! The points of a sweep as data of the page.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Many tiles on a table that a page plays.
+//! The animation of many tiles on a page.
 
 use serde::Serialize;
 
@@ -78,7 +78,7 @@ impl Crowd {
         });
         Self {
             note: format!(
-                "Run {}: lines join tiles that hold each other.",
+                "Run {}: lines join the tiles of bonds and traps.",
                 run.map_or(0, |run| run.index)
             ),
             size: crowd.half_size.map(|half| 2.0 * half),

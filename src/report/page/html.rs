@@ -1,4 +1,4 @@
-//! The parts of a page put together.
+//! Assembles a page from its parts.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -1,4 +1,4 @@
-//! The landscape of a pair of tiles as a page's data.
+//! The landscape of a pair of tiles as data of the page.
 
 use std::f64::consts::FRAC_PI_4;
 

@@ -1,4 +1,4 @@
-//! Meetings of a set of words: all faces against all.
+//! The contacts of all faces of a set of words as data of the page.
 
 use nalgebra::Vector2;
 use serde::Serialize;

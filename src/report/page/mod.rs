@@ -1,4 +1,4 @@
-//! `report.html`: results as one page that needs nothing but a browser.
+//! `report.html`: results as one self-contained page.
 //!
 //! A [`Page`] holds what is to be seen: facts, a landscape to move about in, pictures, tables that
 //! sort. It is written as one file: markup, style, script, and the data as JSON. A content security

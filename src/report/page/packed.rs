@@ -1,4 +1,4 @@
-//! A volume of energies in few bytes.
+//! A grid of energies in compact form.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -1,4 +1,4 @@
-//! The pathways and trajectories that a page plays.
+//! The pathways and trajectories that a page animates.
 
 use serde::Serialize;
 

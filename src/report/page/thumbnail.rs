@@ -1,4 +1,4 @@
-//! The tiles of a point of a sweep, small.
+//! A small drawing of the tiles of a sweep's point.
 
 use serde::Serialize;
 

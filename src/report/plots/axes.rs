@@ -1,4 +1,4 @@
-//! Axes, and where values stand between them.
+//! Axes, and the positions of values on them.
 
 use std::ops::Range;
 

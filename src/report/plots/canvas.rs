@@ -1,4 +1,4 @@
-//! What pictures are drawn on, in pixels: a drawing area of plotters, with what plotters has not.
+//! A drawing area in pixels: that of plotters, with what plotters lacks.
 
 use std::cell::{Ref, RefCell};
 use std::fmt::Display;

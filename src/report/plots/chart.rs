@@ -1,4 +1,4 @@
-//! A chart: series of points over an axis, with what they may be off by.
+//! A chart: series of points over an axis, with error bars.
 
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordi32;

@@ -1,4 +1,4 @@
-//! A committor as a map of colours, with its reactive flux.
+//! A committor as a colour map, with its reactive flux.
 
 use plotters::style::WHITE;
 

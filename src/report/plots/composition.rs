@@ -1,4 +1,4 @@
-//! Pictures of several panels: laid out side by side as the width allows, or each on its own.
+//! Pictures of several panels: side by side as the width allows, or each in its own file.
 
 use super::canvas::{Box4, Canvas};
 use super::picture::{Picture, PictureError};

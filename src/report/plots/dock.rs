@@ -1,4 +1,4 @@
-//! Docking: the chance of a match over orientation and speed.
+//! The probability of a match over orientation and speed.
 
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas};

@@ -1,5 +1,5 @@
 //! The landscape map: the lowest energy over theta at each (x, y), with the fixed tile, the states
-//! and the pathways on it, and an enlargement of what lies in front of the target face.
+//! and the pathways, and an enlarged view of the region in front of the target face.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! Pictures with the numbers that they show, drawn and yet to be drawn.
+//! Pictures together with the numbers they show, before and after drawing.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 

@@ -1,4 +1,4 @@
-//! The font that is part of the program.
+//! The font embedded in the program.
 
 use std::sync::LazyLock;
 

@@ -1,4 +1,4 @@
-//! A design at a glance: both tiles where they bind, and the figures beside them.
+//! A picture of a design: both tiles where they bind, and the figures beside them.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! Maps of colours: images of grids, and the bars that tell what colours mean.
+//! Colour maps: images of grids, and their colour bars.
 
 use super::axes::Plot;
 use super::canvas::{Bitmap, Box4, Canvas, middle};

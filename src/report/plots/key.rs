@@ -1,4 +1,4 @@
-//! What marks, lines and colours mean.
+//! The legend of marks, lines and colours.
 
 use plotters::style::RGBColor;
 

@@ -1,4 +1,4 @@
-//! Labels that keep out of each other's way.
+//! Labels placed so that they do not overlap.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! Marks on pictures: of states and saddles, tiles.
+//! Marks in pictures: states, saddles and tiles.
 
 use nalgebra::{Rotation2, Vector2};
 use plotters::style::{RGBColor, WHITE};

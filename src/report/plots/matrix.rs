@@ -1,4 +1,4 @@
-//! A matrix: a number of every two of some things, as a colour.
+//! A matrix as a colour map.
 
 use super::canvas::{Box4, Canvas, Spot, corners};
 use super::composition::{Composition, Panel};

@@ -1,4 +1,4 @@
-//! The pictures of an analysis, each as SVG and as PNG, for print as PDF too, and its numbers as CSV.
+//! The pictures of an analysis, each as SVG and PNG, as PDF for print, and its numbers as CSV.
 //!
 //! - `map`: lowest energy over theta at each (x, y), with states and pathways on it;
 //! - `approach`: energy in front of the target face, gap and slide against tilt;

@@ -1,5 +1,5 @@
-//! What the model of the magnets costs: the energy of point dipoles against that of blocks, and
-//! the error of the dipoles, as the bound tiles are drawn apart along the target face's normal.
+//! The error of the dipole model: the energy of point dipoles against that of blocks, and the
+//! difference, as the bound tiles are drawn apart along the target face's normal.
 
 use super::canvas::{Box4, Canvas};
 use super::chart::{Dimension, Look, Series, plotted};

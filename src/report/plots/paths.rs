@@ -1,4 +1,4 @@
-//! Paths of docking tiles.
+//! Trajectories of docking tiles.
 
 use plotters::style::RGBColor;
 

@@ -1,4 +1,4 @@
-//! Both tiles in several poses, a panel each.
+//! Both tiles in several poses, one panel each.
 
 use nalgebra::Vector2;
 

@@ -1,5 +1,4 @@
-//! Designs side by side at a glance: depths, barriers between their bounds, and captures, the best
-//! design on top.
+//! Designs side by side: depths, barriers with their bounds, and captures, the best design on top.
 
 use plotters::style::{Color, RGBColor};
 

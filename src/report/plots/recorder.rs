@@ -1,4 +1,4 @@
-//! A plotters backend that keeps what is drawn, for each form of a picture to be made of it.
+//! A plotters backend that records a drawing, from which all its file formats are made.
 //!
 //! plotters' own bitmap backend has no text without system fonts and little smoothing.
 

@@ -1,4 +1,4 @@
-//! Energies as positions and colours.
+//! Scales that map energies to positions and colours.
 
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordf64;

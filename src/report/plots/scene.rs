@@ -1,4 +1,4 @@
-//! What the pictures are drawn from, and which of it they show.
+//! The data that pictures are drawn from, and the selection they show.
 
 use ordered_float::OrderedFloat;
 

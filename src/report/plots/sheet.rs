@@ -1,4 +1,4 @@
-//! What pictures are drawn for: a screen, or print at a width and with a size of text.
+//! The medium of a picture: a screen, or print at a given width and text size.
 
 use super::style::SMALL;
 

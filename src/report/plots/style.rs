@@ -1,4 +1,4 @@
-//! What all pictures have in common: colours and sizes of text.
+//! The colours and text sizes that all pictures share.
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};

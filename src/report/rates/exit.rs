@@ -1,4 +1,4 @@
-//! How soon a pose is left, and whereto.
+//! Exits from a pose: how soon a tile leaves it, and where it goes.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! Exits and rates of overdamped motion.
+//! Exits and rates of overdamped motion, as documents.
 
 mod exit;
 mod table;

@@ -1,4 +1,4 @@
-//! Rates between states and `free`.
+//! Rates between states and `free`, as a document.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! What a sweep answers: one sentence, and a table of its points.
+//! The answer of a sweep: one sentence, and a table of its points.
 
 use super::points::Sweep;
 use crate::assessments::view;

@@ -1,4 +1,4 @@
-//! Sweeps: tables of all points, and what the terminal is told.
+//! Sweeps as documents: tables of all points, and the terminal text.
 
 use serde_json::{Map, Value as Json, json};
 

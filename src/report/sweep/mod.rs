@@ -1,4 +1,4 @@
-//! A sweep: the designs that come of one by varying it, and what became of each.
+//! Sweeps: the designs, and the result of each.
 //!
 //! `points` are its points and what they are called; `document` is what there is to know of it,
 //! with `answer` (a sentence and a table) and `pictures` (curves and maps).

@@ -1,4 +1,4 @@
-//! The pictures of a sweep: its figures as curves over one varied number, or as maps over two.
+//! The pictures of a sweep: curves over one varied number, or maps over two.
 
 use super::points::{Common, Sweep, Variable};
 use crate::csv::{number, table};

@@ -1,4 +1,4 @@
-//! The points of a sweep, and what they are called.
+//! The points of a sweep, and their names.
 
 use crate::csv::number;
 use jobs::comparison::Assessment;

@@ -1,4 +1,4 @@
-//! Sets of words.
+//! Sets of words as documents.
 
 mod spaced;
 mod text;

@@ -1,4 +1,4 @@
-//! Sets of words with magnets anywhere along the face, judged over all poses.
+//! Sets of words with magnets anywhere along the face, evaluated over all poses.
 
 use serde_json::json;
 

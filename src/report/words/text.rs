@@ -1,4 +1,4 @@
-//! The answer in words.
+//! The summary of a search for words.
 
 use jobs::word_sets::Sought;
 use physics::units::si;

@@ -1,4 +1,4 @@
-//! A table of the roadmap's growth as a picture: wall time and memory over milestones.
+//! A picture of the roadmap's growth: wall time and memory over milestones.
 
 use std::error::Error;
 use std::path::Path;

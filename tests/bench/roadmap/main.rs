@@ -1,4 +1,4 @@
-//! What a roadmap costs: time and energies of each stage, edges a second, memory.
+//! The cost of a roadmap: time and energies of each stage, edges per second, memory.
 //!
 //! The paper's tile; edges are proved free, and their highest energy is known to 1 % (or 1e-5 of
 //! the bond's depth). The share of contact tests is of the time of the edges.

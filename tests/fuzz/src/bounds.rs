@@ -1,5 +1,5 @@
 //! The bounds of energies over cells against the energy in the interval arithmetic of `inari`,
-//! which shares nothing with this crate: a true energy outside its enclosure is a finding.
+//! which shares no code with this crate: a true energy outside its bounds is a finding.
 
 #![no_main]
 

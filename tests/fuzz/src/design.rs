@@ -1,4 +1,5 @@
-//! The design reader on any bytes: it answers, and soon, and its answer can be told.
+//! The design reader on arbitrary bytes: it must answer, and quickly, and its answer must be
+//! printable.
 
 #![no_main]
 

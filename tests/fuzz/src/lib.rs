@@ -1,4 +1,4 @@
-//! What holds of every answer of the readers.
+//! Properties that every answer of the readers must have.
 
 use std::fmt::Display;
 

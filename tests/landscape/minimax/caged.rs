@@ -1,4 +1,4 @@
-//! No way out, proved; and a way out, found.
+//! Absence of a way out, proved; and a way out, found.
 
 use nalgebra::Vector2;
 use tilebind::configuration::Configuration;

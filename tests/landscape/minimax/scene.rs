@@ -1,4 +1,4 @@
-//! What the tests certify: designs shipped and made up.
+//! The designs that the tests certify: shipped ones and made-up ones.
 
 use nalgebra::Vector2;
 use rand::RngExt;

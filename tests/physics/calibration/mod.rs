@@ -1,4 +1,4 @@
-//! Shields fitted to measurements whose truth is known.
+//! Shields fitted to synthetic measurements with known parameters.
 
 mod distances;
 mod rows;

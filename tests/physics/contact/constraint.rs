@@ -1,4 +1,4 @@
-//! What touching leaves free: gaps, their gradients and the directions they admit.
+//! The motions that contact allows: gaps, their gradients and admissible directions.
 
 use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};

@@ -1,4 +1,4 @@
-//! Motions: free all along, or not.
+//! Motions: free throughout, or not.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

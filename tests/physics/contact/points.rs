@@ -1,4 +1,4 @@
-//! Points of contact against parry's distance, and what every point must obey.
+//! Points of contact against parry's distance, and properties that every point must have.
 
 use std::sync::Arc;
 

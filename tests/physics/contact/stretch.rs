@@ -1,4 +1,4 @@
-//! The stretches of a line on which tiles are free.
+//! The intervals of a line in which tiles are free.
 
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};

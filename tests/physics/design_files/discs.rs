@@ -1,4 +1,4 @@
-//! Discs, and magnets that stand on a pole.
+//! Discs, and magnets magnetised across the table.
 
 use super::magnets_of_face;
 use tilebind::Configuration;

@@ -1,5 +1,5 @@
-//! Files that are no files, and more of a thing than a design needs: refused at once, each with a
-//! message.
+//! Files that are not regular files, and designs with too many entries: refused at once, each with
+//! a message.
 
 use std::path::Path;
 use std::sync::mpsc::channel;

@@ -1,4 +1,4 @@
-//! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
+//! Design files, valid and invalid: what they load as, and the messages for those that do not load.
 
 mod cases;
 mod discs;

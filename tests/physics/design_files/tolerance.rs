@@ -1,4 +1,5 @@
-//! Faces that differ by what no cutter resolves: accepted with a warning, and bound all the same.
+//! Faces that differ by less than a cutter resolves: accepted with a warning, and bound all the
+//! same.
 
 use tilebind::design::Design;
 use tilebind::problem::Problem;

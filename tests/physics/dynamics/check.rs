@@ -1,4 +1,4 @@
-//! Barriers checked by moving tiles: true ones stand, and false ones do not.
+//! Barriers checked by moving tiles: true barriers pass, false ones fail.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! Docking runs: chances against another engine's, and what every run must obey.
+//! Docking runs: probabilities against another engine's, and properties of every run.
 
 use std::sync::Arc;
 

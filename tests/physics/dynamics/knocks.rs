@@ -1,4 +1,4 @@
-//! Knocks by the law of impulses.
+//! Collisions by the law of impulses.
 
 use std::f64::consts::TAU;
 

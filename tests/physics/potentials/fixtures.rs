@@ -1,4 +1,4 @@
-//! Energies, forces and torques of both magnet models against numbers made by independent codes
+//! Energies, forces and torques of both magnet models against numbers from independent codes
 //! (`tests/fixtures/physics.json`, for the design `tests/fixtures/flat.toml`).
 
 use nalgebra::Vector2;

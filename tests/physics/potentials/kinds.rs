@@ -1,4 +1,5 @@
-//! The kinds of energy: to have one pass all that [`super::laws`] ask, add it to [`all`].
+//! The kinds of energy: an energy that is added to [`all`] is tested by every law in
+//! [`super::laws`].
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

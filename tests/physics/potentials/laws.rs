@@ -1,4 +1,4 @@
-//! What holds of every kind of energy.
+//! Laws that every kind of energy obeys.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};

@@ -1,4 +1,4 @@
-//! Every instruction set that this machine has: the same bits, and all tests of energies and bounds.
+//! Every instruction set of this machine: the same bits, and all tests of energies and bounds.
 
 use std::process::Command;
 

@@ -1,4 +1,4 @@
-//! Many tiles on a table, by the laws of mechanics and of heat.
+//! Many tiles on a table, by the laws of mechanics and of thermodynamics.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What a shell offers after `tilebind completions`.
+//! The completions that a shell offers after `tilebind completions`.
 
 use std::process::Command;
 

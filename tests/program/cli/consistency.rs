@@ -1,5 +1,5 @@
-//! Summary, page, tables, report and pictures of one analysis say the same: of a caged bond, of a
-//! design without a bond and of one without traps.
+//! Summary, page, tables, report and pictures of one analysis agree: of a caged bond, of a design
+//! without a bond and of one without traps.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! What a new user meets first: designs to start from, mistakes, a design at a glance, files for the
-//! workshop.
+//! The first steps of a new user: designs to start from, mistakes, inspection of a design, files
+//! for the workshop.
 
 use std::fs;
 

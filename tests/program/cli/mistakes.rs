@@ -1,5 +1,5 @@
-//! What is wrong on the command line or in a design file ends with status 2, says how to fix it,
-//! and leaves nothing behind.
+//! Mistakes on the command line or in a design file end with status 2 and a message that says how
+//! to fix them, and leave no files.
 
 use std::path::Path;
 

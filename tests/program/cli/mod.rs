@@ -1,4 +1,4 @@
-//! The commands on one design, and what every command has: help, mistakes, completions.
+//! The commands on one design, and properties of every command: help, mistakes, completions.
 
 mod analyse;
 mod assemble;

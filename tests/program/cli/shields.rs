@@ -1,4 +1,5 @@
-//! Shielded designs through the program: dipoles behind shields are certified; what is not says so.
+//! Shielded designs in the program: dipoles behind shields are certified; the output names what is
+//! not.
 
 use std::path::Path;
 

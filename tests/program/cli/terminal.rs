@@ -1,4 +1,5 @@
-//! Where nobody reads what is printed: commands end as they should, and interruptions still work.
+//! Closed outputs: commands end as they should when nobody reads their output, and interruptions
+//! still work.
 
 use std::io::{Write, pipe};
 use std::process::{Child, Command, Output, Stdio};

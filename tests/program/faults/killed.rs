@@ -1,4 +1,4 @@
-//! Processes that are killed while they work.
+//! Processes that are killed during their work.
 
 use std::time::Duration;
 

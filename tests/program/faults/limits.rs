@@ -1,4 +1,4 @@
-//! Files that may not grow beyond some size, full devices, and memory that runs out.
+//! Limits of file size, full devices, and memory that runs out.
 
 use std::fs::File;
 

@@ -1,6 +1,5 @@
-//! What the machine does to a command: writes that fail at some byte, memory that runs out, a
-//! worker that is killed, a clock that jumps. The exit status tells, and every file is there as a
-//! whole or not at all.
+//! Failures of the machine: writes that fail at some byte, memory that runs out, a worker that is
+//! killed, a clock that jumps. The exit status reports them, and every file is complete or absent.
 
 #![cfg(unix)]
 

@@ -1,4 +1,4 @@
-//! What a command reads it never replaces, by whatever name it goes.
+//! A command never replaces its input files, by whatever name they are given.
 
 use super::*;
 

@@ -1,5 +1,5 @@
-//! Files that commands write: what of the user's stays, what is replaced, and that a set is all new
-//! or all old.
+//! Output files: which files of the user stay, which are replaced, and that a set is all new or all
+//! old.
 
 mod inputs;
 mod replaced;

@@ -1,4 +1,4 @@
-//! Folders of results: a command replaces what it wrote itself and nobody changed since.
+//! Folders of results: a command replaces the files that it wrote and that have not changed since.
 
 use serde_json::{Value, json};
 use tilebind::output::Command;

@@ -1,4 +1,4 @@
-//! A sweep that is stopped goes on where it was and ends in the same bytes.
+//! An interrupted sweep resumes and ends with the same bytes.
 
 #![cfg(unix)]
 

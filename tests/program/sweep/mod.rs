@@ -1,4 +1,4 @@
-//! `tilebind sweep` as its users see it: the same bytes however the work is divided or broken off.
+//! `tilebind sweep`: the same bytes however the work is divided or interrupted.
 
 mod axes;
 mod interruptions;

@@ -1,4 +1,4 @@
-//! A sweep in parts and a sweep in one go.
+//! A sweep in parts gives the same as a whole sweep.
 
 use super::{DEPTH, DESIGN, QUICK, assert_same, done, run, text};
 use crate::folder::contents;

@@ -1,4 +1,4 @@
-//! What a sweep writes.
+//! The tables of a sweep.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! Codes to start from.
+//! Codes for new designs.
 
 /// The code whose strongest wrong match with its own mate is weakest: slid by k places, the places
 /// that attract less those that repel. Of several the first, `N` before `S`.

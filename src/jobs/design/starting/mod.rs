@@ -1,4 +1,4 @@
-//! Designs to start from, written to measure: sound as they are.
+//! New designs made to given measures, valid as written.
 
 mod code;
 mod shape;

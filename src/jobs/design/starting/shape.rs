@@ -1,4 +1,4 @@
-//! Lines that target faces follow.
+//! Face profiles for new designs.
 
 use crate::design::quantity::rounded_down;
 

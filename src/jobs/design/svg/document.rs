@@ -1,4 +1,4 @@
-//! An SVG file as the shapes that it draws, in metres.
+//! An SVG file as a list of shapes in metres.
 
 use std::collections::HashMap;
 use std::str::FromStr;

@@ -1,5 +1,5 @@
-//! Lines joined where their ends meet: drawing programs draw an outline as one line, as a path of
-//! several, or as an element for each side, and leave gaps that no cutter shows.
+//! Joins lines where their ends meet: drawing programs draw an outline as one line, as a path of
+//! several, or as an element for each side, and leave gaps too small to see.
 
 use kurbo::{Point, Vec2};
 

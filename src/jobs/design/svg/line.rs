@@ -1,4 +1,4 @@
-//! A profile drawn as a line.
+//! A face profile drawn as a line.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! A tile's outline, drawn as a closed line.
+//! A tile's outline drawn as a closed line.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! The segments of a path, drawn one by one.
+//! Draws the segments of a path one by one.
 
 use kurbo::{
     Affine, Arc, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, SvgArc, Vec2, flatten,

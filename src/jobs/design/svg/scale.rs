@@ -1,4 +1,4 @@
-//! How large a drawing is.
+//! The scale of a drawing.
 
 use std::str::FromStr;
 

@@ -1,4 +1,4 @@
-//! Fewer points for lines that are drawn with very many, as tracing programs draw them.
+//! Simplifies lines of very many points, such as tracing programs write.
 
 use super::super::error::Result;
 use super::super::quantity::four_digits;

@@ -1,5 +1,5 @@
-//! Contact over a cell of configurations: proved overlapping throughout, or left with conditions
-//! that every free configuration of the cell satisfies.
+//! Contact over a cell of configurations: proves that the tiles overlap throughout the cell, or
+//! returns conditions that every free configuration of the cell satisfies.
 //!
 //! A point of one tile that stays, throughout the cell, inside the other tile by more than the
 //! tolerance proves the cell *blocked*, and so do convex parts of both that stay overlapped, as

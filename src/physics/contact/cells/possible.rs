@@ -1,4 +1,5 @@
-//! The contacts that the configurations of a cell may make, and how fast motions open them.
+//! The contacts that are possible within a cell of configurations, and bounds of how fast motions
+//! open them.
 //!
 //! Where two free tiles come to overlap, a convex vertex of one of them passes through an edge of
 //! the other: first contact is a convex vertex on an edge or on a vertex, and of two corners that

@@ -1,4 +1,4 @@
-//! One of two tiles, as the cells of a subdivision see it.
+//! One of the two tiles, prepared for the contact tests of cells.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! The area that outlines in contact leave between them.
+//! The area left between two outlines in contact.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! Rigid motions that bring two outlines, magnets aside, into long contact.
+//! Rigid motions that bring two outlines into long contact; magnets are ignored.
 //!
 //! Longest contacts are met where an edge of one outline lies flush on an edge of the other and a
 //! corner of one stops at a corner of the other: sliding along the common line changes the contact

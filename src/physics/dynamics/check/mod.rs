@@ -1,4 +1,5 @@
-//! A check of barriers from outside the roadmap: moving tiles must not contradict them.
+//! A check of barriers that is independent of the roadmap: trajectories of moving tiles must not
+//! contradict them.
 //!
 //! A barrier says: every free path from a state to another place reaches at least the saddle's
 //! energy. A tile without drag keeps its energy, so one that starts in the state's basin with less

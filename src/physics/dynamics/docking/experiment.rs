@@ -1,4 +1,4 @@
-//! One docking experiment: a trajectory at a time, and what their ends are counted as.
+//! A docking experiment: runs its trajectories and counts how they end.
 
 use std::cmp::Reverse;
 

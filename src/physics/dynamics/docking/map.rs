@@ -1,4 +1,4 @@
-//! The chance of a match over orientation and speed: the paper's figure 6.
+//! The probability of a match over orientation and speed: the paper's figure 6.
 
 use super::Docking;
 use crate::landscape::Proportion;

@@ -1,4 +1,4 @@
-//! When the tiles are matched.
+//! The criterion by which two tiles count as matched.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! Docking: what becomes of tiles that are sent towards each other.
+//! Docking experiments: tiles launched towards each other, and how they end.
 
 mod experiment;
 mod map;

@@ -1,4 +1,4 @@
-//! Where docking trajectories start.
+//! The starting positions and velocities of docking trajectories.
 
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};

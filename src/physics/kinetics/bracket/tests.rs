@@ -1,4 +1,4 @@
-//! Gaps of functions and fluxes.
+//! Tests of the gap between the bounds of functions and of fluxes.
 
 use super::*;
 use crate::sample;

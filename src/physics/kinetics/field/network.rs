@@ -1,4 +1,4 @@
-//! The cells of a mesh as conductors of fluxes.
+//! The cells of a mesh as a network of conductors.
 
 use std::sync::PoisonError;
 

@@ -1,4 +1,4 @@
-//! What is integrated over a cell: e^(-U/kT) times products of shape functions' gradients.
+//! Element integrals of a cell: e^(-U/kT) times products of the gradients of shape functions.
 
 use nalgebra::{Matrix3, Vector3};
 

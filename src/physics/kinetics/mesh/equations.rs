@@ -1,4 +1,4 @@
-//! Sparse symmetric equations, and their solution by conjugate gradients.
+//! Sparse symmetric linear equations, solved by conjugate gradients.
 
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 

@@ -1,5 +1,4 @@
-//! Fluxes through the sides of cells, and the least that they cost: what Thomson's principle asks
-//! for.
+//! Fluxes through the sides of cells, and the flux of least cost that Thomson's principle needs.
 //!
 //! In each cell the flux is linear between opposite sides (Raviart and Thomas 1977,
 //! doi:10.1007/BFb0064470, of the lowest order), through no side that contact closes. The flux of

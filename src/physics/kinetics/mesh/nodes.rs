@@ -1,4 +1,4 @@
-//! The corners of cells, and the values there of continuous functions.
+//! The corners of cells, and the values of continuous functions at them.
 
 use std::collections::HashMap;
 

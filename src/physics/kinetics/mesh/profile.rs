@@ -1,4 +1,4 @@
-//! How fluxes are spread over the sides of cells.
+//! The distribution of a flux over the sides of cells.
 
 use nalgebra::SMatrix;
 

@@ -1,5 +1,6 @@
-//! Integrals over what is free of a cell: line by line along s, where contact is found to a hair and
-//! the steps follow the energy, and between the lines as finely as they differ.
+//! Integrals over the free part of a cell. Lines along s are integrated one by one: contact is
+//! located very precisely and the steps adapt to the energy. The lines are as dense as their
+//! differences require.
 
 use nalgebra::Matrix3;
 

@@ -1,4 +1,4 @@
-//! The sides of cells, and the faces that they are made of.
+//! The sides of cells, and the faces they consist of.
 
 use super::octree::Octree;
 use super::profile::{Resistance, Spread};

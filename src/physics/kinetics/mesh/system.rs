@@ -1,4 +1,4 @@
-//! The linear system of a mesh's corners.
+//! The linear system for the values at the corners of a mesh.
 
 use super::equations::{Equations, Unsolved};
 use super::nodes::Nodes;

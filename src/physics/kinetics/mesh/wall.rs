@@ -1,4 +1,4 @@
-//! Where the configurations of a chart begin.
+//! The inner boundary of a chart: the distance at which contact ends in each direction.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 

@@ -1,5 +1,5 @@
-//! Proved bounds of capacities: Dirichlet's and Thomson's principles with integrals that are
-//! enclosed, between sets that are told by energies and not by a mesh.
+//! Proved bounds of capacities: Dirichlet's and Thomson's principles with enclosed integrals,
+//! between sets that are defined by energies and not by a mesh.
 //!
 //! # The statement
 //! A is what of U < a joins a configuration (where that is held by contact: the place on contact

@@ -1,4 +1,4 @@
-//! Integrals over a part of a mesh's cell, bounded.
+//! Bounds of integrals over a part of a mesh cell.
 
 use super::expansion::Expansion;
 use super::moments::Moments;

@@ -1,4 +1,4 @@
-//! What a set holds of the cells that lie in it in part.
+//! The share of a set in the cells that belong to it only in part.
 
 use super::Cells;
 use super::piece::{Ground, Piece};

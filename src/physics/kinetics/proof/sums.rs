@@ -1,4 +1,4 @@
-//! Bounds of sums over a mesh's cells, divided where they are apart.
+//! Bounds of sums over the cells of a mesh, subdivided where the bounds are wide.
 
 use std::cmp::Reverse;
 

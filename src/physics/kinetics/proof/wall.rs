@@ -1,5 +1,5 @@
-//! Where configurations begin along rays from the centre, with its slopes, enclosed over boxes of
-//! directions and angles.
+//! Enclosures, over boxes of directions and angles, of the distance at which contact ends along
+//! rays from the centre, and of its slopes.
 
 use std::f64::consts::{PI, TAU};
 

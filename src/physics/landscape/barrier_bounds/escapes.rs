@@ -1,5 +1,5 @@
-//! The way out of a state leads to the first of all places that lie lower, not only to the one that
-//! the roadmap suggests.
+//! Escape barriers: the lowest way out of a state leads to the nearest of all lower places, which
+//! need not be the one that the roadmap suggests.
 
 use super::{BEND, shortest};
 use crate::configuration::Configuration;

@@ -1,4 +1,4 @@
-//! Certified ways joined at the states that they share.
+//! Certified pathways joined at the states they share.
 
 use petgraph::algo::{astar, min_spanning_tree};
 use petgraph::data::FromElements;

@@ -1,4 +1,4 @@
-//! Certified bounds for the barriers of an catalogue.
+//! Certified bounds for the barriers of a catalogue.
 
 mod escapes;
 mod joined;

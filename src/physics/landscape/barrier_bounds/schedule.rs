@@ -1,4 +1,4 @@
-//! In which order barriers are certified, and how narrowly.
+//! The order in which barriers are certified, and how narrow their bounds become.
 
 use std::cmp::Reverse;
 

@@ -1,4 +1,4 @@
-//! Kinds of states: what symmetries map onto each other, taken together.
+//! Kinds of states: groups of states that symmetries map onto each other.
 
 use ordered_float::OrderedFloat;
 

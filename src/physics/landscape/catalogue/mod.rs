@@ -1,4 +1,4 @@
-//! The catalogue of a surveyed landscape: its states in order, and the barriers and pathways that
+//! The catalogue of a surveyed landscape: its states in order, with the barriers and pathways that
 //! are reported.
 //!
 //! Each barrier is stored once, from the first state of a kind; the escape of a state refers to

@@ -1,4 +1,4 @@
-//! Reading states, escapes, barriers and pathways off a surveyed network.
+//! Reads states, escapes, barriers and pathways from a surveyed network.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 

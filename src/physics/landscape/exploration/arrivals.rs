@@ -1,4 +1,4 @@
-//! Ways in from far apart, as overdamped motion takes them: they never climb.
+//! Pathways into states from far apart along overdamped motion, which never climbs.
 
 use std::collections::HashMap;
 

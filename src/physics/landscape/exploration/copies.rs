@@ -1,4 +1,4 @@
-//! What is known of one of a class of states, for the others of the class.
+//! Carries results for one state of a symmetry class over to the others.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! More milestones where a survey has to know better.
+//! Adds milestones where a survey needs more detail.
 
 use std::collections::HashMap;
 

@@ -1,5 +1,5 @@
-//! Where minima may be expected besides where the roadmap has them: siblings of those known, where
-//! magnets come to lie opposite each other as faces slide, and where the outlines fit.
+//! Guesses for minima that the roadmap may have missed: siblings of known minima, faces slid until
+//! magnets lie opposite each other, and poses in which the outlines fit.
 
 use ordered_float::OrderedFloat;
 

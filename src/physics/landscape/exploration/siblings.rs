@@ -1,5 +1,4 @@
-//! Siblings of minima: the same meeting of two faces, on all other pairs of faces and in the
-//! mirror.
+//! Siblings of minima: the same contact of two faces, on all other pairs of faces and mirrored.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,5 +1,5 @@
-//! Faces that slide along each other: where magnets of both come to lie opposite, or beside, minima
-//! are to be expected, often tilted ones that hold on one corner.
+//! Guesses for minima along sliding faces: where magnets of both faces lie opposite or beside each
+//! other, often tilted so that one corner touches.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -1,4 +1,4 @@
-//! Transition states between states, and the ways on their sides.
+//! Transition states between states, and the ways down from them on both sides.
 
 use std::collections::HashSet;
 

@@ -1,5 +1,5 @@
-//! Straight ways that sampled milestones cannot meet: out of states that the roadmap does not reach,
-//! and from state to state.
+//! Straight ways that sampled milestones are unlikely to find: out of states that the roadmap does
+//! not reach, and from state to state.
 
 use std::collections::BTreeSet;
 

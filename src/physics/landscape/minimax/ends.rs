@@ -1,4 +1,4 @@
-//! The leaves that hold the ends of queries, known from one round to the next.
+//! The leaves that contain the ends of queries, kept from one round to the next.
 
 use std::collections::HashMap;
 

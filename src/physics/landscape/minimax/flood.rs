@@ -1,4 +1,4 @@
-//! Floods over the leaves of a subdivision.
+//! Flood fill over the leaves of a subdivision.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,4 @@
-//! The least level at which the ends of a query are joined, and energies as ordered numbers.
+//! The lowest level at which the ends of a query are connected; energies as ordered numbers.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,4 @@
-//! The lower bound of the energy over the free part of one cell.
+//! A lower bound of the energy over the free part of a cell.
 
 use ordered_float::OrderedFloat;
 

@@ -1,5 +1,5 @@
-//! Certified barriers: the minimax energy between two configurations, between two bounds that
-//! cannot be wrong.
+//! Certified barriers: proved lower and upper bounds of the minimax energy between two
+//! configurations.
 //!
 //! ```text
 //! lower <= least possible highest energy of a free path <= upper

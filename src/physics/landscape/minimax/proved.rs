@@ -1,4 +1,4 @@
-//! What queries proved of minimax energies, and what follows for the next ones.
+//! Bounds of minimax energies proved by earlier queries, and what they imply for later ones.
 //!
 //! A path from A over B to C is no higher than the higher of its halves, so that minimax energies are
 //! an ultrametric: of the three between A, B and C the two highest are equal. What leads from A to the

@@ -1,4 +1,4 @@
-//! One query: the search for a pathway and for the proof that none lies much lower.
+//! One query: the search for a pathway, and for the proof that no pathway is much lower.
 
 use super::certifier::{Certifier, SHARPNESS, from_its_start};
 use super::ends::far_end;

@@ -1,4 +1,4 @@
-//! The leaves of a subdivision of the configuration space, and which of them touch.
+//! The leaves of a subdivision of the configuration space, and which of them are adjacent.
 
 use std::f64::consts::PI;
 

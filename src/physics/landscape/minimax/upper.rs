@@ -1,4 +1,5 @@
-//! The upper bound: a pathway proved free and bounded in energy between its points too.
+//! The upper bound: a pathway that is proved free, with its energy bounded between its points as
+//! well.
 
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;

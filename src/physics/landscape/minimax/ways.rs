@@ -1,4 +1,4 @@
-//! The leaves that proved pathways run through.
+//! The leaves crossed by proved pathways.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! What is proved of one cell: that nothing in it can be a trap of its own.
+//! The proof for one cell: that it contains no trap of its own.
 
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;

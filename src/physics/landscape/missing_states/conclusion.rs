@@ -1,4 +1,4 @@
-//! What a search has proved of a list of states.
+//! What a search has proved about a list of states.
 
 use std::collections::{BTreeSet, HashSet};
 

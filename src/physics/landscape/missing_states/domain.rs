@@ -1,4 +1,5 @@
-//! The part of the space that is searched: its images under the problem's symmetries cover all.
+//! The part of the space that is searched; its images under the problem's symmetries cover the
+//! whole space.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,5 @@
-//! Ways out of the places where no step leads downhill from everywhere: proved pathways to minima.
+//! Ways out of regions where no single step leads downhill from every configuration: proved
+//! pathways to minima.
 
 use std::sync::Arc;
 

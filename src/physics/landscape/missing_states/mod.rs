@@ -1,4 +1,4 @@
-//! Proof that a list of states is complete: that besides them no configuration below an energy
+//! Proof that a list of states is complete: besides these states, no configuration below an energy
 //! `-E` is trapped by more than `e`.
 //!
 //! The space is covered by closed cells (boxes of x, y and theta), which are subdivided until each

@@ -1,4 +1,4 @@
-//! Cells about which nothing is proved, taken together where they lie close to each other.
+//! Cells about which nothing is proved, grouped where they lie close to each other.
 
 use std::collections::BTreeMap;
 

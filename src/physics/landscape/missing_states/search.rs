@@ -1,4 +1,4 @@
-//! The search, cell by cell.
+//! The search over cells.
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
-//! Legs: the straight motions (linear in x, y and theta, theta the shorter way round) between the
-//! points of a pathway. The pathway *is* these motions, not a curve of which its points are samples:
-//! each is proved free, and its highest point is one of the pathway's points.
+//! The legs of a pathway: straight motions between its points (linear in x, y and theta, theta the
+//! shorter way round). The pathway *is* these motions, not a curve sampled at its points: each leg
+//! is proved free, and its highest point is one of the pathway's points.
 
 use super::push;
 use crate::configuration::Configuration;

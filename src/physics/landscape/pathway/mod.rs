@@ -1,5 +1,5 @@
-//! Pathways: a route through the network as a sequence of configurations joined by straight motions
-//! that are proved free.
+//! Pathways: sequences of configurations through the network, joined by straight motions that are
+//! proved free.
 
 mod legs;
 mod shortcut;

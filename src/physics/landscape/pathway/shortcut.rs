@@ -1,4 +1,4 @@
-//! Detours cut short.
+//! Shortens pathways by cutting off detours.
 
 use super::legs::OVERLAP;
 use crate::configuration::Configuration;

@@ -1,4 +1,4 @@
-//! What a route still costs at least, so that searches look towards their goals first.
+//! Lower bounds of the remaining cost of a route, which direct searches towards their goals.
 //!
 //! A* needs a bound that no link undercuts: what is ahead of a link's start is no more than the link
 //! and what is ahead of its end together (Hart, Nilsson and Raphael, *A formal basis for the heuristic

@@ -1,4 +1,4 @@
-//! Which links minimax paths use, and where basins meet.
+//! The links that minimax paths use, and where basins meet.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};

@@ -1,5 +1,5 @@
-//! The network that is asked for barriers: milestones, states and transition states as nodes, and
-//! the ways between them as links. It holds the roadmap and everything that was found by following
+//! The transition network that answers barrier queries: milestones, states and transition states as
+//! nodes, the ways between them as links. It contains the roadmap and everything found by following
 //! the energy from it.
 //!
 //! A straight motion that the roadmap left untried costs at least what its ends tell: it peaks no

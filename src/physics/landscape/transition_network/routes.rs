@@ -1,4 +1,4 @@
-//! Routes from node to node.
+//! Routes between nodes of the network.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};

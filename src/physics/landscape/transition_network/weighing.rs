@@ -1,4 +1,4 @@
-//! Which motions are free, and what they cost: found out once somebody asks.
+//! Which motions are free and what they cost, computed on first use.
 
 use std::sync::OnceLock;
 

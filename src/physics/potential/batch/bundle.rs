@@ -1,4 +1,4 @@
-//! Several vectors side by side.
+//! Several SIMD vectors processed together.
 
 use super::lanes::Arithmetic;
 

@@ -1,4 +1,5 @@
-//! Bounds of the energy's derivatives along motions, the dipoles of one tile in the lanes.
+//! Bounds of the energy's derivatives along motions, with the dipoles of one tile in the SIMD
+//! lanes.
 
 use nalgebra::Vector2;
 

@@ -1,4 +1,4 @@
-//! The arithmetic of the kernel, written once for every instruction set.
+//! The arithmetic of the dipole kernel, written once for all instruction sets.
 //!
 //! The energy is that of the moving tile's dipoles in the field of the fixed tile's. For a moving
 //! dipole of moment `m` at the place `p`, `U = m . A(p)` with

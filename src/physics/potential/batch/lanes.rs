@@ -1,4 +1,4 @@
-//! Vectors of f64 lanes, whatever the instruction set, and their functions.
+//! Vectors of f64 lanes, independent of the instruction set, and their functions.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, PI, SQRT_2};
 

@@ -1,5 +1,5 @@
-//! The hot kernel: the interaction energy of two sets of point dipoles, for many configurations
-//! at once or for one, with whichever instruction set the CPU has.
+//! The dipole kernel, where most time is spent: the interaction energy of two sets of point
+//! dipoles, for one configuration or many at once, with the best instruction set of the CPU.
 //!
 //! One configuration has its moving dipoles in the lanes, many configurations have one
 //! configuration in each lane; either way each configuration's numbers come out of the same

@@ -1,4 +1,4 @@
-//! Plain Rust, for every machine.
+//! The portable implementation in plain Rust, for every machine.
 
 use super::lanes::{
     Arithmetic, GUESS, Lanes, Task, WIDTH, angle, ln_ratio, reciprocal_sqrt, sin_cos,

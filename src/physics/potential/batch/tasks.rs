@@ -1,4 +1,4 @@
-//! Which numbers go in which lanes.
+//! The assignment of numbers to lanes.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! How much arithmetic the kernel does, counted.
+//! Tests that count the arithmetic operations of the kernel.
 
 use std::cell::Cell;
 

@@ -1,4 +1,4 @@
-//! AVX2 with FMA, and AVX-512.
+//! The implementations with AVX2 and FMA, and with AVX-512.
 
 #![allow(unsafe_code)]
 

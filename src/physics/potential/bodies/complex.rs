@@ -1,4 +1,4 @@
-//! Square roots and logarithms of complex numbers, the same bits on every machine.
+//! Square roots and logarithms of complex numbers, with the same bits on every machine.
 
 use nalgebra::Complex;
 

@@ -1,4 +1,4 @@
-//! The potential of a uniformly charged disc, at real and at complex places.
+//! The potential of a uniformly charged disc, at real and complex positions.
 
 use std::f64::consts::PI;
 

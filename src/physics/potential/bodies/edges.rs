@@ -1,4 +1,4 @@
-//! Two flat rectangles: integrals over their boundaries.
+//! Integrals over the boundaries of two flat rectangles.
 //!
 //! With `Phi(rho) = r - z ln(z + r)`, `r^2 = rho^2 + z^2`, z the distance of the two planes, the plane
 //! Laplacian of Phi is `1 / r`, so that by the divergence theorem, in either rectangle once,

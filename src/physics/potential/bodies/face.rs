@@ -1,4 +1,4 @@
-//! Charged faces of magnets, and the integral of `1 / r` over two of them.
+//! The charged faces of magnets, and the integral of `1 / r` over two of them.
 
 use nalgebra::{Vector2, Vector3};
 

@@ -1,4 +1,4 @@
-//! How large the derivatives of a pair's energy can be where the magnets are close.
+//! Bounds of the derivatives of a pair's energy where the magnets are close to each other.
 //!
 //! Let P be the area of a face of the second magnet, l the length of the rim of one of the first, of charge
 //! density 1, and V its potential.

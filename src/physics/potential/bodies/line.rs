@@ -1,4 +1,5 @@
-//! A disc and any other face: the other one's potential along the disc's axis, at imaginary heights.
+//! A disc and any other face, by the other face's potential along the disc's axis at imaginary
+//! heights.
 //!
 //! Outside, a charged disc of radius R is a line of charge along its axis at imaginary heights: the
 //! integral of `1 / r` over it is, with c its centre and n its normal,

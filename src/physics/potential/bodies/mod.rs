@@ -1,4 +1,5 @@
-//! Magnets of any form: discs, and what stands on its pole, beside lying blocks.
+//! Magnets of any form: discs, and magnets magnetised across the table, besides blocks that lie
+//! flat.
 //!
 //! Uniformly magnetised along its axis a magnet is two charged faces, of charge density m / V (A/m, the
 //! moment over the volume), and the energy of two magnets the Coulomb energy of the four pairs of

@@ -1,4 +1,4 @@
-//! Two magnets close to each other, by their faces.
+//! The energy of two magnets close to each other, by their charged faces.
 
 use nalgebra::Vector2;
 

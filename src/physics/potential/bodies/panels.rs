@@ -1,4 +1,4 @@
-//! Gauss's rule on panels that shrink towards where the integrand is singular.
+//! Gauss quadrature on panels that shrink towards the singularity of the integrand.
 
 use std::sync::LazyLock;
 

@@ -1,4 +1,4 @@
-//! The potential of a uniformly charged rectangle, at real and at complex places.
+//! The potential of a uniformly charged rectangle, at real and complex positions.
 
 use super::complex::{C, LEAST, ln, sqrt};
 

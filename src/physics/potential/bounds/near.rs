@@ -1,4 +1,4 @@
-//! Two point dipoles near each other, over a cell.
+//! Bounds for two point dipoles near each other, over a cell.
 //!
 //! With K = mu0 m1 m2 / (4 pi), a and b the directions of the moments and phi that of the
 //! separation, `U = K / r^3 [-1/2 cos(a - b) - 3/2 cos(a + b - 2 phi)]`, over the distances and

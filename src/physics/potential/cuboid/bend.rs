@@ -1,4 +1,4 @@
-//! The bound of the fourth derivative of the energy along a motion, over all pairs of blocks.
+//! A bound of the energy's fourth derivative along a motion, over all pairs of blocks.
 
 use nalgebra::Complex;
 

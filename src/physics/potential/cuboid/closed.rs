@@ -1,4 +1,4 @@
-//! The part of two blocks' gradient that needs no quadrature.
+//! The closed-form part of two blocks' gradient, which needs no quadrature.
 //!
 //! All its terms belong to an edge of the first block's pole faces or, where the faces are steep,
 //! to an end of the second one's, as seen from the other face: eight of each, one a lane.

@@ -1,4 +1,4 @@
-//! What the blocks' energy has over that of point dipoles, far apart.
+//! The difference between the energies of blocks and of point dipoles, far apart.
 
 use nalgebra::{Complex, Vector3};
 

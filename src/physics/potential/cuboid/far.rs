@@ -1,4 +1,4 @@
-//! The far form of one moving block with several fixed ones at once, in vectors.
+//! The far form of one moving block with several fixed blocks at once, with SIMD vectors.
 
 use nalgebra::{Complex, Vector2};
 

@@ -1,4 +1,4 @@
-//! Uniformly magnetised blocks, exact near by and far away.
+//! Uniformly magnetised blocks, exact at all distances.
 //!
 //! A block's uniform magnetisation is two even sheets of magnetic charge, its pole faces, and the
 //! energy of two blocks the Coulomb energy of the four pairs of sheets. Blocks may have any sizes

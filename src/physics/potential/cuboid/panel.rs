@@ -1,4 +1,4 @@
-//! The quadrature over pairs of blocks: nodes on the second blocks' pole faces.
+//! The quadrature for pairs of blocks: nodes on the second block's pole faces.
 
 use nalgebra::{Vector2, Vector3};
 

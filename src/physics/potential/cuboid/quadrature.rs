@@ -1,4 +1,4 @@
-//! Gauss-Legendre rules, and the panels a pole face is cut into for them.
+//! Gauss-Legendre rules, and the panels into which a pole face is divided for them.
 
 use std::sync::LazyLock;
 

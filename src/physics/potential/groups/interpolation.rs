@@ -1,4 +1,4 @@
-//! Interpolation at Chebyshev's nodes: the nodes, their shares, and what is lost.
+//! Interpolation at Chebyshev nodes: the nodes, their weights and the error.
 
 use std::f64::consts::PI;
 

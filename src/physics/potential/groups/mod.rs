@@ -1,4 +1,5 @@
-//! Far groups of dipoles as few: so that many magnets a face cost little more than few.
+//! Groups of far dipoles replaced by a few dipoles, so that faces with many magnets cost little
+//! more than faces with few.
 //!
 //! The energy of two dipoles is a smooth function of the place of either, the smoother the farther
 //! they are apart. So the dipoles of a group, all near each other, may be moved to the nodes of an

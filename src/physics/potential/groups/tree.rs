@@ -1,4 +1,5 @@
-//! Groups of dipoles, halved again and again, and the few dipoles that stand for each from afar.
+//! A tree of groups of dipoles, halved recursively, with the few dipoles that replace each group
+//! from afar.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Which groups of two tiles meet as wholes, and which in parts.
+//! Which groups of two tiles interact as wholes, and which in parts.
 
 use std::ops::Range;
 

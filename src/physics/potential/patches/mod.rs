@@ -1,5 +1,5 @@
-//! The field of one tile's many dipoles, tabulated: what a dipole of the other one costs, however
-//! many there are.
+//! The field of one tile's many dipoles, tabulated, so that the cost of a dipole of the other tile
+//! does not depend on their number.
 //!
 //! With moments scaled by `sqrt(mu0 / 4 pi)`, a dipole of moment m at p has the energy
 //! `U = m . grad phi(p)` in the potential `phi(p) = sum_j m_j . d / r^3`, `d = p - p_j`, `r = |d|`,

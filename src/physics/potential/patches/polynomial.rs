@@ -1,4 +1,4 @@
-//! The potential of dipoles in a square that none of them is near, as a polynomial.
+//! The potential of dipoles as a polynomial in a square that has none of them nearby.
 //!
 //! Interpolated is phi at the n by n products of Chebyshev's nodes, n = [`ORDER`], in a square of
 //! half side h. With I and J the interpolations along x and y,

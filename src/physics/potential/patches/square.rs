@@ -1,4 +1,4 @@
-//! A square of the plane: which dipoles are near it, and what the others do in it.
+//! A square of the plane: the dipoles near it, and the field of the others within it.
 
 use nalgebra::Vector2;
 

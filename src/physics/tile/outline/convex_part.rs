@@ -1,4 +1,4 @@
-//! The convex parts that fill an outline.
+//! The convex parts of an outline.
 
 use nalgebra::{Rotation2, Vector2};
 

@@ -1,4 +1,4 @@
-//! Which lists of vertices are outlines.
+//! Checks that a list of vertices is a valid outline.
 
 use nalgebra::Vector2;
 

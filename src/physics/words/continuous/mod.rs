@@ -1,4 +1,5 @@
-//! Spacing as code without slots: positions and poles together, against all poses of two flat faces.
+//! Words without slots, whose spacing is part of the code: positions and poles are optimised
+//! together, against all poses of two flat faces.
 //!
 //! A word is a number of magnets anywhere along a face, a least spacing apart. Simulated annealing
 //! moves magnets, exchanges poles and redraws words; what it makes small is the strongest wrong

@@ -1,4 +1,4 @@
-//! The strongest attraction of two flat faces of one length in contact, by point dipoles.
+//! The strongest attraction of two flat faces of equal length in contact, by point dipoles.
 //!
 //! The fixed face lies along y, its outward normal along x; the moving one is turned by `tilt` about
 //! its middle, which lies `slide` along the fixed one, and is brought up until a corner of the one

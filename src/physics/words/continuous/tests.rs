@@ -1,4 +1,4 @@
-//! Against plain sums over dipoles and the exact contact of two squares.
+//! Tests against plain sums over dipoles and the exact contact of two squares.
 
 use nalgebra::Vector2;
 

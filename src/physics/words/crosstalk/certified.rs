@@ -1,4 +1,4 @@
-//! What no energy of a couple falls below, over all poses whatever, by cells.
+//! Certified lower bounds of the energy of two faces over all poses, by subdivision into cells.
 //!
 //! A cell of configurations is looked at once for all couples: contact says what of it is free, and
 //! each pair of magnets has an enclosure. A couple's enclosure is their sum with its signs; bounded

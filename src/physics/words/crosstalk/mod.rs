@@ -1,4 +1,5 @@
-//! How strongly every two faces of a set attract, over all poses: tilted, slid, drawn back.
+//! Crosstalk: how strongly every two faces of a set attract, over all poses: tilted, slid, drawn
+//! back.
 //!
 //! One tile carries the first word on its target face, the other the second on its own; their other
 //! faces are empty. The energy is bilinear in the two words, so that what is known of every two

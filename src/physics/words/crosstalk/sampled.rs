@@ -1,4 +1,4 @@
-//! The strongest attraction of all couples from one grid of poses, each polished.
+//! The strongest attraction of all pairs of faces, sampled on one grid of poses and then refined.
 //!
 //! A pose is a tilt of the second tile about the middle of its face and a slide along the first face,
 //! in contact. Of the grid every couple keeps its lowest poses of different tilts; compass search,

@@ -1,4 +1,4 @@
-//! Where a word and its own mate hold beside their bond.
+//! The traps of a word and its own mate, besides their bond.
 //!
 //! Local minima of a grid over tilt and slide in contact, each polished; those that end in the bond
 //! are its slope.

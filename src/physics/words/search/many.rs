@@ -1,4 +1,4 @@
-//! Sets of words where these are too many for their graph to be held.
+//! Sets of words when there are too many candidates to store their graph.
 //!
 //! The weakest bond decides: of a deep one few words are left, of a weak one little is allowed to
 //! wrong meetings. So several are tried, each with a set of words taken in random order as they go

@@ -1,4 +1,4 @@
-//! Largest sets of words with a given gap.
+//! The search for the largest set of words with a given gap.
 //!
 //! The gap compares the strongest wrong attraction with the weakest bond of the same set. So for
 //! every weakest bond B there is a graph of its own: of words with bonds of at least B, joined where

@@ -1,4 +1,4 @@
-//! Largest sets by trying all, every option by its definition.
+//! Exhaustive search for the largest sets, with every option implemented by its definition.
 
 use super::super::constraint::Constraints;
 use super::super::search::largest;

@@ -1,5 +1,5 @@
-//! Every option by its definition over poles and plain sums over dipoles: nothing of what is tested
-//! is used.
+//! Every option implemented by its definition, over poles and plain sums over dipoles,
+//! independently of the tested code.
 
 use std::sync::LazyLock;
 

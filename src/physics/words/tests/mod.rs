@@ -1,4 +1,4 @@
-//! Words by principle: against plain sums over dipoles and against brute force.
+//! Tests of words against plain sums over dipoles and against brute force.
 
 mod brute;
 mod definitions;

@@ -1,4 +1,4 @@
-//! The main job and what it finds.
+//! The analysis and its results.
 
 mod kept;
 mod results;

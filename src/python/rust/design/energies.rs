@@ -1,4 +1,4 @@
-//! What tiles feel at many poses.
+//! Energies, forces and torques at many poses.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! Designs from files, texts and dictionaries, as texts, and in pickles.
+//! Reads designs from files, text and dictionaries, writes them as text, and pickles them.
 
 use std::path::PathBuf;
 

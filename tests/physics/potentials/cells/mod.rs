@@ -1,4 +1,4 @@
-//! Bounds of energies over cells hold what they enclose, and are as narrow as they are meant to be.
+//! Bounds of energies over cells contain the energies, and are as narrow as intended.
 
 mod blocks;
 mod dipoles;

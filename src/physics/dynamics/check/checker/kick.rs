@@ -1,4 +1,4 @@
-//! Kicks out of a state.
+//! Trajectories that leave a state with a given kinetic energy.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! Tiles released beside the saddle.
+//! Trajectories released on both sides of a saddle.
 
 use nalgebra::Vector3;
 

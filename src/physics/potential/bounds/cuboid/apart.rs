@@ -1,4 +1,4 @@
-//! Two blocks that stay apart throughout a cell, as even spreads of dipoles.
+//! Bounds for two blocks that stay apart throughout a cell, as uniform distributions of dipoles.
 //!
 //! The energy of two blocks is the mean, over the places of a dipole in either, of that of the two
 //! dipoles. Where these are r apart at the cell's centre, they are at least `rho = r - v` apart

@@ -1,4 +1,4 @@
-//! Potentials of one pole face at many nodes of another block's, in vectors.
+//! The potentials of one pole face at many nodes of another block's pole face, with SIMD vectors.
 
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::sheet::{Expansion, expansion};

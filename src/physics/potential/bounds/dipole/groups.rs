@@ -1,5 +1,6 @@
-//! Very many dipoles, enclosed in groups (see [`crate::potential::groups`]): those that stand for a
-//! far group are bounded like any others, and what is lost of it over the cell is added.
+//! Bounds for large numbers of dipoles in groups (see [`crate::potential::groups`]): the few
+//! dipoles that replace a far group are bounded like any others, and the error of the replacement
+//! over the cell is added.
 
 use super::taylor::Taylor;
 use super::{DipoleBounds, NEAR};

@@ -1,5 +1,5 @@
-//! The far pairs of a cell: Taylor's form of their energy and the bound of its remainder, the
-//! moving dipoles in the lanes of vectors.
+//! The far pairs of a cell: the Taylor form of their energy and the bound of its remainder, with
+//! the moving dipoles in SIMD lanes.
 //!
 //! With the sum over the fixed dipoles `psi(z) = mu0 / (4 pi) sum_j m_j . d_j / |d_j|^3` (so that
 //! the field is `-grad psi`) a moving dipole `mu` at z has the energy `U = (mu . grad) psi`.

@@ -1,4 +1,4 @@
-//! Bounds of the energy of magnets behind shields that act smoothly, over a cell: of point dipoles
+//! Bounds over a cell of the energy of magnets behind smoothly acting shields: of point dipoles
 //! ([`ShieldedBounds`]) and of blocks ([`ShieldedBlockBounds`]).
 //!
 //! Most pairs' factors have a second-order form with a bound of what it leaves out (see

@@ -1,4 +1,4 @@
-//! The pairs of a cell that Taylor's theorem bounds.
+//! The pairs of a cell that are bounded by Taylor's theorem.
 
 use nalgebra::{Rotation2, Vector2};
 

@@ -1,4 +1,4 @@
-//! Factors of pairs of magnets.
+//! The shielding factors of pairs of magnets.
 
 use super::{Vectors, Way, dot};
 use crate::potential::batch::lanes::Lanes;

@@ -1,4 +1,4 @@
-//! Energies and factors of pairs with their derivatives up to the second.
+//! Energies and factors of pairs with their derivatives up to second order.
 //!
 //! They are taken by `s = ln r`, by the direction phi of the way from the first magnet to the
 //! second, and by the second magnet's turn t: in these every piece is a short formula. With

@@ -1,4 +1,4 @@
-//! Sums over all pairs of shielded magnets: a moving magnet with several fixed ones at once.
+//! Sums over all pairs of shielded magnets, one moving magnet with several fixed ones at once.
 
 mod cell;
 mod curvature;

@@ -1,4 +1,4 @@
-//! The vectors against the plain formulas.
+//! Tests of the SIMD vectors against the plain formulas.
 
 use super::super::{Shield, logistic as scalar_logistic};
 use super::curvature::{Around, factor_limits};

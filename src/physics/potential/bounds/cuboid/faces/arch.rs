@@ -1,4 +1,4 @@
-//! Constant second derivatives in place of such as grow like a logarithm near a face.
+//! Constant bounds of second derivatives, in place of ones that grow logarithmically near a face.
 
 use super::lengths::{LN_ERROR, ln};
 

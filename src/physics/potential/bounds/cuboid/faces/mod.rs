@@ -1,5 +1,5 @@
-//! One pair of blocks near each other: quadratures over the second one's pole faces whose errors
-//! are bounded over a whole cell.
+//! Bounds for one pair of blocks near each other: quadratures over the second block's pole faces
+//! whose errors are bounded over a whole cell.
 
 mod arch;
 mod lengths;

@@ -1,4 +1,4 @@
-//! Panels over a pole face, as they are where blocks touch along their faces.
+//! Panels directly above a pole face, as where blocks touch along their faces.
 
 use std::f64::consts::PI;
 
