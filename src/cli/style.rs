@@ -7,7 +7,7 @@ pub fn is_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
-/// Columns of the terminal, as COLUMNS or the terminal itself has them; `None` where standard output
+/// Columns of the terminal, as COLUMNS or the terminal itself has them; `None` if standard output
 /// goes elsewhere.
 pub fn columns() -> Option<usize> {
     let named = std::env::var("COLUMNS").ok();

@@ -13,7 +13,7 @@ const WORTH_TELLING: f64 = 1e9;
 /// What memory work on roadmaps takes of which `at_once` are built at the same time, where that is worth telling.
 ///
 /// # Errors
-/// Where the machine does not have it.
+/// If the machine does not have it.
 pub fn check(
     milestones: usize,
     neighbours: Option<usize>,
@@ -33,7 +33,7 @@ pub fn check(
 /// Refuses what takes so many bytes.
 ///
 /// # Errors
-/// Where the machine does not have them.
+/// If the machine does not have them.
 pub fn check_bytes(needed: f64) -> Result<(), String> {
     fits(needed)
         .map(drop)

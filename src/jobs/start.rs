@@ -41,7 +41,7 @@ impl Request {
     /// The text of the design, called like the file of this stem as far as names go.
     ///
     /// # Errors
-    /// Where there is no such design.
+    /// If there is no such design.
     pub fn text(&self, stem: &str) -> Result<String, StartError> {
         let asked = (self.sides, self.side, self.magnets, self.shape);
         if asked == (None, None, None, None) && self.magnet.is_none() {

@@ -14,7 +14,7 @@ const LARGEST: u64 = 256 << 20;
 /// The text of a table or manifest; its file may be a pipe, too.
 ///
 /// # Errors
-/// Where it cannot be read, is too large or is no text.
+/// If it cannot be read, is too large or is no text.
 pub fn read(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
     let file = File::open(path)?;
@@ -45,7 +45,7 @@ pub struct NoText {
 /// ```
 ///
 /// # Errors
-/// Where it is no text.
+/// If it is no text.
 pub fn decode(bytes: Vec<u8>) -> Result<String, NoText> {
     match bytes.as_slice() {
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8(rest.to_vec(), 3),
@@ -142,7 +142,7 @@ pub fn decimal_comma(text: &str) -> Option<String> {
 /// Where the column stands that a table's first line names by one of some names, if it does.
 ///
 /// # Errors
-/// Where two columns are named so.
+/// If two columns are named so.
 pub(crate) fn column(header: &StringRecord, names: &[&str]) -> Result<Option<usize>, String> {
     let mut named = (0..header.len()).filter(|place| names.contains(&&header[*place]));
     match (named.next(), named.next()) {

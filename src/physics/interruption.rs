@@ -54,7 +54,7 @@ impl Interruption {
     /// Does work on `threads` threads of its own, until it is done or given up.
     ///
     /// # Errors
-    /// Where it was given up.
+    /// If it was given up.
     ///
     /// # Panics
     /// Where the work does.

@@ -143,7 +143,7 @@ impl Comparison {
         }
     }
 
-    /// What the magnets of all are, such as `dipoles` or `blocks`; `None` where models differ.
+    /// What the magnets of all are, such as `dipoles` or `blocks`; `None` if models differ.
     fn model(&self) -> Option<&str> {
         let first = &self.designs.first()?.model;
         let same = self.designs.iter().all(|design| design.model == *first);

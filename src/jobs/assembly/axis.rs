@@ -19,7 +19,7 @@ impl Axis {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Horizontal, Self::Vertical];
 
-    /// The sides (places in [`SIDES`]) that carry the word and its mate.
+    /// The sides (indices in [`SIDES`]) that carry the word and its mate.
     pub fn sides(self) -> [usize; 2] {
         match self {
             Self::Horizontal => [1, 3],

@@ -239,7 +239,7 @@ pub struct Residuals {
     pub rows: usize,
     /// How many of them were taken with shields in place.
     pub with_iron: usize,
-    /// In the quantity's own unit; `None` where nothing was measured.
+    /// In the quantity's own unit; `None` if nothing was measured.
     pub rms: [Option<f64>; 4],
     /// The same, relative to the root mean square of the measured values.
     pub relative: [Option<f64>; 4],
@@ -270,7 +270,7 @@ const MEASURED_OVERLAP: f64 = 1e-3;
 /// Fits a shield to rows of measurements.
 ///
 /// # Errors
-/// Where there are too few rows, or the tiles overlap at one of them.
+/// If there are too few rows, or the tiles overlap at one of them.
 pub fn calibrate(
     specimen: &Specimen,
     rows: &[Row],

@@ -28,7 +28,7 @@ const NEEDED: usize = 4;
 /// Reads measurements. Lines without entries and lines that begin with `#` are skipped.
 ///
 /// # Errors
-/// Where the text is not a table of the given [`COLUMNS`]: what is wrong, and where.
+/// If the text is not a table of the given [`COLUMNS`]: what is wrong, and where.
 pub fn read_rows(text: &str) -> Result<Vec<Row>, String> {
     let mut records = records(text);
     let (_, header) = records.next().ok_or_else(|| {

@@ -56,7 +56,7 @@ pub struct CaptureRange {
 }
 
 /// The capture range of the bound state at `bond` with its energy (J), where something is known of
-/// where motions end; `None` where not even a tile that meets the other head-on is captured.
+/// where motions end; `None` if not even a tile that meets the other head-on is captured.
 ///
 /// Starts of a line lie close together: most of them come onto the slide of one before, from where on
 /// they need not be followed.

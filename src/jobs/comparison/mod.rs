@@ -52,14 +52,14 @@ pub struct Assessment {
     /// Energy with the target faces coinciding (J).
     #[serde(rename = "target_energy_J")]
     pub target_energy: f64,
-    /// `None` where the bond does not hold.
+    /// `None` if the bond does not hold.
     pub bond: Option<Bond>,
     /// Kinds of trap, symmetric copies taken together.
     pub trap_kinds: usize,
-    /// The one of lowest energy; `None` where there are no traps.
+    /// The one of lowest energy; `None` if there are no traps.
     pub deepest_trap: Option<Trap>,
-    /// Besides the states that were found none lies lower than this (J) that takes more than a share
-    /// of the bond to leave, proved; `None` where nothing is.
+    /// Besides the states that were found none lies lower than this (J) that takes more than a
+    /// share of the bond to leave, proved; `None` if nothing is.
     #[serde(
         default,
         rename = "unlisted_above_J",
@@ -72,7 +72,7 @@ pub struct Assessment {
     pub captured: usize,
     /// How many of the far starts end in no state.
     pub uncaptured: usize,
-    /// Barriers that moving tiles checked; `None` where they were not asked.
+    /// Barriers that moving tiles checked; `None` if they were not asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub barriers_checked: Option<usize>,
     /// What they contradict, a barrier each.
@@ -93,7 +93,7 @@ pub struct Bond {
     pub energy: f64,
     /// To `free`.
     pub way_out: Way,
-    /// `None` where tiles that meet head-on do not bind.
+    /// `None` if tiles that meet head-on do not bind.
     pub capture_range: Option<CaptureRange>,
 }
 
@@ -112,7 +112,7 @@ pub struct Trap {
 /// The best way out of a state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Way {
-    /// Highest energy on the way (J); `None` where no way was found.
+    /// Highest energy on the way (J); `None` if no way was found.
     #[serde(rename = "saddle_energy_J")]
     pub saddle: Option<f64>,
     /// What is proved of the least possible highest energy.
@@ -203,8 +203,8 @@ impl Assessment {
         self.bond.is_some() && self.deepest_trap.is_none()
     }
 
-    /// How many barriers moving tiles checked, contradict, and show to be estimated too high; `None`
-    /// where they were not asked.
+    /// How many barriers moving tiles checked, contradict, and show to be estimated too high;
+    /// `None` if they were not asked.
     pub fn checks(&self) -> Option<[usize; 3]> {
         let checked = self.barriers_checked?;
         Some([checked, self.contradictions.len(), self.overestimates.len()])

@@ -23,9 +23,9 @@ pub const NO_TRAPS: &str = "no traps";
 pub struct Estimate {
     /// Infinite for the climb out of a cage.
     pub value: f64,
-    /// `None` where no bounds are known; infinite for the climb out of a cage.
+    /// `None` if no bounds are known; infinite for the climb out of a cage.
     pub low: Option<f64>,
-    /// `None` where no bounds are known, and for the climb out of a cage.
+    /// `None` if no bounds are known, and for the climb out of a cage.
     pub high: Option<f64>,
 }
 
@@ -124,7 +124,7 @@ pub struct Quantity {
     pub label: &'static str,
     /// Decides the unit and how numbers are shown.
     pub measure: Measure,
-    /// What files call its bounds, `None` where it has none.
+    /// What files call its bounds, `None` if it has none.
     pub bounds: Option<[&'static str; 2]>,
     /// In the tables of `compare`.
     pub column: Option<Place>,
@@ -273,7 +273,7 @@ fn reach(amount: f64, limit: f64) -> Reading {
 }
 
 impl Quantity {
-    /// The figure; `None` where there is none, such as the depth of a bond that does not hold.
+    /// The figure; `None` if there is none, such as the depth of a bond that does not hold.
     pub fn of(&self, assessment: &Assessment) -> Option<Estimate> {
         Some((self.read)(assessment).ok()?.estimate())
     }

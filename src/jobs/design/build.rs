@@ -198,7 +198,7 @@ fn mend_outline(
 }
 
 /// The largest depth (m) that the profile of a face may have beside the others, rounded down;
-/// `None` where no depth mends it.
+/// `None` if no depth mends it.
 fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
     let mut profile = contents[face].profile.clone()?;
     let depth = *depth_of(&mut profile)?;

@@ -57,7 +57,7 @@ impl<'a> Drawings<'a> {
     /// The text of the drawing that the design at `design` calls `name`; it counts as used.
     ///
     /// # Errors
-    /// Where it is not held and cannot be read.
+    /// If it is not held and cannot be read.
     pub fn text(&self, design: &str, name: &str) -> std::io::Result<String> {
         let text = match self.held {
             Some(held) => held.get(name).cloned().ok_or_else(|| {

@@ -22,7 +22,7 @@ pub(super) type Result<T> = std::result::Result<T, DesignError>;
 pub struct DesignError {
     /// The file's name, as it was given.
     pub file: String,
-    /// Where in the file; `None` where the file as a whole is at fault (it cannot be read).
+    /// Where in the file; `None` if the file as a whole is at fault (it cannot be read).
     pub place: Option<Box<Place>>,
     /// What is wrong.
     pub message: String,
@@ -44,8 +44,7 @@ pub struct Place {
     pub column: usize,
     /// How many characters of the line are meant, at least 1.
     pub width: usize,
-    /// The line's text; `None` where it is not to be shown, as of a drawing elsewhere than its
-    /// design.
+    /// The line's text; `None` if it is not to be shown, as of a drawing elsewhere than its design.
     pub source: Option<String>,
 }
 

@@ -13,7 +13,7 @@ const LARGEST: u64 = 16 << 20;
 /// end, and others wait for ever to be opened.
 ///
 /// # Errors
-/// Where there is no such file, or it is not regular, too large or not readable.
+/// If there is no such file, or it is not regular, too large or not readable.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
     let found = metadata(path)?;
     if found.is_dir() {

@@ -10,7 +10,7 @@ const TRIED: usize = 120;
 const STEPS: [f64; 2] = [1e-4, 1e-6];
 
 /// What to write where magnets with this inset (m) stick out: the nearest one with which all of
-/// them, on both tiles, are sound. `None` where there is none.
+/// them, on both tiles, are sound. `None` if there is none.
 pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let all: Vec<_> = built.iter().map(|tile| Shifted::new(tile, inset)).collect();
     let sound = |to: f64| all.iter().all(|tile| tile.sits(to - inset));

@@ -154,7 +154,7 @@ impl Design {
     /// Reads a design file.
     ///
     /// # Errors
-    /// Where the file cannot be read, or is no sound design.
+    /// If the file cannot be read, or is no sound design.
     pub fn load(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
         let bytes = file::read(path).map_err(|error| {
@@ -185,7 +185,7 @@ impl Design {
     /// design gives no name of its own.
     ///
     /// # Errors
-    /// Where the text is no sound design.
+    /// If the text is no sound design.
     pub fn parse(text: &str, file: &str) -> Result<Self> {
         Self::read(text, file, Drawings::default())
     }
@@ -193,7 +193,7 @@ impl Design {
     /// Reads a design whose drawings are held: the text of each by its name in the design.
     ///
     /// # Errors
-    /// Where the text is no sound design.
+    /// If the text is no sound design.
     pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
         Self::read(text, file, Drawings::new(Some(drawings)))
     }

@@ -266,7 +266,7 @@ impl Quantity {
             .unwrap_or_else(|| value.abs().clamp(low, high).copysign(sign))
     }
 
-    /// What may have been meant by a magnitude that is uncommonly large; `None` where it is not.
+    /// What may have been meant by a magnitude that is uncommonly large; `None` if it is not.
     pub fn doubt(&self, value: f64) -> Option<Vec<String>> {
         (value.abs() > self.typical.1).then(|| self.proposals(value))
     }

@@ -15,7 +15,7 @@ const HELP: &str = "the file is TOML: `key = value` lines under [section] header
 /// The keys and values of a file.
 ///
 /// # Errors
-/// Where it is no TOML; every place is noted.
+/// If it is no TOML; every place is noted.
 pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
     let (root, errors) = DeTable::parse_recoverable(source.text);
     for error in errors {

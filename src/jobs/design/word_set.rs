@@ -58,7 +58,7 @@ impl WordSet {
     /// Reads a set; magnets as `model` says, if it says so.
     ///
     /// # Errors
-    /// Where the file cannot be read or is no set of words.
+    /// If the file cannot be read or is no set of words.
     pub fn load(path: &Path, model: Option<MagnetModel>) -> Result<Self> {
         let name = path.display().to_string();
         let text = file::read_text(path).map_err(|found| {
@@ -78,7 +78,7 @@ impl WordSet {
     /// Reads a set from the text of its file.
     ///
     /// # Errors
-    /// Where it is no set of words.
+    /// If it is no set of words.
     pub fn parse(text: &str, name: &str, model: Option<MagnetModel>) -> Result<Self> {
         let (drawings, faults) = (Drawings::default(), Faults::default());
         let source = Source {

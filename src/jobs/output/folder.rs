@@ -11,7 +11,7 @@ use super::{OutputError, or_here};
 /// and it is not made.
 ///
 /// # Errors
-/// Where it cannot be made or written to.
+/// If it cannot be made or written to.
 pub fn check(folder: &Path) -> Result<(), OutputError> {
     let folder = or_here(folder);
     let refused = |source: io::Error| OutputError::Folder {

@@ -128,7 +128,7 @@ impl Output {
     /// A single file; its folder is made if need be.
     ///
     /// # Errors
-    /// Where the path names no file.
+    /// If the path names no file.
     pub fn file(command: &'static Command, file: &Path) -> Result<Self, OutputError> {
         let refused = |why| {
             let file = file.display();
@@ -381,7 +381,7 @@ fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
-/// What tells a file from all others, whichever path leads to it; `None` where there is none.
+/// What tells a file from all others, whichever path leads to it; `None` if there is none.
 #[cfg(unix)]
 fn identity(path: &Path) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
@@ -389,7 +389,7 @@ fn identity(path: &Path) -> Option<(u64, u64)> {
     Some((found.dev(), found.ino()))
 }
 
-/// What tells a file from all others, whichever path leads to it; `None` where there is none.
+/// What tells a file from all others, whichever path leads to it; `None` if there is none.
 #[cfg(not(unix))]
 fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok()

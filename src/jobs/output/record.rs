@@ -40,7 +40,7 @@ impl Default for Record {
 }
 
 impl Record {
-    /// Reads a record; it is empty where there is none. `None` where the file is something else.
+    /// Reads a record; it is empty where there is none. `None` if the file is something else.
     pub fn read(path: &Path) -> Option<Self> {
         match path.symlink_metadata() {
             Ok(found) if found.is_file() => serde_json::from_slice(&fs::read(path).ok()?).ok(),

@@ -134,7 +134,7 @@ fn make(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<()> {
     fs::create_dir_all(folder)
 }
 
-/// Makes a folder and has it alone; `None` where the file system has no locks.
+/// Makes a folder and has it alone; `None` if the file system has no locks.
 fn make_alone(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<Option<File>> {
     let mut tries = 0;
     loop {
@@ -160,7 +160,7 @@ pub(super) fn settle(folder: &Path) -> Result<Option<File>, OutputError> {
     Ok(held)
 }
 
-/// Has a folder alone; `None` where the file system has no locks.
+/// Has a folder alone; `None` if the file system has no locks.
 fn hold(folder: &Path) -> io::Result<Option<File>> {
     let start = Instant::now();
     loop {

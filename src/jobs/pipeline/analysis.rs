@@ -32,10 +32,10 @@ pub struct Analysis {
     pub ring: [f64; 2],
     /// Why the barriers have no certified bounds, where they have none.
     pub uncertified: Option<Uncertified>,
-    /// What ended the certificate before all bounds were as narrow as was asked for; `None` where
+    /// What ended the certificate before all bounds were as narrow as was asked for; `None` if
     /// nothing did.
     pub certificate_ended: Option<Ended>,
-    /// What moving tiles say of the barriers; `None` where they were not asked.
+    /// What moving tiles say of the barriers; `None` if they were not asked.
     pub dynamics: Option<Vec<BarrierCheck>>,
     /// How much was done.
     pub counts: Counts,

@@ -75,8 +75,8 @@ pub enum QueryError {
 /// pathway is the start from which the certificate goes on.
 ///
 /// # Errors
-/// Where an end is off the table or the tiles overlap there, and where no way is found though none
-/// is disproved.
+/// If an end is off the table or the tiles overlap there, and where no way is found though none is
+/// disproved.
 pub fn barrier(
     design: &Design,
     query: &Query,

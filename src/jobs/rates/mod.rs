@@ -286,7 +286,7 @@ impl PoseExit {
     /// back this share of the approach velocity.
     ///
     /// # Errors
-    /// Where no body moves so.
+    /// If no body moves so.
     fn checked(
         &self,
         (design, problem): (&Design, &Problem),

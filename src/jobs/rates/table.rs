@@ -13,10 +13,11 @@ use physics::kinetics::rates::{Leaving, RateSettings, Rates};
 pub struct AtKt {
     /// kT (J).
     pub kt: f64,
-    /// Out of each state (1/s), on a rough mesh; `None` where the states are none at this kT.
+    /// Out of each state (1/s), on a rough mesh; `None` if the states are none at this kT.
     pub leaving: Vec<Option<f64>>,
-    /// The same capacities over the closed form of corner wells, see [`physics::kinetics::corner`]; `None` where contact
-    /// holds the tile in no such way. Ways to free have no pass, whose closed form it could take.
+    /// The same capacities over the closed form of corner wells, see [`physics::kinetics::corner`];
+    /// `None` if contact holds the tile in no such way. Ways to free have no pass, whose closed
+    /// form it could take.
     pub corner: Vec<Option<f64>>,
 }
 

@@ -47,7 +47,7 @@ impl MotionOptions {
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 ///
 /// # Errors
-/// Where it is none.
+/// If it is none.
 pub fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
                         0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\"; optionally ,A,F: relative \

@@ -22,7 +22,7 @@ impl Shard {
 /// A part as `i/n`.
 ///
 /// # Errors
-/// Where it is none.
+/// If it is none.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let (number, of) = text.split_once('/').ok_or("a part is i/n, such as 1/4")?;
     let parse = |part: &str| part.trim().parse().ok();

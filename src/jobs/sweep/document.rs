@@ -5,7 +5,7 @@ use toml::{Table, Value as Toml};
 /// Sets the key at a dotted path; tables on the way that are missing are made.
 ///
 /// # Errors
-/// Where the path leads through something that is neither a table nor an array long enough.
+/// If the path leads through something that is neither a table nor an array long enough.
 pub fn set(document: &mut Table, path: &str, value: Toml) -> Result<(), String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     let (first, rest) = parts.split_first().ok_or("the path is empty")?;

@@ -43,8 +43,8 @@ impl Plan {
     /// A sweep over designs that have been read.
     ///
     /// # Errors
-    /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
-    /// are too many points or none is possible. A key that the design does not hold is taken for a
+    /// If a design is not sound as it stands, a key cannot be varied or varies twice, or there are
+    /// too many points or none is possible. A key that the design does not hold is taken for a
     /// mistake if no value of it gives a possible design.
     pub fn of(
         mut designs: Vec<Source>,
@@ -73,7 +73,7 @@ impl Plan {
     /// (`depth=0`, or `depth=0,width=0.1`; the last part of a key's path is enough).
     ///
     /// # Errors
-    /// Where there is no such point.
+    /// If there is no such point.
     pub fn against(self, baseline: &str) -> Result<Self, PlanError> {
         let plan = Self {
             baseline: Some(baseline.to_owned()),
@@ -158,7 +158,7 @@ impl Plan {
     /// Reads a manifest.
     ///
     /// # Errors
-    /// Where it is none, one of another version, or one without points or of too many.
+    /// If it is none, one of another version, or one without points or of too many.
     pub fn parse(text: &str) -> Result<Self, PlanError> {
         let plan: Self =
             serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;

@@ -23,8 +23,8 @@ const STRAIGHT: f64 = 0.05;
 /// Steps over the whole range are not made smaller than this.
 const FINEST: f64 = 1.0 / 512.0;
 
-/// The plan with at most `more` values added to its only axis of numbers, between those at which the
-/// figures of the points bend most: each of them lies midway between two. `None` where nothing
+/// The plan with at most `more` values added to its only axis of numbers, between those at which
+/// the figures of the points bend most: each of them lies midway between two. `None` if nothing
 /// bends, or there is no one such axis.
 pub(super) fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let varied = |k: &usize| plan.axes[*k].numbers().is_some_and(|all| all.len() > 1);

@@ -64,7 +64,7 @@ pub fn run<E: Send>(
     failure.map_or(Ok(()), Err)
 }
 
-/// What came of a point; `None` where the work was given up.
+/// What came of a point; `None` if the work was given up.
 fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
     let assessed = catch_unwind(AssertUnwindSafe(|| {
         let design = plan.design(point)?;

@@ -31,7 +31,7 @@ impl Source {
     /// A design file with its drawings.
     ///
     /// # Errors
-    /// Where it cannot be read or is no sound design.
+    /// If it cannot be read or is no sound design.
     pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
         match file::read_text(path) {
             Ok(text) => Self::of_text(&text, &path.display().to_string()),
@@ -43,7 +43,7 @@ impl Source {
     /// The text of a design, whose drawings lie beside `file`.
     ///
     /// # Errors
-    /// Where it is no sound design.
+    /// If it is no sound design.
     pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
         let design = Design::parse(text, file)?;
         Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
@@ -79,7 +79,7 @@ impl Source {
     /// The design itself, with the drawings that are held.
     ///
     /// # Errors
-    /// Where it is no sound design.
+    /// If it is no sound design.
     pub fn design(&self) -> Result<Design, DesignError> {
         self.parse(&self.text)
     }
@@ -88,7 +88,7 @@ impl Source {
     /// missing are made.
     ///
     /// # Errors
-    /// Where the path leads through something that is neither a table nor an array long enough.
+    /// If the path leads through something that is neither a table nor an array long enough.
     pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
         let mut document = self.document();
         document::set(&mut document, path, value)?;

@@ -81,7 +81,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Counts what came of points, `None` where nothing is known.
+    /// Counts what came of points, `None` if nothing is known.
     pub fn new<'a>(outcomes: impl IntoIterator<Item = Option<&'a Outcome>>) -> Self {
         let mut progress = Self::default();
         for outcome in outcomes {
@@ -129,8 +129,8 @@ impl Store {
         self.folder.join(name(point))
     }
 
-    /// What came of a point; `None` where nothing is known, as of a file that is damaged or of
-    /// another version.
+    /// What came of a point; `None` if nothing is known, as of a file that is damaged or of another
+    /// version.
     pub fn load(&self, point: &Point) -> Option<Outcome> {
         let text = fs::read_to_string(self.path(point)).ok()?;
         let record: Record = serde_json::from_str(&text).ok()?;
@@ -140,7 +140,7 @@ impl Store {
     /// Keeps what came of a point: its file is there as a whole or not at all, whatever happens.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// If the file system refuses.
     pub fn save(&self, point: &Point, outcome: &Outcome) -> Result<(), OutputError> {
         let record = Record::new(point, outcome.clone());
         let record = record.and_then(|record| Ok(serde_json::to_vec_pretty(&record)?));
@@ -154,7 +154,7 @@ impl Store {
     /// Refuses a folder that points cannot be kept in. Nothing is written.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// If the file system refuses.
     pub fn check(&self) -> Result<(), OutputError> {
         output::check_folder(&self.folder.join(POINTS))
     }

@@ -11,20 +11,20 @@ use physics::table::{Crowd, Mover};
 /// The columns.
 const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
 
-/// What is wrong with the table, and where.
+/// What is wrong with the file, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {message}")]
 pub struct StartFileError {
-    /// Which line, from 1.
+    /// The line, from 1.
     pub line: u64,
     /// What is wrong, and how to fix it.
     pub message: String,
 }
 
-/// Reads the tiles at the start: a line each, in the order of their numbers.
+/// Reads the starting tiles, one per line; returns them in the order of their numbers.
 ///
 /// # Errors
-/// Where a line cannot be read.
+/// If a line cannot be read.
 pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
     let mut reader = ReaderBuilder::new()
         .flexible(true)

@@ -8,7 +8,7 @@ use physics::words::Bar;
 /// the design's.
 ///
 /// # Errors
-/// Where the design gives no pitch, or its magnets are none that words can be made of.
+/// If the design gives no pitch, or its magnets are none that words can be made of.
 pub fn bar(
     design: Option<&Design>,
     pitch: Option<f64>,

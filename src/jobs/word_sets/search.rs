@@ -23,7 +23,7 @@ impl Request {
     /// Searches the words, of the magnets of a design's target face or of the paper's.
     ///
     /// # Errors
-    /// Where such words cannot be.
+    /// If such words cannot be.
     pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
         let (places, magnets) = self.places()?;
         let (bar, face) = bar(design, self.pitch, self.model)?;

@@ -40,7 +40,7 @@ impl Spaced {
     /// Searches for what is asked.
     ///
     /// # Errors
-    /// Where such words cannot be.
+    /// If such words cannot be.
     pub(super) fn search(
         wanted: &Wanted,
         request: &Request,

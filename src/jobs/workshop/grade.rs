@@ -10,7 +10,7 @@ pub fn sold() -> &'static [Grade] {
     &NEODYMIUM[2..10]
 }
 
-/// The grade nearest to a remanence (T), and its own; `None` where none is near.
+/// The grade nearest to a remanence (T), and its own; `None` if none is near.
 ///
 /// ```
 /// use tilebind_jobs::workshop::grade::nearest;

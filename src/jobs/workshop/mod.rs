@@ -83,7 +83,7 @@ impl Made {
     /// What it takes to make a design.
     ///
     /// # Errors
-    /// Where the cut is too wide for it.
+    /// If the cut is too wide for it.
     pub fn new(design: &Design, making: &Making) -> Result<Self, PartError> {
         let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
         let mut magnets: Vec<(Magnet, usize)> = Vec::new();

@@ -83,7 +83,7 @@ impl Part {
     /// The lines for a tile.
     ///
     /// # Errors
-    /// Where the cut is too wide for the tile's details.
+    /// If the cut is too wide for the tile's details.
     pub fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
         let mut pockets = Vec::new();
         for (i, magnet) in tile.magnets.iter().enumerate() {

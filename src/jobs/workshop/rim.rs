@@ -63,7 +63,7 @@ struct Piece {
     circle: Option<Circle>,
 }
 
-/// The rim of an outline, every point `shift` (m) outside of it; `None` where an arc is narrower than
+/// The rim of an outline, every point `shift` (m) outside of it; `None` if an arc is narrower than
 /// that.
 pub(super) fn rim(outline: &Outline, shift: f64) -> Option<Vec<Corner>> {
     let pieces = pieces(outline);

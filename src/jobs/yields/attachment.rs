@@ -114,7 +114,7 @@ pub struct Attachments {
     pub area: f64,
     /// Runs.
     pub runs: usize,
-    /// The rates of overdamped motion; `None` where attachments are counted.
+    /// The rates of overdamped motion; `None` if attachments are counted.
     pub solved: Option<Solved>,
 }
 
@@ -139,7 +139,7 @@ impl Attachments {
         }
     }
 
-    /// The rate (1/s) at which a kind of state lets go; `None` where it was not solved.
+    /// The rate (1/s) at which a kind of state lets go; `None` if it was not solved.
     pub fn off(&self, kind: usize) -> Option<f64> {
         self.solved.as_ref().map(|solved| solved.off[kind])
     }

@@ -62,14 +62,14 @@ pub struct Outcome {
     /// Whether all probabilities were computed; else mean numbers.
     pub exact: bool,
     /// By how much the share in the bond of mean numbers differs from that of the simulation, with
-    /// twice the standard error of the latter; `None` where all probabilities were computed, and
+    /// twice the standard error of the latter; `None` if all probabilities were computed, and
     /// without simulation.
     pub off: Option<f64>,
     /// Share that are in traps at the end.
     pub trapped: f64,
-    /// Share in the bond by the equations for mean numbers; `None` where they cannot be solved.
+    /// Share in the bond by the equations for mean numbers; `None` if they cannot be solved.
     pub smooth: Option<f64>,
-    /// Share in the bond in equilibrium; `None` where the bond is never found.
+    /// Share in the bond in equilibrium; `None` if the bond is never found.
     pub equilibrium: Option<f64>,
     /// Share in the bond in the exact simulation, over all runs and pairs, with the standard error.
     pub simulated: Option<[f64; 2]>,

@@ -31,7 +31,7 @@ impl Contact {
     }
 
     /// The translation t (m) along the unit vector `direction` at which the moving tile, coming
-    /// from infinity against it, first touches the other; `None` where it passes by.
+    /// from infinity against it, first touches the other; `None` if it passes by.
     pub fn landing(&self, q: &Configuration, direction: Vector2<f64>) -> Option<f64> {
         let touching = self.touching_translations(q, direction);
         touching.into_iter().max_by(f64::total_cmp)

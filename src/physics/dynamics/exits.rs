@@ -56,7 +56,7 @@ impl ExitRuns {
 /// Runs of shaken tiles to the first of two ends.
 ///
 /// # Errors
-/// Where a setting makes no sense, or the tiles are not shaken.
+/// If a setting makes no sense, or the tiles are not shaken.
 pub fn exits(
     problem: &Problem,
     body: Body,

@@ -84,7 +84,7 @@ impl MotionSettings {
     }
 
     /// # Errors
-    /// Where a number is out of its range, or the tile is shaken without drag.
+    /// If a number is out of its range, or the tile is shaken without drag.
     pub fn check(&self) -> Result<(), SettingsError> {
         let not_negative = |name, value| in_range(name, "0 or more", value, value >= 0.0);
         let positive = |name, value| in_range(name, "above 0", value, value > 0.0);

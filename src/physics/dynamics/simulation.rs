@@ -66,7 +66,7 @@ pub struct Simulation<'a> {
 
 impl<'a> Simulation<'a> {
     /// # Errors
-    /// Where a setting makes no sense, see [`SettingsError`].
+    /// If a setting makes no sense, see [`SettingsError`].
     pub fn new(
         problem: &'a Problem,
         body: Body,

@@ -85,7 +85,7 @@ impl<'a> Hold<'a> {
     /// The bond of a catalogue.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn bond(problem: &'a Problem, catalogue: &Catalogue) -> Result<Self, BondError> {
         problem.pair.as_ref().ok_or(BondError::NoTiles)?;
         let kind = catalogue.kinds().find(Kind::is_bond);
@@ -140,7 +140,7 @@ impl<'a> Hold<'a> {
         self.with(shaking, volume)
     }
 
-    /// The same with the partition function in closed form, see [`corner`]; `None` where there is
+    /// The same with the partition function in closed form, see [`corner`]; `None` if there is
     /// none.
     pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Docking> {
         let value = corner::volume(problem, &self.configuration, shaking.kt)?;
@@ -167,7 +167,7 @@ impl<'a> Hold<'a> {
 
     /// The two kT (J) at a coverage between which two bonds that are closed by one docking hold and
     /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
-    /// second. `None` where a bond of 2 to 120 kT decides nothing.
+    /// second. `None` if a bond of 2 to 120 kT decides nothing.
     pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
         let cost = |docking: &Docking, _: f64| docking.cost;
         let known = RefCell::default();
@@ -175,7 +175,7 @@ impl<'a> Hold<'a> {
     }
 
     /// The kT (J) at which a pair that has an area (m^2) for itself is bound for `exp(log_odds)`
-    /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
+    /// times as long as it is free; `None` if a bond of 2 to 120 kT never is.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
         let cost = |docking: &Docking, depth: f64| {
             depth + log_odds - libm::log(self.association(docking) / area)

@@ -56,7 +56,7 @@ impl Bracket {
     /// Of so many places.
     ///
     /// # Errors
-    /// Where a linear system is not solved.
+    /// If a linear system is not solved.
     pub fn new(asked: &Asked, count: usize) -> Result<Self, Unsolved> {
         let Asked {
             field, nodes, pins, ..

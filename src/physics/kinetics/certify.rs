@@ -12,8 +12,8 @@ const MARGIN: f64 = 0.1;
 const BLOCKS_HAVE_NO_PROOF: &str = "for blocks nothing can be proved here: the bounds on their \
     energy in contact are too wide; use the dipole model, or leave out --prove";
 
-/// Why nothing can be proved of a pair of tiles whose magnets are modelled so, whatever their shapes;
-/// `None` where it can be tried.
+/// Why nothing can be proved of a pair of tiles whose magnets are modelled so, whatever their
+/// shapes; `None` if it can be tried.
 pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     if model == MagnetModel::Cuboid {
         return Some(BLOCKS_HAVE_NO_PROOF.to_owned());

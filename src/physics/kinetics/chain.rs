@@ -85,7 +85,7 @@ impl Chain {
     }
 
     /// The stationary distribution, of the states that can be reached from all others if there are
-    /// such; `None` where the chain falls apart.
+    /// such; `None` if the chain falls apart.
     pub fn stationary(&self) -> Option<Vec<f64>> {
         let n = self.len();
         let mut rates = self.rates.clone();

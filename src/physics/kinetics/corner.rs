@@ -30,7 +30,7 @@ const SAME: f64 = 1e-6;
 const MOST_FACES: usize = 60;
 
 /// The integral (m^2 rad) of `exp(-(U - U0) / kT)` about the minimum at `q` to lowest order in kT;
-/// `None` where contact and slope do not hold the tile there to first order, or `q` is no minimum.
+/// `None` if contact and slope do not hold the tile there to first order, or `q` is no minimum.
 pub fn volume(problem: &Problem, q: &Configuration, kt: f64) -> Option<f64> {
     let minimum = stationary::minimum(problem, q)?;
     let q = minimum.point.q;

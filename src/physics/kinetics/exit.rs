@@ -17,7 +17,7 @@ use crate::problem::Problem;
 /// pair's symmetries map onto each other is one.
 ///
 /// # Errors
-/// Where the start or an end makes no sense, and where a linear system could not be solved.
+/// If the start or an end makes no sense, and where a linear system could not be solved.
 pub fn exit(
     problem: &Problem,
     bond: &Configuration,

@@ -62,7 +62,7 @@ impl<'a> Field<'a> {
         )
     }
 
-    /// The same on a mesh that begins at contact; `None` where the tiles' shapes do not let it.
+    /// The same on a mesh that begins at contact; `None` if the tiles' shapes do not let it.
     pub fn fitted(
         problem: &'a Problem,
         kt: f64,

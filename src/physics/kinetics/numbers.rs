@@ -143,8 +143,8 @@ impl Numbers {
         Chain::new(rates)
     }
 
-    /// The probabilities of all states at ascending `times` (s), from all tiles free on; `None`
-    /// where the solver fails.
+    /// The probabilities of all states at ascending `times` (s), from all tiles free on; `None` if
+    /// the solver fails.
     pub fn course(&self, times: &[f64]) -> Option<Course> {
         let mut start = vec![0.0; self.len()];
         start[0] = 1.0;

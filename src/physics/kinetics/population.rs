@@ -53,7 +53,7 @@ pub struct Shares {
 }
 
 impl PairRates {
-    /// The share of all possible pairs that are in the bond in equilibrium; `None` where the bond is
+    /// The share of all possible pairs that are in the bond in equilibrium; `None` if the bond is
     /// never found or left.
     ///
     /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, numbers of pairs have the
@@ -91,7 +91,7 @@ impl PairRates {
     }
 
     /// Mean numbers of pairs in the bond and in each kind of trap at ascending `times` (s), of the
-    /// equations for mean numbers; `None` where they cannot be solved.
+    /// equations for mean numbers; `None` if they cannot be solved.
     pub fn mean_numbers(&self, crowd: &Crowd, times: &[f64]) -> Option<stiff::Course> {
         // The linearly implicit step (1 - h J) dn = h f.
         let kinds = self.on.len();
@@ -128,7 +128,7 @@ impl PairRates {
     }
 
     /// Mean shares of all possible pairs at ascending `times` (s) by the forward equation for all
-    /// kinds of states; `None` where a crowd has more than `most` states, and where it cannot be
+    /// kinds of states; `None` if a crowd has more than `most` states, and where it cannot be
     /// solved.
     pub fn forward_equation(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
         let count = numbers::count(self.on.len(), crowd.pairs());
@@ -151,8 +151,8 @@ impl PairRates {
         })
     }
 
-    /// The same by the forward equation where a crowd has at most `most` states, and of mean numbers
-    /// beyond; `None` where neither can be solved.
+    /// The same by the forward equation where a crowd has at most `most` states, and of mean
+    /// numbers beyond; `None` if neither can be solved.
     pub fn shares(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
         self.forward_equation(crowd, times, most).or_else(|| {
             let course = self.mean_numbers(crowd, times)?;
@@ -168,7 +168,7 @@ impl PairRates {
         })
     }
 
-    /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` where
+    /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` if
     /// it has too many events.
     pub fn simulate(&self, crowd: &Crowd, time: f64, rng: &mut ChaCha8Rng) -> Option<Vec<usize>> {
         let n = self.on.len();

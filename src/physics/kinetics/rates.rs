@@ -18,7 +18,7 @@ use crate::problem::Problem;
 /// The rates between basins and `free`.
 ///
 /// # Errors
-/// Where the places are not apart from each other, and where a linear system could not be solved.
+/// If the places are not apart from each other, and where a linear system could not be solved.
 pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesError> {
     let RateSettings { kt, free_at, .. } = *settings;
     let area = problem.space.half_size.map(|half| 2.0 * half);

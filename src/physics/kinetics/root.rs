@@ -4,7 +4,7 @@
 const CLOSE: [f64; 2] = [3e-3, 5e-4];
 
 /// The upper root of `bonds exp(x) - cost(x)` for a cost that is nearly straight: that of a line
-/// through the last two costs, again and again. `None` where that leads nowhere.
+/// through the last two costs, again and again. `None` if that leads nowhere.
 pub(super) fn straight_root(
     bonds: f64,
     cost: &dyn Fn(f64) -> f64,
@@ -40,7 +40,7 @@ pub(super) fn straight_root(
 }
 
 /// The upper of the roots of a function that grows from there on, by bisection and secants
-/// (Illinois); `None` where there is none between the ends.
+/// (Illinois); `None` if there is none between the ends.
 pub(super) fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
     let (mut high, mut low) = (most, most);
     let mut above = f(high);

@@ -55,8 +55,8 @@ pub(super) fn reaching(
     (0..found.len()).filter(|&id| found[id]).collect()
 }
 
-/// The highest energy (J) on the best way from a configuration to some cells, by the lowest energy in
-/// each cell; `None` where there is no way.
+/// The highest energy (J) on the best way from a configuration to some cells, by the lowest energy
+/// in each cell; `None` if there is no way.
 pub(super) fn pass(
     mesh: &Octree,
     beside: &Beside,

@@ -25,8 +25,8 @@ pub struct Course {
 }
 
 /// The course of values from `start` on at ascending `times` (s). `euler` makes one (linearly)
-/// implicit Euler step of a length (s), or tells that it cannot. `first` (s) is the first step tried;
-/// an error of `tolerance` is allowed a step. `None` where steps fail or become too many.
+/// implicit Euler step of a length (s), or tells that it cannot. `first` (s) is the first step
+/// tried; an error of `tolerance` is allowed a step. `None` if steps fail or become too many.
 pub fn integrate(
     start: Vec<f64>,
     times: &[f64],

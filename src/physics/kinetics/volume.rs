@@ -143,7 +143,7 @@ impl Integral<'_> {
         }
     }
 
-    /// To either side along slide and tilt; `None` where the minimum has no play along one of them.
+    /// To either side along slide and tilt; `None` if the minimum has no play along one of them.
     fn spreads(&self) -> Option<[[Spread; 2]; 2]> {
         let peak = self.line([0.0, 0.0]);
         let spread = |axis: usize, end: f64| {

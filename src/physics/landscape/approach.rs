@@ -78,7 +78,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The distance (m) along the normal from the bound position at which the moving tile with this
-    /// tilt and slide, coming from far away, first touches; `None` where it passes by.
+    /// tilt and slide, coming from far away, first touches; `None` if it passes by.
     pub fn landing(&self, problem: &Problem, tilt: f64, slide: f64) -> Option<f64> {
         let level = self.configuration(tilt, slide, 0.0);
         let contact = problem.contact.as_ref()?;
@@ -86,7 +86,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The configuration with this tilt and slide in which the moving tile, coming from far away,
-    /// first touches, `gap` (m) drawn back; `None` where it passes by.
+    /// first touches, `gap` (m) drawn back; `None` if it passes by.
     pub fn before_contact(
         &self,
         problem: &Problem,

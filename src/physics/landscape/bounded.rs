@@ -56,7 +56,7 @@ impl<'a> Bounded<'a> {
         self.bounds.enclose(cell)
     }
 
-    /// What contact says about a cell, `None` where it is blocked. With that the work is counted for
+    /// What contact says about a cell, `None` if it is blocked. With that the work is counted for
     /// bounds over what it leaves.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let found = match &self.cells {

@@ -41,7 +41,7 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 }
 
 /// Where each far start comes to rest by overdamped motion (mass metric, sliding along contact);
-/// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
+/// `None` if it leaves the table. Rest need not be in a minimum that could be verified: where
 /// corners of both tiles meet, the last check may fail a micrometre from one.
 pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Option<Configuration>> {
     let all = (0..starts.count).map(|number| start(problem, starts, number));

@@ -59,7 +59,7 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// With the contacts `touching`, closed or all but closed. `None` where there is no force.
+    /// With the contacts `touching`, closed or all but closed. `None` if there is no force.
     pub fn new(point: &Point, metric: Matrix3<f64>, mut touching: Vec<Constraint>) -> Option<Self> {
         let free = -(metric.try_inverse()? * point.gradient);
         let size = length(&free, &metric);
@@ -144,8 +144,8 @@ pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
     (share > EQUILIBRIUM).then(|| projected.heading(share))
 }
 
-/// One step of `size` (m, mass metric) from a point where motion heads this way, sliding along contact.
-/// `None` where no such step leads to a free configuration of lower energy.
+/// One step of `size` (m, mass metric) from a point where motion heads this way, sliding along
+/// contact. `None` if no such step leads to a free configuration of lower energy.
 ///
 /// Contacts that are pressed on stay closed, though the surface may curve away from the straight
 /// step; contacts in the way shorten the step or turn it aside.
@@ -163,8 +163,9 @@ pub fn step_along(problem: &Problem, point: &Point, heading: &Heading, size: f64
     (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
 }
 
-/// A step of `size` (m, mass metric) among contacts within a margin (m), straight, and where it ends with
-/// those that it presses on kept closed; `None` where it does not lead to a free configuration by a free motion.
+/// A step of `size` (m, mass metric) among contacts within a margin (m), straight, and where it
+/// ends with those that it presses on kept closed; `None` if it does not lead to a free
+/// configuration by a free motion.
 fn slid(
     problem: &Problem,
     point: &Point,
@@ -218,8 +219,8 @@ fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
     })
 }
 
-/// The configuration near `q` at which the given contacts are closed; `None` where there is none
-/// or the contacts depend on each other.
+/// The configuration near `q` at which the given contacts are closed; `None` if there is none or
+/// the contacts depend on each other.
 pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<Configuration> {
     let Some(contact) = &problem.contact else {
         return Some(*q);
@@ -268,8 +269,8 @@ pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
     step.xy().norm() + radius * step.z.abs()
 }
 
-/// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` where
-/// none is found or the table ends.
+/// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` if none
+/// is found or the table ends.
 pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configuration> {
     if problem.is_clear(q) {
         return Some(*q);

@@ -4,8 +4,8 @@ use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// Values on a grid, row by row from the lowest y; `None` where no free configuration belongs to
-/// the grid point.
+/// Values on a grid, row by row from the lowest y; `None` if no free configuration belongs to the
+/// grid point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<T> {
     /// Abscissas (m, or rad where the grid says so), ascending.

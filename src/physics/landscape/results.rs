@@ -158,7 +158,7 @@ pub fn work(pathway: &Pathway) -> [f64; 2] {
 /// What is proved of the highest energy on the best way between two places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SaddleBounds {
-    /// Every free path reaches at least this energy (J); `None` where nothing is proved.
+    /// Every free path reaches at least this energy (J); `None` if nothing is proved.
     #[serde(rename = "lower_J")]
     pub lower: Option<f64>,
     /// A free path is known that nowhere exceeds this energy (J).
@@ -283,13 +283,13 @@ impl Barrier {
         (self.saddle_energy - self.to_energy).max(0.0)
     }
 
-    /// Work against the energy along the pathway (J), from start to end and back; `None` where no
-    /// way is known.
+    /// Work against the energy along the pathway (J), from start to end and back; `None` if no way
+    /// is known.
     pub fn work(&self) -> Option<[f64; 2]> {
         self.has_way().then(|| work(&self.pathway))
     }
 
-    /// Length (m) of the pathway in the metric of the space; `None` where no way is known.
+    /// Length (m) of the pathway in the metric of the space; `None` if no way is known.
     pub fn length(&self) -> Option<f64> {
         self.pathway.last().map(|last| last.s)
     }

@@ -351,8 +351,8 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// What of `v` is left after taking off its parts along `basis`, of length 1 in the metric;
-/// `None` where less than the fraction `least` is left.
+/// What of `v` is left after taking off its parts along `basis`, of length 1 in the metric; `None`
+/// if less than the fraction `least` is left.
 fn orthonormal(
     v: Vector3<f64>,
     basis: &[Vector3<f64>],

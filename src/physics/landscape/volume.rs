@@ -18,8 +18,8 @@ use crate::tile::symmetry::rotations;
 pub struct Volume {
     /// Values of the coordinates (m, rad), the slowest first.
     pub axes: [Vec<f64>; 3],
-    /// U (J), the last coordinate running fastest; `None` where no free configuration belongs to
-    /// the grid point.
+    /// U (J), the last coordinate running fastest; `None` if no free configuration belongs to the
+    /// grid point.
     pub energies: Vec<Option<f64>>,
 }
 
@@ -72,8 +72,8 @@ pub struct InFront {
     /// U(gap, tilt, slide): see [`super::approach::ApproachSlices`].
     pub volume: Volume,
     /// For each tilt and slide, the distance (m) along the target face's normal from the bound
-    /// position at which the moving tile, coming from far away, first touches; `None` where it
-    /// passes by.
+    /// position at which the moving tile, coming from far away, first touches; `None` if it passes
+    /// by.
     pub landing: Vec<Option<f64>>,
 }
 

@@ -40,7 +40,7 @@ pub struct Problem {
     pub space: ConfigurationSpace,
     /// The two tiles; `None` for analytic landscapes.
     pub pair: Option<Arc<Pair>>,
-    /// `None` where nothing blocks a configuration (analytic landscapes).
+    /// `None` if nothing blocks a configuration (analytic landscapes).
     pub contact: Option<Contact>,
     /// Maps of configurations that change neither energy nor clearance, the identity first.
     pub symmetries: Vec<Symmetry>,
@@ -179,7 +179,7 @@ impl Problem {
     /// The energy's bounds over cells.
     ///
     /// # Errors
-    /// Where no such bounds are known.
+    /// If no such bounds are known.
     pub fn bounds(&self) -> Result<&dyn CellBounds, Unbounded> {
         match &self.energy.bounds {
             Ok(bounds) => Ok(bounds.as_ref()),
@@ -317,7 +317,7 @@ impl Problem {
         })
     }
 
-    /// What every motion from or to a configuration asks of contact; `None` where there is none.
+    /// What every motion from or to a configuration asks of contact; `None` if there is none.
     pub fn known(&self, q: &Configuration) -> Option<Known> {
         self.contact.as_ref().map(|contact| contact.known(*q))
     }

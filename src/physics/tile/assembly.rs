@@ -50,7 +50,7 @@ pub struct FitTooLarge(pub usize);
 /// The closed polygon of a tile's faces, each with its line.
 ///
 /// # Errors
-/// Where an edge would vanish or turn over when its face is drawn back.
+/// If an edge would vanish or turn over when its face is drawn back.
 pub fn assemble(faces: &[Face], lines: &[FaceLine]) -> Result<Ring, FitTooLarge> {
     let scale = faces
         .iter()
@@ -196,7 +196,7 @@ pub fn face_edges(ring: &Ring, face: &Face, number: usize) -> Vec<[[f64; 2]; 2]>
 }
 
 /// The height (m) of a face's outermost surface at s, over its edges as [`face_edges`] gives them;
-/// at a step, the height of the lower side. `None` where the face has no surface.
+/// at a step, the height of the lower side. `None` if the face has no surface.
 pub fn surface_height(edges: &[[[f64; 2]; 2]], s: f64) -> Option<f64> {
     let one_sided = |inside: &dyn Fn(f64, f64) -> bool| {
         edges

@@ -71,7 +71,7 @@ impl Pole {
     }
 }
 
-/// The poles along a face, counter-clockwise; `None` where there is no magnet.
+/// The poles along a face, counter-clockwise; `None` if there is no magnet.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Barcode(Vec<Option<Pole>>);
 

@@ -120,7 +120,7 @@ impl Profile {
     /// profile that is no more than the base line, or no deeper than [`SHALLOWEST`] of its width.
     ///
     /// # Errors
-    /// Where the parameters leave no profile to draw.
+    /// If the parameters leave no profile to draw.
     pub fn polyline(&self) -> Result<Polyline, ProfileError> {
         match self {
             Self::Flat => Ok(Vec::new()),

@@ -53,8 +53,8 @@ fn maps_magnets(tile: &Tile, angle: f64) -> bool {
 }
 
 /// For each face, the face onto which a turn of [`rotations`] maps it with all its magnets; `None`
-/// where one of the faces does not come to lie on a face. Faces may differ though outlines agree:
-/// one side of an outline may be two faces in line.
+/// if one of the faces does not come to lie on a face. Faces may differ though outlines agree: one
+/// side of an outline may be two faces in line.
 pub fn turned_faces(tile: &Tile, angle: f64) -> Option<Vec<usize>> {
     let rotation = Rotation2::new(angle);
     let scale = tile.outline.circumradius();

@@ -37,7 +37,7 @@ pub fn binary_code(n: usize, d: usize) -> usize {
     delsarte(n, d).map_or(shorter, |bound| bound.min(shorter))
 }
 
-/// Delsarte's bound for even d; `None` where the solver fails.
+/// Delsarte's bound for even d; `None` if the solver fails.
 fn delsarte(n: usize, d: usize) -> Option<usize> {
     let distances: Vec<usize> = (d..=n).step_by(2).collect();
     let extra = conditions(n, d, &distances);

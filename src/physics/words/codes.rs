@@ -94,7 +94,8 @@ fn lexicode(places: usize, distance: usize) -> Vec<u64> {
     code
 }
 
-/// The rows of a Hadamard matrix of Paley's kinds, bits for its minus signs; `None` where there is none.
+/// The rows of a Hadamard matrix of Paley's kinds, bits for its minus signs; `None` if there is
+/// none.
 fn hadamard(n: usize) -> Option<Vec<u64>> {
     let prime = |q: usize| q > 2 && (2..q).all(|k| !q.is_multiple_of(k));
     if !(4..=64).contains(&n) {

@@ -228,7 +228,7 @@ impl Bar {
     /// The magnets of a face of a tile, `pitch` (m) apart.
     ///
     /// # Errors
-    /// Where they are none that words can be made of.
+    /// If they are none that words can be made of.
     pub fn of_face(
         tile: &Tile,
         face: usize,

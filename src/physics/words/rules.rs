@@ -230,8 +230,8 @@ impl Rules {
         })
     }
 
-    /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None`
-    /// where they never meet.
+    /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None` if
+    /// they never meet.
     pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
         let found = self
             .ways()

@@ -10,7 +10,7 @@ use crate::parallel;
 pub struct Judgement {
     /// Depth (J) of the weakest bond of a word and its mate.
     pub bond: f64,
-    /// The strongest wrong meeting; `None` where there is none.
+    /// The strongest wrong meeting; `None` if there is none.
     pub worst: Option<Meeting>,
     /// 1 less the strongest wrong attraction over the weakest bond; 1 where nothing wrong attracts.
     pub gap: f64,

@@ -53,8 +53,8 @@ impl Word {
     /// Reads a word such as `NN.S`, or `UU.D` of magnets that stand.
     ///
     /// # Errors
-    /// Where a character is none of `N`, `S`, `U`, `D` and `.`, there are none or too many, or some are
-    /// of magnets that lie and some of magnets that stand.
+    /// If a character is none of `N`, `S`, `U`, `D` and `.`, there are none or too many, or some
+    /// are of magnets that lie and some of magnets that stand.
     pub fn parse(text: &str) -> Result<Self, WordError> {
         let code = Barcode::parse(text)?;
         let places = text.len();

@@ -56,7 +56,7 @@ pub fn threads() -> usize {
     asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from))
 }
 
-/// Does long work, with a bar unless `progress` is false (or `None` where nobody would see it).
+/// Does long work, with a bar unless `progress` is false (or `None` if nobody would see it).
 pub fn run<T: Send>(
     py: Python<'_>,
     progress: Option<bool>,

@@ -37,7 +37,7 @@ impl Document<'_> {
     /// The page by itself, made by `command`.
     ///
     /// # Errors
-    /// Where a picture cannot be drawn.
+    /// If a picture cannot be drawn.
     pub fn html(&self, command: &str) -> Result<String, PictureError> {
         let figures = self.figures(&Sheet::SCREEN)?;
         let page = self.page(&Sheet::SCREEN, &figures);
@@ -47,7 +47,7 @@ impl Document<'_> {
     /// The pictures, drawn: those of each drawing.
     ///
     /// # Errors
-    /// Where one cannot be drawn.
+    /// If one cannot be drawn.
     pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Vec<Figure>>, PictureError> {
         self.drawn(sheet).into_iter().collect()
     }

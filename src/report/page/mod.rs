@@ -53,7 +53,7 @@ pub struct Page {
     pub subtitle: String,
     /// What to know first.
     pub facts: Vec<Fact>,
-    /// The energy over configurations, with pathways; `None` where there is no one landscape.
+    /// The energy over configurations, with pathways; `None` if there is no one landscape.
     pub landscape: Option<Landscape>,
     /// The points of a sweep; `None` elsewhere.
     pub charts: Option<Charts>,

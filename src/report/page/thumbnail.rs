@@ -21,7 +21,7 @@ pub struct Thumbnail {
 }
 
 impl Thumbnail {
-    /// `None` where the design is impossible, or there are too many.
+    /// `None` if the design is impossible, or there are too many.
     pub fn of(sweep: &Sweep, point: &Point) -> Option<Self> {
         if sweep.points.len() > MOST_POINTS {
             return None;

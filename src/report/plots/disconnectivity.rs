@@ -79,7 +79,7 @@ fn room(sheet: &Sheet) -> usize {
     ((plot / LEAF) as usize - 1).min(MOST)
 }
 
-/// The graph of the lowest classes of states, as many as have room, with its numbers; `None` where
+/// The graph of the lowest classes of states, as many as have room, with its numbers; `None` if
 /// there is no state.
 pub fn composed<'a>(
     scene: &'a Scene,

@@ -91,7 +91,7 @@ impl<'a> Drawing<'a> {
     /// The pictures; a fault in drawing them is an error like others, for the results are worth more.
     ///
     /// # Errors
-    /// Where they cannot be drawn.
+    /// If they cannot be drawn.
     pub fn drawn(&self, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
         let drawn = catch_unwind(AssertUnwindSafe(|| (self.draw)(sheet)));
         drawn.unwrap_or_else(|fault| match interruption::is_interrupted(fault.as_ref()) {

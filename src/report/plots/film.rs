@@ -32,7 +32,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// `None` where no way from far away to the bound state is known.
+    /// `None` if no way from far away to the bound state is known.
     pub fn new(scene: &Scene, scale: &EnergyScale) -> Option<Self> {
         let pathway = scene.docking()?;
         let frames = frames(near(&pathway, scene), scale);

@@ -105,7 +105,7 @@ impl Range {
         colour(self.low + (self.high - self.low) * share)
     }
 
-    /// Fills a plot with an image of so many pixels of positions, `None` where blocked.
+    /// Fills a plot with an image of so many pixels of positions, `None` if blocked.
     pub fn fill(
         &self,
         canvas: &mut Canvas,

@@ -22,7 +22,7 @@ pub struct Matrix {
     pub title: String,
     /// Of rows and of columns.
     pub names: Vec<String>,
-    /// Numbers from 0 to 1, row by row; `None` where there is none.
+    /// Numbers from 0 to 1, row by row; `None` if there is none.
     pub shares: Vec<Vec<Option<f64>>>,
     /// Whether rows and columns are framed.
     pub is_framed: fn(row: usize, column: usize, count: usize) -> bool,

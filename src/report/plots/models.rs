@@ -41,8 +41,8 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// `None` where there are no magnets, the faces cannot meet along the normal, or nothing is to
-    /// be compared.
+    /// `None` if there are no magnets, the faces cannot meet along the normal, or nothing is to be
+    /// compared.
     pub fn new(scene: &Scene) -> Option<Self> {
         let pair = scene.pair;
         let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);

@@ -49,7 +49,7 @@ impl Picture {
     /// A canvas on white.
     ///
     /// # Errors
-    /// Where something could not be drawn, there is no such bitmap or it cannot be encoded.
+    /// If something could not be drawn, there is no such bitmap or it cannot be encoded.
     pub(super) fn new(sheet: &Sheet, title: &str, canvas: &Canvas) -> Result<Self, PictureError> {
         let shapes = &canvas.shapes().map_err(PictureError::Layout)?[..];
         let bitmap = || png(canvas, shapes, sheet.dots() / UNITS);

@@ -27,7 +27,7 @@ const MOST: usize = 6;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [48.0, 20.0, 60.0, 80.0];
 
-/// One panel a pathway out of a state; `None` where no pathway is known.
+/// One panel a pathway out of a state; `None` if no pathway is known.
 pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composition<'a>> {
     let barriers = scene.main_escapes();
     let panel = |barrier: &&'a Barrier| {

@@ -37,7 +37,7 @@ impl Sweep<'_> {
     }
 
     /// The sentence that answers: the best point, the least, and how much better the best is than
-    /// the one that all are set against, or the first; `None` where nothing was assessed.
+    /// the one that all are set against, or the first; `None` if nothing was assessed.
     pub fn answer(&self) -> Option<String> {
         let done = self.done();
         let by = self.by();

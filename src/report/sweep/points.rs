@@ -73,7 +73,7 @@ impl<'a> Sweep<'a> {
         reason(&self.outcomes[index])
     }
 
-    /// The file of a point's design beside the results; `None` where it is impossible, or needs
+    /// The file of a point's design beside the results; `None` if it is impossible, or needs
     /// drawings, which lie elsewhere.
     pub fn design_file(&self, point: &Point) -> Option<String> {
         let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();

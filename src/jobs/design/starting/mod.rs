@@ -96,7 +96,7 @@ impl Start {
     /// tile, with the code that slides least into wrong places, on the target faces alone.
     ///
     /// # Errors
-    /// Where there is no such tile or no room for the magnets.
+    /// If there is no such tile or no room for the magnets.
     pub fn design(&self, name: &str) -> Result<String, StartError> {
         self.check()?;
         let mut last = None;

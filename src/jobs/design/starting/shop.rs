@@ -32,7 +32,7 @@ impl ShopMagnet {
     /// ```
     ///
     /// # Errors
-    /// Where it is no such description; the message says what is missing.
+    /// If it is no such description; the message says what is missing.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = |what: &str| format!("{what}; {HELP}");
         let plain = plain(text);

@@ -614,7 +614,7 @@ pub(super) fn chord_error<'a>(strokes: impl IntoIterator<Item = &'a Stroke>) -> 
 }
 
 /// The lines of some strokes, curves as chords that leave them by no more than the error (m);
-/// `None` where they have more than `most` points.
+/// `None` if they have more than `most` points.
 fn lines(strokes: &[Stroke], chord_error: f64, most: usize) -> Option<Vec<Line>> {
     let mut lines = Vec::with_capacity(strokes.len());
     let mut count = 0;

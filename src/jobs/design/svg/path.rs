@@ -173,7 +173,7 @@ fn polyline(node: Node, pen: &mut Pen) -> Result<(), Fault> {
 /// User units (CSS px) in one inch.
 const PX_PER_INCH: f64 = 96.0;
 
-/// A length of an element in user units; `None` where it is not given or `auto`.
+/// A length of an element in user units; `None` if it is not given or `auto`.
 pub(super) fn length(
     node: Node,
     attribute: &'static str,

@@ -23,8 +23,8 @@ pub(in crate::design) const UNITS: [(&str, f64); 6] = [
     ("px", INCH / 96.0),
 ];
 
-/// From user units, y down, to metres, y up; `None` where neither the drawing nor the design says
-/// how long a user unit is.
+/// From user units, y down, to metres, y up; `None` if neither the drawing nor the design says how
+/// long a user unit is.
 pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Option<Affine>> {
     let size = view_box(source, root)?.map(|view_box| [view_box.w, view_box.h]);
     let stated = stated_scale(source, root, size)?;

@@ -23,7 +23,7 @@ pub(super) const SHARE: f64 = 0.5;
 /// ends. Where many are taken away, that is noted; few are left as they are.
 ///
 /// # Errors
-/// Where there are too many points before, or still are after.
+/// If there are too many points before, or still are after.
 pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     source: &Source,
     shape: &Shape,

@@ -107,7 +107,7 @@ impl ContactCells {
         of(&self.fixed) + of(&self.moving)
     }
 
-    /// What contact says about a cell; `None` where no configuration of it is free.
+    /// What contact says about a cell; `None` if no configuration of it is free.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let q = &cell.centre;
         let relaxed = self.relaxed();

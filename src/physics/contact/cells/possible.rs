@@ -101,7 +101,7 @@ fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
 
 impl ContactCells {
     /// The contacts that free configurations of a cell may make: every convex vertex and every edge
-    /// of the other tile that may touch without overlap somewhere in it. `None` where there are more
+    /// of the other tile that may touch without overlap somewhere in it. `None` if there are more
     /// than `most` of them.
     pub fn possible(&self, cell: &Cell, most: usize) -> Option<Vec<PossibleContact>> {
         let q = &cell.centre;

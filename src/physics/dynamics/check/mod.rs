@@ -127,10 +127,10 @@ pub struct BarrierCheck {
     /// Trajectories that crossed with 0.1 to 2 barriers more energy than the pathway needs, and how
     /// many there were.
     pub above: (usize, usize),
-    /// From before and from behind the saddle. `None` where that is not asked: behind a saddle to
+    /// From before and from behind the saddle. `None` if that is not asked: behind a saddle to
     /// `free`, which may lie where the tiles part, with no slope behind it.
     pub sides: [Option<Side>; 2],
-    /// Least energy (J) among those tried that kicked the tile out along the pathway; `None` where
+    /// Least energy (J) among those tried that kicked the tile out along the pathway; `None` if
     /// none did, up to eight times the barrier.
     pub kick: Option<f64>,
     /// What the kick is held against (J): the ceiling, seen from the start.

@@ -25,7 +25,7 @@ impl MatchRule {
     /// that distance and half a length.
     ///
     /// # Errors
-    /// Where one of the target faces has no magnets.
+    /// If one of the target faces has no magnets.
     pub fn new(problem: &Problem, threshold: Option<f64>) -> Result<Self, DockingError> {
         let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
         let on = |magnets: &'_ [crate::tile::Magnet], face: usize| -> Vec<_> {

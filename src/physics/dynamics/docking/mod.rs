@@ -75,7 +75,7 @@ pub enum End {
     /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
     /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
     Trapped {
-        /// The trap's number among [`Docking::traps`]; `None` where slow motion leads to none.
+        /// The trap's number among [`Docking::traps`]; `None` if slow motion leads to none.
         trap: Option<usize>,
     },
     /// Neither: not in touch, or still fast enough to come free.
@@ -145,7 +145,7 @@ pub struct Docking {
 /// `done` is called after each trajectory.
 ///
 /// # Errors
-/// Where a setting makes no sense or no match can be declared.
+/// If a setting makes no sense or no match can be declared.
 pub fn dock(
     problem: &Problem,
     settings: &DockingSettings,

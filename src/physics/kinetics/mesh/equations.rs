@@ -80,7 +80,7 @@ impl Equations {
     /// values are to be found, from a guess.
     ///
     /// # Errors
-    /// Where they are not found.
+    /// If they are not found.
     pub fn solve(
         &self,
         entries: &Entries,

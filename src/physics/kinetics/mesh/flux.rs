@@ -44,8 +44,9 @@ pub(in crate::kinetics) struct Network {
 }
 
 impl Network {
-    /// Between places given by the cells that they are made of, and the rim, which is the place `rim`,
-    /// through none of the cells that are left out; `None` where the chart holds what is blocked.
+    /// Between places given by the cells that they are made of, and the rim, which is the place
+    /// `rim`, through none of the cells that are left out; `None` if the chart holds what is
+    /// blocked.
     ///
     /// `costs` has how fluxes are spread in a cell, and what they cost so.
     pub fn new(
@@ -100,7 +101,7 @@ impl Network {
     /// greater than theirs, but for the quadrature.
     ///
     /// # Errors
-    /// Where the linear system is not solved.
+    /// If the linear system is not solved.
     pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
         let given = self.given(place);
         let none = vec![0.0; given.len()];
@@ -113,7 +114,7 @@ impl Network {
     /// within cells otherwise than its spread has it. Found from a guess of the potentials.
     ///
     /// # Errors
-    /// Where the linear system is not solved.
+    /// If the linear system is not solved.
     pub fn of(
         &self,
         source: &(dyn Fn(usize) -> f64 + Sync),

@@ -89,7 +89,7 @@ impl Nodes {
         0.25 * of_side.map(|corner| own[corner]).sum::<f64>()
     }
 
-    /// The value at a configuration; `None` where no cell with free configurations holds it.
+    /// The value at a configuration; `None` if no cell with free configurations holds it.
     pub fn at(&self, mesh: &Octree, values: &[f64], q: &Configuration) -> Option<f64> {
         let held = mesh.holding(q);
         let &cell = held.iter().find(|&&id| mesh.leaves[id].element.is_some())?;

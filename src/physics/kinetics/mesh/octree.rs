@@ -13,7 +13,7 @@ pub(in crate::kinetics) struct Leaf {
     pub level: u8,
     /// The first of the eight cells, in the order of their corners, into which it is divided.
     parts: Option<u32>,
-    /// What is integrated over it; `None` where no configuration is free.
+    /// What is integrated over it; `None` if no configuration is free.
     pub element: Option<Box<Element>>,
     /// Whether contact proves that none is.
     pub blocked: bool,

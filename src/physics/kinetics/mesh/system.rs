@@ -33,7 +33,7 @@ impl<'a> System<'a> {
     /// The function that is 1 in a place and 0 in the others, found from a guess, if there is one.
     ///
     /// # Errors
-    /// Where it is not found.
+    /// If it is not found.
     pub fn committor(&self, place: usize, guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
         let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
         let given: Vec<f64> = self.pins.iter().map(one).collect();
@@ -43,7 +43,7 @@ impl<'a> System<'a> {
     /// The function that is 0 in all places, with this load at each corner.
     ///
     /// # Errors
-    /// Where it is not found.
+    /// If it is not found.
     pub fn loaded(&self, load: &[f64], guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
         self.solve(&vec![0.0; self.pins.len()], load, guess)
     }

@@ -90,7 +90,7 @@ impl Expansion {
         self.through(sin, cos, 1.0)
     }
 
-    /// One over it; `None` where it is not proved positive.
+    /// One over it; `None` if it is not proved positive.
     pub fn inverse(self) -> Option<Self> {
         let least = self.range()[0];
         (least > 0.0).then(|| {
@@ -99,7 +99,7 @@ impl Expansion {
         })
     }
 
-    /// Its root; `None` where it is not proved positive.
+    /// Its root; `None` if it is not proved positive.
     pub fn root(self) -> Option<Self> {
         let least = self.range()[0];
         (least > 0.0).then(|| {

@@ -111,7 +111,7 @@ struct Cells {
 }
 
 /// Proved bounds of the capacity of the first set against the others and free tiles, the bounds of
-/// the integrals that are asked for this close together; `None` where nothing can be proved on this
+/// the integrals that are asked for this close together; `None` if nothing can be proved on this
 /// mesh. Divides cells.
 pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Option<Capacity> {
     let problem = field.problem;

@@ -82,7 +82,7 @@ pub(super) type Range = [f64; 2];
 pub(super) const UNKNOWN: Range = [0.0, f64::INFINITY];
 
 impl Ground<'_> {
-    /// Where a piece of a cell lies; `None` where it is too large to tell.
+    /// Where a piece of a cell lies; `None` if it is too large to tell.
     pub fn place(&self, piece: &Piece, leaf: &Leaf) -> Option<Place> {
         let middle = std::array::from_fn(|i| piece.low[i] + piece.size[i] / 2.0);
         let [s, phi, theta] = self.chart.coordinates(middle);

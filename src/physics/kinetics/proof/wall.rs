@@ -76,8 +76,8 @@ fn greatest_cos([from, to]: [f64; 2]) -> f64 {
 }
 
 impl Wall {
-    /// Of two tiles; a circle (m) where there is no contact. `None` where the outlines are not
-    /// convex around their centres or have too many corners.
+    /// Of two tiles; a circle (m) where there is no contact. `None` if the outlines are not convex
+    /// around their centres or have too many corners.
     pub fn new(contact: Option<&Contact>, circle: f64) -> Option<Self> {
         let Some(contact) = contact else {
             return Some(Self::Circle(circle));
@@ -118,7 +118,7 @@ impl Wall {
         Some(Self::Edges(edges))
     }
 
-    /// g over a box of rays; `None` where the box is too large to tell.
+    /// g over a box of rays; `None` if the box is too large to tell.
     pub fn over(&self, phi: Expansion, theta: Expansion) -> Option<Surface> {
         let edges = match self {
             Self::Circle(radius) => {

@@ -79,8 +79,8 @@ fn node(places: &Places, place: Place) -> NodeIndex {
     }
 }
 
-/// The greatest upper bound (J) on the way through a tree, and the pathway; `None` where there is
-/// no way, or its pathways do not end where the next ones begin.
+/// The greatest upper bound (J) on the way through a tree, and the pathway; `None` if there is no
+/// way, or its pathways do not end where the next ones begin.
 fn chain(
     space: &ConfigurationSpace,
     tree: &Places,

@@ -65,7 +65,7 @@ impl Claims {
 pub struct Certified {
     /// Cells assessed.
     pub cells: usize,
-    /// What ended it before all bounds were as narrow as was asked for; `None` where nothing did but
+    /// What ended it before all bounds were as narrow as was asked for; `None` if nothing did but
     /// the cells that one barrier is worth.
     pub ended: Option<Ended>,
 }
@@ -80,7 +80,7 @@ pub struct Certified {
 /// The results are the same on every machine, unless a clock ends the work.
 ///
 /// # Errors
-/// Where nothing is certified; the catalogue is then left as it is.
+/// If nothing is certified; the catalogue is then left as it is.
 pub fn certify(
     problem: &Problem,
     catalogue: &mut Catalogue,

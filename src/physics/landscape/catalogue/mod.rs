@@ -89,7 +89,7 @@ impl Catalogue {
     }
 
     /// The barrier from a state to the nearest lower one or to `free`: the lowest that is known, or
-    /// one over which no way is known. `None` where nothing is known of its ways out.
+    /// one over which no way is known. `None` if nothing is known of its ways out.
     pub fn escape(&self, problem: &Problem, id: usize) -> Option<Barrier> {
         let class = self.states[id].class;
         let escape = self.escape_of_kind(problem, class)?;

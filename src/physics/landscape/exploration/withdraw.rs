@@ -156,7 +156,7 @@ fn directions(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     normals
 }
 
-/// The first far configuration in a direction; `None` where it is not on the table.
+/// The first far configuration in a direction; `None` if it is not on the table.
 fn farthest(
     space: &ConfigurationSpace,
     q: &Configuration,

@@ -53,7 +53,7 @@ impl Assessment {
 const OVERLAPPING: f64 = 1e30;
 
 impl Bounded<'_> {
-    /// Assesses a cell; `None` where it is proved blocked.
+    /// Assesses a cell; `None` if it is proved blocked.
     pub(super) fn assess(&self, cell: &Cell) -> Option<Assessment> {
         let cuts = self.classify(cell)?;
         Some(assess(&self.enclose(cell), &cuts, self.lever, cell))

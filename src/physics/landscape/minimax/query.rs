@@ -44,7 +44,7 @@ impl Certifier<'_> {
     /// is known; it need not be exactly free, as it is lifted off contact where it touches.
     ///
     /// # Errors
-    /// Where an end is not free or not on the table.
+    /// If an end is not free or not on the table.
     pub fn bracket(
         &mut self,
         from: &Configuration,
@@ -59,7 +59,7 @@ impl Certifier<'_> {
     /// `known` is a pathway to one of them, its end included, if one is known.
     ///
     /// # Errors
-    /// Where the start or a goal is not free or not on the table.
+    /// If the start or a goal is not free or not on the table.
     pub fn escape(
         &mut self,
         from: &Configuration,
@@ -265,7 +265,7 @@ impl<'q, 'a> Query<'q, 'a> {
         path.into_iter().unzip()
     }
 
-    /// A known pathway, from end to end; `None` where it does not lead to the end.
+    /// A known pathway, from end to end; `None` if it does not lead to the end.
     fn joined_to_the_ends(&self, known: &[Configuration]) -> Option<Vec<Configuration>> {
         let last = known.last()?;
         let mut path = from_its_start(self.from, known);

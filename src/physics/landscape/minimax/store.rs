@@ -20,7 +20,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// The two halves along a coordinate; `None` where the cell cannot be halved.
+    /// The two halves along a coordinate; `None` if the cell cannot be halved.
     pub fn halves(&self, axis: usize) -> Option<[Self; 2]> {
         if self.size[axis] < 2 {
             return None;

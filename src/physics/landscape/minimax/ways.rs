@@ -88,7 +88,7 @@ impl Ways {
     }
 }
 
-/// The part of a straight stretch that lies in a leaf's cell, as shares of its length; `None` where
+/// The part of a straight stretch that lies in a leaf's cell, as shares of its length; `None` if
 /// none does.
 fn within(store: &Store, key: &Key, [from, to]: [&Configuration; 2]) -> Option<[f64; 2]> {
     let cell = store.cell(key);

@@ -18,7 +18,7 @@ pub(super) struct Domain {
     half_size: [f64; 2],
     /// Turns of the moving tile onto itself.
     of_moving: u32,
-    /// Sine and cosine of half the wedge's angle; `None` where it is the whole plane.
+    /// Sine and cosine of half the wedge's angle; `None` if it is the whole plane.
     wedge: Option<(f64, f64)>,
 }
 

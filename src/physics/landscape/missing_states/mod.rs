@@ -73,7 +73,7 @@ pub struct Completeness {
     pub share: f64,
     /// Cells assessed.
     pub cells: usize,
-    /// What ended the search before all cells were looked at; `None` where nothing did but the number
+    /// What ended the search before all cells were looked at; `None` if nothing did but the number
     /// of cells.
     pub ended: Option<Ended>,
 }

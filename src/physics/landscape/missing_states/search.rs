@@ -59,7 +59,7 @@ impl<'a> Search<'a> {
     /// It is the same on every machine, unless a clock ends it.
     ///
     /// # Errors
-    /// Where the energy has no bounds over cells, or nothing may be spent.
+    /// If the energy has no bounds over cells, or nothing may be spent.
     pub fn run(
         problem: &'a Problem,
         survey: &Exploration,
@@ -157,7 +157,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The halves of a cell along the coordinate whose size costs most; `None` where it is too small.
+/// The halves of a cell along the coordinate whose size costs most; `None` if it is too small.
 fn halves(cell: &Cell, losses: &[f64; 3], scale: Scale) -> Option<[Cell; 2]> {
     let axis = (0..3).max_by_key(|&i| OrderedFloat(losses[i]))?;
     let size = cell.half[axis];

@@ -59,7 +59,7 @@ pub(super) fn of_milestones(problem: &Problem, all: &[Point], bend: f64) -> Path
 }
 
 /// Through the configurations, with as many more between them as it takes for each straight motion
-/// to be free; `None` where halving does not get there.
+/// to be free; `None` if halving does not get there.
 fn free_polyline(problem: &Problem, all: &[Point]) -> Option<Vec<Point>> {
     let mut corners: Vec<Point> = all.first().copied().into_iter().collect();
     for next in all.iter().skip(1) {

@@ -80,8 +80,8 @@ pub fn reversed(pathway: &Pathway) -> Pathway {
     pathway.iter().rev().map(back).collect()
 }
 
-/// Two pathways, one after the other; `None` where the second does not begin where the first one
-/// ends. An empty first one may end anywhere.
+/// Two pathways, one after the other; `None` if the second does not begin where the first one ends.
+/// An empty first one may end anywhere.
 pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -> Option<Pathway> {
     let (Some(end), Some(start)) = (first.last().copied(), second.first()) else {
         return Some(if first.is_empty() { second } else { first });

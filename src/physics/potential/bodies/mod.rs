@@ -122,8 +122,8 @@ impl Body {
 pub struct BodyPotential {
     fixed: Vec<Group>,
     moving: Vec<Group>,
-    /// For each group of the fixed tile and each of the moving one; `None` where one lies and the other
-    /// stands.
+    /// For each group of the fixed tile and each of the moving one; `None` if one lies and the
+    /// other stands.
     pairs: Vec<Vec<Option<Pairs>>>,
     lever: Lever,
     feature: f64,
@@ -195,7 +195,7 @@ impl Pairs {
         })
     }
 
-    /// How many terms are enough at a squared distance (m^2); `None` where the faces are summed.
+    /// How many terms are enough at a squared distance (m^2); `None` if the faces are summed.
     fn terms(&self, square: f64) -> Option<usize> {
         let enough = self.squares.iter().position(|from| square >= *from);
         enough.map(|k| k + 1)

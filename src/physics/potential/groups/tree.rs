@@ -183,7 +183,7 @@ impl Group {
     }
 
     /// Dipoles that stand for the group with so many nodes along it, and from which distance (m);
-    /// `None` where they are not markedly fewer.
+    /// `None` if they are not markedly fewer.
     ///
     /// With a grid of n by k nodes no more is lost than by n nodes along, and by k nodes across
     /// times Lebesgue's constant of the n; with both groups of a pair replaced, than by the one and
@@ -228,7 +228,7 @@ impl Group {
     }
 
     /// What stands for the group at a distance (m): the fewest dipoles, or its own where it has no
-    /// parts; `None` where its parts are to be asked.
+    /// parts; `None` if its parts are to be asked.
     pub fn at(&self, distance: f64) -> Option<&Range<usize>> {
         let from = |stand: &&Stand| stand.from <= distance;
         let stand = self.stands.iter().find(from);

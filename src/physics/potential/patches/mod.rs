@@ -86,8 +86,8 @@ impl Patches {
         })
     }
 
-    /// What bounds the potential's derivatives no farther than `reach` (m) from a place; `None`
-    /// where that is more than half a cell.
+    /// What bounds the potential's derivatives no farther than `reach` (m) from a place; `None` if
+    /// that is more than half a cell.
     pub fn around(&self, place: [f64; 2], reach: f64) -> Option<&Spread> {
         let mut half = self.half / CELLS as f64;
         if reach > half {

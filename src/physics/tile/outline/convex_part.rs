@@ -112,7 +112,7 @@ impl Bounds {
     }
 }
 
-/// Convex polygons that fill an outline exactly; `None` where it could not be split.
+/// Convex polygons that fill an outline exactly; `None` if it could not be split.
 pub(super) fn fill(vertices: &[Vector2<f64>]) -> Option<Vec<ConvexPart>> {
     let parts: Vec<_> = convex::convex_parts(vertices)?
         .into_iter()

@@ -33,7 +33,7 @@ impl Outline {
     /// their neighbours are dropped.
     ///
     /// # Errors
-    /// Where the vertices do not form a simple counter-clockwise polygon.
+    /// If the vertices do not form a simple counter-clockwise polygon.
     pub fn new(vertices: Vec<Vector2<f64>>) -> Result<Self, OutlineError> {
         validity::check(&vertices)?;
         let vertices = validity::without_collinear(vertices);

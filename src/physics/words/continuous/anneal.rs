@@ -33,8 +33,8 @@ pub struct Annealed {
     pub share: f64,
 }
 
-/// So many words, from those known on, with a small share; ends where it is `enough`. `None` where
-/// the face is too short or the poles cannot be as asked.
+/// So many words, from those known on, with a small share; ends where it is `enough`. `None` if the
+/// face is too short or the poles cannot be as asked.
 pub fn search(
     wanted: &Wanted,
     count: usize,
@@ -225,7 +225,7 @@ fn drawn(wanted: &Wanted, rng: &mut ChaCha8Rng) -> Option<SpacedWord> {
     })
 }
 
-/// A word changed a little; `None` where it is not allowed.
+/// A word changed a little; `None` if it is not allowed.
 fn changed(wanted: &Wanted, word: &SpacedWord, rng: &mut ChaCha8Rng) -> Option<SpacedWord> {
     let kind = rng.random::<f64>();
     if kind < REDRAWN {

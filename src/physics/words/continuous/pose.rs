@@ -105,7 +105,7 @@ impl Meetings {
         }
     }
 
-    /// The energy (J) of two faces in contact; `None` where they pass by each other.
+    /// The energy (J) of two faces in contact; `None` if they pass by each other.
     fn energy(
         &self,
         first: &SpacedWord,

@@ -50,7 +50,7 @@ pub struct Crosstalk {
     /// Where: of the tile with the second word, in the frame of that with the first.
     pub poses: Vec<Vec<Configuration>>,
     /// Of each word and its own mate the deepest meeting found that holds beside the bond: energy
-    /// (J) and pose; `None` where none was found.
+    /// (J) and pose; `None` if none was found.
     pub traps: Vec<Option<(f64, Configuration)>>,
     /// What no energy falls below (J).
     pub lower: Option<Vec<Vec<f64>>>,

@@ -106,7 +106,7 @@ impl Stage {
             .collect()
     }
 
-    /// The pose of a setting; `None` where the tile passes by.
+    /// The pose of a setting; `None` if the tile passes by.
     pub(super) fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
         let pair = &self.pair;
         let moving = &pair.moving.faces[pair.target.1];

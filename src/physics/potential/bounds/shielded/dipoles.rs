@@ -46,7 +46,7 @@ impl ShieldedBounds {
         }
     }
 
-    /// The interval of the pair of a fixed and a moving magnet; `None` where they may coincide.
+    /// The interval of the pair of a fixed and a moving magnet; `None` if they may coincide.
     fn interval(&self, at: (&Cell, &Rotation2<f64>), i: usize, j: usize) -> Option<Interval> {
         let (pair, factor) = self.fronts.interval(at, i, j);
         if pair.may_coincide() {

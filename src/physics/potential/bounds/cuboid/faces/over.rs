@@ -13,7 +13,7 @@ const STEEPEST: f64 = 0.1;
 
 impl Pair {
     /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
-    /// upright edges, by a Gauss rule. `None` where it is not so.
+    /// upright edges, by a Gauss rule. `None` if it is not so.
     pub(super) fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
         let Motion {
             reach, turn, slack, ..

@@ -53,7 +53,7 @@ impl Pair {
         4.0 * PI * thin * STUCK_OUT * self.motion.slack
     }
 
-    /// The remainder of Phi about the middle of a panel, averaged over it. `None` where it has none
+    /// The remainder of Phi about the middle of a panel, averaged over it. `None` if it has none
     /// (see the module's text), or one that says less than an interval.
     pub(super) fn touching_remainder(&self, panel: &SheetPanel) -> Option<Bent> {
         let sheet = self.first[1] / 2.0;
