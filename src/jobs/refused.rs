@@ -2,13 +2,13 @@
 
 use crate::design::DesignError;
 
-/// Why a job is not done.
+/// Why a job cannot be carried out.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum Refused {
     /// A file is at fault.
     #[error(transparent)]
     File(#[from] DesignError),
-    /// What was asked for is impossible, and why.
+    /// The request is impossible, with the reason.
     #[error("{0}")]
     Asked(String),
 }

@@ -42,7 +42,7 @@ pub struct Built {
     pub weakest: usize,
     /// The integral Z0 (m^2 rad) around that bond.
     pub volume: f64,
-    /// What it costs a tile to dock, were all tiles of its kind (kT).
+    /// The docking cost of a tile if all tiles were of its kind (kT).
     pub docking_cost: f64,
     /// Gmc (kT) of a tile with share 1 among its kinds.
     pub gmc: f64,
@@ -344,7 +344,7 @@ fn volume(words: &WordSet, word: Word, kt: f64) -> Option<f64> {
     corner::volume(&problem, &words.stage.pair.bound, kt)
 }
 
-/// What it costs a tile to dock, were all tiles of its kind (kT).
+/// The docking cost of a tile if all tiles were of its kind (kT).
 fn docking_cost(words: &WordSet, shaking: &Shaking, volume: f64) -> f64 {
     let area = words.stage.pair.moving.outline.area();
     -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU)

@@ -8,9 +8,9 @@ use crate::request::FARTHEST;
 use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
-/// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0),
-/// and what was measured on the moving tile (the torque about its reference point). The columns
-/// may come in any order and those of the measured values may be left out, as may their entries.
+/// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0), and
+/// the values measured on the moving tile (the torque about its reference point). The columns can
+/// be in any order. Columns of measured values can be absent, and their entries empty.
 pub const COLUMNS: [&str; 8] = [
     "x_m",
     "y_m",
@@ -22,7 +22,7 @@ pub const COLUMNS: [&str; 8] = [
     "torque_Nm",
 ];
 
-/// How many of the columns must be there.
+/// Number of required columns.
 const NEEDED: usize = 4;
 
 /// Reads measurements. Lines without entries and lines that begin with `#` are skipped.
