@@ -1,6 +1,6 @@
 //! The command line: passes requests to the library, and results to files and the terminal.
 
-// They panic where the terminal is gone.
+// These macros panic if the terminal is gone.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod cli;

@@ -3,7 +3,7 @@
 use jobs::output::Command;
 pub use jobs::output::{Files, PICTURES};
 
-/// What everything is in.
+/// The complete results.
 pub const REPORT: &str = "report.json";
 
 /// The page for a browser.
