@@ -128,7 +128,9 @@ fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
 fn against_yield(found: &Found, beside: &Beside) -> String {
     let (question, yields) = match beside {
         Ok(both) => both,
-        Err(why) => return format!("there is no result of `tilebind yield` to compare with: {why}"),
+        Err(why) => {
+            return format!("there is no result of `tilebind yield` to compare with: {why}");
+        }
     };
     let best = yields.best();
     let here = &found.target.share;

@@ -97,7 +97,8 @@ pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refuse
     let lone = tiles.iter().position(Option::is_none);
     if let Some(lone) = lone.or(pairs.is_empty().then_some(0)) {
         let name = types.get(lone).map_or("", |it| it.name.as_str());
-        let message = format!("the tile `{name}` meets no other tile in the assembly, so it has no bonds");
+        let message =
+            format!("the tile `{name}` meets no other tile in the assembly, so it has no bonds");
         return Err(message.into());
     }
     let kinds = types.iter().zip(tiles.into_iter().flatten());

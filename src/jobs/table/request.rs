@@ -176,12 +176,13 @@ impl Request {
             return Err("--correlation needs --shaking: add it".into());
         }
         if self.made().is_empty() {
-            return Err(format!("--shard: this part has none of the {} runs", self.runs));
+            return Err(format!(
+                "--shard: this part has none of the {} runs",
+                self.runs
+            ));
         }
         if self.compare && self.shaking.is_none() {
-            return Err(
-                "--compare needs a kT: add --shaking".into(),
-            );
+            return Err("--compare needs a kT: add --shaking".into());
         }
         Ok(())
     }

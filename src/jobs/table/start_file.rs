@@ -78,7 +78,10 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
             *number = read.ok_or_else(|| {
                 wrong(
                     line,
-                    format!("`{text}` in the column `{}` is not a number", COLUMNS[k + 2]),
+                    format!(
+                        "`{text}` in the column `{}` is not a number",
+                        COLUMNS[k + 2]
+                    ),
                 )
             })?;
         }

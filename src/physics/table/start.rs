@@ -34,7 +34,9 @@ type Place = (usize, Configuration);
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
     /// The total area of the tiles is too large.
-    #[error("{tiles} tiles with a total area of {area:.3} m2 do not fit on a table of {table:.3} m2")]
+    #[error(
+        "{tiles} tiles with a total area of {area:.3} m2 do not fit on a table of {table:.3} m2"
+    )]
     TooMany {
         /// Number of tiles.
         tiles: usize,

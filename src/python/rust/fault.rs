@@ -74,7 +74,7 @@ pub fn run(message: impl Display) -> PyErr {
     PyRuntimeError::new_err(message.to_string())
 }
 
-/// A `RuntimeWarning`: there is a result all the same.
+/// A `RuntimeWarning`: there is a result nevertheless.
 pub fn warn(py: Python<'_>, message: impl Display) -> PyResult<()> {
     let text = CString::new(message.to_string())?;
     PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &text, 1)
