@@ -7,9 +7,9 @@ use super::DockingError;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
-/// A match as the paper declares it: every magnet of the target face is within a threshold of its
+/// A match in the paper's sense: every magnet of the target face is within a threshold of its
 /// partner on the other tile. Faces that a symmetry of the tiles maps onto the target faces count
-/// as much as these.
+/// as well.
 #[derive(Clone, Debug)]
 pub struct MatchRule {
     /// Largest distance of two partners' centres (m).
