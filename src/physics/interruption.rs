@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 thread_local! {
-    /// By what this thread's work may be given up.
+    /// The interruption of this thread's work.
     static MARK: RefCell<Option<Interruption>> = const { RefCell::new(None) };
 }
 
@@ -101,7 +101,7 @@ pub fn is_interrupted(payload: &(dyn Any + Send)) -> bool {
     payload.is::<Interrupted>()
 }
 
-/// By what this thread's work may be given up.
+/// The interruption of this thread's work.
 pub fn current() -> Option<Interruption> {
     MARK.with_borrow(Clone::clone)
 }

@@ -1,15 +1,15 @@
 //! Time integration of stiff equations, whose rates differ by many powers of ten.
 //!
-//! Implicit Euler steps, extrapolated to ever smaller ones (Deuflhard 1985, doi:10.1137/1027140;
-//! Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.9): what is faster
-//! than a step is damped away, and the order rises until the last two results agree. Steps grow with
-//! time, so that a course over ten powers of ten takes some hundred of them.
+//! Implicit Euler steps, extrapolated to vanishing step size (Deuflhard 1985, doi:10.1137/1027140;
+//! Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.9): components
+//! faster than a step are damped, and the order increases until the last two results agree. Steps
+//! grow with time, so that a solution over ten powers of ten takes about a hundred of them.
 
 use crate::interruption;
 
 /// Most columns of the table of extrapolation: so many times the step is divided anew.
 const COLUMNS: usize = 6;
-/// Columns after which steps stay as long as they are; after fewer they grow.
+/// Number of columns at which steps keep their size; with fewer they grow.
 const USUAL: usize = 4;
 /// Most attempts at steps.
 const MOST_STEPS: usize = 4000;
@@ -19,8 +19,8 @@ const MOST_STEPS: usize = 4000;
 pub struct Course {
     /// One row a time.
     pub values: Vec<Vec<f64>>,
-    /// The errors of all steps, added up: how far the last two extrapolations of each differ, as
-    /// sums of absolute differences.
+    /// The sum of the errors of all steps: the differences of the last two extrapolations of each,
+    /// as sums of absolute values.
     pub error: f64,
 }
 
@@ -54,7 +54,7 @@ pub fn integrate(
                         USUAL => 1.2,
                         _ => 0.8,
                     };
-                    // A step cut short by the end says nothing against longer ones.
+                    // A step shortened by the end does not limit later ones.
                     step = match last {
                         true => step.max(length * factor),
                         false => length * factor,
@@ -68,7 +68,7 @@ pub fn integrate(
     Some(Course { values, error })
 }
 
-/// A step, by how much its last two extrapolations differ, and how many columns that took.
+/// A step, with the difference of its last two extrapolations and the number of columns.
 fn extrapolated(
     x: &[f64],
     length: f64,

@@ -7,11 +7,11 @@ use crate::configuration::{Configuration, wrap_angle};
 use crate::problem::Problem;
 use crate::tile::{Face, Pair};
 
-/// Two slices in front of the target face, the moving tile's target face turned towards it.
+/// Two slices in front of the target face, with the moving tile's target face towards it.
 ///
-/// The moving tile is turned by the tilt about the middle of its target face, shifted by the slide
-/// along the fixed tile's target face, and brought up along that face's normal until it touches;
-/// the gap is then opened along the normal.
+/// The moving tile is rotated by the tilt about the middle of its target face, shifted by the slide
+/// along the fixed tile's target face, and moved along that face's normal until it touches; the gap
+/// is then opened along the normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ApproachSlices {
     /// Tilt (rad) along x, gap (m) along y, at slide 0.

@@ -1,10 +1,10 @@
 //! Integrals of e^(a . d) times polynomials over the box [-1, 1]^3.
 
-/// Exponents up to which power series are summed; closed forms lose digits there.
+/// Largest exponent for power series; closed forms lose digits there.
 const SERIES: f64 = 2.0;
 /// Terms of the series.
 const TERMS: usize = 16;
-/// Bound of the relative rounding of a moment against those without cancellation.
+/// Bound of the rounding error of a moment, relative to the moments without cancellation.
 const ROUNDING: f64 = 1e-12;
 
 /// Means over the box of e^(a . d) times 1, d_i and d_i d_j, all over e^(|a|), |a| the sum of the

@@ -8,7 +8,7 @@ use crate::landscape::results::{Barrier, Place};
 
 /// Bounds are narrowed to this share of the bond's depth first.
 const FIRST: f64 = 0.01;
-/// Where no width is asked for, bounds are narrowed to this share of the barrier, but not below that
+/// If no width is requested, bounds are narrowed to this share of the barrier, but not below this
 /// share of the bond's depth.
 const SHARE_OF_BARRIER: f64 = 0.05;
 const LEAST_SHARE: f64 = 1e-5;
@@ -21,20 +21,20 @@ const FOREMOST: usize = 4;
 /// The widths (J) to which bounds are narrowed one after the other: from a hundredth of `depth` (J)
 /// down, each half the last, until one is no wider than `wanted` (J).
 ///
-/// They do not depend on what is wanted but in where they end: what is done for a narrow bracket
-/// begins with all that is done for a wide one, which is why the narrow one is never the worse.
+/// Only their end depends on the wanted width: the work for a narrow bracket begins with all the
+/// work for a wide one, so that the narrow one is never worse.
 pub fn widths(depth: f64, wanted: f64) -> impl Iterator<Item = f64> {
     let halved = move |width: &f64| (*width > wanted).then_some(width / 2.0);
     std::iter::successors(Some(FIRST * depth), halved)
 }
 
-/// Rounds of certification: a width (J), and the numbers of the barriers that are narrowed to it,
-/// if more is not wanted of them.
+/// Rounds of certification: a width (J), and the indices of the barriers to narrow to it, unless
+/// they are wanted narrower.
 ///
 /// Barriers that a summary lists come before the others: those of the bond, of the deepest trap and
-/// of the traps that capture most. Where a width is asked for, all barriers are narrowed to each width
-/// before any is to the next; otherwise the foremost are narrowed as far as is worth while before the
-/// others are looked at.
+/// of the traps that capture most. If a width is requested, all barriers are narrowed to each width
+/// before any to the next; otherwise the foremost are narrowed as far as worthwhile before the
+/// others.
 pub fn rounds(
     catalogue: &Catalogue,
     settings: &CertificationSettings,
@@ -76,8 +76,8 @@ fn by_rank(catalogue: &Catalogue, settings: &CertificationSettings) -> [Vec<usiz
     [first, rest].map(|group| group.into_iter().map(|(number, _)| number).collect())
 }
 
-/// The width (J) to which a barrier's bounds are to be narrowed: one that tells something of a
-/// barrier much smaller than the bond, too.
+/// The target width (J) of a barrier's bounds, such that it is also meaningful for a barrier much
+/// smaller than the bond.
 pub fn wanted(barrier: &Barrier, settings: &CertificationSettings, depth: f64) -> f64 {
     settings.tolerance.unwrap_or_else(|| {
         let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
