@@ -523,8 +523,8 @@ def growth_table():
             seconds = found.get(size)
             yield "" if seconds is None else f"{float(seconds):.3g} ({float(seconds) / float(first):.2g})" if seconds else "-"
 
-    named = {"usual": "", "less": ", less asked for"}
-    return markdown(["", *sizes], [[family + named[asked], *cells(family, asked)] for family, asked in rows])
+    named = {"usual": "", "less": ", reduced effort"}
+    return markdown(["", *sizes], [[family.replace(" a ", " per ") + named[asked], *cells(family, asked)] for family, asked in rows])
 
 
 def screen():
