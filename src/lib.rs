@@ -52,20 +52,10 @@
 //! held one a *trap*, far apart is *free*. What else may act between tiles than magnets, and which
 //! files that takes, is told in [`potential::interaction`].
 //!
-//! # The library in ten lines
+//! # Examples and the paper
 //!
-//! ```no_run
-//! use tilebind::{Design, Settings, observer::Silent, pipeline, units::si};
-//! let design = Design::load("shapes/paper-tile.toml".as_ref())?;
-//! let analysis = pipeline::analyse(&design, &Settings::default(), &Silent);
-//! println!("bond {}", si(analysis.bound.1, "J", 4));
-//! for kind in analysis.catalogue.kinds() {
-//!     let state = kind.first();
-//!     let escape = analysis.escape(state.id).map(|barrier| si(barrier.forward(), "J", 4));
-//!     println!("{:?} x{} {}: {escape:?}", state.kind, kind.copies(), si(state.energy, "J", 4));
-//! }
-//! # Ok::<(), tilebind::design::DesignError>(())
-//! ```
+//! [`examples`] has ten short programs, from loading a design to many tiles on a table; [`paper`]
+//! the command for each section and figure of the paper.
 //!
 //! # Limits
 //!
@@ -153,3 +143,9 @@ pub use physics::{
     interruption, kinetics, landscape, observer, potential, problem, roadmap, tile, units, words,
 };
 pub use report;
+
+#[doc = include_str!("examples.md")]
+pub mod examples {}
+
+#[doc = include_str!("paper.md")]
+pub mod paper {}
