@@ -12,7 +12,7 @@ pub struct Grid<T> {
     pub x: Vec<f64>,
     /// Ordinates (m), ascending.
     pub y: Vec<f64>,
-    /// One value a grid point.
+    /// One value per grid point.
     pub values: Vec<Option<T>>,
 }
 
@@ -40,8 +40,8 @@ pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Samples of so many rows of a grid, one after the other, each of so many columns; `configuration` tells
-/// the free one at a row and a column.
+/// Samples of a grid with the given numbers of rows and columns, row by row; `configuration` gives
+/// the free configuration at a row and a column.
 pub(super) fn sampled(
     problem: &Problem,
     [rows, columns]: [usize; 2],
@@ -58,7 +58,7 @@ pub(super) fn sampled(
     })
 }
 
-/// Configurations with their energies, asked for together.
+/// Configurations with their energies, evaluated together.
 pub(super) fn with_energies(problem: &Problem, free: &[Configuration]) -> Vec<Sample> {
     let mut energies = vec![0.0; free.len()];
     problem.potential().energies(free, &mut energies);

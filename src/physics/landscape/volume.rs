@@ -24,7 +24,7 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Samples row after row; `configuration` tells the free one at a grid point.
+    /// Samples row by row; `configuration` gives the free configuration at a grid point.
     fn sample(
         problem: &Problem,
         axes: [Vec<f64>; 3],
@@ -42,7 +42,7 @@ impl Volume {
 
 /// U(theta, y, x) for `|x|` and `|y|` up to `reach` (m), at `samples` places along the longer of
 /// the two. Theta runs over the angle after which the moving tile repeats, in even steps from minus
-/// half that angle on, `orientations` of them to a full turn or a few more.
+/// half that angle, with `orientations` of them or a few more per full turn.
 pub fn around(problem: &Problem, reach: [f64; 2], orientations: usize, samples: usize) -> Volume {
     let pair = problem.pair.as_deref();
     let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);

@@ -15,7 +15,7 @@ pub struct Complete {
     pub third: C,
 }
 
-/// The complementary modulus below which it is taken for this: where it is 0, K is infinite.
+/// The smallest complementary modulus, which replaces smaller ones: at 0, K is infinite.
 const LEAST: f64 = 1e-150;
 
 impl Complete {
