@@ -9,10 +9,10 @@
 //! most 1 + sum_i A_i   with   sum_i A_i K_k(i) >= -C(n, k) for k = 1 .. n,   A_i >= 0,
 //! ```
 //!
-//! K_k(i) being the Krawtchouk polynomials, with two more families of conditions: A_i is at most
-//! A(n, d, i), the number of words of weight i, bounded by Johnson; and words of two weights that are
-//! never d apart exclude each other. It is the dual that is solved: its multipliers, once checked,
-//! prove the bound whatever the solver did.
+//! K_k(i) being the Krawtchouk polynomials, with two additional families of conditions: A_i is at
+//! most A(n, d, i), the number of words of weight i, bounded by Johnson; and words of two weights
+//! that are never d apart exclude each other. The dual is solved: its multipliers, once checked,
+//! prove the bound independently of the solver.
 //!
 //! Source: MacWilliams and Sloane, *The Theory of Error-Correcting Codes* (1977), chapter 17, §4
 //! (A(13, 6) <= 32) and §2 (Johnson).
@@ -67,7 +67,7 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
         .chain(&by_condition)
         .map(|variable| solution.var_value(*variable).max(0.0))
         .collect();
-    // Whatever these multipliers are, scaled so that every condition holds they prove a bound.
+    // Any multipliers prove a bound once they are scaled so that every condition holds.
     let held = (0..distances.len()).map(|i| {
         let terms = multipliers.iter().zip(coefficients(i));
         terms
@@ -79,12 +79,12 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
     let costs = costs.chain(extra.iter().map(|(_, bound)| *bound));
     let cost: f64 = multipliers.iter().zip(costs).map(|(m, c)| m * c).sum();
     let bound = 1.0 + cost / held;
-    // Roundings of sums of a few dozen terms are far below this.
+    // The rounding of sums of a few dozen terms is far below this.
     let margin = 1e-7 * bound;
     (held > 0.0 && bound < 1e15).then(|| (bound + margin).floor() as usize)
 }
 
-/// `K_k(i) / C(n, k)`, between -1 and 1: over the places chosen, the mean of -1 to the number of
+/// `K_k(i) / C(n, k)`, between -1 and 1: the mean of (-1)^m over the chosen places, m the number of
 /// them among i.
 fn ratio(n: usize, k: usize, i: usize) -> f64 {
     let hit = |j: usize| {
@@ -160,7 +160,7 @@ mod tests {
     }
 
     /// Brouwer's table of A(n, d), <https://www.win.tue.nl/~aeb/codes/binary-1.html>: no bound may
-    /// lie below it, and these are met.
+    /// lie below it, and these are equal to it.
     #[test]
     fn bounds_of_codes() {
         for (n, d, size) in [
