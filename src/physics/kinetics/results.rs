@@ -181,7 +181,7 @@ pub struct Rates {
     pub meshes: Vec<MeshRates>,
     /// Whether the last is that one.
     pub is_between_bounds: bool,
-    /// Bounds, if they are asked for.
+    /// Bounds, if requested.
     pub bounds: Option<RateBounds>,
     /// The requested map, from the last mesh without bounds.
     pub map: Option<Map>,
@@ -191,7 +191,7 @@ pub struct Rates {
     pub inside: Vec<f64>,
     /// For each basin whether a path leads from it to free tiles.
     pub ways: Vec<Way>,
-    /// From each place (row) to each other, what is known of paths between them.
+    /// For each place (row) and each other place, the known paths between them.
     pub links: Vec<Vec<Way>>,
     /// For each basin the proved bounds, if requested and possible.
     pub proved: Vec<Option<Leaving>>,

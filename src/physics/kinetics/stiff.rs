@@ -7,14 +7,14 @@
 
 use crate::interruption;
 
-/// Most columns of the table of extrapolation: so many times the step is divided anew.
+/// Largest number of columns of the table of extrapolation, each with a finer division of the step.
 const COLUMNS: usize = 6;
 /// Number of columns at which steps keep their size; with fewer they grow.
 const USUAL: usize = 4;
-/// Most attempts at steps.
+/// Largest number of attempted steps.
 const MOST_STEPS: usize = 4000;
 
-/// Values at the times asked for.
+/// Values at the requested times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// One row a time.

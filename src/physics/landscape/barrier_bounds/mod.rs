@@ -18,7 +18,7 @@ use crate::problem::Problem;
 
 pub use schedule::widths;
 
-/// Bounds are narrowed once more if the wanted width has shrunk to this share.
+/// Bounds are narrowed once more if the requested width has shrunk to this fraction.
 const LESS: f64 = 0.75;
 
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
@@ -111,7 +111,7 @@ pub fn certify(
             Some((start, known, tolerance))
         });
         certifier.foresee(&foreseen.collect::<Vec<_>>());
-        // Barriers that turned out so much lower that more is wanted of their bounds.
+        // Barriers that turned out so much lower that narrower bounds are requested.
         let mut lowered = Vec::new();
         for number in numbers {
             observer.part("certificate", done, count);
@@ -160,7 +160,7 @@ pub fn certify(
         }
     }
     raise(&certifier, catalogue, &most);
-    // What was found beside a barrier stands beside it.
+    // Barriers added meanwhile are sorted in.
     catalogue.barriers.order_by_key(|barrier| barrier.from);
     Ok(Certified {
         cells: certifier.assessed(),

@@ -6,30 +6,29 @@ use super::CertificationSettings;
 use crate::landscape::catalogue::Catalogue;
 use crate::landscape::results::{Barrier, Place};
 
-/// Bounds are narrowed to this share of the bond's depth first.
+/// Bounds are first narrowed to this fraction of the bond's depth.
 const FIRST: f64 = 0.01;
-/// If no width is requested, bounds are narrowed to this share of the barrier, but not below this
-/// share of the bond's depth.
+/// If no width is requested, bounds are narrowed to this fraction of the barrier, but not below
+/// this fraction of the bond's depth.
 const SHARE_OF_BARRIER: f64 = 0.05;
 const LEAST_SHARE: f64 = 1e-5;
-/// Cells spent on narrowing a barrier's bounds further than to the first width, where no width is
-/// asked for.
+/// Cells spent on narrowing a barrier's bounds beyond the first width, if no width is requested.
 const MORE_CELLS: usize = 20_000;
 /// Traps whose barriers come first: the deepest, and those that capture most.
 const FOREMOST: usize = 4;
 
-/// The widths (J) to which bounds are narrowed one after the other: from a hundredth of `depth` (J)
-/// down, each half the last, until one is no wider than `wanted` (J).
+/// The widths (J) to which bounds are narrowed in turn: from a hundredth of `depth` (J) down, each
+/// half the last, until one is at most `wanted` (J).
 ///
-/// Only their end depends on the wanted width: the work for a narrow bracket begins with all the
-/// work for a wide one, so that the narrow one is never worse.
+/// Only the last one depends on the requested width: the work for a narrow bracket begins with all
+/// the work for a wide one, so that the narrow one is never worse.
 pub fn widths(depth: f64, wanted: f64) -> impl Iterator<Item = f64> {
     let halved = move |width: &f64| (*width > wanted).then_some(width / 2.0);
     std::iter::successors(Some(FIRST * depth), halved)
 }
 
-/// Rounds of certification: a width (J), and the indices of the barriers to narrow to it, unless
-/// they are wanted narrower.
+/// Rounds of certification: a width (J), and the indices of the barriers to narrow to it, unless a
+/// narrower one is requested for them.
 ///
 /// Barriers that a summary lists come before the others: those of the bond, of the deepest trap and
 /// of the traps that capture most. If a width is requested, all barriers are narrowed to each width
@@ -85,8 +84,8 @@ pub fn wanted(barrier: &Barrier, settings: &CertificationSettings, depth: f64) -
     })
 }
 
-/// The width (J) of the next bracket of a barrier of which no more than `wanted` (J) is: a step of the
-/// ladder where one width is asked for of all.
+/// The width (J) of the next bracket of a barrier for which `wanted` (J) is requested: a step of
+/// the sequence if one width is requested for all.
 pub fn step(width: f64, wanted: f64, settings: &CertificationSettings) -> f64 {
     match settings.tolerance {
         Some(_) => width,

@@ -99,7 +99,7 @@ pub struct Exploration<'a> {
     pub transition_states: Vec<(Stationary, usize)>,
     /// Passes that are not transition states: link and the last change of its energy (J).
     pub unpolished: HashMap<usize, f64>,
-    /// Kinds of states that were found and not looked at closely, and the energy (J) of the deepest.
+    /// Kinds of states that were found but not analysed, and the energy (J) of the deepest.
     pub left_out: Option<LeftOut>,
 }
 

@@ -46,7 +46,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// The node that a link joins to one of its own.
+    /// The node at the other end of a link.
     fn other_end(&self, node: u32) -> u32 {
         if node == self.from {
             self.to
