@@ -51,7 +51,7 @@ fn main() {
         }
         println!();
     }
-    // Of the widest instructions.
+    // With the widest instructions.
     for (name, rounds) in last {
         let short = match name {
             "touching, aligned" => "blocks-over-dipoles-touching",

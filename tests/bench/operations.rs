@@ -14,8 +14,8 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// What one pair of dipoles takes (as many pairs as there are lanes, to be precise), with or
-    /// without the gradient.
+    /// The operations of one pair of dipoles (precisely: of as many pairs as there are lanes), with
+    /// or without the gradient.
     pub const fn per_pair(gradient: bool) -> Self {
         let (simple, fused) = if gradient { (15, 19) } else { (11, 13) };
         Self {

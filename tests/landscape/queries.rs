@@ -27,7 +27,7 @@ fn query(from: Configuration, to: End) -> Query {
     }
 }
 
-/// What holds of every answer.
+/// Checks for every answer.
 fn check(design: &Design, query: &Query, answer: &Answer) {
     let problem = design.problem();
     let barrier = &answer.barrier;

@@ -25,7 +25,7 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
     rho: LEVER,
     free_distance: 0.5,
 };
-/// Length (m) that turns count with.
+/// Lever (m) of turns.
 const LEVER: f64 = 0.5;
 
 /// Energy (J) of the saddle.

@@ -4,7 +4,7 @@ use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings, edge};
 
-/// A roadmap whose motions are tried and weighed, the blocked ones left out.
+/// A roadmap whose motions are tried and weighed, without the blocked ones.
 pub fn weighed(problem: &Problem, settings: &RoadmapSettings) -> Roadmap {
     let Roadmap {
         milestones,

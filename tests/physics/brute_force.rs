@@ -53,7 +53,7 @@ fn asked() -> ExitSettings {
     }
 }
 
-/// What is walked through: the copies of the bond among them.
+/// The landscape of the walks, with the copies of the bond.
 struct Scene {
     problem: Problem,
     bonds: Vec<Configuration>,
@@ -72,7 +72,7 @@ impl Scene {
         }
     }
 
-    /// Whether a tile of this energy (J) is bound: other wells that are as deep are farther away.
+    /// Whether a tile with this energy (J) is bound: other wells of this depth are farther away.
     fn is_bound(&self, q: &Configuration, energy: f64) -> bool {
         const NEAR: f64 = 0.02;
         let is_near = |bond: &Configuration| self.problem.space.distance(bond, q) < NEAR;

@@ -10,6 +10,6 @@ fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = str::from_utf8(bytes) else {
         return;
     };
-    // No drawings: files of this machine are nothing to the fuzzer.
+    // No drawings, because the fuzzer must not read files of this machine.
     tilebind_fuzz::check(Design::parse_with(text, "fuzz.toml", &Default::default()));
 });

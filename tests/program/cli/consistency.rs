@@ -67,7 +67,7 @@ impl Told {
         Some(text("value") + "; " + &text("note"))
     }
 
-    /// What is the same of every design: states are called and counted alike in all forms.
+    /// Checks for every design: names and counts of states agree in all forms.
     fn agrees(&self) {
         let states = self.report["states"].as_array().unwrap();
         assert_eq!(states.len() + 1, self.states.len());

@@ -42,7 +42,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Runs a command that is wrong: it ends with status 2, says all of `said`, and prints nothing else.
+/// Runs a wrong command: it ends with status 2, its message contains all of `said`, and it prints
+/// nothing else.
 fn refused(arguments: &[&str], said: &[&str]) {
     let output = tilebind(arguments);
     let message = stderr(&output);
