@@ -1,4 +1,4 @@
-//! Imports within each crate: they follow the order that its front page states, without circles.
+//! Imports within each crate: without cycles among files or sibling folders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
