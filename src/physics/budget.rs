@@ -180,7 +180,8 @@ impl Budget {
         self.left <= 0
     }
 
-    /// What ends the work at this point, if anything; reads the clock if there is a time limit.
+    /// The reason to end the work at this point, if there is one; reads the clock if there is a
+    /// time limit.
     pub fn ended(&mut self) -> Option<Ended> {
         self.is_late |= self.end.is_some_and(|end| Instant::now() >= end);
         match (self.is_spent(), self.is_late) {

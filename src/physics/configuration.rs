@@ -9,9 +9,9 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 /// tile's frame and its orientation `theta` (radians, counter-clockwise).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Configuration {
-    /// Of the reference point (m).
+    /// Position of the reference point (m).
     pub x: f64,
-    /// Of the reference point (m).
+    /// Position of the reference point (m).
     pub y: f64,
     /// The orientation (rad), not necessarily in (-pi, pi].
     pub theta: f64,

@@ -119,7 +119,7 @@ impl Drop for Staging {
         if !self.is_needed.get() {
             let _ = fs::remove_dir_all(&self.place);
         }
-        // Of a folder that is not empty this takes nothing away.
+        // This removes nothing from a folder that is not empty.
         for folder in self.made.borrow().iter().rev() {
             let _ = fs::remove_dir(folder);
         }

@@ -24,7 +24,7 @@ pub struct AtKt {
 /// Rates between places: the states in order, and last `free`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateRates {
-    /// What was asked.
+    /// The request.
     pub asked: RateSettings,
     /// Drag rate c / mass (1/s).
     pub drag: f64,
@@ -32,7 +32,7 @@ pub struct StateRates {
     pub diffusion: f64,
     /// The states, in the order of the requested basins.
     pub states: Vec<RatedState>,
-    /// What was found.
+    /// The results.
     pub found: Rates,
     /// Rates out of the states at other kT; empty if not requested.
     pub over_kt: Vec<AtKt>,

@@ -75,7 +75,7 @@ impl Pocket {
         self.wall < THINNEST
     }
 
-    /// By how much its wall is too thin (m).
+    /// How much its wall is too thin (m).
     pub fn wanting(&self) -> f64 {
         (THINNEST - self.wall).max(0.0)
     }

@@ -40,7 +40,7 @@ pub struct Constraint {
     pub touch: Touch,
     /// Distance (m) of the vertex from the edge's line; below 0 behind it.
     pub gap: f64,
-    /// Of the gap, by x and y (1) and by theta (m/rad).
+    /// Gradient of the gap, by x and y (1) and by theta (m/rad).
     pub gradient: Vector3<f64>,
 }
 

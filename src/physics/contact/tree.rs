@@ -48,7 +48,7 @@ pub(super) struct Branch {
     pub radius: f64,
 }
 
-/// What lies below a branch.
+/// The children of a branch.
 pub(super) enum Below<'a> {
     Branches([Branch; 2]),
     Pieces(&'a [usize]),

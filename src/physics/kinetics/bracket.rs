@@ -25,7 +25,7 @@ pub(super) struct Asked<'a> {
     pub pins: &'a [Option<usize>],
     /// The place that the mesh's rim belongs to.
     pub rim: usize,
-    /// Those of the places.
+    /// The rims of the places.
     pub rims: &'a Rims,
     /// Cells that carry no load.
     pub left_out: &'a [bool],
@@ -214,7 +214,8 @@ impl Bracket {
         let cells = self.by_cells[0][0].len();
         let by_cells = |i: usize, j: usize| &self.by_cells[i.max(j)][i.min(j)];
         let mut shares = vec![0.0; cells];
-        // Of `|d - e| |d' - e' + factor (d'' - e'')| / 2`, relative to something of such a size.
+        // The rounding of `|d - e| |d' - e' + factor (d'' - e'')| / 2`, relative to a value of this
+        // size.
         let mut add = |place: usize, other: usize, factor: f64, third: usize, size: f64| {
             let both = |cell: usize| {
                 by_cells(other, other)[cell]

@@ -3,8 +3,8 @@
 use super::corridor::Way;
 use super::results::{RateBounds, Rates};
 
-/// What is known of paths between every two places, of which the last is `free`: which basins have
-/// a path there, which have none on the mesh, and which paths contact blocks.
+/// The known paths between all pairs of places, the last of which is `free`: which basins have a
+/// path there, which have none on the mesh, and which paths contact blocks.
 pub(super) fn links(ways: &[Way], closed: &[bool], blocked: &[Vec<bool>]) -> Vec<Vec<Way>> {
     let is_free = |place: usize| place == ways.len();
     let is_open = |place: usize| is_free(place) || ways[place] == Way::Open;

@@ -109,7 +109,7 @@ impl Basin {
     }
 }
 
-/// What is asked.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSettings {
     /// Effective energy of shaking (J).
@@ -313,7 +313,7 @@ impl RateBounds {
     }
 }
 
-/// What is asked.
+/// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitSettings {
     /// Effective energy of shaking (J).

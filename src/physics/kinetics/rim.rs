@@ -25,7 +25,7 @@ pub(super) struct Rims {
 }
 
 impl Rims {
-    /// Of basins given by the limit (J) of each of their cells.
+    /// The rims of basins given by the limit (J) of each of their cells.
     pub fn new(field: &Field, limits: &[Option<f64>]) -> Self {
         let mesh = &field.mesh;
         let mut sides = vec![0; mesh.leaves.len()];

@@ -16,7 +16,7 @@ use crate::problem::Problem;
 pub struct FarStarts {
     /// Number of starts.
     pub count: usize,
-    /// Of their random numbers.
+    /// The seed of their random numbers.
     pub seed: u64,
 }
 

@@ -41,7 +41,7 @@ impl Window {
 /// The lowest energy over theta at each (x, y) of a window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyMap {
-    /// What the map shows.
+    /// The window of the map.
     pub window: Window,
     /// The sample of lowest energy at each grid point.
     pub lowest: Grid<Sample>,
@@ -92,7 +92,7 @@ const NARROW: usize = 3;
 /// Halvings of the way between a free and a blocked point in search of the border.
 const HALVINGS: usize = 4;
 
-/// What is free at each point of a grid.
+/// The free orientations at each point of a grid.
 struct Field<'a> {
     search: Search<'a>,
     window: &'a Window,

@@ -66,7 +66,7 @@ pub enum Entry {
 
 /// One figure.
 pub struct Fact {
-    /// What it is.
+    /// Its description.
     pub head: Head,
     /// Its value.
     pub cell: Cell,

@@ -273,7 +273,7 @@ impl Series {
 pub struct Chart {
     /// The stem of its files.
     pub name: &'static str,
-    /// What it shows.
+    /// The title.
     pub title: String,
     /// The horizontal axis.
     pub x: Dimension,

@@ -63,7 +63,7 @@ impl<'a> Panel<'a> {
 pub struct Composition<'a> {
     /// The stem of its files.
     pub name: String,
-    /// What it shows.
+    /// The title.
     pub title: String,
     /// A note on what it omits; may be empty.
     pub note: String,

@@ -60,7 +60,7 @@ type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Syn
 
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
-    /// What it shows.
+    /// The title.
     pub title: String,
     /// Whether the page shows it; not if an interactive part shows the same.
     pub is_shown: bool,

@@ -18,7 +18,7 @@ const EDGE: f64 = 16.0;
 pub struct Matrix {
     /// The stem of its files.
     pub name: &'static str,
-    /// What it shows.
+    /// The title.
     pub title: String,
     /// Names of rows and columns.
     pub names: Vec<String>,

@@ -74,8 +74,8 @@ impl Cuts {
     }
 }
 
-/// Of the points within a circle of this radius, as a share of their travel within the cell, only
-/// one is tested: the others would add little.
+/// Only one of the points within a circle of this radius, as a fraction of their travel within the
+/// cell, is tested: the others would add little.
 const DENSE: f64 = 0.5;
 
 /// Contact of two outlines over cells.

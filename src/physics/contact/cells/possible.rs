@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 pub struct PossibleContact {
     /// At the cell's centre (m).
     pub gap: f64,
-    /// Of the gap at the centre, by x and y (1) and by theta (m/rad).
+    /// Gradient of the gap at the centre, by x and y (1) and by theta (m/rad).
     pub gradient: Vector3<f64>,
     /// The edge's outward normal at the centre.
     normal: Vector2<f64>,

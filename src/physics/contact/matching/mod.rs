@@ -25,7 +25,7 @@ use crate::tile::Outline;
 /// A motion and its contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Of the moving tile.
+    /// The pose of the moving tile.
     pub pose: Configuration,
     /// Length along which the outlines touch (m).
     pub contact: f64,

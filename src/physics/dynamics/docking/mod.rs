@@ -110,7 +110,7 @@ impl DockingRun {
 /// itself, if friction stops tiles short of it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Trap {
-    /// Of the minimum.
+    /// The configuration of the minimum.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,

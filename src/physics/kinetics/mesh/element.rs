@@ -21,13 +21,14 @@ pub(super) struct Point {
 /// The integrals over the free part of a cell, its eight corners numbered as in [`super::Leaf::corner`].
 #[derive(Clone, Debug)]
 pub(in crate::kinetics) struct Element {
-    /// Of w grad(i) . grad(j), the upper triangle row by row (rad), with the weight w limited.
+    /// Integrals of w grad(i) . grad(j), the upper triangle row by row (rad), with the weight w
+    /// limited.
     pub stiffness: [f64; 36],
-    /// Of w, limited (m^2 rad).
+    /// Integral of the limited w (m^2 rad).
     pub weight: f64,
     /// The free volume (m^2 rad).
     pub free: f64,
-    /// Of w times each shape function (m^2 rad).
+    /// Integrals of w times each shape function (m^2 rad).
     pub load: [f64; 8],
     /// The least and the greatest U met (J).
     pub lowest: f64,

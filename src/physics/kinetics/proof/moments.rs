@@ -24,7 +24,7 @@ impl Moments {
         }
     }
 
-    /// Of 1, rounded up.
+    /// The integral of 1, rounded up.
     pub fn whole(&self) -> f64 {
         self.product([0; 3]) * (1.0 + ROUNDING)
     }
@@ -33,7 +33,7 @@ impl Moments {
         (0..3).map(|i| self.of[i][powers[i]]).product()
     }
 
-    /// Of the square of `value + slopes . d`: a lower and an upper bound.
+    /// Lower and upper bounds of the integral of the square of `value + slopes . d`.
     pub fn square(&self, value: f64, slopes: [f64; 3]) -> [f64; 2] {
         let mut sum = value * value * self.product([0; 3]);
         for i in 0..3 {

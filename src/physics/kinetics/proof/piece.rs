@@ -213,7 +213,7 @@ impl Ground<'_> {
         parts().map_or(UNKNOWN, |parts| place.squares(&parts, -1.0, volume))
     }
 
-    /// Of the flow between the ends of a cell: the share below s, and the density relative to the
+    /// The flow between the ends of a cell: the share below s, and the density relative to the
     /// cell's size, see [`Profile`].
     fn spread(&self, s: Expansion, ends: [f64; 2]) -> [Expansion; 2] {
         let Profile { rate, .. } = self.profile;

@@ -32,7 +32,7 @@ pub(super) enum Wall {
 pub(super) struct Edge {
     /// Distance of its line from the own centre (m).
     height: f64,
-    /// Of the other tile's vertices: distance from the centre (m), shift (rad).
+    /// The other tile's vertices: distance from the centre (m), shift (rad).
     arms: Vec<[f64; 2]>,
     /// Direction of the normal out of the overlapping positions, at theta = 0 (rad).
     normal: f64,
@@ -76,7 +76,7 @@ fn greatest_cos([from, to]: [f64; 2]) -> f64 {
 }
 
 impl Wall {
-    /// Of two tiles; a circle (m) where there is no contact. `None` if the outlines are not convex
+    /// The wall of two tiles; a circle (m) without contact. `None` if the outlines are not convex
     /// around their centres or have too many corners.
     pub fn new(contact: Option<&Contact>, circle: f64) -> Option<Self> {
         let Some(contact) = contact else {

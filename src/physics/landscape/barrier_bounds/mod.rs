@@ -65,8 +65,8 @@ impl Claims {
 pub struct Certified {
     /// Cells assessed.
     pub cells: usize,
-    /// What ended it before all bounds were as narrow as requested; `None` if only the limit of
-    /// cells per barrier did.
+    /// The reason for ending before all bounds were as narrow as requested; `None` if it was only
+    /// the limit of cells per barrier.
     pub ended: Option<Ended>,
 }
 

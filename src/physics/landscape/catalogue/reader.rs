@@ -318,7 +318,7 @@ impl Reader<'_> {
     }
 }
 
-/// What is reported of a node.
+/// The place of a node in reports.
 fn place(node: usize, ids: &Ids) -> Place {
     ids.get(&node).copied().map_or(Place::Free, Place::State)
 }

@@ -55,7 +55,7 @@ impl Exploration<'_> {
         let known = self.known();
         let descents: Vec<_> = parallel::map(&starts, |q| approach(problem, q, &known));
         for mut descent in descents {
-            // What lies behind is free as well.
+            // Configurations behind it are free as well.
             let is_far = |point: &Point| problem.space.is_far(&point.q);
             let last = descent.way.iter().rposition(is_far);
             let (Some(last), Outcome::Minimum(_)) = (last, &descent.outcome) else {

@@ -128,7 +128,7 @@ pub(super) fn distinct<'a>(
     symmetries.iter().filter(is_new).collect()
 }
 
-/// Of merges, ascending, the first of each kind.
+/// The first of each kind of merges, which are ascending.
 fn lowest_of(mut merges: Vec<Merge>, class_of: &HashMap<usize, usize>) -> Vec<Merge> {
     let mut seen = HashSet::new();
     merges.retain(|merge| seen.insert(kind(class_of, merge)));

@@ -60,7 +60,7 @@ pub struct ExplorationSettings {
     pub added_milestones: usize,
     /// Largest number of rounds.
     pub most_rounds: usize,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Meeting {
     pub slide: f64,
     pub gap: f64,
     pub tilt: f64,
-    /// Of the minimum (J).
+    /// Energy of the minimum (J).
     pub energy: f64,
 }
 

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use super::level::{Seeds, ordered};
 use super::store::Store;
 
-/// What a flood from one end of a query finds on its way to the other.
+/// The result of a flood from one end of a query to the other.
 pub(super) struct Watershed {
     /// Leaves that separate the two ends: without them, no chain of passable leaves joins the ends.
     /// Empty if no chain does anyway.

@@ -158,7 +158,7 @@ impl Network<'_> {
         OrderedFloat(self.costs(link).length)
     }
 
-    /// Those of them that span the network including `free`, ascending.
+    /// The links around the nodes that span the network including `free`, ascending.
     fn spanning_links(&self) -> Vec<u32> {
         let mut ascending = self.hung();
         ascending.sort_by_cached_key(|&number| self.by_peak(number));

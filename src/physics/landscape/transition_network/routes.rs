@@ -123,7 +123,7 @@ impl Network<'_> {
         }
     }
 
-    /// What a link costs, if a search has `weighed` it.
+    /// The costs of a link, if a search has `weighed` it.
     fn known_costs(&self, weighed: &FixedBitSet, number: usize) -> Option<&EdgeCosts> {
         let costs = &self.links[number].costs;
         costs.get().filter(|_| weighed.contains(number))

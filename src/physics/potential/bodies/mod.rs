@@ -139,7 +139,7 @@ struct Group {
     members: Vec<(Vector2<f64>, f64)>,
 }
 
-/// What the pairs of two groups have in common.
+/// Data shared by the pairs of two groups.
 #[derive(Clone, Debug)]
 struct Pairs {
     series: Series,

@@ -73,7 +73,7 @@ pub fn model(name: Option<&str>) -> PyResult<Option<MagnetModel>> {
 /// array([0.43, 0.  , 0.  ])
 #[pyclass(frozen, module = "tilebind")]
 pub struct Design {
-    /// What it is.
+    /// The content.
     pub content: Arc<Content>,
 }
 

@@ -61,9 +61,9 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    /// Of two blocks as the cell's centre places them, in a cell that moves no point of the second
-    /// one by more than `reach` (m) and turns it by at most `turn` (rad). `None` if parts of them
-    /// may get too close.
+    /// The bounds of two blocks, placed as at the cell's centre, in a cell that moves no point of
+    /// the second one by more than `reach` (m) and turns it by at most `turn` (rad). `None` if
+    /// parts of them may get too close.
     pub fn of(level: Level, [first, second]: [&Block; 2], [reach, turn]: [f64; 2]) -> Option<Self> {
         let distance = (second.position - first.position).norm() - reach;
         if distance <= NEAREST * (first.radius() + second.radius()) {

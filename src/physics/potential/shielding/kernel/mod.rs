@@ -148,7 +148,7 @@ pub(in crate::potential) struct PairColumns {
 }
 
 impl PairColumns {
-    /// Of pairs in the same order with `fixed` of them to each moving magnet.
+    /// The columns of pairs in the same order, with `fixed` of them for each moving magnet.
     pub fn new(pairs: &[PairEnergy], fixed: usize, stride: usize) -> Self {
         let moving = pairs.len().checked_div(fixed).unwrap_or(0);
         let mut entries = [(); 4].map(|()| vec![0.0; moving * stride]);
