@@ -462,8 +462,8 @@ mod tests {
     }
 
     /// The lower kT, the more errors. Near standstill a lattice with mismatches of 25 % of a bond
-    /// grows right: two mismatches are less than Gmc plus the weight of nine equally bad kinds, ln
-    /// 9.
+    /// grows correctly: two mismatches are less than Gmc plus the weight of nine equally bad kinds,
+    /// ln 9.
     #[test]
     fn cold_growth_makes_errors() {
         let mut set = lattice::unique([3, 3]);

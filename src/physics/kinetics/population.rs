@@ -15,10 +15,10 @@
 //!   lifetimes must not be merged: one that releases at once and one that never does would become a
 //!   single trap with mean rates, which represents neither;
 //! - beyond that, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413,
-//!   whose difference equations these are in the limit of short steps): `dn_i/dt = kappa_i a b / S
-//!   - k_i n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their means. They approximate
-//!     `<ab>` by `<a><b>`, an error of the variance of the number of free tiles: of relative order
-//!     1/N, and largest for few tiles;
+//!   whose difference equations these are in the limit of short steps):
+//!   `dn_i/dt = kappa_i a b / S - k_i n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their
+//!   means. They approximate `<ab>` by `<a><b>`, an error of the variance of the number of free
+//!   tiles: of relative order 1/N, and largest for few tiles;
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
 use nalgebra::DMatrix;

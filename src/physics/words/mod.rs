@@ -2,8 +2,8 @@
 //!
 //! A [`Task`] defines a word (places, magnets, energies, constraints) and the wrong contacts of
 //! faces; [`search::largest`] finds a largest set with a given gap, [`frontier::widest`] the widest
-//! gap of a given number of words, both with a proof if the effort suffices. The gap of a set is 1
-//! - strongest wrong attraction / weakest bond, for flush faces at contact over all slides.
+//! gap of a given number of words, both with a proof if the effort suffices. The gap of a set is
+//! `1 - strongest wrong attraction / weakest bond`, for flush faces at contact over all slides.
 //!
 //! - [`word`] - words as bits; [`lag`] - energies of magnets as a function of the places between
 //!   them;

@@ -120,8 +120,8 @@ impl Fineness {
     ///
     /// From eight nodes on the axes are cosh(6 / (n - 1.5)) for n nodes, so that rho^(-2n) is
     /// exp(-12) / rho^3, which the weakness of the singularities (like s^2 ln s) reduces to about
-    /// 1e-8. Fewer nodes suffice for faces farther apart, whose four pairs cancel: there rho^(2n +
-    /// 3) is exp(31) for four and five nodes, exp(29) for six, exp(25.9) for seven.
+    /// 1e-8. Fewer nodes suffice for faces farther apart, whose four pairs cancel: there
+    /// rho^(2n + 3) is exp(31) for four and five nodes, exp(29) for six, exp(25.9) for seven.
     pub const NORMAL: Self = Self {
         finest: 1.0,
         axes: [

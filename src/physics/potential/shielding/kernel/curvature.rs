@@ -156,11 +156,11 @@ pub(super) struct Around<F> {
 /// of `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8). The Hessian of eta over the plane has the eigenvalues
 /// `d2 eta / d r2` and `(d eta / d r) / r`, both at most the smaller of `2 A / l^2` and `6 A h^4 /
 /// l^2`. Its third derivative along a direction with the cosine c to the line between the magnets
-/// is `c^3 d3 eta / d r3
-/// + 3 c (1 - c^2) d ((d eta / d r) / r) / d r`, with `24 x (x^2 - 1) / (1 + x^2)^4` and `-8 x / (1
-/// + x^2)^3` for the derivatives (times A / l^3) and `3 c (1 - c^2) <= 1.16`: at most the smaller
-/// of `7.1 A / l^3` and `33.3 A h^5 / l^3`. The magnets' acceleration, at most `turn`, and its
-/// change, at most `turn^2`, add their products with lower derivatives.
+/// is `c^3 d3 eta / d r3 + 3 c (1 - c^2) d ((d eta / d r) / r) / d r`, with
+/// `24 x (x^2 - 1) / (1 + x^2)^4` and `-8 x / (1 + x^2)^3` for the derivatives (times A / l^3) and
+/// `3 c (1 - c^2) <= 1.16`: at most the smaller of `7.1 A / l^3` and `33.3 A h^5 / l^3`. The
+/// magnets' acceleration, at most `turn`, and its change, at most `turn^2`, add their products with
+/// lower derivatives.
 ///
 /// The cosine of the angle from the normal to that line has, with the angle's derivatives
 ///
