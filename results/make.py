@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes what this folder holds anew, part by part.
+"""Rebuilds the contents of this folder, part by part.
 
     results/make.py PART ...    these parts (or groups of them, or `all`), and the tables
     results/make.py tables      the tables alone
@@ -38,7 +38,7 @@ PROGRAM = ROOT / "target/release/tilebind"
 READMES = [HERE / "README.md", ROOT / "README.md"]
 
 DESIGNS = sorted(it.stem for it in (ROOT / "shapes").glob("*.toml"))
-# What is kept of an analysis. Not every design has every picture: what is caged does not dock.
+# The files kept of an analysis. Not every design has every picture: a caged one does not dock.
 TABLES = ["states.csv", "barriers.csv"]
 PICTURES = ["map.png", "docking.png", "profiles.svg", "disconnectivity.svg"]
 
@@ -50,11 +50,11 @@ GAPS = [0.25, 0.5, 0.75]
 
 
 class Failed(Exception):
-    """A command that did not do what is wanted, or something that it needs and that is not there."""
+    """A command that failed, or a missing requirement."""
 
 
 class Skipped(Exception):
-    """A script that finds something missing that it needs, and says what."""
+    """A script that reports a missing requirement."""
 
 
 class Work:
@@ -69,7 +69,7 @@ class Work:
         """Standard output of a command; `tilebind` is the program."""
         print("  $", shlex.join(command), flush=True)
         command = [self.program if it == "tilebind" else it for it in command]
-        # Scripts leave nothing beside themselves.
+        # Scripts leave no files next to themselves.
         environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
         done = subprocess.run(command, cwd=cwd or self.folder, env=environment, capture_output=True, text=True)
         if done.returncode != 0:
@@ -97,7 +97,7 @@ class Work:
         self.keep(name, "".join(",".join("" if it is None else str(it) for it in row) + "\n" for row in rows))
 
     def keep_row(self, name, columns, row, order):
-        """Replaces one row of a table, which is that of the row's first value."""
+        """Replaces the row of a table with the same first value."""
         old = table(name) if (HERE / name).exists() else []
         rows = {it[columns[0]]: [it.get(column, "") for column in columns] for it in old}
         rows[row[0]] = row
@@ -270,7 +270,7 @@ def mismatches(work):
 # Tile sets
 
 def assembly(part):
-    """A part of the study of tile sets, from its beginning; it reads the tables of other parts."""
+    """A part of the study of tile sets, computed from the start; it reads the tables of other parts."""
     def make(work):
         out = work.folder / "assembly"
         shutil.copytree(HERE / "assembly", out)
@@ -361,7 +361,7 @@ def scale(work):
 
 
 def bench(work):
-    """A row more of the history."""
+    """Adds a row to the history."""
     path = work.folder / "bench.csv"
     shutil.copy(HERE / "bench.csv", path)
     work.script("bench/history.py", str(path))
@@ -397,7 +397,7 @@ PARTS = [
 OWN = ["README.md", "make.py", "figure6.py"]
 
 
-# Tables of the READMEs: each of the files of this folder alone.
+# Tables of the READMEs, each made only from files of this folder.
 
 def markdown(head, rows):
     lines = ["| " + " | ".join(map(str, row)) + " |\n" for row in (head, *rows)]
@@ -427,7 +427,7 @@ def magnets_table():
 
 
 def word_cell(it):
-    """How many words, at most where not proved, and beyond the tie."""
+    """The number of words, with its upper bound if not proved, and the number beyond the tie."""
     words = it["words"] if it["proved"] == "True" else f"{it['words']} to {it['at_most']}"
     beyond = it["words_beyond_tie"]
     return f"{words} ({beyond})" if beyond and int(beyond) > int(it["words"]) else words
@@ -523,8 +523,8 @@ def growth_table():
             seconds = found.get(size)
             yield "" if seconds is None else f"{float(seconds):.3g} ({float(seconds) / float(first):.2g})" if seconds else "-"
 
-    named = {"usual": "", "less": ", less asked for"}
-    return markdown(["", *sizes], [[family + named[asked], *cells(family, asked)] for family, asked in rows])
+    named = {"usual": "", "less": ", reduced effort"}
+    return markdown(["", *sizes], [[family.replace(" a ", " per ") + named[asked], *cells(family, asked)] for family, asked in rows])
 
 
 def screen():
@@ -537,7 +537,7 @@ SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": un
 
 
 def write_tables():
-    """Writes what stands below `<!-- results/make.py: NAME -->`: a block of text, or to the next empty line."""
+    """Replaces the text below `<!-- results/make.py: NAME -->`: a block of text, or to the next empty line."""
     missing = []
     for path in READMES:
         def shown(found):

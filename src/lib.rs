@@ -1,146 +1,143 @@
 //! How two magnetic tiles bind.
 //!
-//! Flat tiles float on an air table and are shaken about; each face carries a barcode of bar
-//! magnets and may carry a complementary shape. For a pair of tiles this crate answers how deep the
-//! wanted bond is, which wrong bonds trap the tiles, how high the energy barrier is between each of
-//! these states and freedom, and by which motion it is crossed. It follows Majumder and Reif,
-//! *Barcoded Magnetic Tiles for Programmable Assemblies*: probabilistic roadmaps over
-//! (x, y, theta) (section 4.4) and the physics of section 5; `src/paper.md` has the command for each
-//! section and figure. SI units everywhere.
+//! Flat tiles float on an air table and are shaken; each face has a barcode of bar magnets and may
+//! have a complementary shape. For a pair of tiles this crate computes the depth of the intended
+//! bond, the wrong contacts that trap the tiles, and the energy barrier and pathway between each of
+//! these states and free tiles. It follows Majumder and Reif, *Barcoded Magnetic Tiles for
+//! Programmable Assemblies*: probabilistic roadmaps over (x, y, theta) (section 4.4) and the
+//! physics of section 5. All quantities are in SI units.
 //!
-//! # What flows where
+//! # Data flow
 //!
 //! ```text
 //! design file -> problem (tiles, potential, contact) -> roadmap -> landscape (states, barriers, proofs)
-//!                              \-> dynamics (a check from outside the roadmap)          |
+//!                              \-> dynamics (an independent check of the roadmap)       |
 //!                                                                          report <----/
 //! ```
 //!
-//! Four crates stand on each other, so that the compiler holds the floors, and none is compiled anew
-//! for an edit in one above it. This one names the public modules of all.
+//! There are four crates. Each uses only those above it in this table, which the compiler enforces,
+//! and an edit recompiles only the crates below it. This crate re-exports the public modules of all
+//! of them.
 //!
-//! | crate, from the ground up | what it holds |
+//! | crate | contents |
 //! |---|---|
-//! | `src/physics` | what two tiles do: outlines, contact, energies, roadmaps, landscapes, kinetics, words |
-//! | `src/jobs` | from a design file to what is asked of it: analyses, comparisons, sweeps, yields, tile sets |
+//! | `src/physics` | the physics of two tiles: outlines, contact, energies, roadmaps, landscapes, kinetics, words |
+//! | `src/jobs` | the jobs, from a design file to a result: analyses, comparisons, sweeps, yields, tile sets |
 //! | `src/report` | results as JSON, tables, pictures, pages and text |
 //! | `src/main.rs`, `src/cli`; `src/python` | the command line; the Python package |
 //!
-//! Within a crate, too, imports point one way: a floor uses those below it, and siblings leave each
-//! other alone. The front pages of `src/physics/lib.rs`, `src/jobs/lib.rs` and `src/report/lib.rs` list
-//! their modules.
+//! Imports within a crate are layered in the same way: a module uses only those in lower layers,
+//! never one in its own layer. The front pages of `src/physics/lib.rs`, `src/jobs/lib.rs` and
+//! `src/report/lib.rs` list the modules.
 //!
 //! # What to read first
 //!
-//! The main job from a file to its report, in ten files and 2,000 lines:
+//! An analysis from the design file to the report, in ten files and 2,000 lines:
 //!
-//! 1. `src/cli/analyse.rs` - what a user asks, and where results go;
-//! 2. `src/jobs/pipeline/mod.rs` - the whole job on a page;
+//! 1. `src/cli/analyse.rs` - the options, and where results are written;
+//! 2. `src/jobs/pipeline/mod.rs` - the whole analysis on one page;
 //! 3. `src/physics/tile/mod.rs` - a tile: outline, faces, magnets;
 //! 4. `src/physics/potential/mod.rs` - U(x, y, theta), its gradient and its bounds;
 //! 5. `src/physics/roadmap/mod.rs` - milestones, neighbours, motions;
 //! 6. `src/physics/landscape/exploration/mod.rs` - minima and the passes between their basins;
-//! 7. `src/physics/landscape/catalogue/mod.rs` - the states and barriers that are listed;
+//! 7. `src/physics/landscape/catalogue/mod.rs` - the listed states and barriers;
 //! 8. `src/physics/landscape/minimax/mod.rs` - bounds of barriers by subdivision;
 //! 9. `src/physics/landscape/missing_states/mod.rs` - the proof that no state is missing;
-//! 10. `src/report/analysis.rs` - what is told of it all.
+//! 10. `src/report/analysis.rs` - the report.
 //!
-//! How a result becomes text, JSON, tables, pictures and a page is told in `src/report/document`, how
-//! options of the command line are keywords of Python in `src/jobs/request`.
+//! `src/report/document` describes how a result becomes text, JSON, tables, pictures and a page;
+//! `src/jobs/request` how options of the command line become keyword arguments in Python.
 //!
-//! The words are the same everywhere: the wanted meeting of the tiles is the *bond*, every other
-//! held one a *trap*, far apart is *free*. What else may act between tiles than magnets, and which
-//! files that takes, is told in [`potential::interaction`].
+//! The terms are the same everywhere: the intended contact of the tiles is the *bond*, any other
+//! stable contact is a *trap*, and tiles far apart are *free*. [`potential::interaction`] describes
+//! how to add interactions other than magnets, and which files that touches.
 //!
-//! # The library in ten lines
+//! # Examples and the paper
 //!
-//! ```no_run
-//! use tilebind::{Design, Settings, observer::Silent, pipeline, units::si};
-//! let design = Design::load("shapes/paper-tile.toml".as_ref())?;
-//! let analysis = pipeline::analyse(&design, &Settings::default(), &Silent);
-//! println!("bond {}", si(analysis.bound.1, "J", 4));
-//! for kind in analysis.catalogue.kinds() {
-//!     let state = kind.first();
-//!     let escape = analysis.escape(state.id).map(|barrier| si(barrier.forward(), "J", 4));
-//!     println!("{:?} x{} {}: {escape:?}", state.kind, kind.copies(), si(state.energy, "J", 4));
-//! }
-//! # Ok::<(), tilebind::design::DesignError>(())
-//! ```
+//! [`examples`] has ten short programs, from loading a design to many tiles on a table. [`paper`]
+//! has the command for each section and figure of the paper.
 //!
 //! # Limits
 //!
-//! - Magnets are blocks where a design says nothing. Point dipoles, the paper's model, are faster and
-//!   too weak near contact, or far too strong for thin magnets (see `results/README.md`): results with
-//!   them say what blocks have.
-//! - A roadmap finds what it samples. States and ways that need very narrow passages can be missed;
-//!   the certificate then shows a wide bracket, and `--repeats` shows the spread over seeds.
-//! - Work is counted, not timed (see [`budget`]): results are the same bytes on any number of threads,
-//!   busy or idle, unless a clock is set (`--certify-seconds`, `--complete-seconds`) and ends a proof.
-//! - Tiles of 128 magnets and more: far groups of point dipoles are replaced by fewer, with
-//!   a proved error; those of blocks and of shielded magnets are not, and cost by the pair. From some
-//!   64 magnets a face on surveys take long all the same, up to hours for hundreds: there are many
-//!   states, and the motions that join each of them are followed to a fraction of the pitch.
-//! - Curves are polygons: chords leave arcs and sine waves by up to a hundredth of their depth, drawn
-//!   curves by up to 1/2150 of the drawn shape, 0.2 mm of a tile of 43 cm. Shallow states where two
-//!   curved faces touch beside their bond are off by some per cent for it.
-//! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are named, not read; a tile has
-//!   one outline without holes and at most 64 faces.
+//! - Magnets are blocks unless the design says otherwise. Point dipoles, the paper's model, are
+//!   faster, but too weak near contact, or far too strong for thin magnets (see
+//!   `results/README.md`); results with dipoles also give the values of blocks.
+//! - A roadmap finds only what it samples. It can miss states and paths behind very narrow
+//!   passages; the certificate's bounds are then far apart, and `--repeats` shows the spread over
+//!   seeds.
+//! - Effort is counted, not timed (see [`budget`]): results are the same bytes on any number of
+//!   threads, on an idle or a busy machine, unless a time limit (`--certify-seconds`,
+//!   `--complete-seconds`) ends a proof.
+//! - For tiles with 128 magnets and more, distant groups of point dipoles are replaced by fewer
+//!   dipoles, with a proved error. Blocks and shielded magnets are not grouped; their cost is
+//!   proportional to the number of pairs. From about 64 magnets per face on, surveys take long in
+//!   any case, up to hours for hundreds of magnets: there are many states, and the motions that
+//!   join them are followed to a fraction of the pitch.
+//! - Curves are polygons: chords deviate from arcs and sine waves by up to a hundredth of their
+//!   depth, and from drawn curves by up to 1/2150 of the drawn shape (0.2 mm for a tile of 43 cm).
+//!   This changes the energy of shallow states, where two curved faces touch beside their bond, by
+//!   some per cent.
+//! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are reported, not read; a tile
+//!   has one outline without holes and at most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
-//! - Barriers of discs, of magnets that stand and of the nearest-face rule, whose energy jumps, are
-//!   not certified.
-//! - Overdamped capture is not tossing and turning: no inertia and no shaking. `tilebind dock`
-//!   moves tiles with inertia, contact and drag.
-//! - Magnets and tiles stay in one plane; no tilting, no lifting, no iron in `analyse`.
-//! - Bounds of very small barriers, and of barriers that took more than 20 000 further cells, stay
-//!   wider than a twentieth of the barrier; `tilebind barrier --tolerance` narrows a single one.
-//! - Edges of blocks in contact are checked in their middle, not bounded: their guarantee is the
-//!   certificate's.
-//! - Barriers that are not certified (minor traps in `compare` and `sweep`, shielded blocks) are
-//!   upper estimates; moving tiles found some of them too high. An escape is the lowest certified
-//!   way to the bond, to `free` or to the lower state that the roadmap found nearest; of other
-//!   lower states nothing is proved.
+//! - Barriers are not certified for discs, for upright magnets and for the nearest-face rule, whose
+//!   energy is discontinuous.
+//! - Overdamped capture has neither inertia nor shaking. `tilebind dock` moves tiles with inertia,
+//!   contact and drag.
+//! - Magnets and tiles stay in one plane: there is no tilting, no lifting, and no iron in
+//!   `analyse`.
+//! - Bounds of very small barriers, and of barriers that took more than 20 000 additional cells,
+//!   stay wider than a twentieth of the barrier; `tilebind barrier --tolerance` narrows a single
+//!   one.
+//! - Edges of blocks in contact are checked at their midpoints, not bounded: the guarantee for them
+//!   is the certificate.
+//! - Uncertified barriers (minor traps in `compare` and `sweep`, shielded blocks) are upper
+//!   estimates; moving tiles found some of them too high. An escape is the lowest certified path to
+//!   the bond, to `free` or to the lower state that is nearest in the roadmap; nothing is proved
+//!   about other lower states.
 //! - Docking shares depend on the restitution more than on anything else: 9.7 % at 0.01, 6.9 % at
-//!   0.1, and no bounce of real tiles has been measured.
+//!   0.1. The restitution of real tiles has not been measured.
 //!
 //! # Working on it
 //!
-//! `cargo check --all-targets` tells of mistakes within seconds; `cargo run --profile quick --
+//! `cargo check --all-targets` reports mistakes within seconds. `cargo run --profile quick --
 //! analyse ...` and `cargo test --profile quick --test landscape -- seam` build incrementally (into
-//! `target/quick`).
-//! A release build takes 8 s after an edit in `src/cli`, 26 s after one in `src/report` and 75 s after
-//! one in `src/physics` (two cores).
-//! The program is then half as fast as a release build, which is the one to measure.
+//! `target/quick`); the program is then half as fast as a release build, so measure the latter. A
+//! release build takes 8 s after an edit in `src/cli`, 26 s after one in `src/report` and 75 s
+//! after one in `src/physics` (two cores).
 //!
-//! What the program gives differs after a change that is meant to change it: `results/make.py PART`
-//! makes that part of `results` anew, and the tables and the block of output in the READMEs with it.
+//! After a change that is meant to change results, `results/make.py PART` rebuilds that part of
+//! `results`, together with the tables and the block of output in the READMEs.
 //!
-//! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour, `drawing`, `tileset`,
-//! `words`, `plan` and `table` those of drawings, tile sets, sets of words, manifests of sweeps and
-//! tables, and `bounds` compares the energies' bounds over cells with interval arithmetic of
-//! `inari`; it is built apart, with compiler flags of its own. `cargo mutants --file
-//! 'src/physics/roadmap/**'` asks which changes of the code no test notices (`.cargo/mutants.toml`).
-//! `.ci/deny` holds the dependencies to `.ci/deny.toml`. `rust-version` in `Cargo.toml` is what the
-//! dependencies state; a compiler that old has not been tried.
+//! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour; `drawing`, `tileset`,
+//! `words`, `plan` and `table` fuzz those of drawings, tile sets, sets of words, manifests of
+//! sweeps and tables, and `bounds` compares the bounds of energies over cells with interval
+//! arithmetic of `inari`. It is built separately, with its own compiler flags. `cargo mutants
+//! --file 'src/physics/roadmap/**'` finds changes of the code that no test notices
+//! (`.cargo/mutants.toml`). `.ci/deny` checks the dependencies against `.ci/deny.toml`.
+//! `rust-version` in `Cargo.toml` is what the dependencies state; a compiler that old has not been
+//! tried.
 //!
 //! # Version, history and packages
 //!
-//! The version stands in `Cargo.toml` under `[workspace.package]`; the program, the results' files,
-//! the crates and the Python package take it from there (the crates name it once more where they
-//! depend on each other, and cargo refuses another one). A sweep goes on only with the version that
-//! planned it. `tilebind --version --verbose` prints what to cite beside it.
+//! The version is in `Cargo.toml` under `[workspace.package]`; the program, the results' files, the
+//! crates and the Python package take it from there (the crates repeat it where they depend on each
+//! other, and cargo refuses a different one). A sweep can be continued only with the version that
+//! planned it. `tilebind --version --verbose` also prints what to cite.
 //!
-//! | version | what changed for users |
+//! | version | changes for users |
 //! |---|---|
 //! | 0.1.0, in work | Magnets are blocks unless the design says `[potential] model = "dipole"` (before: dipoles). `dock`, `compare` and `sweep` write `report.json`, as all commands do (before: `dock.json`, `compare.json`, `sweep.json`). `analyse --arrays` is gone: Python has the same as arrays |
 //!
-//! `results/bench.csv` is the history of the benches. All else is in the log of the repository.
+//! `results/bench.csv` is the history of the benches; everything else is in the log of the
+//! repository.
 //!
 //! `cargo package --workspace --exclude tilebind-python` packs the four crates, which belong
-//! together, without results, tests and benches; `maturin sdist` the Python package.
-//! `tests/package/run.sh` does both and checks what is in them and that either is below 2 MB;
+//! together, without results, tests and benches; `maturin sdist` packs the Python package.
+//! `tests/package/run.sh` does both and checks their contents and that each is below 2 MB;
 //! `tests/package/run.sh install` also installs the program with cargo and the Python package with
-//! pip from what was packed, and runs them. From a checkout: `cargo install --path .` and
-//! `pip install .`.
+//! pip from these packages, and runs them. From a checkout: `cargo install --path .` and `pip
+//! install .`.
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
@@ -153,3 +150,9 @@ pub use physics::{
     interruption, kinetics, landscape, observer, potential, problem, roadmap, tile, units, words,
 };
 pub use report;
+
+#[doc = include_str!("examples.md")]
+pub mod examples {}
+
+#[doc = include_str!("paper.md")]
+pub mod paper {}

@@ -1,7 +1,6 @@
-//! The command line: what is asked for goes to the library, what comes back to files and the
-//! terminal.
+//! The command line: passes requests to the library, and results to files and the terminal.
 
-// They panic where the terminal is gone.
+// These macros panic if the terminal is gone.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod cli;

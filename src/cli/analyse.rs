@@ -1,4 +1,4 @@
-//! `tilebind analyse`: the main job.
+//! `tilebind analyse`: the analysis of one design.
 
 use std::path::PathBuf;
 use std::time::Instant;

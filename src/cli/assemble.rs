@@ -86,7 +86,7 @@ impl Assemble {
             .deliver(&document(&assembly), output, &progress)
     }
 
-    /// The tile set and the design; with a lattice the first file may be the design.
+    /// The tile set and the design; with a lattice the first file can be the design.
     fn named(&self) -> (&Path, Option<&Path>) {
         let lattice = Path::new("lattice");
         let is_design = |path: &&Path| path.extension().is_some_and(|it| it == "toml");

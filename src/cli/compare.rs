@@ -73,7 +73,7 @@ impl Compare {
         tell_refuted(&named.collect::<Vec<_>>())
     }
 
-    /// The designs; those of the same name and model are told apart by their files.
+    /// The designs; those with the same name and model are distinguished by their files.
     fn load(&self) -> Result<Vec<Design>, Failure> {
         let mut designs = Vec::new();
         for path in &self.designs {

@@ -5,7 +5,7 @@ use clap_complete::Shell;
 
 use super::{Failure, print};
 
-/// Bash alone is given options where a file is meant.
+/// Only Bash would otherwise offer options in place of files.
 const FILES_BEFORE_OPTIONS: &[u8] = include_bytes!("completions.bash");
 
 /// Print shell completions
@@ -30,7 +30,7 @@ impl Completions {
     }
 }
 
-/// The program with a hint at every value, so that a shell offers files for paths, folders for
+/// The program with a hint for every value, so that a shell offers files for paths, folders for
 /// results, and nothing for numbers.
 fn hinted(program: Command) -> Command {
     let hint = |argument: Arg| {

@@ -70,7 +70,7 @@ impl Dock {
             let beside = beside
                 .transpose()
                 .map_err(|error| match Failure::of(error) {
-                    // What sets kT here.
+                    // The options that set kT here.
                     Failure::Usage(message) => Failure::Usage(message.replace("--kt", "--shaking")),
                     other => other,
                 })?;

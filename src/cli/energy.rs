@@ -42,7 +42,7 @@ pub struct Energy {
     results: NumberOptions,
 }
 
-/// Most poses that are looked at for another unit.
+/// Largest number of poses checked for a wrong unit.
 const MOST_DOUBTED: usize = 3;
 
 impl Energy {

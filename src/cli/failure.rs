@@ -1,4 +1,4 @@
-//! How a command ends when it does not succeed.
+//! The errors that end a command, and their exit status.
 
 use std::fmt::Display;
 use std::io;
@@ -13,19 +13,19 @@ use tilebind::request::Unanswered;
 
 use super::tell;
 
-/// Exit status where the command line or a design file is wrong.
+/// Exit status if the command line or a design file is wrong.
 pub const WRONG: u8 = 2;
-/// Exit status of a command that was interrupted (`EX_TEMPFAIL` of sysexits.h).
+/// Exit status of an interrupted command (`EX_TEMPFAIL` of sysexits.h).
 pub const INTERRUPTED: u8 = 75;
 
-/// Why a command did not do what was asked of it.
+/// Why a command failed.
 #[derive(Debug)]
 pub enum Failure {
     /// The command line or a design file is wrong: status 2.
     Usage(String),
     /// The run failed: status 1.
     Run(String),
-    /// Nobody reads the output any more: no failure of ours, status 0.
+    /// The output was closed by its reader: not a failure, status 0.
     OutputClosed,
 }
 
@@ -40,7 +40,7 @@ impl Failure {
         Self::Run(error.to_string())
     }
 
-    /// Why there is no answer.
+    /// From the error of a job.
     pub fn of(error: impl Unanswered) -> Self {
         match error.is_of_the_question() {
             true => Self::usage(error),
@@ -48,7 +48,7 @@ impl Failure {
         }
     }
 
-    /// Tells the user and gives the exit status.
+    /// Prints the message and returns the exit status.
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Usage(message) => {
@@ -64,8 +64,8 @@ impl Failure {
     }
 }
 
-/// Tells what moving tiles refute of several designs, each with a name: what they contradict fails
-/// the run, what they show to be estimated too high is noted.
+/// Reports barriers of several named designs that moving tiles refute: contradictions fail the run,
+/// overestimates are only noted.
 pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure> {
     let mut contradictions = Vec::new();
     for (name, one) in assessments {
@@ -78,7 +78,7 @@ pub fn tell_refuted(assessments: &[(String, &Assessment)]) -> Result<(), Failure
     fail_if_contradicted(contradictions.into_iter())
 }
 
-/// Barriers that moving tiles contradict fail a run, whose results are written all the same.
+/// Fails the run if moving tiles contradict barriers; its results are written nevertheless.
 pub fn fail_if_contradicted(contradictions: impl Iterator<Item = String>) -> Result<(), Failure> {
     let all: Vec<String> = contradictions.collect();
     match all.is_empty() {

@@ -1,4 +1,4 @@
-//! How pictures are to be drawn.
+//! The options for pictures.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use tilebind::request;
 
 use super::Failure;
 
-/// Text of this size (points) most journals ask for.
+/// Text size (points) that most journals require.
 const FONT: f64 = 7.0;
 
 /// Pictures for print.
@@ -30,7 +30,7 @@ pub struct FigureOptions {
 }
 
 impl FigureOptions {
-    /// How pictures are laid out.
+    /// The layout of pictures.
     pub fn sheet(&self) -> Result<Sheet, Failure> {
         let Some(width) = self.figure_width else {
             return Ok(Sheet::SCREEN);
@@ -59,7 +59,7 @@ fn millimetres(text: &str) -> Result<f64, String> {
     parsed.ok_or_else(|| "a width with its unit is needed, such as 85mm, 18cm or 3.3in".to_owned())
 }
 
-/// Options that do not change the results, and how many words of their own follow.
+/// Options that do not change the results, and the number of their values.
 const ELSEWHERE: [(&str, usize); 5] = [
     ("--threads", 1),
     ("--quiet", 0),
@@ -68,7 +68,8 @@ const ELSEWHERE: [(&str, usize); 5] = [
     ("--dry-run", 0),
 ];
 
-/// The command line that gives the same results, wherever they are to go: files by their names alone.
+/// The command line that gives the same results, independent of their destination: files are given
+/// by their names only.
 pub fn command_line() -> String {
     let words = std::env::args_os().skip(1);
     told(words.map(|word| word.to_string_lossy().into_owned()))
@@ -107,7 +108,7 @@ fn told(words: impl Iterator<Item = String>) -> String {
     told.join(" ")
 }
 
-/// Where results go by the command that is told: a folder of no one's, or a picture by its kind.
+/// The destination in the shown command: a neutral folder, or a picture of the same format.
 fn elsewhere(place: &str) -> &'static str {
     match Path::new(place)
         .extension()

@@ -44,7 +44,7 @@ impl Init {
             return print(&text);
         }
         let name = self.file.display();
-        // The design is the user's from now on, changed or not.
+        // The design belongs to the user from now on.
         let output = Output::file(&INIT, &self.file)?.unrecorded();
         let folder = self.file.parent().filter(|it| !it.as_os_str().is_empty());
         if let Some(Err(error)) = folder.map(std::fs::metadata) {

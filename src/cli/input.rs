@@ -1,4 +1,4 @@
-//! What users type: designs, poses, numbers with limits.
+//! Parses user input: designs, poses, numbers with limits.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -15,42 +15,42 @@ pub fn load(path: &Path) -> Result<Design, Failure> {
     load_as(path, None)
 }
 
-/// Tells the warnings of a design on standard error.
+/// Prints the warnings of a design on standard error.
 pub fn tell_doubts(design: &Design) {
     for warning in &design.warnings {
         tell(format!("warning: {warning}"));
     }
 }
 
-/// A design with its magnets modelled as `model` says, if it says so.
+/// A design with the magnet model overridden by `model`.
 pub fn load_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
     let design = load_silently_as(path, model)?;
     tell_doubts(&design);
     Ok(design)
 }
 
-/// The same, whose warnings the caller tells.
+/// The same without printing warnings.
 pub fn load_silently_as(path: &Path, model: Option<MagnetModel>) -> Result<Design, Failure> {
     let mut design = Design::load(path)?;
     design.interaction.model = model.unwrap_or(design.interaction.model);
     Ok(design)
 }
 
-/// A design that may be given, with the files that it is read from.
+/// An optional design, with its files.
 pub fn if_given(path: Option<&Path>) -> Result<Option<(Design, Vec<PathBuf>)>, Failure> {
     let read = |path| load(path).map(|design| (files_of(path, &design), design));
     let read = path.map(read).transpose()?;
     Ok(read.map(|(files, design)| (design, files)))
 }
 
-/// The files that a design is read from: its own, and its drawings beside it.
+/// The files of a design: its own and its drawings.
 pub fn files_of(path: &Path, design: &Design) -> Vec<PathBuf> {
     let drawings = design.drawings.iter();
     let drawings = drawings.map(|drawing| path.with_file_name(&drawing.file));
     [path.to_owned()].into_iter().chain(drawings).collect()
 }
 
-/// Warns of a pose far off the table, in millimetres to all appearances.
+/// Warns of a pose far off the table, which is probably in millimetres.
 pub fn doubt_pose(design: &Design, q: &Configuration) {
     let [x, y, theta] = q.to_array();
     let [half_x, half_y] = design.space().half_size;
@@ -65,7 +65,7 @@ pub fn doubt_pose(design: &Design, q: &Configuration) {
     }
 }
 
-/// What is read from a table named on the command line; what is wrong with it is told with its name.
+/// Reads a table named on the command line; errors contain its name.
 pub fn table<T, E: Unanswered>(
     file: &Path,
     read: impl FnOnce(&str) -> Result<T, E>,

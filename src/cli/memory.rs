@@ -1,11 +1,11 @@
-//! Whether the machine has the memory that a request needs.
+//! Checks that the machine has the memory a request needs.
 
 use tilebind::memory;
 
 use super::{Failure, tell};
 
-/// Says what memory roadmaps take of which `at_once` are built at the same time, and refuses what
-/// the machine does not have.
+/// Reports the memory for roadmaps of which `at_once` are built at the same time; an error if the
+/// machine does not have it.
 pub fn check(milestones: usize, neighbours: Option<usize>, at_once: usize) -> Result<(), Failure> {
     let worth_telling = memory::check(milestones, neighbours, at_once).map_err(Failure::Usage)?;
     if let Some(told) = worth_telling {

@@ -1,4 +1,4 @@
-//! The commands, a file each, and what they share.
+//! The commands, one file each, and what they share.
 
 pub mod analyse;
 pub mod assemble;
@@ -43,8 +43,8 @@ use std::process::ExitCode;
 
 use tilebind::text::with_point;
 
-/// Reads the command line. What begins like a number below 0 belongs to the option before it, which
-/// then says what is wrong with it, if anything is.
+/// Reads the command line. An argument that looks like a negative number belongs to the option
+/// before it, which then reports any error.
 pub fn parse<T: clap::Parser>() -> Result<T, clap::Error> {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     T::try_parse_from(&arguments).or_else(|error| match error.kind() {
@@ -77,7 +77,7 @@ fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
     all
 }
 
-/// Prints what clap answers in place of a command: help, the version, or what is wrong.
+/// Prints clap's output instead of a command's: help, the version, or an error.
 pub fn answer(mut answer: clap::Error) -> ExitCode {
     correct(&mut answer);
     let is_version = answer.kind() == clap::error::ErrorKind::DisplayVersion;
@@ -95,8 +95,8 @@ pub fn answer(mut answer: clap::Error) -> ExitCode {
     }
 }
 
-/// Says of a value with a decimal comma what is wrong with it. Takes away the tip to pass an option that a command does not have as a value, which none wants, and
-/// says where the model of the magnets is said instead.
+/// Improves clap's message: explains decimal commas, removes the tip to pass an unknown option as a
+/// value, and says where else the magnet model can be set.
 fn correct(answer: &mut clap::Error) {
     use clap::builder::StyledStr;
     use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -105,7 +105,7 @@ fn correct(answer: &mut clap::Error) {
             Some(ContextValue::String(value)) => value,
             _ => return,
         };
-        // A pose, which has commas, says it itself.
+        // Poses, which contain commas, have their own message.
         if let Some(meant) = with_point(value).filter(|meant| !meant.contains(',')) {
             let tip = format!("use a decimal point, not a comma: {meant}");
             let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
@@ -132,12 +132,12 @@ fn correct(answer: &mut clap::Error) {
     }
 }
 
-/// Tells the user something on standard error. Where it cannot be written nobody reads it; that
-/// neither stops the work nor changes how it ends.
+/// Prints a message on standard error. A failure to print it neither stops the work nor changes the
+/// exit status.
 fn tell(message: impl Display) {
     let harmless = |c: char| match c {
         '\n' | '\t' => c,
-        // Of a file's name or an unknown key; a terminal would obey it.
+        // Removes control characters of file names or unknown keys, which a terminal would obey.
         _ if c.is_control() => char::REPLACEMENT_CHARACTER,
         _ => c,
     };

@@ -1,7 +1,7 @@
-//! Options that several commands have, and what is done with them.
+//! Options that several commands share, and their handling.
 //!
-//! A command that means something of its own by one of them says so with `mut_arg`; not by an
-//! argument without a name, which `mut_arg` would move behind the others.
+//! A command for which one of them has a special meaning says so with `mut_arg`; not for a
+//! positional argument, which `mut_arg` would move after the others.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use tilebind::request;
 use super::progress::Progress;
 use super::{Failure, input, print, tell};
 
-/// A design, and how its magnets are to be modelled.
+/// A design and its magnet model.
 #[derive(Args)]
 pub struct DesignOptions {
     /// The design file
@@ -31,7 +31,7 @@ impl DesignOptions {
         input::load_as(&self.design, self.model)
     }
 
-    /// Reads the design, whose warnings the caller tells.
+    /// Reads the design without printing warnings.
     pub fn load_silently(&self) -> Result<Design, Failure> {
         input::load_silently_as(&self.design, self.model)
     }
@@ -41,13 +41,13 @@ impl DesignOptions {
         &self.design
     }
 
-    /// The files that the design is read from.
+    /// The files of the design.
     pub fn inputs(&self, design: &Design) -> Vec<PathBuf> {
         input::files_of(&self.design, design)
     }
 }
 
-/// What becomes of files that are in the way.
+/// The treatment of files in the way.
 #[derive(Args)]
 pub struct ForceOption {
     /// Replace existing files, whoever wrote them
@@ -59,7 +59,7 @@ pub struct ForceOption {
 }
 
 impl ForceOption {
-    /// A folder for results of a command that reads `inputs`. What is in the way is refused.
+    /// A results folder of a command that reads `inputs`; an error if files are in the way.
     pub fn folder(
         &self,
         command: &'static Command,
@@ -72,7 +72,7 @@ impl ForceOption {
         Ok(output)
     }
 
-    /// A file of a command that reads `inputs`. What is in the way is refused.
+    /// A file of a command that reads `inputs`; an error if files are in the way.
     pub fn file(
         &self,
         command: &'static Command,
@@ -86,7 +86,7 @@ impl ForceOption {
     }
 }
 
-/// On how many threads work is done.
+/// The number of threads.
 #[derive(Args)]
 pub struct ThreadOption {
     /// Number of threads; results do not depend on it [default: all cores]
@@ -95,12 +95,12 @@ pub struct ThreadOption {
 }
 
 impl ThreadOption {
-    /// The number of threads asked for, or else that of cores.
+    /// The requested number of threads, by default that of cores.
     pub fn count(&self) -> usize {
         self.threads.map_or_else(cores, useful)
     }
 
-    /// Has the library work on the number of threads asked for, or on all cores.
+    /// Makes the library use the requested number of threads, or all cores.
     pub fn use_threads(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else {
             return Ok(());
@@ -119,19 +119,19 @@ impl ThreadOption {
     }
 }
 
-/// Most threads for a core: thousands would wait for each other.
+/// Largest number of threads per core: thousands would wait for each other.
 const MOST_FOR_A_CORE: usize = 8;
 
 fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The threads asked for, as far as they are of use.
+/// The requested threads, limited to a useful number.
 fn useful(threads: u16) -> usize {
     usize::from(threads).min(MOST_FOR_A_CORE * cores())
 }
 
-/// What is printed.
+/// Options of the printed output.
 #[derive(Args)]
 pub struct PrintOptions {
     /// Print JSON instead of text
@@ -144,12 +144,12 @@ pub struct PrintOptions {
 }
 
 impl PrintOptions {
-    /// The bar that shows progress, unless all is to be quiet.
+    /// The progress bar, unless `--quiet` is given.
     pub fn progress(&self) -> Progress {
         Progress::new(self.quiet)
     }
 
-    /// Prints results in the form asked for.
+    /// Prints results in the requested form.
     pub fn results(&self, json: &str, summary: impl FnOnce() -> String) -> Result<(), Failure> {
         if self.json {
             print(json)

@@ -1,4 +1,4 @@
-//! Progress on a terminal; silence anywhere else.
+//! Progress bars on a terminal; no output elsewhere.
 
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -15,19 +15,19 @@ const STEPS: u64 = 100;
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// A bar where standard error is a terminal and `quiet` is not asked for.
+    /// A bar if standard error is a terminal and `quiet` is false.
     pub fn new(quiet: bool) -> Self {
         let template = "{bar:30} {elapsed:>4}  {msg}";
         Self(bar(STEPS, template, Duration::from_millis(200), quiet))
     }
 
-    /// Shows what is being done and which share of it (0 to 1) is behind.
+    /// Shows the stage and its finished share (0 to 1).
     pub fn share(&self, name: &'static str, share: f64) {
         self.0.set_position((share * STEPS as f64) as u64);
         self.0.set_message(name);
     }
 
-    /// Takes the bar off the terminal.
+    /// Removes the bar from the terminal.
     pub fn finish(&self) {
         self.0.finish_and_clear();
     }
@@ -48,8 +48,8 @@ impl Observer for Progress {
     }
 }
 
-/// A bar of `steps` on standard error, drawn anew every `tick`; hidden where standard error is no
-/// terminal or `quiet` is asked for.
+/// A bar of `steps` on standard error, redrawn every `tick`; hidden if standard error is not a
+/// terminal or `quiet` is true.
 pub fn bar(steps: u64, template: &str, tick: Duration, quiet: bool) -> ProgressBar {
     let shown = !quiet && std::io::stderr().is_terminal();
     let target = if shown {

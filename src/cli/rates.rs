@@ -75,7 +75,7 @@ impl Rates {
             let document = exit_document(&design, &found, check.as_ref());
             return self.results.deliver(&document, output, &progress);
         }
-        // States and their lowest barriers are needed, and no proofs.
+        // Only states and their lowest barriers are needed, without proofs.
         let settings = Settings {
             milestones: Settings::default().milestones,
             ..Settings::without_proofs(request.seed)

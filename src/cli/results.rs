@@ -1,4 +1,4 @@
-//! Where results go.
+//! The destination of results.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use super::options::{ForceOption, PrintOptions};
 use super::progress::Progress;
 use super::{Failure, interrupt, print, style};
 
-/// What is kept.
+/// Options of the results folder.
 #[derive(Args)]
 pub struct FolderOptions {
     /// Folder for report.html, report.json, tables and pictures
@@ -27,8 +27,8 @@ pub struct FolderOptions {
 }
 
 impl FolderOptions {
-    /// The folder for results of a command that reads `inputs`, if any is asked for. What is in the way
-    /// is refused.
+    /// The results folder of a command that reads `inputs`, if requested; an error if files are in
+    /// the way.
     fn output(
         &self,
         command: &'static Command,
@@ -40,7 +40,7 @@ impl FolderOptions {
         folder.transpose()
     }
 
-    /// Writes what is found; whether all pictures could be drawn is told last.
+    /// Writes the results; reports at the end whether all pictures could be drawn.
     fn write(
         &self,
         document: &Document,
@@ -54,7 +54,7 @@ impl FolderOptions {
         Ok(drawn)
     }
 
-    /// What people read on a terminal.
+    /// The text for the terminal.
     fn told(&self, document: &Document) -> String {
         match &self.out {
             Some(folder) => told_of(document, folder),
@@ -66,7 +66,7 @@ impl FolderOptions {
     }
 }
 
-/// What people read on a terminal of results in a folder.
+/// The text for the terminal for results in a folder.
 pub fn told_of(document: &Document, folder: &Path) -> String {
     format!(
         "{}results in {}: open report.html; also {}report.json, tables, pictures\n",
@@ -76,7 +76,7 @@ pub fn told_of(document: &Document, folder: &Path) -> String {
     )
 }
 
-/// What is kept and what is printed.
+/// Options of the results folder and of the printed output.
 #[derive(Args)]
 pub struct ResultOptions {
     #[command(flatten)]
@@ -87,8 +87,8 @@ pub struct ResultOptions {
 }
 
 impl ResultOptions {
-    /// The folder for results of a command that reads `inputs`, if any is asked for. What is in the way
-    /// is refused.
+    /// The results folder of a command that reads `inputs`, if requested; an error if files are in
+    /// the way.
     pub fn output(
         &self,
         command: &'static Command,
@@ -97,12 +97,12 @@ impl ResultOptions {
         self.folder.output(command, inputs)
     }
 
-    /// The bar that shows progress, unless all is to be quiet.
+    /// The progress bar, unless `--quiet` is given.
     pub fn progress(&self) -> Progress {
         self.print.progress()
     }
 
-    /// Writes what is found to its folder, and prints it.
+    /// Writes the results to their folder, and prints them.
     pub fn deliver(
         &self,
         document: &Document,
@@ -117,7 +117,7 @@ impl ResultOptions {
     }
 }
 
-/// The same of commands that print numbers for programs.
+/// The same for commands that print JSON by default.
 #[derive(Args)]
 pub struct NumberOptions {
     #[command(flatten)]
@@ -138,7 +138,7 @@ impl NumberOptions {
         self.folder.output(command, inputs)
     }
 
-    /// A single file of the command. What is in the way is refused.
+    /// A single file of the command; an error if files are in the way.
     pub fn file(
         &self,
         command: &'static Command,
@@ -159,7 +159,7 @@ impl NumberOptions {
     }
 }
 
-/// What else is in the folder: `words.toml, designs/, `.
+/// The additional files in the folder: `words.toml, designs/, `.
 fn beside(document: &Document) -> String {
     let mut names: Vec<String> = Vec::new();
     for name in document.beside.keys() {

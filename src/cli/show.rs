@@ -16,9 +16,9 @@ use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, ForceOption};
 use super::{Failure, interrupt, print, style, tell};
 
-/// Of a PDF (mm): the width of a text on A4 in a thousand pixels.
+/// Size of a pixel in a PDF (mm): a thousand pixels are the text width of A4.
 const PIXEL: f64 = 0.17;
-/// How often a watched file is looked at.
+/// Interval of checking a watched file.
 const BLINK: Duration = Duration::from_millis(300);
 
 /// Draw a design: both tiles, the bond, forces, and what is wrong
@@ -125,7 +125,7 @@ impl Show {
         Ok(interrupt::without(|| output.write_file(bytes))?)
     }
 
-    /// When the design file and its drawings were written last.
+    /// The modification times of the design file and its drawings.
     fn changes(&self) -> Vec<Option<SystemTime>> {
         let file = self.design.file();
         let drawings = Design::load(file).map(|design| design.drawings);
@@ -142,13 +142,13 @@ impl Show {
     }
 }
 
-/// The ending of a file that a picture can be written to.
+/// The file name extension of a supported picture format.
 fn ending(place: &Path) -> Option<&str> {
     let ending = place.extension()?.to_str()?;
     ["svg", "png", "pdf"].contains(&ending).then_some(ending)
 }
 
-/// A file for a picture, or a folder.
+/// Checks a file for a picture, or a folder.
 fn place(place: PathBuf) -> Result<PathBuf, String> {
     match place.extension() {
         Some(_) if ending(&place).is_none() => Err(

@@ -1,4 +1,4 @@
-//! The terminal: its width, and whether it takes colours.
+//! Properties of the terminal: its width, and whether it supports colours.
 
 use std::io::IsTerminal;
 
@@ -7,8 +7,8 @@ pub fn is_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
-/// Columns of the terminal, as COLUMNS or the terminal itself has them; `None` where standard output
-/// goes elsewhere.
+/// Columns of the terminal, from COLUMNS or the terminal itself; `None` if standard output is not a
+/// terminal.
 pub fn columns() -> Option<usize> {
     let named = std::env::var("COLUMNS").ok();
     let named = named.and_then(|text| text.trim().parse().ok());
@@ -22,8 +22,8 @@ pub fn columns() -> Option<usize> {
         .filter(|columns| *columns >= 20)
 }
 
-/// The word that begins a message, `error` or `warning`, in colour as clap has it where standard
-/// error is a terminal and NO_COLOR is not set.
+/// The first word of a message, `error` or `warning`, coloured as by clap if standard error is a
+/// terminal and NO_COLOR is not set.
 pub fn label(word: &str) -> String {
     let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");

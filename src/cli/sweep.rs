@@ -1,4 +1,4 @@
-//! `tilebind sweep`: many designs from one.
+//! `tilebind sweep`: many variants of a design.
 
 use std::path::{Path, PathBuf};
 
@@ -18,10 +18,10 @@ use super::results::told_of;
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, memory, print, tell};
 
-/// The manifest's file where no other is named.
+/// The default manifest file.
 const PLAN: &str = "plan.json";
 
-/// What gives the same results, however the work was divided.
+/// The command that gives the same results, however the work was divided.
 const AGAIN: &str = "tilebind sweep --run plan.json; tilebind sweep --merge plan.json";
 
 const THREADS: &str = "\
@@ -108,7 +108,7 @@ pub struct Sweep {
 
 impl Sweep {
     pub fn run(self) -> Result<(), Failure> {
-        // Told before any work.
+        // Checked before any work.
         self.figures.sheet()?;
         if let Some(file) = &self.status {
             let (plan, folder) = self.read(file)?;
@@ -172,7 +172,7 @@ impl Sweep {
         self.merge(&plan, &folder, &output)
     }
 
-    /// Where tables and pictures go. What is in the way is refused.
+    /// The destination of tables and pictures; an error if files are in the way.
     fn output(
         &self,
         plan: &Plan,
@@ -181,13 +181,13 @@ impl Sweep {
     ) -> Result<Output, Failure> {
         let output = Output::folder(&SWEEP, folder).reading(inputs(plan, manifest));
         let output = output.forced(self.force.force);
-        // A manifest that is read stays as it is.
+        // A manifest that is read is not changed.
         output.check(|name| name != PLAN || !output.reads(name))?;
         Store::new(folder).check()?;
         Ok(output)
     }
 
-    /// Where the manifest goes.
+    /// The destination of the manifest.
     fn plan_file(&self) -> Result<PathBuf, Failure> {
         match (&self.plan, &self.out) {
             (Some(Some(file)), _) => Ok(file.clone()),
@@ -213,7 +213,7 @@ impl Sweep {
         Ok((plan, folder))
     }
 
-    /// Refuses points for which the machine has not the memory, as many as are worked on at once.
+    /// Checks that the machine has the memory for the points that are computed at the same time.
     fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
         let at_once = self.threads.count().min(plan.count());
         let survey = &plan.settings.survey;
@@ -286,7 +286,7 @@ impl Sweep {
     }
 }
 
-/// The files that a sweep is read from.
+/// The input files of a sweep.
 fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
     let designs = plan.designs.iter().flat_map(Source::files);
     let manifest = manifest.map(|file| match file.is_dir() {
@@ -296,8 +296,8 @@ fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
     designs.chain(manifest).collect()
 }
 
-/// Writes the manifest of a sweep that is to be finished. That of results that are there stays with
-/// them until new ones come.
+/// Writes the manifest of a new sweep. The manifest of existing results stays with them until they
+/// are replaced.
 fn begin(plan: &Plan, manifest: &Output, folder: &Path) -> Result<(), Failure> {
     if folder.join(REPORT).exists() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! How far a sweep is: a bar on a terminal, a line now and then anywhere else.
+//! The progress of a sweep: a bar on a terminal, occasional lines elsewhere.
 
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
@@ -9,13 +9,14 @@ use indicatif::{HumanDuration, ProgressBar};
 use super::progress::bar;
 use super::tell;
 
-/// How long nothing is said where standard error is no terminal.
+/// Interval of messages if standard error is not a terminal.
 const SILENCE: Duration = Duration::from_secs(30);
 
 /// A bar of points with an estimate of the time left, on standard error.
 pub struct PointBar {
     bar: ProgressBar,
-    /// Points to do, and those done from now on: points of an earlier run say nothing of speed.
+    /// Points still missing, and points done in this run: points of earlier runs do not count for
+    /// the speed.
     missing: usize,
     known: usize,
     start: Instant,
@@ -29,7 +30,7 @@ struct State {
 }
 
 impl PointBar {
-    /// A bar that begins with `known` points done and `missing` to do.
+    /// A bar that starts with `known` finished points and `missing` ones.
     pub fn new(known: usize, missing: usize, quiet: bool) -> Self {
         let template = "{bar:30} {pos} of {len} points, {elapsed}, {msg}";
         let points = (known + missing) as u64;
@@ -68,13 +69,13 @@ impl PointBar {
         }
     }
 
-    /// Takes the bar off the terminal.
+    /// Removes the bar from the terminal.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// How long the rest takes if it goes on as it did: never nothing while something is left.
+/// The estimated time for the rest at the speed so far; never zero while points are missing.
 fn left(elapsed: Duration, done: usize, missing: usize) -> String {
     let each = elapsed.as_secs_f64() / done.max(1) as f64;
     let seconds = each * missing.saturating_sub(done) as f64;

@@ -1,12 +1,12 @@
-//! How much less is asked for of very many magnets, told beforehand.
+//! Warns before an analysis of many magnets that it is sampled less.
 
 use tilebind::units::si;
 use tilebind::{Design, Settings};
 
 use super::tell;
 
-/// Tells of a design with very many magnets what takes no survey, the energy where the target faces
-/// meet, and for how much is asked where that is less than of other designs.
+/// For a design with very many magnets, prints the energy of the bond, which needs no survey, and
+/// the reduced amounts of work.
 pub fn tell_of(design: &Design, asked: &Settings) {
     if Settings::of([design]) == Settings::default() {
         return;

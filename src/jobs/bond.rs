@@ -11,12 +11,12 @@ use physics::landscape::Catalogue;
 use physics::parallel;
 use physics::problem::Problem;
 
-/// kT over the one asked for, at which it is pictured how states hold.
+/// Ratios to the requested kT at which the strength of states is plotted.
 const SHAKINGS: [f64; 9] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5];
-/// Relative tolerance of integrals that are pictured.
+/// Relative tolerance of plotted integrals.
 const ROUGH: f64 = 1e-2;
 
-/// What is asked.
+/// The options.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
     /// Effective energy kT of shaking (J)
@@ -41,47 +41,48 @@ impl Request {
     }
 }
 
-/// The bond and the traps at one shaking.
+/// The bond and the traps at one kT.
 #[derive(Clone, Debug)]
 pub struct Held {
-    /// What was asked.
+    /// The request.
     pub shaking: Shaking,
     /// Area (m^2) of the moving tile.
     pub tile_area: f64,
-    /// The bond first, then the traps from the deepest on.
+    /// The bond first, then the traps, deepest first.
     pub states: Vec<HeldState>,
-    /// How many kinds of traps are too shallow to hold anything.
+    /// Number of kinds of traps too shallow to hold a tile.
     pub shallow: usize,
-    /// kT (J) between which two bonds closed by one docking hold and one alone does not.
+    /// The range of kT (J) in which two bonds closed by one docking hold a tile and one alone does
+    /// not.
     pub window: [Option<f64>; 2],
-    /// Whether the bond has play, but less than contact is known to.
+    /// Whether the bond has play, but less than the contact tolerance.
     pub is_too_cold: bool,
-    /// At other kT (J) what the states hold with; none where that was not asked for.
+    /// The strength of the states at other kT (J); empty if not requested.
     pub over_kt: Vec<(f64, Vec<Docking>)>,
 }
 
-/// A kind of states at one shaking.
+/// A kind of states at one kT.
 #[derive(Clone, Debug)]
 pub struct HeldState {
-    /// What people call it: `A` for the bond, `B` for the deepest trap.
+    /// Its letter: `A` for the bond, `B` for the deepest trap.
     pub name: String,
-    /// Where its first state is.
+    /// The configuration of its first state.
     pub configuration: Configuration,
     /// U there (J).
     pub energy: f64,
-    /// How many copies symmetries make of it.
+    /// The number of its symmetric copies.
     pub copies: usize,
-    /// How many of them turns of the moving tile alone make.
+    /// The number of copies that arise from rotations of the moving tile alone.
     pub moving_copies: usize,
-    /// Its basin is what can be reached from it below this energy (J), ...
+    /// Its basin contains all configurations that can be reached from it below this energy (J), ...
     pub level: f64,
-    /// ... or what of that was looked at.
+    /// ... or the part of it that was examined.
     pub is_cut: bool,
-    /// What it holds with.
+    /// Its binding strength.
     pub docking: Docking,
-    /// With no more of the basin than lies below half its depth.
+    /// The same with only the part of the basin below half its depth.
     pub inner: Docking,
-    /// By the closed form of corner wells, where there is one.
+    /// The same by the closed form of corner wells, if there is one.
     pub closed: Option<Docking>,
 }
 
@@ -102,7 +103,7 @@ impl HeldState {
         }
     }
 
-    /// How far the closed form is off, where there are both.
+    /// The error of the closed form, if both are known.
     pub fn closed_error(&self) -> Option<f64> {
         let volume = self.docking.volume.value;
         let closed = self.closed.filter(|_| volume > 0.0)?;
@@ -110,10 +111,11 @@ impl HeldState {
     }
 }
 
-/// Integrates over the bond and the traps of an catalogue; at other kT, too, if they are to be pictured.
+/// Integrates over the bond and the traps of a catalogue; also at other kT, if they are to be
+/// plotted.
 ///
 /// # Errors
-/// Where there is no bond.
+/// If there is no bond.
 pub fn held(
     design: &Design,
     (problem, catalogue): (&Problem, &Catalogue),

@@ -1,4 +1,4 @@
-//! Checksums, as reports tell them.
+//! The checksums in reports.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};

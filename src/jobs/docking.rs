@@ -1,4 +1,4 @@
-//! Docking experiments: what is asked of them, and paths to be looked at.
+//! Docking experiments: the request, and trajectories for display.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -17,7 +17,7 @@ use physics::observer::Observer;
 use physics::problem::Problem;
 use physics::tile::Pair;
 
-/// What is asked of a docking experiment.
+/// The options of a docking experiment.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
     /// Number of trajectories
@@ -56,7 +56,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// How the experiment is made with these tiles.
+    /// The settings of the experiment for these tiles.
     pub fn settings(&self, pair: &Pair) -> DockingSettings {
         DockingSettings {
             runs: self.runs,
@@ -73,7 +73,7 @@ impl Request {
     }
 }
 
-/// How long bound tiles hold.
+/// The options for measuring how long bonds last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
 pub struct ReleaseOptions {
     /// Start bound, with a thermal velocity, and measure the detachment rate
@@ -89,7 +89,7 @@ pub struct ReleaseOptions {
     pub overdamped: bool,
 }
 
-/// Runs an experiment, and tells how many of its trajectories have ended.
+/// Runs an experiment, and reports how many of its trajectories have ended.
 ///
 /// # Errors
 /// As [`dock`].
@@ -101,7 +101,7 @@ pub fn docked(
     dock(problem, settings, &counted(settings, observer))
 }
 
-/// Lets bound tiles go, and tells how many of the trajectories have ended.
+/// Runs trajectories from the bond, and reports how many have ended.
 ///
 /// # Errors
 /// As [`releases`].
@@ -167,7 +167,7 @@ pub struct StartOptions {
 }
 
 impl StartOptions {
-    /// The distribution asked for; what was not is as in `default`.
+    /// The requested distribution, with missing options from `default`.
     pub fn starts(&self, default: Starts) -> Starts {
         Starts {
             distance: self.distance.unwrap_or(default.distance),
@@ -200,26 +200,26 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
     }
 }
 
-/// Paths that are drawn over each other.
+/// Number of paths in one picture.
 const DRAWN: usize = 60;
 /// Time between two points of a path (s).
 const INTERVAL: f64 = 0.02;
 
-/// A run, point by point.
+/// A run with its recorded points.
 pub type Path = (DockingRun, Vec<Snapshot>);
 
-/// Some of an experiment's runs, point by point.
+/// Some of an experiment's runs with their recorded points.
 #[derive(Clone, Debug)]
 pub struct Paths {
-    /// To be played one by one: the run that was asked for or else the first bound one, and a few of
-    /// each end.
+    /// Runs for animation: the requested run, or else the first bound one, and a few of each kind
+    /// of end.
     pub played: Vec<Path>,
-    /// To be drawn over each other.
+    /// Runs for one picture.
     pub drawn: Vec<Path>,
 }
 
 impl Paths {
-    /// Of a finished experiment; `asked` is the run to be played first.
+    /// Selects paths of a finished experiment; `asked` is the run to animate first.
     ///
     /// # Errors
     /// As [`trajectory`].

@@ -1,24 +1,24 @@
-//! What a design is, at a glance: its bond, the forces that hold it, and what is wrong with it.
+//! A quick inspection of a design: its bond, the forces that hold it, and the mistakes in it.
 //!
-//! Nothing is searched here: the tiles are looked at where their target faces meet, and drawn apart
-//! along the face's normal. Whether they find each other, only an analysis tells.
+//! There is no search: the tiles are evaluated where their target faces meet, and while they are
+//! drawn apart along the face's normal. Whether they find each other, only an analysis shows.
 
 use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::potential::{Interaction, MagnetModel};
 use physics::problem::{Meeting, Problem};
 
-/// Gaps at which the pull is taken.
+/// Number of gaps at which the pull is computed.
 const SAMPLES: usize = 200;
 /// Largest gap as a multiple of the largest magnet's length or width.
 const FARTHEST: f64 = 5.0;
 
-/// A design at a glance.
+/// The inspection of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspection {
-    /// Where the target faces coincide.
+    /// The configuration in which the target faces coincide.
     pub bound: Configuration,
-    /// As the design models its magnets, then as the other model does.
+    /// With the design's magnet model, then with the other model.
     pub models: [Hold; 2],
     /// Whether the moving tile can be drawn straight out of the bond.
     pub comes_straight_out: bool,
@@ -26,28 +26,28 @@ pub struct Inspection {
     pub rivals: Vec<Meeting>,
 }
 
-/// How one model of the magnets has the bond hold.
+/// The strength of the bond with one magnet model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
-    /// Which model.
+    /// The model.
     pub model: MagnetModel,
     /// U where the target faces coincide (J).
     pub energy: f64,
     /// Pull at contact along the target face's normal (N), positive where the tiles attract.
     pub contact: f64,
-    /// Force along the face (N), counter-clockwise about the fixed tile, and torque about the
-    /// moving tile's reference point (N m).
+    /// Force along the face (N), counter-clockwise around the fixed tile.
     pub along: f64,
-    /// See [`Self::along`].
+    /// Torque about the moving tile's reference point (N m).
     pub torque: f64,
-    /// The largest pull on the way straight out (N): what it takes to part the tiles so.
+    /// The largest pull on the way straight out (N): the force needed to separate the tiles like
+    /// this.
     pub pull_off: f64,
-    /// The gap (m) at which it is reached.
+    /// The gap (m) of the largest pull.
     pub pull_off_gap: f64,
 }
 
 impl Inspection {
-    /// Looks at a design; some hundred energies of either model.
+    /// Inspects a design with a few hundred energies of each model.
     pub fn new(design: &Design) -> Self {
         let problem = design.problem();
         let own = design.interaction.model;
@@ -66,7 +66,7 @@ impl Inspection {
         }
     }
 
-    /// What is wrong with the design, as sentences with their mends; its reader's doubts are told
+    /// Mistakes in the design, as sentences with fixes. The reader's warnings are reported
     /// elsewhere.
     pub fn faults(&self, design: &Design) -> Vec<String> {
         let mut faults = Vec::new();
@@ -97,7 +97,7 @@ impl Inspection {
     }
 }
 
-/// That other pairs of faces bind as strongly as the target, if any does.
+/// A sentence that other pairs of faces bind as strongly as the target, if any do.
 pub fn rivals(count: usize) -> Option<String> {
     match count {
         0 => None,

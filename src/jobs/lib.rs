@@ -1,19 +1,19 @@
-//! From a design file to what is asked of it: each job in one call, its result as plain data.
+//! The jobs: each turns a design file or another input into a result, in one call, as plain data.
 //!
-//! | module | what it holds |
+//! | module | contents |
 //! |---|---|
 //! | [`design`], [`calibration`] | the design file: keys, defaults, checks with line and column; shields fitted to measurements |
 //! | [`start`] | a design to start from |
-//! | [`inspection`], [`matching`], [`workshop`] | a design at a glance; how the outlines fit; a design to be made: outlines with pockets, the order of the magnets |
-//! | [`pipeline`], [`query`] | the main job in one page; one barrier, asked for |
-//! | [`comparison`], [`sweep`] | what the main job says of many designs, set side by side |
-//! | [`docking`], [`bond`], [`rates`], [`yields`] | tiles sent towards each other; how strongly shaken tiles hold; how fast shaken tiles bind and come off; what comes out of a shaken table |
+//! | [`inspection`], [`matching`], [`workshop`] | the bond and its forces without a search; how the outlines fit; workshop files: outlines with pockets, the order of the magnets |
+//! | [`pipeline`], [`query`] | the analysis of a design; a single barrier |
+//! | [`comparison`], [`sweep`] | analyses of many designs, compared |
+//! | [`docking`], [`bond`], [`rates`], [`yields`] | docking experiments; the strength of bonds of shaken tiles; rates of binding and unbinding; the yield of a shaken table |
 //! | [`table`] | many tiles on one table |
-//! | [`word_sets`] | sets of barcodes: what is asked, magnets anywhere, sets as files |
-//! | [`assembly`] | tile sets whose glues are words: what engines of tile assembly read |
-//! | [`memory`] | whether the machine has the memory that is needed |
-//! | [`request`] | what is asked: options, with their limits and help, of the command line and of Python alike |
-//! | [`output`] | files that are written: all of a set or none, in place of nothing but its like |
+//! | [`word_sets`] | sets of barcodes: searches, magnets anywhere along the face, files |
+//! | [`assembly`] | tile sets whose glues are words, for tile assembly engines |
+//! | [`memory`] | checks that the machine has enough memory |
+//! | [`request`] | options with their limits and help, for the command line and Python |
+//! | [`output`] | output files: a set is written completely or not at all, and replaces only its own files |
 
 pub mod assembly;
 pub mod bond;

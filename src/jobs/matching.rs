@@ -1,4 +1,4 @@
-//! How the two outlines of a design fit together.
+//! The ways in which the two outlines of a design fit together.
 
 use clap::Args;
 
@@ -7,7 +7,7 @@ use crate::request;
 use physics::contact::Contact;
 use physics::contact::matching::{Match, matches};
 
-/// What is asked of the ways in which the outlines fit.
+/// The options of a search for fits.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
     /// Largest number of fits to list
@@ -16,7 +16,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// They, longest contact first.
+    /// The fits, longest contact first.
     pub fn matches(&self, design: &Design) -> Vec<Match> {
         let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
         matches(&Contact::new(&fixed.outline, &moving.outline), self.most)

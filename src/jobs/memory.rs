@@ -1,19 +1,21 @@
-//! Whether the machine has the memory that a request needs.
+//! Checks that the machine has the memory a request needs.
 
 use physics::roadmap;
 
-/// What is taken to be free where the machine does not say (bytes).
+/// The assumed free memory if the machine does not report it (bytes).
 const SUPPOSED: f64 = 8e9;
-/// What an analysis takes besides roadmaps, its threads and pictures among it (bytes): with less than a
-/// sixth of it the program does not start, with four fifths the analysis of a shipped design ends.
+/// The memory of an analysis besides roadmaps, including threads and pictures (bytes): with less
+/// than a sixth of it the program does not start, with four fifths the analysis of a shipped design
+/// finishes.
 const BESIDES: f64 = 1.2e8;
-/// Requests for more are told of (bytes).
+/// Requests above this are reported (bytes).
 const WORTH_TELLING: f64 = 1e9;
 
-/// What memory work on roadmaps takes of which `at_once` are built at the same time, where that is worth telling.
+/// The memory for roadmaps of which `at_once` are built at the same time, as a message if it is
+/// large.
 ///
 /// # Errors
-/// Where the machine does not have it.
+/// If the machine does not have enough memory.
 pub fn check(
     milestones: usize,
     neighbours: Option<usize>,
@@ -30,20 +32,20 @@ pub fn check(
     Ok((needed > WORTH_TELLING).then(|| format!("{work} about {told}")))
 }
 
-/// Refuses what takes so many bytes.
+/// Checks that a number of bytes is available.
 ///
 /// # Errors
-/// Where the machine does not have them.
+/// If the machine does not have enough memory.
 pub fn check_bytes(needed: f64) -> Result<(), String> {
     fits(needed)
         .map(drop)
         .map_err(|told| format!("this takes {told}"))
 }
 
-/// So many bytes and what is free, in words.
+/// A message with the needed and the free memory.
 ///
 /// # Errors
-/// The same, where less is free.
+/// The same message, if less is free.
 fn fits(needed: f64) -> Result<String, String> {
     let free = available().unwrap_or(SUPPOSED);
     let gigabytes = |bytes: f64| match bytes / 1e9 {
@@ -61,15 +63,15 @@ fn fits(needed: f64) -> Result<String, String> {
     }
 }
 
-/// Memory that can be had without swapping (bytes), as Linux tells it: the machine's, or what the
-/// process may have (`ulimit -v`) where that is less.
+/// Memory available without swapping (bytes), as reported by Linux: the machine's, or the process's
+/// limit (`ulimit -v`) if that is lower.
 fn available() -> Option<f64> {
     let free = first_number("/proc/meminfo", "MemAvailable:").map(|kibibytes| 1024.0 * kibibytes);
     let allowed = first_number("/proc/self/limits", "Max address space");
     free.into_iter().chain(allowed).reduce(f64::min)
 }
 
-/// The first number of the line with such a beginning.
+/// The first number of the line with this beginning.
 fn first_number(file: &str, beginning: &str) -> Option<f64> {
     let told = std::fs::read_to_string(file).ok()?;
     let line = told.lines().find_map(|line| line.strip_prefix(beginning))?;

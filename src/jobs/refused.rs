@@ -1,14 +1,14 @@
-//! Why a job is not done: what was asked for, or a file that is read for it.
+//! Errors of requests that cannot be carried out: in the request itself or in a file it names.
 
 use crate::design::DesignError;
 
-/// Why a job is not done.
+/// Why a job cannot be carried out.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum Refused {
     /// A file is at fault.
     #[error(transparent)]
     File(#[from] DesignError),
-    /// What was asked for is impossible, and why.
+    /// The request is impossible, with the reason.
     #[error("{0}")]
     Asked(String),
 }

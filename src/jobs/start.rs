@@ -1,11 +1,11 @@
-//! A design to start from: what is asked of it.
+//! New designs: the request.
 
 use clap::Args;
 
 use crate::design::{STARTER, Shape, ShopMagnet, Start, StartError};
 use crate::request::{self, Word};
 
-/// What a design to start from is to be like; with nothing asked for it is one that explains every key.
+/// The options of a new design; without any options, it is one that explains every key.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
     /// Sides of both tiles, 3 to 24 [default: 4]
@@ -38,10 +38,10 @@ fn shape() -> Word<Shape> {
 }
 
 impl Request {
-    /// The text of the design, called like the file of this stem as far as names go.
+    /// The text of the design, named after the file with this stem where possible.
     ///
     /// # Errors
-    /// Where there is no such design.
+    /// If there is no such design.
     pub fn text(&self, stem: &str) -> Result<String, StartError> {
         let asked = (self.sides, self.side, self.magnets, self.shape);
         if asked == (None, None, None, None) && self.magnet.is_none() {
@@ -55,7 +55,7 @@ impl Request {
             shape: self.shape.unwrap_or(usual.shape),
             magnet: self.magnet,
         };
-        // A name that no quotes or control characters end.
+        // A name without quotes or control characters.
         let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);
         let name: String = stem.chars().filter(plain).collect();
         let name = name.trim_matches(|c| c == '-' || c == ' ');

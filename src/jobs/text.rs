@@ -1,5 +1,5 @@
-//! Text as programs save it: UTF-8 or UTF-16, with a byte-order mark or without, tables with commas or,
-//! where commas are decimal, with semicolons.
+//! Reads text as programs save it: UTF-8 or UTF-16, with or without a byte-order mark, tables with
+//! commas or, where commas are decimal, with semicolons.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -8,13 +8,13 @@ use std::path::Path;
 
 use csv::StringRecord;
 
-/// Largest table or manifest that is read (bytes).
+/// Largest table or manifest (bytes).
 const LARGEST: u64 = 256 << 20;
 
-/// The text of a table or manifest; its file may be a pipe, too.
+/// The text of a table or manifest; its file can also be a pipe.
 ///
 /// # Errors
-/// Where it cannot be read, is too large or is no text.
+/// If it cannot be read, is too large or is not text.
 pub fn read(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
     let file = File::open(path)?;
@@ -26,16 +26,16 @@ pub fn read(path: &Path) -> io::Result<String> {
     decode(bytes).map_err(io::Error::other)
 }
 
-/// Bytes that are no text.
+/// The error of bytes that are not text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it is not text in UTF-8 or UTF-16 (at byte {at})")]
 pub struct NoText {
-    /// The first byte that is none, from 0.
+    /// The index of the first invalid byte, from 0.
     pub at: usize,
 }
 
-/// The text of a file, without a byte-order mark. UTF-16 is known by its mark, or by a first letter
-/// with a byte of 0.
+/// The text of a file, without a byte-order mark. UTF-16 is recognised by its mark, or by a zero
+/// byte in the first letter.
 ///
 /// ```
 /// use tilebind_jobs::text::decode;
@@ -45,7 +45,7 @@ pub struct NoText {
 /// ```
 ///
 /// # Errors
-/// Where it is no text.
+/// If it is not text.
 pub fn decode(bytes: Vec<u8>) -> Result<String, NoText> {
     match bytes.as_slice() {
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8(rest.to_vec(), 3),
@@ -57,8 +57,8 @@ pub fn decode(bytes: Vec<u8>) -> Result<String, NoText> {
     }
 }
 
-/// What to write in place of a number with a decimal comma, of a text that holds one: digits, a comma
-/// and digits right behind it.
+/// The correct form of a number with a decimal comma in a text, if it contains one: digits, a comma
+/// and digits immediately after it.
 ///
 /// ```
 /// use tilebind_jobs::text::with_point;
@@ -71,7 +71,7 @@ pub fn with_point(text: &str) -> Option<String> {
     let digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
     let is_decimal = |at: usize| {
         let before = bytes[..at].iter().rposition(|b| !b.is_ascii_digit());
-        // Of `0.43,0` the comma stands between two numbers.
+        // In `0.43,0` the comma separates two numbers.
         at > 0 && digit(at - 1) && digit(at + 1) && before.is_none_or(|k| bytes[k] != b'.')
     };
     let at = text.match_indices(',').find(|(at, _)| is_decimal(*at))?.0;
@@ -100,8 +100,8 @@ fn utf16(bytes: &[u8], before: usize, unit: fn([u8; 2]) -> u16) -> Result<String
     Ok(text)
 }
 
-/// A table with commas between its columns and points in its numbers, of one that has semicolons or
-/// tabs between its columns, where commas may be decimal. Lines stay where they are.
+/// Converts a table with semicolons or tabs between columns, and possibly decimal commas, to one
+/// with commas between columns and decimal points. Line numbers are unchanged.
 ///
 /// ```
 /// use tilebind_jobs::text::with_commas;
@@ -113,7 +113,7 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
     let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
     let first = first.unwrap_or_default();
     let between = match first {
-        // Text in quotes may hold anything.
+        // Text in quotes may contain anything.
         _ if first.contains('"') => None,
         _ if first.contains(';') => Some(';'),
         _ if first.contains('\t') && !first.contains(',') => Some('\t'),
@@ -132,17 +132,17 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
     Cow::Owned(changed.collect())
 }
 
-/// What is wrong with a text that holds a number with a decimal comma, and what to write (see
+/// The message for a text that contains a number with a decimal comma, and what to write (see
 /// [`with_point`]).
 pub fn decimal_comma(text: &str) -> Option<String> {
     let meant = with_point(text)?;
     Some(format!("use a decimal point, not a comma: {meant}"))
 }
 
-/// Where the column stands that a table's first line names by one of some names, if it does.
+/// The index of the column that a table's first line names by one of the given names, if any.
 ///
 /// # Errors
-/// Where two columns are named so.
+/// If two columns have such a name.
 pub(crate) fn column(header: &StringRecord, names: &[&str]) -> Result<Option<usize>, String> {
     let mut named = (0..header.len()).filter(|place| names.contains(&&header[*place]));
     match (named.next(), named.next()) {

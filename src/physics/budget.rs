@@ -1,9 +1,9 @@
-//! How much work may be done, counted so that it ends at the same place on every machine, busy or
-//! idle, and on any number of threads.
+//! Work limits that are counted rather than timed: a computation ends at the same place on every
+//! machine, busy or idle, and on any number of threads.
 //!
-//! Work is counted in units that take about 4 ns of a core; what they stand for is counted out where
-//! they are spent. A clock may be set as well, and is asked only where work done on all threads has
-//! come together.
+//! Work is counted in units of about 4 ns of a core; each module states what a unit is where it
+//! spends them. A time limit can be set as well; the clock is read only where the work of all
+//! threads is collected.
 
 use std::time::{Duration, Instant};
 
@@ -11,32 +11,31 @@ use serde::{Deserialize, Serialize};
 
 use crate::interruption;
 
-/// Units of work that count as a second of a core: operations on 64 vertices of a graph.
+/// Units of work per core-second: operations on 64 vertices of a graph.
 pub const UNITS_A_SECOND: f64 = 2.5e8;
 
-/// How much may be spent on something: nothing where one of the two is 0.
+/// A limit of work: nothing may be done if one of the two is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Allowance {
-    /// Work, as what takes about so many seconds of a core; without end where `None`.
+    /// Work in core-seconds; unlimited if `None`.
     pub work: Option<f64>,
-    /// Time (s) by the clock after which it ends as well, if any: where it does depends on the
-    /// machine.
+    /// Wall-clock time limit (s), if any; where the work then ends depends on the machine.
     pub seconds: Option<f64>,
 }
 
 impl Allowance {
-    /// Nothing.
+    /// No work.
     pub const NONE: Self = Self {
         work: Some(0.0),
         seconds: None,
     };
-    /// All that it takes.
+    /// Unlimited work.
     pub const UNLIMITED: Self = Self {
         work: None,
         seconds: None,
     };
 
-    /// So much work.
+    /// A limit of work (core-seconds).
     pub const fn of(work: f64) -> Self {
         Self {
             work: Some(work),
@@ -44,8 +43,8 @@ impl Allowance {
         }
     }
 
-    /// What is asked for in place of this: work, time or both. Time for what would not be done brings
-    /// the `usual` work.
+    /// The limit with requested work, time or both in place of this one. A time limit for work that
+    /// would not be done allows the `usual` work.
     pub fn or(self, work: Option<f64>, seconds: Option<f64>, usual: Self) -> Self {
         let untold = if self.is_none() && seconds.is_some() {
             usual.work
@@ -58,23 +57,23 @@ impl Allowance {
         }
     }
 
-    /// Whether nothing may be spent.
+    /// Whether no work is allowed.
     pub fn is_none(&self) -> bool {
         [self.work, self.seconds].contains(&Some(0.0))
     }
 }
 
-/// What ended work before it was done.
+/// What ended work before it was complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ended {
-    /// All that was allowed had been done: another run ends at the same place.
+    /// The limit of work: another run ends at the same place.
     Work,
-    /// The clock: another run may end elsewhere.
+    /// The time limit: another run may end elsewhere.
     Clock,
 }
 
 impl Ended {
-    /// As reports have it.
+    /// Its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Work => "work",
@@ -82,7 +81,7 @@ impl Ended {
         }
     }
 
-    /// As a sentence begins that says so.
+    /// The beginning of a sentence that says so.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Work => "the proof used up its work",
@@ -105,18 +104,18 @@ impl Ended {
 #[derive(Clone, Debug)]
 pub struct Budget {
     left: i64,
-    /// The end by the clock, if there is one.
+    /// The time limit, if any.
     end: Option<Instant>,
     is_late: bool,
-    /// Until it is asked whether the work is still wanted.
+    /// Units until the next check for interruption.
     unasked: i64,
 }
 
-/// Units between two looks at whether the work is still wanted.
+/// Units between two checks for interruption.
 const BETWEEN_LOOKS: i64 = 1 << 22;
 
 impl Budget {
-    /// What is allowed from now on.
+    /// Starts with what is allowed from now on.
     pub fn new(allowed: Allowance) -> Self {
         let end = |seconds: f64| {
             let time = Duration::try_from_secs_f64(seconds).ok()?;
@@ -130,17 +129,17 @@ impl Budget {
         }
     }
 
-    /// As much as takes about so many seconds (s) of a core.
+    /// A budget in core-seconds.
     pub fn seconds(seconds: f64) -> Self {
         Self::new(Allowance::of(seconds))
     }
 
-    /// Takes a share of what is left for a part of the work.
+    /// Takes a share of the remaining budget for a part of the work.
     pub fn share(&mut self, share: f64) -> Self {
         self.taken((self.left.max(0) as f64 * share) as i64)
     }
 
-    /// Takes what about so many seconds (s) take, or all that is left.
+    /// Takes a number of core-seconds, or all that is left.
     pub fn part(&mut self, seconds: f64) -> Self {
         self.taken(units(seconds).min(self.left))
     }
@@ -153,7 +152,7 @@ impl Budget {
         }
     }
 
-    /// Gives back what a part did not spend, or takes what it spent too much.
+    /// Returns what a part did not spend, or deducts what it overspent.
     pub fn give_back(&mut self, part: &Self) {
         self.left += part.left;
     }
@@ -181,7 +180,8 @@ impl Budget {
         self.left <= 0
     }
 
-    /// What ends the work here, if anything does; asks the clock, if there is one.
+    /// The reason to end the work at this point, if there is one; reads the clock if there is a
+    /// time limit.
     pub fn ended(&mut self) -> Option<Ended> {
         self.is_late |= self.end.is_some_and(|end| Instant::now() >= end);
         match (self.is_spent(), self.is_late) {
@@ -193,6 +193,6 @@ impl Budget {
 }
 
 fn units(seconds: f64) -> i64 {
-    // More than there is no number for is without end.
+    // Numbers too large to represent count as unlimited.
     (seconds * UNITS_A_SECOND) as i64
 }

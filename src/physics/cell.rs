@@ -30,20 +30,20 @@ impl Cell {
         self.half.iter().map(|half| 2.0 * half).product()
     }
 
-    /// The farthest the reference point gets from where it is at the centre (m).
+    /// Largest distance (m) of the reference point from its position at the centre.
     pub fn travel(&self) -> f64 {
         let [x, y, _] = self.half;
         (x * x + y * y).sqrt()
     }
 
-    /// The farthest a point of the moving tile at the distance `lever` (m) from its reference
-    /// point gets from where it is at the centre (m).
+    /// Largest distance (m) of a point of the moving tile, at the distance `lever` (m) from its
+    /// reference point, from its position at the centre.
     pub fn reach(&self, lever: f64) -> f64 {
         self.travel() + lever * self.half[2]
     }
 
-    /// The two parts along a coordinate, each so much to either side of its middle there: a little
-    /// more than half of what the whole has, so that rounding leaves no gap between them.
+    /// The two parts along a coordinate, with the given half size there: slightly more than half
+    /// that of the whole, so that rounding leaves no gap between them.
     pub fn parts(&self, axis: usize, half: f64) -> [Self; 2] {
         [-0.5, 0.5].map(|side| {
             let mut step = Vector3::zeros();
@@ -123,7 +123,7 @@ impl Quadratic {
         }
     }
 
-    /// The most that the terms of first and of second order can be over the box.
+    /// The largest values of the terms of first and second order over the box.
     pub fn orders(&self, half: &[f64; 3]) -> [f64; 2] {
         let [slopes, squares, products] = self.magnitudes(half);
         [slopes, 0.5 * squares + products]
@@ -146,7 +146,7 @@ impl Quadratic {
     /// A guaranteed lower bound of the form over the box `|d_i| <= half_i`.
     ///
     /// Each product is bounded by squares, `2 |d_i d_j| <= d_i^2 half_j / half_i + d_j^2 half_i /
-    /// half_j`, after which the coordinates separate; at the corners of the box nothing is lost.
+    /// half_j`, after which the coordinates separate; the bound is exact at the corners of the box.
     pub fn least(&self, half: &[f64; 3]) -> f64 {
         let losses = self.losses(half);
         self.value - losses[0] - losses[1] - losses[2] - self.rounding(half)

@@ -9,9 +9,9 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 /// tile's frame and its orientation `theta` (radians, counter-clockwise).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Configuration {
-    /// Of the reference point (m).
+    /// Position of the reference point (m).
     pub x: f64,
-    /// Of the reference point (m).
+    /// Position of the reference point (m).
     pub y: f64,
     /// The orientation (rad), not necessarily in (-pi, pi].
     pub theta: f64,
@@ -43,7 +43,7 @@ impl Configuration {
         self.rotation().inverse() * (point - self.position())
     }
 
-    /// The pose of the *fixed* tile as seen from the moving one.
+    /// The pose of the *fixed* tile in the moving tile's frame.
     pub fn inverse(&self) -> Self {
         let p = self.inverse_transform(Vector2::zeros());
         Self::new(p.x, p.y, wrap_angle(-self.theta))
@@ -94,13 +94,13 @@ pub fn wrap_angle(angle: f64) -> f64 {
     if wrapped > PI { wrapped - TAU } else { wrapped }
 }
 
-/// The space of configurations: where the reference point may be, and how far apart two
-/// configurations are.
+/// The space of configurations: the allowed positions of the reference point, and the distance of
+/// two configurations.
 ///
 /// The reference point stays on the table, `|x| <= size_x / 2` and `|y| <= size_y / 2`; theta is
 /// periodic. The metric is `d^2 = dx^2 + dy^2 + rho^2 dtheta^2` with `rho` (m) the moving tile's
-/// radius of gyration about its reference point, so that a turn counts as far as it moves the
-/// tile's mass on average.
+/// radius of gyration about its reference point, so that a rotation counts as the distance that it
+/// moves the tile's mass on average.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConfigurationSpace {
     /// Half the table's size along x and along y (m).

@@ -1,9 +1,9 @@
-//! Long work that is given up when it is asked to be: ctrl-C in a session that goes on.
+//! Interruption of long computations, such as ctrl-C in a session that continues.
 //!
-//! [`Interruption::run`] works on threads of its own and leaves a mark on each; the library's inner
-//! loops [`check`] it and unwind, without a word, once the work is no longer wanted. What was found
-//! by then is lost; nothing shared is left half done. Work that was started otherwise bears no mark
-//! and is never given up.
+//! [`Interruption::run`] runs work on threads of its own and marks each of them; the library's
+//! inner loops [`check`] the mark and unwind silently once the work is to be interrupted. Partial
+//! results are lost, and no shared state is left inconsistent. Work that was started in another way
+//! has no mark and is never interrupted.
 //!
 //! ```
 //! use tilebind_physics::interruption::{Interruption, Interrupted};
@@ -22,42 +22,42 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 thread_local! {
-    /// By what this thread's work may be given up.
+    /// The interruption of this thread's work.
     static MARK: RefCell<Option<Interruption>> = const { RefCell::new(None) };
 }
 
-/// Whether any work of this process was ever asked to be given up: until then, a [`check`] is one
+/// Whether any interruption was ever requested in this process: until then, a [`check`] is a single
 /// load.
 static ANY: AtomicBool = AtomicBool::new(false);
 
-/// Work was given up because it was asked to be.
+/// The error of interrupted work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("interrupted")]
 pub struct Interrupted;
 
-/// By which work is asked to be given up, from any thread; clones are the same.
+/// A handle to interrupt work from any thread; clones refer to the same work.
 #[derive(Clone, Debug, Default)]
 pub struct Interruption(Arc<AtomicBool>);
 
 impl Interruption {
-    /// From now on the work is not wanted.
+    /// Requests the interruption.
     pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
         ANY.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work is no longer wanted.
+    /// Whether the interruption was requested.
     pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Does work on `threads` threads of its own, until it is done or given up.
+    /// Runs work on `threads` threads of its own, until it is finished or interrupted.
     ///
     /// # Errors
-    /// Where it was given up.
+    /// If it was interrupted.
     ///
     /// # Panics
-    /// Where the work does.
+    /// If the work panics.
     pub fn run<T: Send>(
         &self,
         threads: usize,
@@ -70,7 +70,7 @@ impl Interruption {
         let done = catch_unwind(AssertUnwindSafe(|| {
             match pool(threads, Some(self.clone())) {
                 Ok(pool) => pool.install(marked),
-                // Without threads of its own it is done on this one.
+                // If no threads can be started, the work runs on this one.
                 Err(_) => marked(),
             }
         }));
@@ -81,7 +81,7 @@ impl Interruption {
     }
 }
 
-/// Gives the work of this thread up if it is no longer wanted.
+/// Interrupts the work of this thread if that was requested.
 #[inline]
 pub fn check() {
     if ANY.load(Ordering::Relaxed) {
@@ -96,17 +96,17 @@ fn check_mark() {
     }
 }
 
-/// Whether what work unwound with is that it was given up.
+/// Whether a panic payload is that of an interruption.
 pub fn is_interrupted(payload: &(dyn Any + Send)) -> bool {
     payload.is::<Interrupted>()
 }
 
-/// By what this thread's work may be given up.
+/// The interruption of this thread's work.
 pub fn current() -> Option<Interruption> {
     MARK.with_borrow(Clone::clone)
 }
 
-/// Threads whose work may be given up.
+/// A thread pool whose work can be interrupted.
 pub fn pool(threads: usize, by: Option<Interruption>) -> Result<ThreadPool, ThreadPoolBuildError> {
     ThreadPoolBuilder::new()
         .num_threads(threads.max(1))
@@ -114,7 +114,7 @@ pub fn pool(threads: usize, by: Option<Interruption>) -> Result<ThreadPool, Thre
         .build()
 }
 
-/// A mark that lasts as long as this.
+/// A mark for the lifetime of this value.
 struct Mark(Option<Interruption>);
 
 impl Mark {
@@ -138,7 +138,7 @@ mod tests {
     fn work_is_given_up_on_all_threads_and_the_session_goes_on() {
         let interruption = Interruption::default();
         let given_up = interruption.run(2, || {
-            // Without the fuse every item of what is left would unwind on its own.
+            // Without the fuse every remaining item would unwind separately.
             (0..u64::MAX).into_par_iter().panic_fuse().for_each(|k| {
                 if k == 1000 {
                     interruption.ask();

@@ -1,19 +1,19 @@
-//! What two magnetic tiles do, from outlines and magnets to landscapes, kinetics and words.
+//! The physics of two magnetic tiles: from outlines and magnets to landscapes, kinetics and words.
 //!
-//! The only part of the program with `unsafe` code, and that in [`potential`] alone. It reads no
-//! files, and nothing in it formats results. A module uses those below it:
+//! The only part of the program with `unsafe` code, all of it in [`potential`]. It reads no files
+//! and formats no results. A module uses only those in earlier rows:
 //!
-//! | floor, from the ground up | what it holds |
+//! | modules | contents |
 //! |---|---|
-//! | [`units`], [`scale`], [`configuration`], [`cell`], [`subdivision`], [`observer`], [`interruption`], [`budget`] | SI prefixes; lengths that grow with the tiles; (x, y, theta), its space and metric; boxes of configurations, and how they are subdivided; who is told of progress; work that is given up; work that is counted |
-//! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; two tiles and how they are meant to bind |
-//! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the one place where an energy is chosen |
-//! | [`problem`] | the three above, put together once, with the symmetries of the pair |
+//! | [`units`], [`scale`], [`configuration`], [`cell`], [`subdivision`], [`observer`], [`interruption`], [`budget`] | SI prefixes; lengths that scale with the tiles; (x, y, theta), its space and metric; boxes of configurations, and their subdivision; progress; interrupted work; counted effort |
+//! | [`tile`] | outlines, faces, profiles, barcodes, magnets, symmetries; pairs of tiles and their intended bond |
+//! | [`contact`], [`potential`] | overlap, clearance, free motions; U(x, y, theta), gradients, bounds, and the only place where an energy model is chosen |
+//! | [`problem`] | tiles, contact and potential in one value, with the symmetries of the pair |
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
-//! | [`dynamics`] | tiles that really move: docking runs, and a check of barriers |
-//! | [`table`] | many tiles that really move |
-//! | [`kinetics`] | what overdamped motion at kT makes of a landscape: exits, how soon and whereto |
+//! | [`dynamics`] | tiles with inertia: docking runs, and a check of barriers |
+//! | [`table`] | many tiles with inertia |
+//! | [`kinetics`] | overdamped motion at kT on a landscape: exit times and where exits lead |
 //! | [`words`] | sets of barcodes that bind their mates and nothing else |
 
 pub mod budget;

@@ -1,4 +1,4 @@
-//! Products of matrices, the same bits on every processor.
+//! Matrix products with the same bits on every processor.
 //!
 //! nalgebra multiplies matrices of more than five rows by the crate `matrixmultiply`, whose kernels,
 //! and with them the rounding, depend on the processor.
@@ -6,8 +6,8 @@
 use nalgebra::allocator::Allocator;
 use nalgebra::{DefaultAllocator, Dim, OMatrix};
 
-/// `a b`: each entry is summed in the order of a's columns. Panics where a has not as many columns
-/// as b has rows.
+/// `a b`: each entry is summed in the order of a's columns. Panics if the number of a's columns
+/// differs from the number of b's rows.
 pub fn product<R: Dim, K: Dim, C: Dim>(
     a: &OMatrix<f64, R, K>,
     b: &OMatrix<f64, K, C>,

@@ -1,18 +1,18 @@
-//! Who is told what long work is doing.
+//! Progress reports of long computations.
 
-/// Is told what the main job is doing.
+/// Receives progress reports of a computation.
 pub trait Observer: Sync {
-    /// A stage begins; `share` of the whole time (0 to 1) is behind.
+    /// A stage begins; the fraction `share` of the total time (0 to 1) has passed.
     fn stage(&self, name: &'static str, share: f64);
 
-    /// Of a stage that has `count` parts, `done` are done.
+    /// `done` of `count` parts of a stage are done.
     fn part(&self, _name: &'static str, _done: usize, _count: usize) {}
 
-    /// What is known by now, in a sentence, and stays known if the work is given up.
+    /// An intermediate result, in a sentence, that remains valid if the work is interrupted.
     fn known(&self, _what: &str) {}
 }
 
-/// An observer that looks away.
+/// An observer that ignores everything.
 pub struct Silent;
 
 impl Observer for Silent {

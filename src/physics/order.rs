@@ -1,19 +1,19 @@
-//! Stable sorts whose code is compiled once: what is sorted is the items' places.
+//! Stable sorting whose code is compiled only once: it sorts the items' indices.
 //!
-//! The standard library's stable sort is some 9 kB of code for each type of item and each order,
-//! and faster where very many items are sorted very often.
+//! The standard library's stable sort is about 9 kB of code for each type of item and each order,
+//! and faster if very many items are sorted very often.
 
 use std::cmp::Ordering;
 
-/// Up to so many items are sorted where they are, without places.
+/// Up to this many items are sorted in place, without indices.
 const FEW: usize = 20;
 
-/// Lists that are put in order, items that compare as equal staying as they were.
+/// Lists that can be sorted stably.
 pub trait Order<T> {
     /// By a total order.
     fn order_by(&mut self, compare: impl Fn(&T, &T) -> Ordering);
 
-    /// By a key, the least first.
+    /// By a key, ascending.
     fn order_by_key<K: Ord>(&mut self, key: impl Fn(&T) -> K);
 }
 
@@ -40,7 +40,7 @@ fn ordered<T>(items: &mut [T], compare: &dyn Fn(&T, &T) -> Ordering) {
     }
     let mut from = places(items.len(), &|a, b| compare(&items[a], &items[b]));
     for start in 0..items.len() {
-        // Round a cycle of items that take each other's place.
+        // Follows a cycle of items that replace each other.
         let mut at = start;
         while from[at] != start {
             let next = std::mem::replace(&mut from[at], at);
@@ -51,7 +51,7 @@ fn ordered<T>(items: &mut [T], compare: &dyn Fn(&T, &T) -> Ordering) {
     }
 }
 
-/// The places of so many items, in order.
+/// The sorted indices of this many items.
 fn places(count: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut places: Vec<usize> = (0..count).collect();
     places.sort_by(|&a, &b| compare(a, b));

@@ -1,8 +1,9 @@
-//! Work on many items side by side, with results in the items' order, unless it is
-//! [given up](crate::interruption).
+//! Parallel work on many items. Results come in the items' order, unless the work is
+//! [interrupted](crate::interruption).
 //!
-//! What shares the work out is compiled once, for all items and all work, where each parallel
-//! iterator of rayon is some 10 kB of code. Those are left where items take less than a microsecond.
+//! The distribution of work is compiled once for all items and all work, while each parallel
+//! iterator of rayon is about 10 kB of code. Those are still used for items that take less than a
+//! microsecond.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -11,17 +12,17 @@ use rayon::prelude::*;
 
 use crate::interruption;
 
-/// Of so many parts a thread the work consists, where there are as many items: few enough that
-/// sharing them out costs nothing, many enough that no thread waits long for the last.
+/// Number of parts per thread, if there are enough items: few enough that distribution costs
+/// nothing, many enough that no thread waits long for the last part.
 const PARTS: usize = 256;
 
-/// Items that threads take by their place.
+/// Items that threads access by index.
 pub trait Items: Sync {
-    /// What a thread is given.
+    /// The type of an item.
     type Item;
-    /// How many there are.
+    /// The number of items.
     fn count(&self) -> usize;
-    /// The one at a place.
+    /// The item at an index.
     fn at(&self, place: usize) -> Self::Item;
 }
 
@@ -61,14 +62,14 @@ impl Items for Range<usize> {
     }
 }
 
-/// What `f` makes of each item.
+/// Applies `f` to each item.
 pub fn map<I: Items, T: Send>(items: I, f: impl Fn(I::Item) -> T + Sync) -> Vec<T> {
     collected(items.count(), &|place, found| {
         found.push(f(items.at(place)))
     })
 }
 
-/// All that `f` makes of each item: none, one or many.
+/// Applies `f`, which returns any number of results, to each item.
 pub fn flat_map<I: Items, C: IntoIterator>(
     items: I,
     f: impl Fn(I::Item) -> C + Sync,
@@ -114,17 +115,18 @@ fn collected<T: Send>(count: usize, put: &(dyn Fn(usize, &mut Vec<T>) + Sync)) -
     all
 }
 
-/// On how many threads work is shared out.
+/// The number of threads.
 pub fn threads() -> usize {
     rayon::current_num_threads()
 }
 
-/// How many of so many items are a part.
+/// The number of items in a part.
 fn size(count: usize) -> usize {
     count.div_ceil(PARTS * rayon::current_num_threads()).max(1)
 }
 
-/// Does each of so many parts, on all threads; once one has failed or is given up, no other is begun.
+/// Runs this many parts on all threads; no further part starts once one has failed or was
+/// interrupted.
 fn shared_out(parts: usize, work: &(dyn Fn(usize) + Sync)) {
     let parts = (0..parts).into_par_iter().with_max_len(1);
     parts.panic_fuse().for_each(work);

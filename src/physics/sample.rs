@@ -1,4 +1,4 @@
-//! Pairs of regular tiles for tests of what is not public.
+//! Pairs of regular tiles for unit tests.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::tile::strength::Strength;
 use crate::tile::{Face, Magnet, Outline, Pair, Tile, face_to_face};
 
-/// The paper's magnets: size (m), and from one to the next (m).
+/// The paper's magnets: size (m) and pitch (m).
 const BAR: [f64; 3] = [0.010, 0.010, 0.003];
 const PITCH: f64 = 0.040;
 
@@ -53,7 +53,7 @@ pub fn tile(sides: usize, side: f64, code: &str, coded: &[usize]) -> Tile {
     }
 }
 
-/// Two of them on a table of 2 m, NNNS on some faces of the one, its mate on some of the other.
+/// Two of them on a table of 2 m, NNNS on some faces of one, its mate on some of the other.
 pub fn pair(sides: usize, side: f64, [fixed, moving]: [&[usize]; 2]) -> Problem {
     let fixed = tile(sides, side, "NNNS", fixed);
     let moving = tile(sides, side, "NSSS", moving);
@@ -82,7 +82,7 @@ pub fn paper_tile() -> Problem {
     pair(4, 0.43, [&[0, 1, 2, 3]; 2])
 }
 
-/// Squares of which one face each carries a code.
+/// Squares with a code on one face each.
 pub fn one_face() -> Problem {
     pair(4, 0.43, [&[0], &[2]])
 }

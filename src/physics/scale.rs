@@ -1,11 +1,11 @@
-//! Lengths that are told for tiles of one size, and what they are for tiles of another.
+//! Lengths that are stated for tiles of one size, scaled to tiles of another.
 //!
-//! Multiply all lengths of a problem by s and keep the remanence: energies are multiplied by s^3, and
-//! nothing else changes. So no step of a search and no tolerance may be a length by itself. Where it
-//! belongs to no magnet, energy or outline that is at hand, it belongs to the tiles: the constants of
-//! this crate that are said to be in m are what they are for the paper's tile, a square of 43 cm, and
-//! go through [`Scale::length`] (mostly as [`Contact::scaled`](crate::contact::Contact::scaled) and
-//! [`Problem::scaled`](crate::Problem::scaled)) before they are used.
+//! If all lengths of a problem are multiplied by s at the same remanence, energies are multiplied
+//! by s^3 and nothing else changes. So no step of a search and no tolerance may be an absolute
+//! length. If it cannot be derived from a magnet, an energy or an outline, it is relative to the
+//! tiles: the constants of this crate in m apply to the paper's tile, a square of 43 cm, and are
+//! converted by [`Scale::length`] (mostly as [`Contact::scaled`](crate::contact::Contact::scaled)
+//! and [`Problem::scaled`](crate::Problem::scaled)) before they are used.
 
 /// The circumradius (m) of the paper's tile, `0.43 / sqrt 2`.
 const TOLD_FOR: f64 = 0.304_055_915_910_215_24;
@@ -15,23 +15,24 @@ const TOLD_FOR: f64 = 0.304_055_915_910_215_24;
 pub struct Scale(f64);
 
 impl Scale {
-    /// Of landscapes without tiles: lengths are what they are told to be.
+    /// For landscapes without tiles: lengths are not scaled.
     pub const NONE: Self = Self(1.0);
 
-    /// Of tiles with these circumradii (m): of the smaller one, as its shape is to be resolved.
+    /// The scale of tiles with these circumradii (m): of the smaller one, because its shape must be
+    /// resolved.
     pub fn of(circumradii: [f64; 2]) -> Self {
         let ratio = circumradii[0].min(circumradii[1]) / TOLD_FOR;
-        // To seven digits: how corners are rounded must not show.
+        // To seven digits, so that the rounding of corners has no effect.
         Self(f64::from(ratio as f32))
     }
 
-    /// What a length (m) is for these tiles that is told for the paper's.
+    /// A length (m) given for the paper's tiles, scaled to these.
     pub fn length(self, told: f64) -> f64 {
         told * self.0
     }
 
-    /// What a time (s) is for these tiles that is told for the paper's: magnets of the same remanence and
-    /// tiles of the same density bring tiles of any size to the same speeds.
+    /// A time (s) given for the paper's tiles, scaled to these: with the same remanence and
+    /// density, tiles of any size reach the same speeds.
     pub fn time(self, told: f64) -> f64 {
         told * self.0
     }

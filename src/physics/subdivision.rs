@@ -1,22 +1,21 @@
-//! Best-first subdivision: cells wait by rank, so many at once are looked at side by side, and what
-//! is made of each is its owner's affair: it is done with, or its parts wait in its place.
+//! Best-first subdivision: cells wait in order of rank and are processed in parallel batches. For
+//! each cell the caller decides whether it is finished or replaced by its parts.
 //!
-//! Where the next cells follow from how all that there are touch each other, there is no rank to wait
-//! by: [`crate::landscape::minimax`] keeps all its cells, and a flood tells which are to be divided.
+//! [`crate::landscape::minimax`] does not use this module: its next cells depend on the adjacency
+//! of all cells, so it keeps all of them, and a flood selects those to divide.
 
 use std::collections::BTreeMap;
 
 use crate::parallel;
 
-/// Cells that wait, with what is known of them: the least rank first, of equals the one that came
-/// first.
+/// Queued cells with their data: the lowest rank first; among equals, the first added.
 pub struct Waiting<R, C> {
     cells: BTreeMap<(R, usize), C>,
     came: usize,
 }
 
 impl<R: Ord, C: Sync> Waiting<R, C> {
-    /// None.
+    /// An empty queue.
     pub fn none() -> Self {
         Self {
             cells: BTreeMap::new(),
@@ -30,18 +29,18 @@ impl<R: Ord, C: Sync> Waiting<R, C> {
         self.came += 1;
     }
 
-    /// How many there are.
+    /// The number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
     }
 
-    /// Whether there are none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.cells.is_empty()
     }
 
-    /// Takes the next cells, so many at most (not by how many threads there are, so that these decide
-    /// nothing), each with what looking at it tells.
+    /// Takes the next cells, at most this many (a number that does not depend on the number of
+    /// threads), each with the result of examining it.
     pub fn look<T: Send>(&mut self, most: usize, look: impl Fn(&C) -> T + Sync) -> Vec<(C, T)> {
         let next = std::iter::from_fn(|| self.cells.pop_first());
         let next: Vec<C> = next.take(most).map(|(_, cell)| cell).collect();
@@ -49,7 +48,7 @@ impl<R: Ord, C: Sync> Waiting<R, C> {
         next.into_iter().zip(told).collect()
     }
 
-    /// What is left, in order.
+    /// The remaining cells, in order.
     pub fn into_cells(self) -> impl Iterator<Item = C> {
         self.cells.into_values()
     }

@@ -1,16 +1,16 @@
-//! Physical constants and the printing of quantities with SI prefixes.
+//! Physical constants, and quantities printed with SI prefixes.
 
 use std::f64::consts::PI;
 
-/// Magnetic constant mu0 (T m / A), the conventional value 4 pi 1e-7. (The measured value of
-/// CODATA 2018 differs from it by 5.5e-10, far below what is known of any magnet.)
+/// Magnetic constant mu0 (T m / A), the conventional value 4 pi 1e-7. (The measured value of CODATA
+/// 2018 differs from it by 5.5e-10, far below the uncertainty of any magnet.)
 pub const MU0: f64 = 4.0e-7 * PI;
 
 /// `mu0 / (4 pi)` (T m / A), the factor of Coulomb's law between magnetic charges and of the energy
 /// between dipoles.
 pub const MU0_OVER_4PI: f64 = MU0 / (4.0 * PI);
 
-/// What SI prefixes stand for, ascending.
+/// The SI prefixes and their factors, ascending.
 const PREFIXES: [(f64, &str); 6] = [
     (1e-12, "p"),
     (1e-9, "n"),
@@ -21,7 +21,7 @@ const PREFIXES: [(f64, &str); 6] = [
 ];
 
 /// A quantity with an SI prefix, `digits` significant digits and its unit: `-65.47 mJ`. Zero and
-/// what is not finite have no prefix.
+/// non-finite values have no prefix.
 pub fn si(value: f64, unit: &str, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{} {unit}", value + 0.0);
@@ -30,8 +30,8 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
     format!("{:.decimals$} {prefix}{unit}", value / scale)
 }
 
-/// A number with so many significant digits; very small and large ones with a power of ten. No digit
-/// before the decimal point is left out.
+/// A number with this many significant digits; very small and large ones with a power of ten. No
+/// digit before the decimal point is omitted.
 pub fn plain(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{}", value + 0.0);
@@ -43,8 +43,8 @@ pub fn plain(value: f64, digits: usize) -> String {
     }
 }
 
-/// What times (s) are told in, ascending: how long it is, its name, and from how many of it on the next
-/// one is taken.
+/// Units of time (s), ascending: its length, its name, and the number of it from which on the next
+/// one is used.
 const SPANS: [(f64, &str, f64); 5] = [
     (1.0, "s", 100.0),
     (60.0, "minutes", 100.0),
@@ -53,12 +53,13 @@ const SPANS: [(f64, &str, f64); 5] = [
     (31_557_600.0, "years", f64::INFINITY),
 ];
 
-/// A time (s) as people read it, to so many significant digits: `12 ms`, `4.2 hours`, `3e+40 years`.
+/// A time (s) in a readable unit, with this many significant digits: `12 ms`, `4.2 hours`, `3e+40
+/// years`.
 pub fn duration(time: f64, digits: usize) -> String {
     duration_to(time, digits, f64::round)
 }
 
-/// The same, its last digit rounded as `whole` says.
+/// The same, with the last digit rounded by `whole`.
 pub fn duration_to(time: f64, digits: usize, whole: fn(f64) -> f64) -> String {
     if time == f64::INFINITY {
         return "for ever".to_owned();
@@ -92,10 +93,10 @@ pub fn si_range(low: f64, high: f64, unit: &str, digits: usize) -> String {
 }
 
 /// The SI prefix with which a quantity of this size (finite, above zero), rounded to `digits`
-/// significant digits, is printed below 1000: what it stands for, the prefix, and the decimals.
-/// All is taken from what rounding makes of the number: 0.99999 J with four digits are 1.000 J.
+/// significant digits, is printed below 1000: its factor, the prefix, and the number of decimals.
+/// They are determined after rounding: 0.99999 J with four digits are 1.000 J.
 pub fn prefix_and_decimals(size: f64, digits: usize) -> (f64, &'static str, usize) {
-    // No digit before the decimal point is ever left out, so three are printed right.
+    // No digit before the decimal point is omitted, so three are printed correctly.
     let fits = |&&(scale, _): &&(f64, _)| exponent(size / scale, digits.max(3)) < 3;
     let (scale, prefix) = *PREFIXES.iter().find(fits).unwrap_or(&PREFIXES[5]);
     let after_first = digits as i32 - 1;
@@ -103,21 +104,21 @@ pub fn prefix_and_decimals(size: f64, digits: usize) -> (f64, &'static str, usiz
     (scale, prefix, decimals as usize)
 }
 
-/// A finite number rounded to so many significant digits (one at least).
+/// A finite number rounded to this many significant digits (at least one).
 pub fn to_digits(value: f64, digits: usize) -> f64 {
     let rounded = format!("{value:.*e}", digits.max(1) - 1);
     rounded.parse().unwrap_or(value)
 }
 
-/// The power of ten of a number rounded to so many significant digits.
+/// The power of ten of a number rounded to this many significant digits.
 fn exponent(value: f64, digits: usize) -> i32 {
     let rounded = format!("{value:.*e}", digits.max(1) - 1);
     let power = rounded.split_once('e').and_then(|(_, e)| e.parse().ok());
     power.unwrap_or(i32::MAX)
 }
 
-/// The SI prefix for a quantity of this size that is not to be rounded, as for an axis' range,
-/// and what it stands for.
+/// The SI prefix for a quantity of this size without rounding, as for an axis' range, and its
+/// factor.
 pub fn prefix_of(size: f64) -> (f64, &'static str) {
     let mut descending = PREFIXES.iter().rev();
     *descending

@@ -1,8 +1,8 @@
-//! The main job: an analysis as a document, with all its files.
+//! An analysis as a document, with all its files.
 //!
-//! Every number carries its unit in its key (`energy_J`); poses are `[x, y, theta]` in m, m and rad. All
-//! that depends on the machine is under `timing`: everything else is the same for the same design,
-//! settings and version. What is not known, or infinite, is null.
+//! Every number carries its unit in its key (`energy_J`); poses are `[x, y, theta]` in m, m and
+//! rad. Everything that depends on the machine is under `timing`; everything else is the same for
+//! the same design, settings and version. Unknown or infinite numbers are null.
 
 use serde_json::{Value, json};
 
@@ -22,18 +22,18 @@ use physics::budget::Ended;
 use physics::landscape::{Alternative, Barrier, PathwayCost};
 use physics::units::{si, si_range};
 
-/// How much is written.
+/// The extent of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Everything.
     Full,
-    /// Without the pathways of copies, the page and the files for TopSearch, pictures as SVG (and
-    /// PDF) only and without their numbers: for results that are kept.
+    /// Without the pathways of copies, the page and the files for TopSearch; pictures only as SVG
+    /// (and PDF), without their numbers. For results in a repository.
     Compact,
 }
 
 impl Extent {
-    /// Whether a file of this name may be among them.
+    /// Whether a file of this name may be written.
     pub fn may_hold(self, name: &str) -> bool {
         let folder = name.split_once('/').map(|(folder, _)| folder);
         let is_vector = name.ends_with(".svg") || name.ends_with(".pdf");
@@ -45,7 +45,7 @@ impl Extent {
     }
 }
 
-/// What there is to know of an analysis that took so long (s).
+/// The document of an analysis, with its duration (s).
 pub fn document<'a>(
     design: &'a Design,
     analysis: &'a Analysis,
@@ -82,7 +82,7 @@ pub fn document<'a>(
     }
 }
 
-/// All files of an analysis that took so long (s), made by `command`; see [`Document::files`].
+/// All files of an analysis, with its duration (s), made by `command`; see [`Document::files`].
 pub fn files(
     document: &Document,
     extent: Extent,
@@ -98,7 +98,7 @@ pub fn files(
     (files, drawn)
 }
 
-/// What `report.json` has; `is_whole` says whether escapes of copies name their pathways.
+/// The entries of `report.json`; `is_whole` says whether escapes of copies name their pathways.
 // One line an entry.
 #[rustfmt::skip]
 pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -> Entries {
@@ -120,8 +120,8 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
         }))
         .table(states::states(design, analysis, is_whole))
         .data("inventory", missing(analysis))
-        // Share of the far starts that ended in no state, and of which rest in something too shallow to
-        // be listed or leave the table; inner and outer radius of the ring from which they are drawn.
+        // Share of the far starts that ended in no state: those at rest in a minimum too shallow to
+        // be listed, and those that left the table; inner and outer radius of the ring of starts.
         .data("free", json!({
             "capture": proportion(analysis.uncaptured.all()),
             "ring_m": analysis.ring,
@@ -129,10 +129,10 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
             "gone": proportion(analysis.uncaptured.gone),
         }))
         .table(states::barriers(&catalogue.barriers))
-        // Why the bounds of all barriers are null; itself null where they are certified.
+        // Why the bounds of all barriers are null; itself null if they are certified.
         .data("uncertified", analysis.uncertified.map(|why| why.to_string()))
-        // What ended the certificate before all bounds were as narrow as was asked for: "work" or
-        // "clock", of which only the latter makes another run differ; null where nothing did.
+        // What ended the certification before all bounds were as narrow as requested: "work" or
+        // "clock" (only with the latter can runs differ); null if nothing did.
         .data("certificate_ended_by", analysis.certificate_ended.map(Ended::name))
         .data("dynamics", dynamics::json(analysis))
         .data("alternatives", catalogue.alternatives.iter().map(alternative).collect::<Value>())
@@ -140,7 +140,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
             "milestones": counts.milestones,
             "edges": counts.edges,
             "transition_states": counts.transition_states,
-            // Minima left out because next to nothing keeps them.
+            // Minima omitted because their barriers are negligible.
             "shallow_minima": catalogue.shallow,
             "energy_evaluations": counts.energy_evaluations,
             // Of the certificate.
@@ -149,7 +149,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
         .data("timing", json!({"total_wall_s": wall, "stages": stages.collect::<Value>()}))
 }
 
-/// Which design was analysed; the checksum is of the design file's bytes.
+/// The analysed design; the checksum is that of the design file's bytes.
 fn identity(design: &Design) -> Value {
     let mut identity = json!({
         "name": design.name,
@@ -162,13 +162,13 @@ fn identity(design: &Design) -> Value {
     identity
 }
 
-/// All that decides the result, besides the design and the seed.
+/// Everything that determines the result, besides the design and the seed.
 fn settings(design: &Design, analysis: &Analysis) -> Value {
     let settings = &analysis.settings;
     let shields = &design.interaction.shields;
     json!({
         "model": design.interaction.model.name(),
-        // The rule by which shields act; null for bare magnets.
+        // The rule of the shields; null for bare magnets.
         "shields": (!shields.is_none()).then(|| shields.rule.name()),
         "milestones": settings.milestones,
         "neighbours": analysis.roadmap.neighbours,
@@ -177,15 +177,15 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
         "thermal_energy_J": analysis.roadmap.edges.thermal_energy,
         "settled": settings.settled,
         "least_depth": settings.least_depth,
-        // The deepest kinds of states that are looked at; null for all.
+        // Number of kinds of states to analyse, deepest first; null for all.
         "kinds": settings.most_kinds,
         "far_starts": settings.far_starts,
         "repeats": settings.repeats,
-        // Width to which certified bounds are narrowed; null for a hundredth of the bond or a
-        // twentieth of the barrier, whichever is less.
+        // Target width of certified bounds; null for a hundredth of the bond or a twentieth of the
+        // barrier, whichever is smaller.
         "tolerance_J": settings.tolerance,
-        // Work, counted as what takes about so many seconds of a core, and seconds by the clock, at
-        // which the certificate ends; null for no limit. Cells of one barrier at most.
+        // Limits of the certification: work in core-seconds (counted), wall-clock seconds, and
+        // cells per barrier; null for no limit.
         "certify_work": settings.certify.work,
         "certify_s": settings.certify.seconds,
         "certify_cells": settings.certify_cells,
@@ -200,9 +200,9 @@ fn settings(design: &Design, analysis: &Analysis) -> Value {
     })
 }
 
-/// What is proved of the states that may be missing: besides the listed ones no configuration lies
-/// below `below_J` from which every way out rises by more than `escape_J`, except in the `open`
-/// regions (their `share` is that of the space). `unproved` says why nothing is, and is null
+/// What is proved about missing states: besides the listed states there is no configuration below
+/// `below_J` from which every way out rises by more than `escape_J`, except in the `open` regions
+/// (`share` is their share of the space). `unproved` says why nothing is proved, and is null
 /// otherwise.
 fn missing(analysis: &Analysis) -> Value {
     let mut entry = match &analysis.completeness {
@@ -217,7 +217,7 @@ fn missing(analysis: &Analysis) -> Value {
             })).collect::<Value>(),
             "share": known.share,
             "cells": known.cells,
-            // What ended the proof before it was done; null where nothing did.
+            // What ended the proof before it was complete; null if nothing did.
             "ended_by": known.ended.map(Ended::name),
             "unproved": null,
         }),
@@ -232,18 +232,18 @@ fn missing(analysis: &Analysis) -> Value {
             "unproved": why.to_string(),
         }),
     };
-    // Kinds of states that were found and are not listed, as fewer were asked for, and the energy of
-    // the deepest; null where all that were found are listed.
+    // Kinds of states that were found but exceed the requested number, and the energy of the
+    // deepest; null if all are listed.
     entry["left_out"] = json!(analysis.counts.left_out.map(|left| json!({
         "kinds": left.kinds,
         "lowest_J": left.lowest,
     })));
-    // Estimated share of far starts that would end in a kind of state that none has ended in yet.
+    // Estimated share of far starts that would end in a kind of state in which none has ended yet.
     entry["unseen"] = proportion(analysis.catalogue.unseen());
     entry
 }
 
-/// A pathway by another cost than the highest energy: the work against the energy on the way, or
+/// A pathway by a cost other than the maximum energy: the work against the energy on the path, or
 /// -ln of the product of the transition probabilities.
 fn alternative(alternative: &Alternative) -> Value {
     let cost = |by: PathwayCost| (alternative.by == by).then_some(alternative.cost);
@@ -275,7 +275,7 @@ fn beside(analysis: &Analysis, scene: &Scene, is_whole: bool) -> Files {
         .collect()
 }
 
-/// What to know first: the bond, how often it is found, how it is left, the deepest trap.
+/// The main facts: the bond, its captures, its escape, the deepest trap.
 fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
     let (kinds, names) = (scene.kinds(), scene.catalogue.names());
     let first = |is_bond| {

@@ -1,4 +1,4 @@
-//! Figures of designs in documents.
+//! The columns of assessed designs.
 
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use crate::figures::{cell, heading};
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, capture_range};
 
-/// What a capture range depends on.
+/// The parameters of a capture range.
 pub fn capture_settings() -> Value {
     json!({
         "steps": capture_range::STEPS,
@@ -39,13 +39,14 @@ pub fn quantities(design: &Assessment) -> Value {
     QUANTITIES.iter().map(entry).collect()
 }
 
-/// A figure and its bounds, `None` for what is not known or not finite.
+/// A figure and its bounds, `None` if not known or not finite.
 fn finite(quantity: &Quantity, design: Option<&Assessment>) -> [Option<f64>; 3] {
     let estimate = design.and_then(|design| quantity.of(design));
     estimate.map_or([None; 3], |estimate| estimate.finite())
 }
 
-/// Adds all figures of designs for programs, each with its bounds; empty where there is no design.
+/// Adds all figures of designs for programs, each with its bounds; cells without a design are
+/// empty.
 pub fn numbers<'a, Row>(
     mut rows: Rows<'a, Row>,
     of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
@@ -66,14 +67,14 @@ pub fn numbers<'a, Row>(
         })
         .column("seed", "", "", move |row| Some(of(row)?.seed))
         .column("sha256", "", "", move |row| Some(of(row)?.sha256.clone()))
-        // What moving tiles say of the barriers.
+        // The check of the barriers by moving tiles.
         .column("barriers_checked", "", "", checks(0))
         .column("barriers_contradicted", "", "", checks(1))
         .column("barriers_overestimated", "", "", checks(2))
 }
 
-/// Adds a figure of designs for people, or two that share a place, with bounds or the word for why
-/// there is none.
+/// Adds a figure of designs for people, or two that share a place, with bounds or a word that says
+/// why there is none.
 pub fn view<'a, Row>(
     rows: Rows<'a, Row>,
     name: impl Into<Cow<'static, str>>,
@@ -81,7 +82,7 @@ pub fn view<'a, Row>(
     of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
 ) -> Rows<'a, Row> {
     let first = of_place[0];
-    // A barrier that nothing crosses ranks above every number.
+    // A barrier that cannot be crossed ranks above every number.
     let value = move |row: &Row| Some(first.of(of(row)?)?.value.min(f64::MAX));
     let told = move |row: &Row| of(row).map_or("-".to_owned(), |one| cell(&of_place, one));
     rows.column("", name, first.label, value)
@@ -104,13 +105,13 @@ pub fn views<'a, Row>(
     rows
 }
 
-/// How many tables the figures of designs are spread over.
+/// The number of tables of figures.
 pub fn tables() -> u8 {
     let rows = QUANTITIES.iter().filter_map(|quantity| quantity.column);
     rows.map(|place| place.row + 1).max().unwrap_or(0)
 }
 
-/// A line on what moving tiles say of all barriers that they checked; none where they were not asked.
+/// A line on the check of all barriers by moving tiles; `None` without the check.
 pub fn checked<'a>(designs: impl Iterator<Item = &'a Assessment>) -> Option<String> {
     let sums = designs
         .filter_map(Assessment::checks)

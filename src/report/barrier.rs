@@ -1,4 +1,4 @@
-//! One barrier between two poses.
+//! One barrier between two poses, as a document.
 
 use serde_json::json;
 
@@ -14,10 +14,10 @@ use physics::budget::Ended;
 use physics::landscape::minimax::End;
 use physics::units::{si, si_range};
 
-/// The file of the pathway in a folder of results.
+/// The file of the pathway in a results folder.
 pub const PATHWAY: &str = "pathway.csv";
 
-/// What there is to know of a barrier; `file` is where its pathway is, if it is anywhere.
+/// The document of a barrier; `file` is the file of its pathway, if it is written.
 pub fn document<'a>(
     design: &'a Design,
     query: &Query,
@@ -47,7 +47,7 @@ pub fn document<'a>(
     }
 }
 
-/// The barrier as a list of barriers has it, its ends given by their poses.
+/// The barrier as in a list of barriers, with its ends given by poses.
 fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
     let to = match query.to {
         End::At(pose) => Cell::from(pose),
@@ -57,13 +57,13 @@ fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
         .row(barriers([&answer.barrier]))
         .fact("from", "from", query.from)
         .fact("to", "to", to)
-        // Why the bounds are null, where they are.
+        // Why the bounds are null, if they are.
         .data(
             "uncertified",
             json!(answer.uncertified.map(|why| why.to_string())),
         )
-        // What ended the narrowing before it was done: "work" or "clock", of which only the latter
-        // makes another run differ.
+        // What ended the narrowing of bounds early: "work" or "clock" (only with the latter can
+        // runs differ).
         .data("ended_by", json!(answer.ended.map(Ended::name)))
         .data("pathway", json!(file))
 }
@@ -88,7 +88,7 @@ fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
     )
 }
 
-/// The energy along the way.
+/// The energy along the path.
 fn profile(answer: &Answer) -> Chart {
     let way = thinned(&answer.barrier.pathway, SEEN);
     Chart {
@@ -106,7 +106,7 @@ fn profile(answer: &Answer) -> Chart {
     )
 }
 
-/// The tiles where the way starts, is highest and ends.
+/// The tiles at the start, the saddle and the end of the path.
 fn ends<'a>(design: &'a Design, query: &Query, answer: &Answer) -> Drawing<'a> {
     let barrier = &answer.barrier;
     let start = (query.from, barrier.from_energy, "start");

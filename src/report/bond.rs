@@ -1,4 +1,4 @@
-//! How strongly the bond and the traps hold shaken tiles.
+//! The strength of the bond and the traps, as a document.
 
 use serde_json::Value;
 
@@ -10,7 +10,7 @@ use physics::kinetics::bond::Docking;
 use physics::kinetics::volume::NO_PLAY;
 use physics::units::si;
 
-/// What there is to know of how tiles are held.
+/// The document of the strength of bonds.
 pub fn document<'a>(design: &Design, held: &Held) -> Document<'a> {
     Document {
         title: format!("Bond of {}", design.name),
@@ -61,7 +61,7 @@ fn answer(design: &Design, held: &Held) -> String {
     )
 }
 
-/// The kT at which two bonds hold and one does not.
+/// The range of kT in which two bonds hold a tile and one does not.
 fn window(held: &Held) -> String {
     let bond = held.states[0].energy;
     match held.window {
@@ -93,23 +93,23 @@ fn found_entries(design: &Design, held: &Held) -> Entries {
         .fact("docking_cost_kT", "cost of docking", bond.docking.cost).viewed(in_kt(bond.docking.cost))
         .fact("ln_K", "ln K", bond.docking.ln_k(1.0)).viewed(number(bond.docking.ln_k(1.0))).noted("of one bond")
         .fact("docking_cost_error_kT", "", bond.docking.volume.relative_error())
-        // kT between which two bonds closed by one docking hold and one alone does not; null where
-        // there is no such end.
+        // The range of kT in which two bonds closed by one docking hold a tile and one alone does
+        // not; null for a missing end.
         .data("two_hold_one_does_not_J", held.window.to_vec())
         .data("two_hold_one_does_not_bond_kT", held.window.map(|kt| kt.map(|kt| -bond.energy / kt)).to_vec())
         .data("bond", found.swap_remove(0))
         .table(states)
-        // Kinds of traps that are left out: less than 2 kT deep, they hold nothing.
+        // Omitted kinds of traps: less than 2 kT deep, they hold nothing.
         .fact("shallow_traps", "", held.shallow)
         .data("traps", traps)
         .more((!held.over_kt.is_empty()).then(|| Entry::Table(by_kt(held))))
 }
 
-// One line a column: what files and people call it, what it means, its value.
+// One line per column: key, name, meaning, value.
 #[rustfmt::skip]
 fn states(held: &Held) -> Table {
     let closed = |it: &HeldState| match it.closed_error() {
-        // It holds far below the depth only.
+        // It is valid only for kT far below the depth.
         Some(error) if error.abs() < 10.0 => format!("{:+.1} %", 100.0 * error),
         Some(_) => "useless".to_owned(),
         None => "-".to_owned(),
@@ -127,18 +127,19 @@ fn states(held: &Held) -> Table {
         .column("ln_K", "ln K", "depth minus docking cost", |it| it.docking.ln_k(1.0)).viewed(|it| number(it.docking.ln_k(1.0)))
         .column("Z0_m2_rad", "", "", |it| it.docking.volume.value)
         .column("Z0_error_m2_rad", "", "", |it| it.docking.volume.error)
-        // The basin: what can be reached from the state below this energy.
+        // The basin contains the configurations that can be reached from the state below this
+        // energy.
         .column("basin_below_J", "", "", |it| it.level)
         .column("basin_cut", "", "", |it| it.is_cut)
-        // What lies below half the state's depth alone: where it differs, K depends on what is
-        // counted as bound.
+        // The same with only the part below half the state's depth: if it differs, K depends on
+        // where "bound" ends.
         .column("docking_cost_half_depth_kT", "", "", |it| it.inner.cost)
         .column("closed_form_Z0_m2_rad", "", "", |it| it.closed.map(|it| it.volume.value))
         .column("closed_form_error", "closed form", "error of the analytic estimate", HeldState::closed_error).viewed(closed)
         .table("states").titled("States", "").in_view().in_file("states")
 }
 
-/// How states hold over kT.
+/// The strength of states over kT.
 #[rustfmt::skip]
 fn by_kt(held: &Held) -> Table {
     let states = held.states.iter();
@@ -154,7 +155,7 @@ fn by_kt(held: &Held) -> Table {
         .table("over_kT").in_data().in_file("over-kt")
 }
 
-/// ln K over kT: of one bond, of two that are closed by one docking, and of the traps.
+/// ln K over kT: for one bond, for two bonds closed by one docking, and for the traps.
 fn over_kt(held: &Held) -> Chart {
     let line = |of: &dyn Fn(&[Docking]) -> f64| -> Vec<[f64; 2]> {
         let points = held.over_kt.iter();

@@ -9,7 +9,7 @@ const BLANK: u32 = 0x2800;
 /// Bits of the dots, row by row.
 const DOTS: [[u32; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
-/// A drawing in the making, in metres, y upwards.
+/// A drawing under construction, in metres, y upwards.
 #[derive(Debug, Default)]
 pub struct Braille {
     polygons: Vec<Vec<Vector2<f64>>>,
@@ -27,8 +27,8 @@ impl Braille {
         self.letters.push((at, letter));
     }
 
-    /// The drawing, at most so many characters wide and about half as many lines high; terminals'
-    /// characters are twice as high as wide.
+    /// The drawing, at most the given number of characters wide and about half as many lines high,
+    /// since terminal characters are twice as high as wide.
     pub fn text(&self, columns: usize) -> String {
         let points = || self.polygons.iter().flatten();
         let bound = |axis: usize, fold: fn(f64, f64) -> f64, start: f64| {

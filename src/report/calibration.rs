@@ -1,4 +1,4 @@
-//! Calibrations: shields fitted to measurements, and kT to pairs that were watched.
+//! Calibrations as documents: shields fitted to measurements, and kT fitted to observed pairs.
 
 use serde_json::{Value, json};
 
@@ -20,7 +20,7 @@ const CONSTANTS: [(&str, &str, &str); 4] = [
 /// Keys of the measured quantities.
 const KEYS: [&str; 4] = ["energy_J", "force_x_N", "force_y_N", "torque_Nm"];
 
-/// What measurements tell.
+/// The document of a calibration.
 pub fn document(design: &Design, found: &Fitted) -> Document<'static> {
     match found {
         Fitted::Shields(found) => shields(design, found),
@@ -29,7 +29,7 @@ pub fn document(design: &Design, found: &Fitted) -> Document<'static> {
     }
 }
 
-/// What is known of fitted shields, with the lines for a design file.
+/// The document of fitted shields, with the lines for a design file.
 fn shields(design: &Design, found: &Calibration) -> Document<'static> {
     let (fitted, held_out) = (&found.fitted, &found.held_out);
     let constants = |values: [f64; 4]| -> Value {
@@ -83,7 +83,8 @@ fn counted(part: &Residuals) -> String {
 fn lines(values: [f64; 4], errors: [f64; 4]) -> String {
     let mut text = "\n[shield]".to_owned();
     for ((value, error), (_, name, unit)) in values.into_iter().zip(errors).zip(CONSTANTS) {
-        // By the logarithm, a constant is known only if its error is smaller than itself.
+        // On the logarithmic scale of the fit, a constant is known only if its error is smaller
+        // than its value.
         let error = match error < value {
             true => format!("+- {error:.1e}{unit}"),
             false => "not determined by these rows".to_owned(),
@@ -106,7 +107,7 @@ fn strength(found: &Calibration) -> String {
     )
 }
 
-/// Of each measured quantity how far the model is off.
+/// The error of the model for each measured quantity.
 fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
     let told = |part: &Residuals, k: usize| match part.rms[k].zip(part.relative[k]) {
         Some((rms, off)) => format!("{} ({:.2} %)", si(rms, QUANTITIES[k].1, 3), 100.0 * off),
@@ -141,12 +142,12 @@ fn residuals(part: &Residuals) -> Value {
     })
 }
 
-/// kT (J) with its 95 % interval, as reports have it.
+/// kT (J) with its 95 % interval, for reports.
 fn of_kt(design: &Design, kt: Option<f64>, interval: [Option<f64>; 2]) -> Entries {
     entries(design)
         .fact("kT_J", "kT", kt)
         .noted("effective energy of shaking")
-        // The ends stand apart: one may be unknown.
+        // The ends are separate entries, since one may be unknown.
         .data("kT_interval_J", json!(interval))
         .fact("interval_J", "95 % interval", interval)
         .in_view()
@@ -156,7 +157,7 @@ fn energy(kt: Option<f64>) -> String {
     kt.map_or("?".to_owned(), |kt| si(kt, "J", 3))
 }
 
-/// What is known of kT from intervals of pairs.
+/// The document of kT from intervals of pairs.
 fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
     let TimesFit {
         times, area, kt, ..
@@ -211,7 +212,7 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
     }
 }
 
-/// How far intervals are exponential, where they are not known to be.
+/// A note if intervals are not known to be exponential.
 fn doubt(name: &str, times: &Times) -> Option<String> {
     match times.statistic() {
         None => Some(format!(
@@ -228,7 +229,7 @@ fn doubt(name: &str, times: &Times) -> Option<String> {
     }
 }
 
-/// What is known of kT from distances of pairs, and whether one kT tells of them at all.
+/// The document of kT from distances of pairs, with a test of whether a single kT explains them.
 fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
     let [low, high] = found.interval.map(energy);
     let (statistic, freedom) = found.pearson.unzip();
@@ -282,7 +283,7 @@ fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
     }
 }
 
-/// The quantile of 95 % of chi-square (Wilson and Hilferty 1931, doi:10.1073/pnas.17.12.684).
+/// The 95 % quantile of chi-square (Wilson and Hilferty 1931, doi:10.1073/pnas.17.12.684).
 fn critical(freedom: usize) -> f64 {
     let part = 2.0 / (9.0 * freedom.max(1) as f64);
     freedom as f64 * (1.0 - part + 1.645 * part.sqrt()).powi(3)

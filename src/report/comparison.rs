@@ -1,4 +1,4 @@
-//! Designs side by side.
+//! Comparisons of designs as documents.
 
 use std::fmt::Write;
 
@@ -17,9 +17,9 @@ use physics::landscape::minimax::Ordering;
 pub struct Comparison {
     /// Best first.
     pub designs: Vec<Assessment>,
-    /// What designs are ranked by.
+    /// The figure of the ranking.
     pub by: &'static Quantity,
-    /// How they were assessed.
+    /// The settings of the assessments.
     pub settings: Request,
 }
 
@@ -34,7 +34,7 @@ impl Comparison {
         }
     }
 
-    /// What there is to know of it.
+    /// The document of the comparison.
     pub fn document(&self) -> Document<'_> {
         let seed = self.designs.first().map_or(0, |first| first.seed);
         let mut document = Document {
@@ -85,7 +85,7 @@ impl Comparison {
         all.table(self.orders())
     }
 
-    /// The sentence that answers: which design is best, and of how many.
+    /// The headline: which design is best, and of how many.
     fn headline(&self) -> String {
         let docking = self.designs.iter().filter(|one| one.obstacle().is_none());
         let of = match self.designs.len() {
@@ -107,7 +107,7 @@ impl Comparison {
         }
     }
 
-    /// Why designs stand last, and what the figures mean.
+    /// Notes: why designs are last, and what the figures mean.
     fn notes(&self) -> Vec<String> {
         let behind = |one: &Assessment| {
             let (_, why) = one.obstacle()?;
@@ -135,7 +135,7 @@ impl Comparison {
         notes
     }
 
-    /// A design's name, with the model where models differ.
+    /// A design's name, with the model if models differ.
     pub fn name(&self, design: &Assessment) -> String {
         match self.model() {
             Some(_) => design.name.clone(),
@@ -143,7 +143,7 @@ impl Comparison {
         }
     }
 
-    /// What the magnets of all are, such as `dipoles` or `blocks`; `None` where models differ.
+    /// The kind of all magnets, such as `dipoles` or `blocks`; `None` if models differ.
     fn model(&self) -> Option<&str> {
         let first = &self.designs.first()?.model;
         let same = self.designs.iter().all(|design| design.model == *first);
@@ -155,7 +155,7 @@ impl Comparison {
         })
     }
 
-    /// The figures that designs are known by, and for each the design that has most of it.
+    /// The main figures, and for each the design with the largest value.
     fn firsts(&self) -> Vec<(String, String, String)> {
         let best = QUANTITIES.iter().filter(|quantity| quantity.most.is_some());
         let mut firsts: Vec<(String, String, String)> = Vec::new();
@@ -208,7 +208,7 @@ impl Comparison {
             .in_view()
     }
 
-    /// One line a design, best first.
+    /// One row per design, best first.
     pub fn table(&self) -> Table {
         let ranked = rows(self.designs.iter().zip(1_usize..))
             .column("rank", "", "", |(_, rank)| *rank)
@@ -230,7 +230,7 @@ impl Comparison {
         designs.map(entry).collect()
     }
 
-    /// For each figure the pairs of designs whose order is proved, by their places in the ranking.
+    /// For each figure the pairs of designs whose order is proved, by their indices in the ranking.
     fn proved(&self) -> Value {
         let mut all = Map::new();
         for (_, quantity) in ordered() {
@@ -251,14 +251,14 @@ impl Comparison {
     }
 }
 
-/// What is proved of traps that were not found.
+/// The note on traps that were not found.
 const UNLISTED: &str = "proved that no missed state is deeper than this and needs more than 0.5 % \
     of the bond to escape";
-/// What barriers are of which nothing is proved.
+/// The note on barriers without proved bounds.
 const ESTIMATES: &str = "barriers without brackets are roadmap estimates: too high if the roadmap \
     missed a passage";
 
-/// Whether nothing is proved of a barrier that is shown.
+/// Whether a shown barrier has no proved bounds.
 fn has_estimates(design: &Assessment) -> bool {
     let is_estimate = |quantity: &&Quantity| {
         let estimate = quantity.of(design);
@@ -268,7 +268,7 @@ fn has_estimates(design: &Assessment) -> bool {
     QUANTITIES.iter().any(|quantity| is_estimate(&quantity))
 }
 
-/// The quantities whose order may be proved, with their headings in the tables.
+/// The quantities whose order can be proved, with their headings in the tables.
 fn ordered() -> impl Iterator<Item = (&'static str, &'static Quantity)> {
     let certified = |quantity: &Quantity| quantity.column.filter(|_| quantity.bounds == CERTIFIED);
     let places = placed(certified).into_iter();

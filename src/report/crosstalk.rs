@@ -1,4 +1,4 @@
-//! Crosstalk: the attraction of every two words over all poses.
+//! Crosstalk as a document: the attraction of every two words over all poses.
 
 use serde_json::{Value, json};
 
@@ -14,15 +14,15 @@ use physics::units::si;
 use physics::words::crosstalk::{Crosstalk, Kind, Meeting};
 use physics::words::set::name;
 
-/// Meetings that people see, the strongest, and those of them that a terminal has.
+/// Number of contacts shown to people, strongest first, and on a terminal.
 const SHOWN: usize = 100;
 const LISTED: usize = 5;
-/// Sets of more words have no map.
+/// Sets with more words than this have no map.
 pub(super) const MOST_DRAWN: usize = 80;
 /// Bars of a histogram.
 const BINS: usize = 40;
 
-/// What there is to know of the crosstalk of a set.
+/// The document of the crosstalk of a set.
 pub fn document<'a>(set: &'a WordSet, found: &'a Crosstalk) -> Document<'a> {
     let map = map(set, found);
     Document {
@@ -57,12 +57,12 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
         .fact("count", "words", found.words.len())
         // Rows and columns: words, then their mates.
         .data("faces", found.faces().map(|word| word.to_string()).collect::<Vec<_>>())
-        // Where the places of the words lie along the face, if not a pitch apart.
+        // The positions of the words' places along the face, if they are not one pitch apart.
         .data("places_m", set.places.clone())
         .data("strongest_J", numbers(&found.strongest))
         .data("lower_J", found.lower.as_ref().map(numbers))
         .data("poses", found.poses.iter().map(|row| row.iter().map(|q| json!(pose(q))).collect::<Value>()).collect::<Value>())
-        // Of each word and its own mate the deepest meeting found that holds beside the bond.
+        // For each word and its own mate, the deepest stable contact found besides the bond.
         .data("traps_J", found.traps.iter().map(|it| json!(it.map(|it| positive_zero(it.0)))).collect::<Value>())
         .data("trap_poses", found.traps.iter().map(|it| json!(it.map(|it| pose(&it.1)))).collect::<Value>())
         .fact("bond_J", "weakest bond", found.weakest_bond().map(|bond| -bond.1)).digits(4).noted("depth")
@@ -73,12 +73,12 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
         .table(all)
         .data("model", set.stage.interaction.model.name())
         .data("pitch_m", set.stage.pitch)
-        // Whether all lower bounds are as close as asked for.
+        // Whether all lower bounds are as close as requested.
         .data("settled", found.lower.as_ref().map(|_| found.settled))
         .data("cells", found.cells)
 }
 
-/// All meetings, traps last, for programs; and for people the strongest wrong ones.
+/// All contacts, traps last, for programs; and the strongest wrong ones for people.
 pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> [Table; 2] {
     let mut wrong: Vec<Meeting> = found.wrong().collect();
     wrong.order_by(|a, b| a.energy.total_cmp(&b.energy));
@@ -117,7 +117,7 @@ fn table(set: &WordSet, found: &Crosstalk, all: Vec<Meeting>) -> Table {
         .table("meetings")
 }
 
-/// The map of all faces against all, unless they are too many.
+/// The map of all pairs of faces, unless there are too many.
 pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     let pair = &set.stage.pair;
     let (face, magnets) = (pair.target_face(), &pair.fixed.magnets);
@@ -151,14 +151,14 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     (1..=MOST_DRAWN).contains(&m).then(map)
 }
 
-/// The map as a picture, and how many pairs have which gap.
+/// The map as a picture, and a histogram of the gaps of pairs.
 pub(super) fn pictures(map: Option<&Meetings>, found: &Crosstalk) -> Vec<Drawing<'static>> {
     let gaps = histogram("Gaps of all pairs of faces", found.gaps());
     let map = map.map(|map| map.picture());
     map.into_iter().chain([gaps.into()]).collect()
 }
 
-/// How many pairs have which gap.
+/// A histogram of the gaps of pairs.
 pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
     let mut counts = [0usize; BINS];
     for gap in gaps {
@@ -172,7 +172,7 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
         title: title.to_owned(),
         x: Dimension::new("gap", "gap of the pair").within([0.0, 1.0]),
         y: match counts.iter().max() {
-            // No halves.
+            // Axis marks at whole numbers only.
             Some(most @ ..7) => pairs.marked((0..=*most).map(|count| count as f64)),
             _ => pairs,
         },
@@ -186,7 +186,7 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
     )
 }
 
-/// `A on B*`; of a word and its own mate a trap.
+/// The name of a contact, such as `A on B*`; that of a word and its own mate is a trap.
 pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &Meeting) -> String {
     let [a, b] = meeting.faces.map(|face| face_name(set, found, face));
     let trap = if meeting.kind == Kind::Trap {
@@ -197,7 +197,7 @@ pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &Meeting) -> String
     format!("{a} on {b}{trap}")
 }
 
-/// The name of a face: `A`, or `A*` of a mate.
+/// The name of a face: `A`, or `A*` for a mate.
 pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String {
     let word = |k: usize| set.names.get(k).cloned().unwrap_or_else(|| name(k));
     match face.checked_sub(found.words.len()) {
@@ -206,8 +206,8 @@ pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String
     }
 }
 
-/// The first sentence: the gap over all poses, how sure, the weakest bond and the strongest wrong
-/// meeting.
+/// The headline: the gap over all poses and its certainty, the weakest bond and the strongest wrong
+/// contact.
 pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
     let many = match found.words.len() {
         1 => "1 word".to_owned(),

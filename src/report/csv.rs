@@ -7,19 +7,19 @@ use physics::landscape::{Pathway, PathwayPoint};
 /// Lengths are in m, theta is in rad.
 const PATHWAY: [&str; 6] = ["s", "x", "y", "theta", "energy_J", "clearance_m"];
 
-/// How far (m, and rad) a point left out of a pathway's file may lie from the straight motion between
-/// its neighbours, and how far the energy may be off there, as a fraction of the range of energies on
-/// the pathway: the file, joined by straight motions, is the pathway.
+/// Largest distance (m, and rad) of a point omitted from a pathway's file from the straight motion
+/// between its neighbours, and largest energy error there, as a fraction of the range of energies
+/// on the pathway. The points of the file, joined by straight motions, are the pathway.
 const SAME_MOTION: [f64; 2] = [1e-8, 1e-4];
 /// The same for pictures.
 pub(super) const SEEN: [f64; 2] = [1e-5, 1e-3];
-/// How far the clearance may be off there, as a share of how far the pathway leads.
+/// Largest error of the clearance there, as a share of the extent of the pathway.
 const CLEARANCE_TOLERANCE: f64 = 1e-5;
-/// How far it may be off beyond that, as a fraction of itself.
+/// Additional allowed error of the clearance, relative to the clearance.
 const RELATIVE_CLEARANCE: f64 = 1e-3;
-/// A pathway, point by point: between two of them it is straight in x, y and theta (the shorter way
-/// round). Points are left out where the motion between their neighbours is straight and the energy
-/// along it linear; the highest point always stays.
+/// A pathway as a list of points; between two points it is straight in x, y and theta (the shorter
+/// way round). Points are omitted where the motion between their neighbours is straight and the
+/// energy along it linear; the highest point is always kept.
 pub fn pathway(pathway: &Pathway) -> String {
     let rows = thinned(pathway, SAME_MOTION).into_iter().map(|point| {
         let [x, y, theta] = point.configuration.to_array();
@@ -28,11 +28,11 @@ pub fn pathway(pathway: &Pathway) -> String {
     table(PATHWAY, rows)
 }
 
-/// A table: the names of its columns, and its rows, each of as many cells. Cells are quoted where
-/// they hold a comma, a quote or a line's end (RFC 4180).
+/// A table: the names of its columns, and its rows with as many cells each. Cells are quoted if
+/// they contain a comma, a quote or a line end (RFC 4180).
 ///
 /// # Panics
-/// Where a row has more or fewer cells than there are columns.
+/// If a row has more or fewer cells than there are columns.
 pub(crate) fn table<Row: IntoIterator<Item: AsRef<[u8]>>>(
     columns: impl IntoIterator<Item: AsRef<[u8]>>,
     rows: impl IntoIterator<Item = Row>,
@@ -61,9 +61,9 @@ fn added(writer: &mut ::csv::Writer<Vec<u8>>, cell: Option<&[u8]>) {
     .expect("a vector takes rows of equal length");
 }
 
-/// The points of a pathway that are not on the straight line between their neighbours, to within
-/// tolerances of the pose (rad, and as a share of how far the pathway leads from the fixed tile's centre)
-/// and of the energy (a fraction of its range).
+/// The points of a pathway that are not on the straight line between their neighbours, within
+/// tolerances of the pose (rad, and as a share of the pathway's largest distance from the fixed
+/// tile's centre) and of the energy (a fraction of its range).
 pub(super) fn thinned(pathway: &Pathway, [pose, energy]: [f64; 2]) -> Vec<PathwayPoint> {
     let Some(highest) = (0..pathway.len()).max_by_key(|&k| OrderedFloat(pathway[k].energy)) else {
         return Vec::new();
@@ -113,7 +113,7 @@ fn is_between(
         && linear(|p| p.energy).abs() <= energy
 }
 
-/// Significant digits of a number, at most.
+/// Largest number of significant digits.
 const DIGITS: u8 = 10;
 
 /// A number with ten digits.
@@ -121,8 +121,8 @@ pub(crate) fn number(value: f64) -> String {
     rounded(value, DIGITS)
 }
 
-/// A number with so many digits, at most 15, plain or scientific, whichever is shorter. Where it lies
-/// half way between two of them to within rounding, either.
+/// A number with a given number of digits, at most 15, plain or scientific, whichever is shorter. A
+/// number half way between two decimals, within rounding, becomes either.
 pub(super) fn rounded(value: f64, count: u8) -> String {
     let size = value.abs();
     if !value.is_finite() || size < f64::MIN_POSITIVE {
@@ -136,7 +136,7 @@ pub(super) fn rounded(value: f64, count: u8) -> String {
     let mut power = libm::log10(size).floor() as i32;
     let (count, least) = (i32::from(count), 10u64.pow(u32::from(count) - 1));
     let mut digits = scaled(size, count - 1 - power);
-    // The logarithm is rounded, and so are the digits.
+    // Both the logarithm and the digits have been rounded.
     if digits < least {
         power -= 1;
         digits = scaled(size, count - 1 - power);
@@ -152,12 +152,12 @@ pub(super) fn rounded(value: f64, count: u8) -> String {
 
 /// `size` times a power of ten, rounded.
 fn scaled(size: f64, power: i32) -> u64 {
-    // Neither factor overflows, and up to 22 they are exact.
+    // Neither factor overflows, and powers up to 22 are exact.
     let (first, rest) = (power.clamp(-300, 300), power - power.clamp(-300, 300));
     (size * 10f64.powi(first) * 10f64.powi(rest)).round() as u64
 }
 
-/// A number of some digits, the first of which counts as this power of ten.
+/// A number from its digits and the power of ten of the first digit.
 fn written(is_negative: bool, digits: &str, power: i32) -> String {
     let (count, size) = (digits.len() as i32, power.unsigned_abs());
     let plain = match power {

@@ -1,4 +1,4 @@
-//! Docking experiments: how tiles end that are sent towards each other.
+//! Docking experiments as documents: how tiles launched towards each other end.
 
 use serde_json::{Value, json};
 
@@ -17,10 +17,10 @@ use physics::units::{plain, si};
 
 /// Cells of the map of chances along the orientation and the speed.
 pub const CELLS: [usize; 2] = [12, 13];
-/// Traps that people see.
+/// Number of traps shown to people.
 const LISTED: usize = 12;
 
-/// What there is to know of an experiment; with some of its paths, pictures and what the page plays.
+/// The document of an experiment; if paths are given, with pictures and animations.
 pub fn document<'a>(
     (design, problem): (&'a Design, &'a Problem),
     docking: &'a Docking,
@@ -87,7 +87,7 @@ fn settings(docking: &Docking) -> Value {
     })
 }
 
-/// How tiles move, as reports have it.
+/// The settings of the motion, for reports.
 pub(crate) fn motion(motion: &MotionSettings) -> Value {
     let fans = motion.fans.iter().map(|fan| {
         json!({
@@ -103,7 +103,7 @@ pub(crate) fn motion(motion: &MotionSettings) -> Value {
     })
 }
 
-/// A rate, with the number of what was counted under its name.
+/// A rate, with the number of counted events under their name.
 pub(crate) fn rate(events: &str, rate: &OnRate) -> Value {
     json!({
         events: rate.attachments, "time_s": rate.time, "rate_per_s": rate.rate,
@@ -112,7 +112,7 @@ pub(crate) fn rate(events: &str, rate: &OnRate) -> Value {
     })
 }
 
-/// Least, middle and largest time to bind (s).
+/// Smallest, median and largest time to bind (s).
 fn times(docking: &Docking) -> Option<[f64; 3]> {
     let since = |run: &DockingRun| match run.end {
         End::Bound { since } => Some(since),
@@ -181,7 +181,7 @@ fn traps(problem: &Problem, docking: &Docking) -> Table {
         .listing(LISTED)
 }
 
-/// `runs.csv`: one trajectory a line.
+/// `runs.csv`: one trajectory per row.
 // One line a column.
 #[rustfmt::skip]
 pub fn runs(docking: &Docking) -> Table {
@@ -208,7 +208,7 @@ pub fn runs(docking: &Docking) -> Table {
         .in_csv("runs")
 }
 
-/// `map.csv`: one cell of the map a line.
+/// `map.csv`: one cell of the map per row.
 pub fn chances(map: &DockingMap) -> Table {
     rows(&map.cells)
         .column("orientation_bounds_rad", "", "", |it| it.orientation)
@@ -223,7 +223,7 @@ pub fn chances(map: &DockingMap) -> Table {
         .in_csv("map")
 }
 
-/// One trajectory, a snapshot a line.
+/// One trajectory, one snapshot per row.
 pub fn trajectory(snapshots: &[Snapshot]) -> Table {
     let velocity = |axis: usize| move |at: &&Snapshot| at.motion.velocity[axis];
     rows(snapshots)
@@ -277,7 +277,7 @@ fn pictures<'a>(design: &'a Design, docking: &'a Docking, paths: &'a Paths) -> V
     ]
 }
 
-/// What the page plays.
+/// The animations of the page.
 fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -> Part {
     let catalogue = Catalogue {
         states: states(problem, docking, design.pair.bound),
@@ -290,7 +290,7 @@ fn scene(design: &Design, problem: &Problem, docking: &Docking, paths: &Paths) -
     Part::Landscape(Box::new(Landscape::new(design, &scene, played.collect())))
 }
 
-/// The bond and the traps, to be marked.
+/// The bond and the traps, to be marked in pictures.
 fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<State> {
     let rule = MatchRule::new(problem, docking.settings.threshold);
     let is_bond = |q: &Configuration| rule.as_ref().is_ok_and(|rule| rule.holds(q));

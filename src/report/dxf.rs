@@ -1,8 +1,8 @@
-//! DXF files that programs open at size.
+//! DXF files that programs open at true size.
 //!
-//! Release 2000 (AC1015) in ASCII: the oldest with `$INSUNITS`, which says what a unit of the drawing
-//! is, and read by whatever reads DXF. It wants more than lines: tables, blocks for model and paper,
-//! a dictionary of objects, and a handle and an owner for everything.
+//! Release 2000 (AC1015) in ASCII: the oldest with `$INSUNITS`, which states the unit of the
+//! drawing, and one that all DXF readers understand. Besides lines it requires tables, blocks for
+//! model and paper, a dictionary of objects, and a handle and an owner for everything.
 
 use std::fmt::Write;
 
@@ -20,7 +20,7 @@ pub(super) struct Dxf {
     high: [f64; 2],
 }
 
-/// Handles of what every file has (hexadecimal); what is drawn counts on from [`FIRST`].
+/// Handles of the objects of every file (hexadecimal); drawn objects continue from [`FIRST`].
 const MODEL: u32 = 0x20;
 const PAPER: u32 = 0x21;
 const FIRST: u32 = 0x100;
@@ -55,7 +55,7 @@ impl Pairs {
         }
     }
 
-    /// What begins an entry: its kind, a handle of its own and that of its owner.
+    /// The beginning of an entry: its kind, its handle and its owner's handle.
     fn entry(&mut self, kind: &str, owner: u32, classes: &[&str]) -> u32 {
         let handle = self.handle;
         self.handle += 1;
@@ -65,7 +65,7 @@ impl Pairs {
 
     fn with_handle(&mut self, kind: &str, handle: u32, owner: u32, classes: &[&str]) {
         self.push(0, kind);
-        // Dimension styles keep their handle elsewhere.
+        // Dimension styles have their handle under another code.
         self.push(
             if kind == "DIMSTYLE" { 105 } else { 5 },
             &format!("{handle:X}"),
@@ -149,14 +149,14 @@ impl Dxf {
         }
     }
 
-    /// A text about its middle; its place and height in m.
+    /// A text centred at a position; position and height in m.
     pub fn text(&mut self, layer: &str, middle: Vector2<f64>, height: f64, text: &str) {
         let [x, y, height] = [middle.x, middle.y, height].map(|length| 1e3 * length);
         let pairs = &mut self.entities;
         pairs.entry("TEXT", MODEL, &["AcDbEntity"]);
         pairs.all(&[(8, layer), (100, "AcDbText")]);
         pairs.numbers(&[(10, x), (20, y), (30, 0.0), (40, height)]);
-        // Aligned by its middle, along and across.
+        // Aligned by its centre, horizontally and vertically.
         pairs.all(&[(1, text), (72, "1")]);
         pairs.numbers(&[(11, x), (21, y), (31, 0.0)]);
         pairs.all(&[(100, "AcDbText"), (73, "2")]);
@@ -231,7 +231,7 @@ impl Dxf {
             (27, 0.0),
             (37, 0.0),
         ]);
-        // The view's height and shape: all that is drawn, with room around it.
+        // The view's height and aspect ratio: the whole drawing with a margin.
         pairs.numbers(&[
             (40, 1.2 * size[1].max(size[0] / 1.5)),
             (41, 1.5),
@@ -336,7 +336,7 @@ mod tests {
             .1;
         let value = |handle: &str| u32::from_str_radix(handle, 16).unwrap();
         assert!(known.iter().all(|handle| value(handle) < value(seed)));
-        // No number in mm is told as -0, and a unit is a millimetre.
+        // No number in mm is written as -0, and the unit is a millimetre.
         assert!(text.contains(" 10\n100.0\n") && text.contains(" 10\n0.0\n 20\n20.0\n"));
         assert!(!text.contains("-0.0\n"));
         assert!(text.contains("$INSUNITS\n 70\n4\n") && text.contains(" 42\n0.500000000000\n"));

@@ -1,4 +1,4 @@
-//! What moving tiles say of the barriers, as JSON, CSV and a few lines.
+//! The check of barriers by moving tiles, as JSON, CSV and a few lines of text.
 
 use serde_json::{Value, json};
 
@@ -7,13 +7,13 @@ use super::names::place;
 use jobs::pipeline::Analysis;
 use physics::dynamics::check::{BarrierCheck, Side, SideVerdict};
 
-/// The check in `report.json`; null where the barriers were not checked.
+/// The check in `report.json`; null if the barriers were not checked.
 pub fn json(analysis: &Analysis) -> Value {
     let Some(checks) = &analysis.dynamics else {
         return Value::Null;
     };
     json!({
-        // Trajectories below each barrier that were asked for.
+        // Requested number of trajectories below each barrier.
         "runs": analysis.settings.dynamics_runs,
         "contradicted": analysis.contradicted().count(),
         "overestimated": analysis.overestimated().count(),
@@ -34,15 +34,16 @@ fn entry(check: &BarrierCheck) -> Value {
         "overestimated": check.is_overestimated(),
         // Whether the ceiling is a certified bound, not an estimate.
         "certified": check.certified,
-        // Trajectories stayed below this total energy; null where the state is proved caged.
+        // Trajectories stayed below this total energy; null if the state is proved to be caged.
         "ceiling_J": check.ceiling,
         "below": {
             "runs": check.below.runs,
             "crossed": check.below.crossed,
-            // More of them that proved nothing, lifted over the ceiling by the integration's error.
+            // Further trajectories that prove nothing, because the integration error raised them
+            // above the ceiling.
             "spoilt": check.below.spoilt,
             // The start of one that crossed: pose, velocity of the centre of mass (m/s, m/s) and
-            // turning rate (rad/s).
+            // angular velocity (rad/s).
             "example": check.below.example.as_ref().map(|motion| json!({
                 "pose": motion.configuration.to_array(),
                 "velocity": <[f64; 3]>::from(motion.velocity),
@@ -50,9 +51,9 @@ fn entry(check: &BarrierCheck) -> Value {
         },
         // The same with more energy than the pathway needs.
         "above": {"runs": check.above.1, "crossed": check.above.0},
-        // From before and from behind the saddle; null where not asked.
+        // From both sides of the saddle; null if not requested.
         "sides": check.sides.map(side),
-        // Least energy of a kick that threw the tile out, and what it may not be less than.
+        // Smallest kick energy that expelled the tile, and its lower bound.
         "kick_J": check.kick,
         "climb_J": check.climb,
     })
@@ -66,7 +67,7 @@ fn verdict(side: &Side) -> &'static str {
     }
 }
 
-/// The checks, a barrier a line.
+/// The checks, one barrier per row.
 // One line a column.
 #[rustfmt::skip]
 pub fn table(checks: &[BarrierCheck]) -> Table {
@@ -95,7 +96,7 @@ pub fn table(checks: &[BarrierCheck]) -> Table {
         .in_csv("dynamics")
 }
 
-/// What the check found in a line, and another line for each barrier that is refuted.
+/// The result of the check in one line, and another line for each refuted barrier.
 pub fn notes(analysis: &Analysis) -> Vec<String> {
     let Some(checks) = &analysis.dynamics else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Energies and forces at given poses.
+//! Energies and forces at given poses, as a document.
 
 use serde_json::json;
 
@@ -11,11 +11,11 @@ use jobs::query::poses::Felt;
 use physics::order::Order;
 use physics::units::si;
 
-/// Poses that a terminal has, and those that are drawn.
+/// Number of poses on a terminal, and in the picture.
 const LISTED: usize = 40;
 const DRAWN: usize = 12;
 
-/// What there is to know of some poses.
+/// The document of energies at poses.
 pub fn document<'a>(design: &'a Design, found: &'a [Felt]) -> Document<'a> {
     let mut lowest: Vec<&Felt> = found.iter().filter(|it| it.is_free).collect();
     lowest.order_by(|a, b| a.energy.total_cmp(&b.energy));

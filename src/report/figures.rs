@@ -1,4 +1,4 @@
-//! Figures of designs for people: numbers with their bounds, or the word for why there is none.
+//! Figures of designs for people: numbers with their bounds, or a word that says why there is none.
 
 use jobs::comparison::quantity::{Measure, Reading};
 use jobs::comparison::{Assessment, Estimate, Quantity};
@@ -8,17 +8,17 @@ use physics::units::{prefix_of, si, si_range};
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// Why a bond is [not head-on](jobs::comparison::quantity::NOT_HEAD_ON), at length.
+/// The full explanation of a bond that is [not head-on](jobs::comparison::quantity::NOT_HEAD_ON).
 pub const WHY_NOT_HEAD_ON: &str = "moved straight to the target face, the tile comes to rest \
     outside the bond: the shape blocks the way, or leaves no clearance, as with square teeth";
 
-/// Whether a bond that holds has no capture range at all.
+/// Whether a stable bond has no capture range at all.
 pub fn misses_head_on(design: &Assessment) -> bool {
     let bond = design.bond.as_ref();
     bond.is_some_and(|bond| bond.capture_range.is_none())
 }
 
-/// Figures for people, with their bounds: `-18.2 to 18.1` for two; where one is missing, why.
+/// Figures for people, with their bounds: `-18.2 to 18.1` for two; if one is missing, the reason.
 pub fn cell(quantities: &[&Quantity], design: &Assessment) -> String {
     let texts: Result<Vec<String>, &str> = quantities
         .iter()
@@ -61,7 +61,7 @@ fn energy(estimate: &Estimate) -> String {
     }
 }
 
-/// The heading of cells, with the unit where the cells do not have it: `gap (mm)`.
+/// The heading of cells, with the unit if the cells do not have it: `gap (mm)`.
 pub fn heading(text: &str, measure: Measure) -> String {
     match measure {
         Measure::Length | Measure::Angle => Shown::new(measure, 1.0).named(text),
@@ -69,13 +69,13 @@ pub fn heading(text: &str, measure: Measure) -> String {
     }
 }
 
-/// How pictures show the numbers of a measure.
+/// The unit and name of a measure in pictures.
 pub struct Shown {
-    /// What they are multiples of (SI).
+    /// The unit (SI).
     pub unit: f64,
-    /// The name of that unit; empty where there is none.
+    /// The name of the unit; empty if there is none.
     name: String,
-    /// What they are numbers of.
+    /// The name of the quantity.
     what: &'static str,
 }
 
@@ -116,7 +116,7 @@ pub fn percent(proportion: &Proportion) -> String {
     }
     let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
         let percent = 100.0 * x;
-        // Whole percents, but 0 only for none and 100 only for all.
+        // Whole per cents, but 0 only for none and 100 only for all.
         if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
             format!("{percent:.1}")
         } else {

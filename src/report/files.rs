@@ -1,9 +1,9 @@
-//! The files of results by their names: which ones each command writes.
+//! The names of the files that each command writes.
 
 use jobs::output::Command;
 pub use jobs::output::{Files, PICTURES};
 
-/// What everything is in.
+/// The complete results.
 pub const REPORT: &str = "report.json";
 
 /// The page for a browser.

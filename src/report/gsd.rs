@@ -1,9 +1,9 @@
 //! Trajectories as GSD files, which OVITO and HOOMD-blue read.
 //!
-//! Version 2.0 of the format (gsd.readthedocs.io/en/stable/file-layer.html), schema `hoomd` 1.4: a header
-//! of 256 bytes; the chunks of data; an index with an entry of 32 bytes for each chunk, by frame and
-//! name; and the list of names. All numbers are little-endian. Lengths are in m, masses in kg, times in
-//! steps of a frame; quaternions turn tiles about the z axis.
+//! Version 2.0 of the format (gsd.readthedocs.io/en/stable/file-layer.html), schema `hoomd` 1.4: a
+//! header of 256 bytes; the chunks of data; an index with an entry of 32 bytes for each chunk, by
+//! frame and name; and the list of names. All numbers are little-endian. Lengths are in m, masses
+//! in kg, times in steps of a frame; quaternions rotate tiles about the z axis.
 
 /// The first bytes of every file.
 const MAGIC: u64 = 0x65DF_65DF_65DF_65DF;
@@ -13,7 +13,7 @@ const HEADER: usize = 256;
 /// Bytes of a name in the list.
 const NAME: usize = 64;
 
-/// What a chunk's numbers are.
+/// The type of a chunk's numbers.
 #[derive(Clone, Copy)]
 enum Kind {
     U8 = 1,
@@ -30,11 +30,11 @@ pub type Polygon = Vec<[f64; 2]>;
 pub struct Particle {
     /// Its reference point (m).
     pub place: [f64; 2],
-    /// How it is turned (rad).
+    /// Its orientation (rad).
     pub theta: f64,
-    /// Its velocity (m/s, m/s) and turning rate (rad/s).
+    /// Its velocity (m/s, m/s) and angular velocity (rad/s).
     pub velocity: [f64; 3],
-    /// The number of its kind.
+    /// The index of its kind.
     pub kind: usize,
     /// Its mass (kg).
     pub mass: f64,
@@ -89,7 +89,7 @@ pub fn file(kinds: &[(String, Polygon)], table: [f64; 2], frames: &[Vec<Particle
             .iter()
             .flat_map(|it| [it.velocity[0], it.velocity[1], 0.0]);
         writer.floats("particles/velocity", [count, 3], velocity);
-        // The angular momentum as HOOMD has it: 2 q (0, I w).
+        // The angular momentum in HOOMD's form: 2 q (0, I w).
         let momentum = particles.iter().flat_map(|it| {
             let half = 0.5 * it.theta;
             let twice = 2.0 * it.inertia * it.velocity[2];
@@ -164,7 +164,7 @@ impl Writer {
         self.chunk(name, Kind::F32, size, bytes.collect());
     }
 
-    /// Texts as rows of bytes that end in 0.
+    /// Texts as rows of zero-terminated bytes.
     fn texts(&mut self, name: &'static str, texts: &[&str]) {
         let longest = texts.iter().map(|text| text.len()).max().unwrap_or(0) + 1;
         let mut bytes = Vec::new();

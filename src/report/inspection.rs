@@ -1,4 +1,4 @@
-//! A design at a glance.
+//! The inspection of a design, as a document.
 
 use nalgebra::Vector2;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ use physics::units::si;
 /// Significant digits of energies and forces.
 const DIGITS: usize = 4;
 
-/// The sentence that answers: whether the tiles bind, and how strongly.
+/// The headline: whether the tiles bind, and how strongly.
 fn answer(design: &Design, inspection: &Inspection) -> String {
     let bond = &inspection.models[0];
     let faces = names(design, design.pair.target).join(" and ");
@@ -43,7 +43,7 @@ fn answer(design: &Design, inspection: &Inspection) -> String {
     }
 }
 
-/// What there is to know of a design at a glance.
+/// The document of an inspection.
 pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
     let faults = wrong(design, found).into_iter();
     Document {
@@ -130,7 +130,7 @@ fn sketch(design: &Design) -> Braille {
     sketch
 }
 
-/// What one face carries.
+/// The contents of one face.
 #[derive(Clone)]
 struct Face {
     tile: &'static str,
@@ -139,7 +139,7 @@ struct Face {
     /// Poles outwards, counter-clockwise.
     code: String,
     magnets: Vec<f64>,
-    /// How far its line reaches inwards and outwards of the base line (m).
+    /// The extent of its line inwards and outwards from the base line (m).
     heights: [f64; 2],
 }
 
@@ -153,7 +153,7 @@ impl Face {
     }
 
     fn told_magnets(&self) -> String {
-        // To a micrometre, and a hundred-thousandth of the face, which no drill resolves.
+        // To a micrometre, and a hundred-thousandth of the face, finer than any drill.
         let places = in_mm(&self.magnets, 0, f64::min(0.5e-6, 1e-5 * self.length));
         match self.magnets.is_empty() {
             true => "none".to_owned(),
@@ -203,8 +203,8 @@ fn table(key: &'static str, faces: Vec<Face>) -> Table {
         .table(key)
 }
 
-/// Lengths (m) in mm, all with as many decimals, `least` or more, as it takes to come within `error`
-/// (m) of each.
+/// Lengths (m) in mm, all with the same number of decimals, at least `least`, enough to be within
+/// `error` (m) of each.
 fn in_mm(lengths: &[f64], least: usize, error: f64) -> Vec<String> {
     const MOST: usize = 6;
     let written = |decimals: usize| -> Vec<String> {
@@ -230,8 +230,8 @@ fn in_mm(lengths: &[f64], least: usize, error: f64) -> Vec<String> {
     found.unwrap_or_else(|| written(MOST))
 }
 
-/// The least and the greatest height (m) of a tile's rim over one of its faces. A corner of the rim
-/// belongs to the face whose base line it is nearest to.
+/// The smallest and the largest height (m) of a tile's outline over one of its faces. A corner
+/// belongs to the face with the nearest base line.
 fn heights(tile: &Tile, number: usize) -> [f64; 2] {
     let height = |v: &Vector2<f64>, face: usize| {
         let face = &tile.faces[face];

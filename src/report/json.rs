@@ -1,4 +1,4 @@
-//! How JSON is laid out: objects indented, arrays of numbers on one line.
+//! The layout of JSON: objects indented, arrays of numbers on one line.
 
 use std::io;
 
@@ -7,8 +7,8 @@ use serde_json::ser::{Formatter, Serializer};
 
 pub use super::values::positive_zero;
 
-/// A value as JSON, objects indented and arrays of numbers on one line, with a line feed at its
-/// end. Numbers that JSON cannot write (infinity) become null.
+/// A value as JSON, objects indented and arrays of numbers on one line, with a final line feed.
+/// Numbers that JSON cannot represent (infinity) become null.
 ///
 /// # Panics
 /// Never for the entries of this module: their keys are strings.

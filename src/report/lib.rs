@@ -1,22 +1,22 @@
-//! Results for people and programs to read.
+//! Presents results: documents, tables, pictures and pages.
 //!
 //! Most modules make the [`document`] of one job's result, which the terminal, JSON, CSV, the page and
 //! pictures are made from:
 //!
-//! - [`analysis`] - of the main job, with [`states`] (and barriers), [`summary`], [`dynamics`] (the check
+//! - [`analysis`] - analyses, with [`states`] (and barriers), [`summary`], [`dynamics`] (the check
 //!   by moving tiles) and [`topsearch`] (files for programs that draw disconnectivity graphs);
-//! - [`comparison`], [`sweep`] - designs side by side, many designs from one;
-//! - [`docking`], [`release`] - tiles sent towards each other, and shaken loose;
-//! - [`bond`], [`rates`], [`yields`] - how strongly, how soon and how many shaken tiles bind;
+//! - [`comparison`], [`sweep`] - comparisons and variations of designs;
+//! - [`docking`], [`release`] - docking experiments, and bound tiles that are shaken loose;
+//! - [`bond`], [`rates`], [`yields`] - strength, rates and yield of bonds of shaken tiles;
 //! - [`table`], [`gsd`] - many tiles on one table, and their trajectory for OVITO;
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
-//! - [`barrier`], [`energies`] - one barrier between two poses, what is felt at given poses;
-//! - [`matching`] - how two outlines fit; [`calibration`] - what is fitted to measurements;
-//! - [`inspection`] - a design at a glance; [`workshop`] - what it takes to make one.
+//! - [`barrier`], [`energies`] - one barrier between two poses, energies and forces at given poses;
+//! - [`matching`] - how two outlines fit; [`calibration`] - fits to measurements;
+//! - [`inspection`] - the bond of a design without a search; [`workshop`] - workshop files.
 //!
-//! Below these:
-//! [`document`]; [`plots`] (pictures) and [`page`] (`report.html`); [`names`], [`figures`], [`json`],
-//! [`csv`] (how things are called and numbers written); [`files`] (what each command writes).
+//! Below these: [`document`]; [`plots`] (pictures) and [`page`] (`report.html`); [`names`],
+//! [`figures`], [`json`], [`csv`] (names and number formats); [`files`] (the files of each
+//! command).
 
 pub mod analysis;
 pub mod assembly;

@@ -1,11 +1,11 @@
 //! Tables in Markdown.
 
-/// Markdown passes HTML on as it is; this shows it.
+/// Escapes HTML, which Markdown would pass on unchanged.
 pub fn without_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
-/// Rows as a Markdown table, the first one its head.
+/// Rows as a Markdown table; the first row is its head.
 pub fn markdown_table(rows: &[Vec<String>]) -> String {
     let line = |cells: &[String]| {
         let cells: Vec<String> = cells

@@ -1,4 +1,4 @@
-//! How two outlines fit together.
+//! Fits of two outlines, as a document.
 
 use super::document::{Document, Drawing, Table, entries, rows};
 use super::plots::poses;
@@ -6,11 +6,11 @@ use jobs::design::Design;
 use physics::contact::matching::Match;
 use physics::units::si;
 
-/// Motions that a terminal has, and those that are drawn.
+/// Number of fits on a terminal, and in the picture.
 const LISTED: usize = 20;
 const DRAWN: usize = 12;
 
-/// What there is to know of the ways in which the outlines fit, longest contact first.
+/// The document of the fits of two outlines, longest contact first.
 pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
     let longest = found.first().map(|longest| {
         let as_long = found
@@ -53,7 +53,7 @@ pub fn document<'a>(design: &'a Design, found: &'a [Match]) -> Document<'a> {
     }
 }
 
-/// The ways, longest contact first.
+/// The fits, longest contact first.
 // One line a column.
 #[rustfmt::skip]
 pub fn table(found: &[Match]) -> Table {

@@ -1,4 +1,4 @@
-//! What states, places, faces and pathways are called in all files.
+//! The names of states, places, faces and pathways in all files.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use jobs::design::Design;
 use physics::landscape::{Alternative, Barrier, Claims, PathwayCost, Place, State, StateKind};
 use physics::tile::Tile;
 
-/// What a kind of state is called.
+/// The name of a kind of state.
 pub fn kind(kind: StateKind) -> &'static str {
     match kind {
         StateKind::Bond => "bound",
@@ -14,7 +14,7 @@ pub fn kind(kind: StateKind) -> &'static str {
     }
 }
 
-/// What a cost of pathways is called.
+/// The name of a cost of pathways.
 pub(super) fn cost(cost: PathwayCost) -> &'static str {
     match cost {
         PathwayCost::Work => "work",
@@ -22,7 +22,7 @@ pub(super) fn cost(cost: PathwayCost) -> &'static str {
     }
 }
 
-/// What the barriers are called of which more is claimed than an estimate.
+/// The name of the set of barriers with proved bounds.
 pub(super) fn claims(claims: Claims) -> &'static str {
     match claims {
         Claims::All => "all",
@@ -48,7 +48,7 @@ pub(super) fn face(name: &str) -> String {
     }
 }
 
-/// A place as an entry names it: a state's id, or `free`.
+/// A place in an entry: a state's id, or `free`.
 pub(super) fn place(place: Place) -> Value {
     match place {
         Place::State(id) => json!(id),
@@ -56,7 +56,7 @@ pub(super) fn place(place: Place) -> Value {
     }
 }
 
-/// What a place is called in tables and file names: a state's id, or `free`.
+/// The name of a place in tables and file names: a state's id, or `free`.
 pub fn place_name(place: Place) -> String {
     match place {
         Place::State(id) => id.to_string(),

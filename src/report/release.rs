@@ -1,4 +1,4 @@
-//! Bound tiles that are shaken loose.
+//! Bound tiles that are shaken loose, as a document.
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use physics::kinetics::rates::Loosening;
 use physics::order::Order;
 use physics::units::{plain, si};
 
-/// What there is to know of them; `overdamped` are the rates (1/s) of overdamped motion.
+/// The document of a release experiment; `overdamped` are the rates (1/s) of overdamped motion.
 pub fn document(
     design: &Design,
     settings: &DockingSettings,
@@ -110,7 +110,7 @@ fn told_beside(found: &Loosening) -> String {
     )
 }
 
-/// The share that is still bound over time; `left` are the times (s) of those that came loose.
+/// The share still bound over time; `left` are the times (s) at which tiles came loose.
 fn still_bound(left: &[f64], all: usize, duration: f64) -> Chart {
     let share = |gone: usize| 1.0 - gone as f64 / all.max(1) as f64;
     let steps = left.iter().enumerate();

@@ -1,4 +1,4 @@
-//! Magnets that are given by what shops say of them, a grade or a pull, and how sure that is.
+//! Magnets specified by a shop's grade or pull, and the uncertainty of that specification.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use physics::tile::magnet::Shape;
 use physics::tile::strength::{PULL_SPREAD, Strength};
 use physics::units::to_digits;
 
-/// What a shop's grade or pull says of magnets, and how sure that is.
+/// The meaning and the uncertainty of a shop's grade or pull.
 pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
     let size = magnet.axis_first();
     let block = match magnet.form.shape {
@@ -50,14 +50,13 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
     }
 }
 
-/// Where a remanence (T) that is taken from a pull may lie, as sellers state pulls: the pull goes with
-/// its square.
+/// The range of a remanence (T) derived from a shop's pull, which is proportional to its square.
 fn pulled_range(remanence: f64) -> [f64; 2] {
     let [least, most] = PULL_SPREAD;
     [most, least].map(|share| remanence / share.sqrt())
 }
 
-/// Significant digits of a number, without zeros at its end.
+/// A number to four significant digits, without trailing zeros.
 fn four(value: f64) -> String {
     to_digits(value, 4).to_string()
 }
@@ -66,7 +65,7 @@ fn three(value: f64) -> String {
     to_digits(value, 3).to_string()
 }
 
-/// Magnets that are given by a grade or a pull.
+/// Magnets specified by a grade or a pull.
 pub fn entry((strength, magnet): &(Strength, Magnet)) -> Value {
     let found = magnet.remanence();
     let mut entry = json!({ "size_m": magnet.axis_first(), "remanence_T": found });

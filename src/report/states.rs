@@ -1,5 +1,5 @@
-//! States and barriers as tables. Readers of their files may count columns: what has a place keeps it,
-//! and what is new comes last.
+//! States and barriers as tables. Scripts may count the columns of these files: existing columns
+//! keep their places, and new ones are appended.
 
 use serde_json::{Value, json};
 
@@ -10,13 +10,13 @@ use jobs::design::Design;
 use jobs::pipeline::Analysis;
 use physics::landscape::{Barrier, Kind, Place, Proportion, State, StateKind};
 
-/// A state, and what is said of it elsewhere.
+/// A state with its further data.
 pub struct Row<'a> {
     /// The state itself.
     pub state: &'a State,
-    /// What people call it.
+    /// Its letter.
     pub name: &'a str,
-    /// How many states there are in its class.
+    /// The number of states in its class.
     copies: usize,
     /// Names of the faces in contact: of the fixed tile, of the moving tile.
     faces: Vec<[String; 2]>,
@@ -39,7 +39,8 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// A kind of states through the first of them, with the share of the far starts that end in any.
+    /// A kind of states, represented by its first state, with the share of far starts that end in
+    /// any of them.
     pub fn of_kind(
         design: &Design,
         analysis: &'a Analysis,
@@ -69,8 +70,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// All states; where magnets are point dipoles with the energy of the blocks they stand for, and how
-/// much higher the dipoles' is. `is_whole` says whether escapes of copies name their pathways.
+/// All states; for point dipoles with the energy of the blocks they represent, and the difference.
+/// `is_whole` says whether escapes of copies name their pathways.
 // One line a column.
 #[rustfmt::skip]
 pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
@@ -93,7 +94,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
         .column("escape_J", "", "", |it| it.escape.as_ref().map(Barrier::forward)).in_csv()
         .column("escape_to", "", "", |it| it.way_out().map(|way| way.to)).in_csv()
         .column("capture", "", "fraction of the far starts", |it| it.capture).sampled()
-        // Magnet pairs close together.
+        // Magnet pairs close to each other.
         .column("attracting", "", "", |it| it.state.attracting)
         .column("repelling", "", "", |it| it.state.repelling)
         .column("faces", "", "", Row::pairs).in_csv()
@@ -101,7 +102,7 @@ pub fn states(design: &Design, analysis: &Analysis, is_whole: bool) -> Table {
         .column("block_energy_J", "", "", |it| it.state.block_energy)
         .column("dipole_error_J", "", "", |it| it.state.dipole_error()).in_csv()
         .column("name", "", "", |it| it.name)
-        // Proved that there is no way out at all.
+        // It is proved that there is no way out.
         .column("caged", "", "", Row::is_caged).in_csv()
         .column("escape", "", "", escape).in_json()
         .table("states")
@@ -154,7 +155,7 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         .column("from", "", "", |it| it.from)
         .column("to", "", "", |it| it.to)
         .column("saddle_energy_J", "saddle", "highest energy on the path", |it| it.saddle_energy)
-        // Null where no way is known, as is the file of the pathway, relative to the report.
+        // Null if no path is known, as is the file of the pathway, relative to the report.
         .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
         .column("lower_J", "", "", |it| it.bounds.lower)
         .column("upper_J", "", "", |it| it.bounds.upper)
@@ -165,7 +166,7 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         .column("spread_J", "", "", |it| json!(it.spread)).in_json()
         .column("pose", "", "of the saddle", |it| it.saddle).in_csv()
         .column("pathway", "", "", file)
-        // Proved that there is no way at all; the saddle energy is then infinite.
+        // It is proved that there is no path; the saddle energy is then infinite.
         .column("caged", "", "", |it| it.bounds.caged)
         // Work against the energy along the pathway and back, and its length.
         .column("work_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0]))
@@ -176,7 +177,7 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         .in_data()
 }
 
-/// The barriers for people; `way` tells which of the ways that the page plays leads over one.
+/// The barriers for people; `way` gives the animated path of the page over a barrier.
 // One line a column.
 #[rustfmt::skip]
 pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier) -> Option<usize>) -> Table {
@@ -203,7 +204,7 @@ pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier)
         .linked(barriers.iter().map(|barrier| way(barrier).map(Link::Way)))
 }
 
-/// Why a barrier has no way over it, if it has none.
+/// Why a barrier has no path, if it has none.
 pub fn why_no_way(barrier: &Barrier) -> Option<&'static str> {
     match barrier.has_way() {
         _ if barrier.bounds.caged => Some("caged, proved"),

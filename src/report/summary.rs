@@ -1,7 +1,7 @@
-//! The summary: some ten lines for the terminal.
+//! The summary: about ten lines for the terminal.
 //!
-//! It leads with where tiles that start far apart end. That there is no barrier on the way into
-//! the bond says little: without any barrier, many starts may run into traps first.
+//! It starts with the ends of tiles that start far apart. The absence of a barrier on the way into
+//! the bond means little: many starts may still end in traps.
 
 use ordered_float::OrderedFloat;
 
@@ -20,13 +20,12 @@ use physics::landscape::{Barrier, Catalogue, Kind, LeftOut, Place, Proportion};
 use physics::order::Order;
 use physics::units::{si, si_range};
 
-/// Traps that are listed one by one.
+/// Number of traps listed individually.
 const LISTED: usize = 4;
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
-/// The kinds of traps as they are listed, those that capture most first; the deepest is always among
-/// the first.
+/// The kinds of traps in the order of the list, by captures; the deepest is always among the first.
 fn traps<'a>(analysis: &'a Analysis) -> Vec<Kind<'a>> {
     let kinds = analysis.catalogue.kinds();
     let mut traps: Vec<Kind> = kinds.filter(|kind| !kind.is_bond()).collect();
@@ -46,11 +45,10 @@ fn bond(analysis: &Analysis) -> Option<Kind<'_>> {
     analysis.catalogue.kinds().find(Kind::is_bond)
 }
 
-/// Where dipoles are off by more than this share of the blocks' energy, they are warned of.
+/// Relative error of dipoles above which there is a warning.
 const DOUBTFUL: f64 = 0.2;
 
-/// Of dipoles: what the bond has by either model, and how far they are off at worst, where that is
-/// much.
+/// For dipoles: the bond's energy in both models, and the largest error if it is large.
 fn models(design: &Design, analysis: &Analysis) -> String {
     let states = analysis.catalogue.states.iter();
     let kinds = states.filter(|state| state.id == state.class);
@@ -73,7 +71,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     }
     let off: Vec<_> = off.collect();
     let most = off.iter().map(|(_, share)| *share).fold(0.0, f64::max);
-    // The first of those that are off alike, whatever rounding makes of their shares.
+    // The first of several equal errors, independent of rounding.
     let worst = off.iter().find(|(_, share)| *share >= 0.99 * most);
     if let Some((state, share)) = worst.filter(|_| most > DOUBTFUL) {
         lines += &format!(
@@ -85,7 +83,7 @@ fn models(design: &Design, analysis: &Analysis) -> String {
     lines
 }
 
-/// Where far starts end; of dipoles, first what they make of the bond.
+/// The ends of far starts; for dipoles, preceded by the bond's energy in both models.
 pub fn answer(design: &Design, analysis: &Analysis) -> String {
     let of = analysis.uncaptured.gone.of;
     let captured = |kinds: &[Kind]| kinds.iter().map(|kind| kind.captured().count).sum();
@@ -102,7 +100,7 @@ pub fn answer(design: &Design, analysis: &Analysis) -> String {
     )
 }
 
-/// What to know of far starts, and of other faces that bind as well.
+/// Remarks on far starts, and on other faces that bind as strongly.
 pub fn remarks(design: &Design, analysis: &Analysis) -> Vec<String> {
     let [inner, outer] = analysis.ring;
     let model = design.interaction.model.plural(&design.pair);
@@ -162,7 +160,7 @@ fn certified(kind: &Kind, way: Option<&Barrier>) -> String {
     }
 }
 
-/// What else there is to know, a line or two each.
+/// Notes of one or two lines each.
 pub fn notes(design: &Design, analysis: &Analysis) -> Vec<String> {
     let (bond, traps) = (bond(analysis), traps(analysis));
     let mut notes = Vec::new();
@@ -183,7 +181,7 @@ pub fn notes(design: &Design, analysis: &Analysis) -> Vec<String> {
     notes
 }
 
-/// What is said of states that were found and are not listed, the lowest of which has this energy.
+/// The note on found but unlisted states, of which the lowest has this energy.
 pub(super) fn left_out(left: LeftOut, lowest: &str) -> String {
     let more = match left.kinds {
         1 => "1 more kind of trap was".to_owned(),
@@ -232,7 +230,7 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
     notes
 }
 
-/// That a proof ended, and how it is led on: by which option.
+/// The note that a proof ended early, and the option that continues it.
 pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String {
     let (limit, option, note) = match ended {
         Ended::Work => (allowed.work, "work", "raise it to continue"),
@@ -242,7 +240,7 @@ pub(super) fn ended_by(ended: Ended, stage: &str, allowed: Allowance) -> String 
     format!("{} (--{stage}-{option} {limit}): {note}", ended.describe())
 }
 
-/// How far the dipoles' energy is off at the state where it is off most.
+/// The largest error of the dipoles' energy over all states.
 fn dipole_error(design: &Design, analysis: &Analysis) -> Option<String> {
     let states = analysis.catalogue.states.iter();
     let (state, blocks, error) = states
@@ -270,7 +268,7 @@ fn rest(rest: &[Kind]) -> String {
     )
 }
 
-/// How far starts may get into the bond at best.
+/// The best path from far starts into the bond.
 fn way_in(analysis: &Analysis, bond: Option<&Kind>) -> String {
     if bond.is_none() {
         let energy = si(analysis.bound.1, "J", DIGITS);
@@ -295,7 +293,8 @@ fn way_in(analysis: &Analysis, bond: Option<&Kind>) -> String {
     }
 }
 
-/// What the best way out of the bond takes, gone backwards: climbs too small to matter are none.
+/// The work and length of the best path out of the bond in reverse; negligible climbs count as
+/// zero.
 fn work_and_length(way_out: &Barrier) -> String {
     let Some(([_, climbs], length)) = way_out.work().zip(way_out.length()) else {
         return String::new();
@@ -312,7 +311,7 @@ fn work_and_length(way_out: &Barrier) -> String {
 fn deepest(catalogue: &Catalogue, bond: Option<&Kind>, traps: &[Kind]) -> String {
     let energy = |kind: &Kind| kind.first().energy;
     let lowest = traps.iter().map(energy).fold(f64::INFINITY, f64::min);
-    // The first of twins, whatever rounding makes of their energies.
+    // The first of twins, independent of rounding of their energies.
     let is_lowest = |kind: &&Kind| energy(kind) - lowest <= SAME_ENERGY * lowest.abs();
     let deepest = traps.iter().find(is_lowest);
     let name = |kind: &Kind| catalogue.name_of(Place::State(kind.first().id));

@@ -1,4 +1,4 @@
-//! Many tiles on a table.
+//! Simulations of many tiles on a table, as documents.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use physics::table::run::{ACCOUNTED, Run};
 use physics::table::{Mover, Sample};
 use physics::units::{duration, plain, si};
 
-/// What there is to know of a table.
+/// The document of a table.
 pub fn document<'a>(
     about: &About,
     found: &'a Found,
@@ -27,7 +27,7 @@ pub fn document<'a>(
     Document {
         title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
         answer: format!(
-            "{}: {} tiles hold each other in {} bonds and {} traps after {} ({}; {} {} seed {seed})",
+            "{}: {} tiles have {} bonds and {} traps after {} ({}; {} {} seed {seed})",
             about.name,
             found.kinds.len(),
             told(&statistics.bonds),
@@ -71,26 +71,26 @@ fn meaning(found: &Found) -> String {
     let kt = found.statistics.kinetic_kt;
     let has = kt.map(|share| {
         format!(
-            "tiles move with {} kT each way, where kT / 2 is that of a table in equilibrium",
+            "mean kinetic energy {} kT per degree of freedom, in equilibrium 0.5 kT",
             plain(share, 3)
         )
     });
     match (found.statistics.verdict, has) {
         (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
         (Verdict::Frozen, Some(has)) => format!(
-            "(frozen: {has}; contact takes out more than shaking gives, so that `bond`, `rates` and `yield`, which take \
-             a table to have a temperature, do not hold)"
+            "(frozen: {has}; contact dissipates more than shaking supplies, so the table has no temperature \
+             and the results of `bond`, `rates` and `yield` do not apply)"
         ),
         (Verdict::Driven, Some(has)) => format!("(driven: {has})"),
         (Verdict::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
-        (_, None) => "(driven: without shaking there is no temperature)".to_owned(),
+        (_, None) => "(driven, but not shaken: there is no temperature)".to_owned(),
     }
 }
 
-/// What `yield` says, with what it was asked.
+/// The prediction of `yield`, with its request.
 type Beside = Result<(Question, Yields), YieldError>;
 
-/// What detailed balance says of as many pairs with one partner each.
+/// The prediction for the same number of pairs by detailed balance, with one partner per tile.
 fn compared(beside: Option<&Beside>) -> Entries {
     let Some(Ok((question, yields))) = beside else {
         return Entries::default();
@@ -103,8 +103,8 @@ fn compared(beside: Option<&Beside>) -> Entries {
             .fact("pairs", "", question.tiles / 2)
             .fact("ln_K", "ln K", ln_k)
             .digits(3)
-            .noted("of the bond, as `tilebind bond` has it")
-            .fact("bound", "`yield` says", best.bound)
+            .noted("of the bond, as `tilebind bond` computes it")
+            .fact("bound", "bound by `yield`", best.bound)
             .share()
             .noted(in_pairs(question, best.interval))
             .fact("bound_interval", "", best.interval)
@@ -116,30 +116,33 @@ fn compared(beside: Option<&Beside>) -> Entries {
 
 fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
     format!(
-        "of {} pairs, {} to {}",
+        "of {} pairs; between {} and {}",
         question.tiles / 2,
         share(low),
         share(high)
     )
 }
 
-/// What `yield` says beside the share of the target, in a sentence, or why it says nothing.
+/// One sentence that compares the prediction of `yield` with the share of the target, or says why there
+/// is no prediction.
 fn against_yield(found: &Found, beside: &Beside) -> String {
     let (question, yields) = match beside {
         Ok(both) => both,
-        Err(why) => return format!("`tilebind yield` has no answer to compare with: {why}"),
+        Err(why) => {
+            return format!("there is no result of `tilebind yield` to compare with: {why}");
+        }
     };
     let best = yields.best();
     let here = &found.target.share;
     let verdict = match (here.low, here.high) {
         (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
-            ": the two differ by more than both intervals"
+            "; the two results differ by more than both intervals"
         }
-        (Some(_), Some(_)) => ": the two agree within their intervals",
+        (Some(_), Some(_)) => "; the two results agree within their intervals",
         _ => "",
     };
     format!(
-        "`tilebind yield` says that {} are bound {}{verdict}",
+        "`tilebind yield` predicts that {} are bound ({}){verdict}",
         share(best.bound),
         in_pairs(question, best.interval)
     )
@@ -148,19 +151,19 @@ fn against_yield(found: &Found, beside: &Beside) -> String {
 fn notes(found: &Found, request: &Request) -> Vec<String> {
     let statistics = &found.statistics;
     let mut notes = vec![format!(
-        "energy is accounted for within {} of its largest term; steps of {} and shorter",
+        "energy balance: {} of the largest term is missing; steps of {} or shorter",
         share(statistics.energy_error),
         si(statistics.step, "s", 3)
     )];
     if let Some(Shard { number, of }) = request.shard {
         notes.push(format!(
-            "part {number} of {of} of {} runs: the rows of the tables of all parts together are those of the whole",
+            "part {number} of {of} of {} runs: join the rows of all parts' tables for those of the whole",
             request.runs
         ));
     }
     if statistics.halved > 0 {
         notes.push(format!(
-            "in {} of {} runs steps were halved, since more than {} of energy was not accounted for",
+            "{} of {} runs were repeated with shorter steps, because more than {} of the energy was missing",
             statistics.halved,
             found.runs.len(),
             share(ACCOUNTED)
@@ -168,7 +171,7 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     }
     if statistics.energy_error > ACCOUNTED {
         notes.push(format!(
-            "warning: {} of energy is not accounted for, more than {}: do not trust this; choose a \
+            "warning: {} of the energy is missing, more than {}: do not trust these results; choose a \
              shorter --step",
             share(statistics.energy_error),
             share(ACCOUNTED)
@@ -208,14 +211,14 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("step_s", "step", statistics.step)
         .data("bonds", interval(&statistics.bonds))
         .data("traps", interval(&statistics.traps))
-        .fact("", "bonds", told(&statistics.bonds)).in_view().noted("held at the end, mean of the runs with its 95 % interval")
-        .fact("", "traps", told(&statistics.traps)).in_view().noted("every other held pair")
+        .fact("", "bonds", told(&statistics.bonds)).in_view().noted("at the end, mean over the runs with its 95 % interval")
+        .fact("", "traps", told(&statistics.traps)).in_view().noted("all other stable contacts at the end")
         .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval)}))
         .fact("", "target", reached(about, found)).in_view().noted(aim(about))
         .data("clusters", json!(statistics.clusters))
-        .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).noted("of a degree of freedom over kT; 0.5 in equilibrium")
+        .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).noted("per degree of freedom, over kT; 0.5 in equilibrium")
         .fact("verdict", "verdict", statistics.verdict.name())
-        .fact("energy_error", "energy error", statistics.energy_error).noted("not accounted for, over the largest term")
+        .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
         .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
         .data("cut_off", cut_off(found))
         .fact("wall_s", "", found.wall_s)
@@ -228,7 +231,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .table(places(found))
 }
 
-/// The share of the target, as people read it.
+/// The share of the target, for people.
 fn reached(about: &About, found: &Found) -> String {
     let percent = |x: f64| plain(100.0 * x.clamp(0.0, 1.0), 3);
     let Interval { mean, low, high } = found.target.share;
@@ -256,9 +259,9 @@ fn reached(about: &About, found: &Found) -> String {
 fn aim(about: &About) -> &'static str {
     match about.pattern {
         Some(_) => {
-            "tiles of the most complete cluster that are in their places, of all places; defects: its others"
+            "tiles of the most complete cluster in their places, of all places; defects: its other tiles"
         }
-        None => "bound as meant at the end, each tile with one partner, of all that could be",
+        None => "bound as intended at the end, each tile with one partner, of all possible pairs",
     }
 }
 
@@ -289,12 +292,12 @@ fn cut_off(found: &Found) -> Value {
 
 fn sizes(found: &Found) -> Table {
     rows(found.statistics.clusters.clone())
-        .column("size", "tiles", "of a cluster", |it| it.0)
-        .column("count", "clusters", "in a run at the end, mean", |it| it.1)
+        .column("size", "tiles", "in a cluster", |it| it.0)
+        .column("count", "clusters", "per run at the end, mean", |it| it.1)
         .table("sizes")
         .titled(
             "Clusters at the end",
-            "tiles that hold each other, single ones too",
+            "connected tiles; single tiles count as clusters",
         )
         .in_view()
 }
@@ -305,11 +308,11 @@ fn course(found: &Found) -> Table {
     let ends = |of: fn(&Moment) -> Interval| move |it: &Moment| { let at = of(it); at.low.zip(at.high).map(|(low, high)| [low.max(0.0), high]) };
     rows(found.statistics.moments.clone())
         .column("time_s", "", "since the start", |it| it.time)
-        .column("bonds", "", "mean of the runs", |it| it.bonds.mean)
+        .column("bonds", "", "mean over the runs", |it| it.bonds.mean)
         .column("bonds_interval", "", "95 %", ends(|it| it.bonds))
-        .column("traps", "", "mean of the runs", |it| it.traps.mean)
+        .column("traps", "", "mean over the runs", |it| it.traps.mean)
         .column("traps_interval", "", "95 %", ends(|it| it.traps))
-        .column("largest", "", "tiles of the largest cluster, mean of the runs", |it| it.largest.mean)
+        .column("largest", "", "tiles of the largest cluster, mean over the runs", |it| it.largest.mean)
         .column("largest_interval", "", "95 %", ends(|it| it.largest))
         .table("over_time")
         .in_file("course")
@@ -344,12 +347,12 @@ fn bonds(found: &Found) -> Table {
     rows(lives)
         .column("run", "", "", |(run, _)| run.index)
         .column("first", "", "a tile", |(_, life)| life.tiles[0])
-        .column("second", "", "the tile it holds", |(_, life)| life.tiles[1])
+        .column("second", "", "the tile in contact with it", |(_, life)| life.tiles[1])
         .column("first_kind", "", "", |(_, life)| kind(life.tiles[0]))
         .column("second_kind", "", "", |(_, life)| kind(life.tiles[1]))
         .column("tie", "", "bond or trap", |(_, life)| life.tie.name())
         .column("from_s", "", "", |(_, life)| life.from)
-        .column("to_s", "", "empty where it lasts to the end", |(_, life)| life.to)
+        .column("to_s", "", "empty if it lasts to the end", |(_, life)| life.to)
         .table("held")
         .in_csv("bonds")
 }
@@ -362,13 +365,13 @@ fn clusters(found: &Found) -> Table {
     rows(counted)
         .column("run", "", "", |it| it.0)
         .column("time_s", "", "", |it| it.1)
-        .column("size", "", "tiles of a cluster", |it| it.2)
+        .column("size", "", "tiles in a cluster", |it| it.2)
         .column("count", "", "clusters of this size", |it| it.3)
         .table("cluster_sizes")
         .in_csv("clusters")
 }
 
-/// `trajectory.csv`, where frames are asked for.
+/// `trajectory.csv`, if frames are requested.
 fn places(found: &Found) -> Table {
     let kinds = &found.crowd.kinds;
     let kept = samples(found).filter(|_| found.frames);
@@ -394,7 +397,7 @@ fn places(found: &Found) -> Table {
         .in_csv("trajectory")
 }
 
-/// The first run, a frame a sample.
+/// The first run, one frame per sample.
 fn trajectory(found: &Found) -> Vec<u8> {
     let crowd = &found.crowd;
     let particle = |mover: &Mover| {
@@ -448,7 +451,7 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
     let held = chart(
         "held",
         "Bonds and traps over time",
-        Dimension::new("pairs", "held pairs"),
+        Dimension::new("pairs", "pairs of tiles"),
     )
     .with("bonds", Look::Line, line(|it| it.bonds))
     .with("traps", Look::Line, line(|it| it.traps));
@@ -469,12 +472,12 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
     };
     let energy = chart(
         "energy",
-        "Energy over time, mean of the runs",
+        "Energy over time, mean over the runs",
         Dimension::new("energy_J", "energy"),
     )
     .with("kinetic", Look::Line, mean(|it| it.kinetic))
-    .with("of magnets", Look::Line, mean(|it| it.potential))
-    .with("work of drives", Look::Line, mean(|it| it.account.work))
+    .with("magnetic", Look::Line, mean(|it| it.potential))
+    .with("work by drives", Look::Line, mean(|it| it.account.work))
     .with(
         "lost in contact",
         Look::Line,
@@ -487,7 +490,7 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
         .collect()
 }
 
-/// How many pairs of a run are held in a way at the end.
+/// The number of bonds or traps of a run at its end.
 pub fn at_end(run: &Run, tie: Tie) -> usize {
     run.samples.last().map_or(0, |last| last.count(tie))
 }

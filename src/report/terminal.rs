@@ -1,4 +1,4 @@
-//! Tables for a terminal.
+//! Tables for the terminal.
 
 use std::fmt::Write;
 
@@ -19,8 +19,8 @@ pub fn write_table<R: AsRef<[String]>>(text: &mut String, rows: &[R]) {
     }
 }
 
-/// A table that fits a terminal's width: where it does not, its last cells go on lines of their own,
-/// indented below the second cells; where that is not enough, see [`write_folded`].
+/// A table fitted to a terminal's width: if it is too wide, its last cells go on separate lines,
+/// indented below the second cells; if that is not enough, see [`write_folded`].
 pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usize>) {
     let fits = |table: &str| {
         let width = columns.unwrap_or(usize::MAX);
@@ -47,8 +47,7 @@ pub fn write_fitted(text: &mut String, rows: &[Vec<String>], columns: Option<usi
     }
 }
 
-/// A table in as many parts below each other as a terminal's width asks for, each with the first
-/// column.
+/// A table split into parts below each other to fit a terminal's width, each with the first column.
 pub fn write_folded(text: &mut String, rows: &[Vec<String>], columns: Option<usize>) {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {

@@ -1,4 +1,4 @@
-//! What tiles carry and what holds them, in words.
+//! Descriptions of tiles and of the forces that hold them, in words.
 
 use crate::document::{Table, rows};
 use jobs::design::{Design, DesignError};
@@ -12,7 +12,7 @@ pub const GRAM: f64 = 9.806_65e-3;
 /// Significant digits of energies and forces.
 const DIGITS: usize = 4;
 
-/// What is wrong with a design, its reader's doubts first; empty where nothing is.
+/// The mistakes in a design, after the reader's warnings; empty if there are none.
 pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
     let doubts = design.warnings.iter().map(DesignError::sentence);
     doubts.chain(inspection.faults(design)).collect()
@@ -29,7 +29,7 @@ pub fn force(newtons: f64) -> String {
     format!("{} ({grams:.decimals$} g)", si(newtons, "N", 3))
 }
 
-/// What holds the tiles, a line for each model of the magnets.
+/// The forces that hold the tiles, one row for each magnet model.
 // One line a column.
 #[rustfmt::skip]
 pub fn models<'a>(design: &'a Design, models: &'a [Hold]) -> Table {
@@ -45,7 +45,7 @@ pub fn models<'a>(design: &'a Design, models: &'a [Hold]) -> Table {
         .in_file("models")
 }
 
-/// The largest pull on the way straight out, and where it is.
+/// The largest pull on the way straight out, and its gap.
 pub fn pull_off(hold: &Hold) -> String {
     match hold.pull_off_gap {
         0.0 => force(hold.pull_off),
@@ -53,12 +53,12 @@ pub fn pull_off(hold: &Hold) -> String {
     }
 }
 
-/// Which pole a magnet turns outwards, or up.
+/// The pole of a magnet that points outwards, or up.
 pub fn letter(tile: &Tile, magnet: &Magnet) -> char {
     magnet.pole(tile.faces[magnet.face].normal()).letter()
 }
 
-/// The magnets of a face with their places along it (m), counter-clockwise.
+/// The magnets of a face with their positions along it (m), counter-clockwise.
 pub fn magnets(tile: &Tile, number: usize) -> Vec<(f64, &Magnet)> {
     let face = &tile.faces[number];
     let own = tile.magnets.iter().filter(|magnet| magnet.face == number);

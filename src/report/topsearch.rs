@@ -2,16 +2,16 @@
 //! (<https://github.com/IBM/topography-searcher>), from which it and others draw disconnectivity
 //! graphs.
 //!
-//! One minimum a class of states, in ascending order of energy, and last the tiles far apart with
-//! U = 0, which are a basin too. `min.data` has lines `i E`, `ts.data` lines `i j E` (J), of several
-//! transition states between two minima the lowest; `min.coords` and `ts.coords` have x, y (m) and
-//! theta (rad) of each line, `pairlist` the pairs that are joined. TopSearch wants all five.
+//! One minimum per class of states, in ascending order of energy; the last one stands for tiles far
+//! apart with U = 0, which are also a basin. `min.data` has lines `i E`, `ts.data` lines `i j E`
+//! (J) with the lowest transition state between two minima; `min.coords` and `ts.coords` have x, y
+//! (m) and theta (rad) of each line, `pairlist` the connected pairs. TopSearch requires all five.
 //!
 //! TopSearch 0.0.3 (`pip install topsearch`) reads `topsearch/` with `read_network` and draws the
-//! paper tile's graph: the same ten minima (nine kinds of state and free tiles), the shifted bonds
-//! joining the bond first and all joined at the top. It draws on a linear scale in 100 levels, so
-//! that the merges at -140 and -47 µJ fall into one. It wants LaTeX for its letters;
-//! `matplotlib.rcParams["text.usetex"] = False` after the import does without.
+//! paper tile's graph: the same ten minima (nine kinds of state and free tiles), in which the
+//! shifted bonds join the bond first and all are joined at the top. It draws a linear scale with
+//! 100 levels, so that the merges at -140 and -47 µJ coincide. It uses LaTeX for text;
+//! `matplotlib.rcParams["text.usetex"] = False` after the import avoids that.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -44,7 +44,7 @@ pub fn files(scene: &Scene, far: f64) -> Files {
         let (Some(from), Some(to)) = (number(barrier.from), number(barrier.to)) else {
             continue;
         };
-        // U = 0 far apart, and no way to there has a lower highest energy.
+        // U = 0 far apart, so no path to there has a lower maximum energy.
         let least = if to.max(from) == free {
             0.0
         } else {

@@ -1,4 +1,4 @@
-//! Numbers, poses and shares as all outputs have them.
+//! The format of numbers, poses and shares in all outputs.
 
 use serde_json::{Value, json};
 
@@ -10,13 +10,13 @@ pub fn positive_zero(value: f64) -> f64 {
     value + 0.0
 }
 
-/// A configuration as entries have it.
+/// A configuration for entries.
 pub(super) fn pose(q: &Configuration) -> [f64; 3] {
     q.to_array().map(positive_zero)
 }
 
-/// A configuration as people read it: x and y in mm, theta in degrees, to a tenth; of small tiles, whose
-/// poses are, lengths to a five-hundredth of the pose's own.
+/// A configuration for people: x and y in mm and theta in degrees, to a tenth; for small tiles,
+/// lengths to a five-hundredth of the pose's distance.
 pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
     let [x, y] = [1e3 * q.x, 1e3 * q.y];
     let size = x.abs().max(y.abs());
@@ -25,11 +25,11 @@ pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
     } else {
         1.0
     };
-    // Nothing is told below a nanometre.
+    // Nothing below a nanometre is shown.
     let decimals = (finest - 1e-9).ceil().clamp(1.0, 6.0) as usize;
     let told = |value: f64, decimals: usize| {
         let scale = 10f64.powi(decimals as i32);
-        // No minus of what rounds to nothing.
+        // Avoids -0.
         format!("{:.decimals$}", (scale * value).round() / scale + 0.0)
     };
     [

@@ -1,4 +1,4 @@
-//! A design to be made: what people work by, and files for the workshop.
+//! Workshop files: the sheet, and the drawings for the cutter.
 //!
 //! Lengths in files are in mm. In DXF there are closed polylines on the layers OUTLINE and POCKETS,
 //! letters on POLES; arcs are arcs, by their bulges. In SVG a user unit is a millimetre, and arcs are
@@ -22,7 +22,7 @@ use physics::tile::magnet::Shape;
 /// White space around an SVG drawing (mm).
 const MARGIN: f64 = 5.0;
 
-/// What it takes to make a design; its text is the sheet to work by.
+/// The document of the workshop files; its text is the sheet.
 pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
     let making = &made.making;
     let count = match made.magnets.iter().map(|(_, count)| count).sum() {
@@ -102,7 +102,7 @@ fn nearest(remanence: f64) -> String {
     }
 }
 
-/// The magnets of a tile in the order in which they go in.
+/// The magnets of a tile in the order of insertion.
 // One line a column.
 #[rustfmt::skip]
 fn steps(name: &'static str, tile: &MadeTile) -> Table {
@@ -114,7 +114,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
     depths.sort();
     depths.dedup();
     let wanting = tile.part.pockets.iter().map(Pocket::wanting).fold(0.0, f64::max);
-    // Up to tenths of a millimetre.
+    // Rounds up to tenths of a millimetre.
     let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
     let thin = match wanting > 0.0 {
         true => format!(
@@ -160,13 +160,13 @@ fn mm(metres: f64) -> String {
     format!("{:.3}", 1e3 * metres + 0.0).replace("-0.000", "0.000")
 }
 
-/// The same without zeros at the end.
+/// The same without trailing zeros.
 fn plain(metres: f64) -> String {
     let text = mm(metres);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The layers of a drawing, with colours that tell them apart.
+/// The layers of a drawing, with distinct colours.
 const LAYERS: [Layer; 3] = [("OUTLINE", 7), ("POCKETS", 1), ("POLES", 5)];
 
 /// The lines as DXF.
@@ -185,7 +185,7 @@ fn dxf(part: &Part) -> String {
     dxf.finish()
 }
 
-/// The lines as SVG, y upwards turned downwards as seen from above.
+/// The lines as SVG, seen from above: y upwards becomes downwards.
 fn svg(part: &Part) -> String {
     let [low, high] = extent(&part.outline).map(|corner| corner.map(|x| 1e3 * x));
     let size = [0, 1].map(|k| high[k] - low[k] + 2.0 * MARGIN);
@@ -203,7 +203,7 @@ fn svg(part: &Part) -> String {
         for (k, (corner, next)) in corners.iter().zip(nexts).enumerate() {
             let end = place(&next.point);
             let _ = match corner.arc(next) {
-                // Counter-clockwise is so on paper too, where y runs down.
+                // Counter-clockwise remains so on paper, where y points down.
                 Some((radius, large)) => {
                     let (large, sweep) = (u8::from(large), u8::from(corner.bulge < 0.0));
                     let radius = number(1e3 * radius);
@@ -242,7 +242,7 @@ fn svg(part: &Part) -> String {
     text + "</svg>\n"
 }
 
-/// The least and the greatest x and y (m) of a closed line.
+/// The smallest and the largest x and y (m) of a closed line.
 fn extent(corners: &[Corner]) -> [[f64; 2]; 2] {
     let mut points: Vec<Vector2<f64>> = Vec::new();
     for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {

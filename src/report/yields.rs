@@ -1,4 +1,4 @@
-//! What a shaken table yields.
+//! The yield of a shaken table, as a document.
 
 use serde_json::{Value, json};
 
@@ -14,7 +14,7 @@ use physics::kinetics::population::MOST_STATES;
 use physics::order::Order;
 use physics::units::{duration, si};
 
-/// What there is to know of a yield.
+/// The document of a yield.
 pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
     let told = question.effort.told();
     let interval = match question.effort.source {
@@ -55,7 +55,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
     }
 }
 
-/// What to know where contact takes energy out of knocks.
+/// A note if collisions dissipate energy.
 fn dissipation(question: &Question) -> Option<String> {
     let motion = question.effort.motion();
     let takes = motion.restitution < 1.0 || motion.friction > 0.0;
@@ -114,8 +114,8 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .table(states(best).titled(at_best, "").in_view())
 }
 
-/// One kT after another, blind to the tiles, in equal slots; no schedule yields more than the upper
-/// bound, not even one that sees the tiles.
+/// The best schedule of kT in equal slots, without observing the tiles; no schedule yields more
+/// than the upper bound, not even one that observes the tiles.
 fn mixture(found: &Yields) -> Value {
     let told = |(tiles, mixture): &(usize, Mixture)| {
         let kts = mixture.schedule.iter().map(|k| found.outcomes[*k].kt);
@@ -129,10 +129,10 @@ fn mixture(found: &Yields) -> Value {
     json!(found.mixture.as_ref().map(told))
 }
 
-/// A kT that was asked for, and what was found at it.
+/// A requested kT, and its outcome.
 type AtKt<'a> = (f64, Result<&'a Outcome, Option<&'a YieldError>>);
 
-// One line a column: what files and people call it, what it means, its value.
+// One line per column: key, name, meaning, value.
 #[rustfmt::skip]
 fn by_kt(question: &Question, found: &Yields) -> Table {
     let of = |get: fn(&Outcome) -> f64| move |(_, at): &AtKt| at.ok().map(get);
@@ -186,7 +186,7 @@ fn states(outcome: &Outcome) -> Table {
         .in_file("rates")
 }
 
-/// Where rates of detachment come from.
+/// The source of detachment rates.
 fn detachment(question: &Question) -> &'static str {
     match question.effort.source {
         Source::Docking => "by detailed balance, as if the table had a temperature",
@@ -194,7 +194,7 @@ fn detachment(question: &Question) -> &'static str {
     }
 }
 
-/// Of which drag lifetimes are.
+/// The drag that lifetimes refer to.
 fn lifetimes(question: &Question) -> String {
     let drag = question.effort.motion().drag;
     match question.effort.source {
@@ -212,7 +212,7 @@ fn lifetimes(question: &Question) -> String {
     }
 }
 
-/// How shares over time were found.
+/// The method for shares over time.
 fn method(outcome: &Outcome) -> &'static str {
     match outcome.exact {
         true => "forward equation of all numbers of pairs",
@@ -319,7 +319,7 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
     all.into_iter().map(Into::into).collect()
 }
 
-/// What is said of a share that follows from mean numbers.
+/// The note on a share from mean numbers.
 fn of_means(outcome: &Outcome) -> String {
     let kinds = outcome.states.len();
     let off = match outcome.off {
@@ -336,7 +336,7 @@ fn of_means(outcome: &Outcome) -> String {
     )
 }
 
-/// Which shaking when: `30 min at 2 mJ, then 30 min at 1 mJ`.
+/// The schedule in words: `30 min at 2 mJ, then 30 min at 1 mJ`.
 fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture) -> String {
     let kts = mixture.schedule.chunk_by(|a, b| a == b);
     let phases = kts.map(|part| {

@@ -60,7 +60,7 @@ import rgrow  # noqa: E402
 
 
 def mate(glue):
-    """What a word or a mate is meant to meet; a plain glue meets itself."""
+    """The intended partner of a word or a mate; that of a plain glue is itself."""
     return glue[:-1] if glue.endswith("*") else glue + "*"
 
 
@@ -71,8 +71,8 @@ class Counted:
         fits = (lambda a, b: a == b) if plain else (lambda a, b: b == mate(a))
         self.canvas, self.count = canvas, int((canvas > 0).sum())
         self.errors, self.places = 0, []
-        # Wrong contacts that are there to stay: three neighbours are about either tile. A tile that
-        # docks where it does not belong has fewer, and falls off again.
+        # Permanent wrong contacts: both tiles have three neighbours. A tile that has docked at a
+        # wrong place has fewer, and detaches again.
         filled = np.pad(canvas > 0, 1).astype(int)
         about = filled[:-2, 1:-1] + filled[2:, 1:-1] + filled[1:-1, :-2] + filled[1:-1, 2:]
         self.inner, self.settled = (about >= 3) & (canvas > 0), []
@@ -83,7 +83,7 @@ class Counted:
             for there, out, back in (((i, j + 1), 1, 3), ((i - 1, j), 0, 2)):
                 if 0 <= there[0] and there[1] < columns and canvas[there]:
                     a, b = here[out], edges[canvas[there] - 1][back]
-                    # An empty face binds nothing and hinders nothing.
+                    # An empty face neither binds nor repels.
                     if "0" not in (a, b) and not fits(a, b):
                         self.errors += 1
                         self.places.append(((i + there[0]) / 2, (j + there[1]) / 2))
@@ -104,7 +104,7 @@ class Grown(Counted):
 
 
 class ByXgrow(Counted):
-    """A file grown once in xgrow; numbers of seeds are its own."""
+    """A file grown once in xgrow, which has its own random numbers."""
 
     def __init__(self, program, path, size=SIZE, events=1_000_000_000):
         array = pathlib.Path(path).with_name("array.txt")
@@ -175,7 +175,7 @@ def at_growth(program, folder, given, excess=0.3, kt=5e-3):
         tau = report["tile_set"]["tau"]
         if abs(tau * report["Gse"] - report["Gmc"] - excess) < 0.01:
             break
-        # Gse is as 1 / kT; Z0 about as kT^(5/2).
+        # Gse is proportional to 1 / kT; Z0 about to kT^(5/2).
         low, high = 1e-6, 10.0
         for _ in range(60):
             kt = math.sqrt(low * high)
@@ -186,7 +186,7 @@ def at_growth(program, folder, given, excess=0.3, kt=5e-3):
 
 
 def ideal(name, gse, folder, half=False):
-    """A shipped set with abstract glues; where `half`, wrong ones of strength 1 bind half."""
+    """A shipped set with abstract glues; with `half`, wrong ones of strength 1 bind with half strength."""
     text = (SETS / f"{name}.yaml").read_text()
     text += f"Gse: {gse}\nGmc: {2 * gse - 0.3}\n"
     if half:
@@ -207,20 +207,20 @@ def check_ideal(folder, often):
         assert published / 3 - 2 * spread < errors < published * 3 + 2 * spread, errors
 
 
-# Of how many runs one is made of these: a spiral grows at one place only, and of the beaver's 101
-# tiles one fits.
+# These sets get one run instead of several: a spiral grows at only one place, and only one of the
+# beaver's 101 tiles fits at a place.
 SLOW = {"spiral": 5, "beaver-square": 5}
 
 
 def whole(report, most=SIZE):
-    """Tiles to grow: so many, or of what ends nearly all, for it loses a tile now and then."""
+    """Tiles to grow: this many, or nearly all of a finite set, because it loses a tile now and then."""
     grown = report["grown"]
     tiles = grown["tiles"] - grown["tiles"] // 20
     return min(most, tiles) if grown["complete"] else most
 
 
 def told(runs):
-    """Errors a tile, and those that are there to stay."""
+    """Errors per tile, and permanent ones."""
     all_, spread = mean(run.errors / run.count for run in runs)
     settled, its = mean(len(run.settled) / run.count for run in runs)
     return f"{all_:.4f} +- {spread:.4f} errors a tile ({settled:.4f} +- {its:.4f} to stay)"
@@ -228,7 +228,7 @@ def told(runs):
 
 def check_sets(program, xgrow, folder, often):
     """Every shipped set grows as written, without many errors, in both engines: to 2,000 tiles, or
-    whole where it ends (square, tree and beaver square)."""
+    completely if it is finite (square, tree and beaver square)."""
     for name in ("unary-square", "binary-tree", "binary-counter", "sierpinski", "beaver-square", "spiral"):
         out = folder / name
         report = at_growth(program, out, kept_words(program, name), 2.0)
@@ -250,7 +250,7 @@ COMMIT = "abae7e9609fa89c6a292f45b3ab3b001657d56c5"
 
 
 def with_xgrow():
-    """The program xgrow: the one on the path, or compiled; None, with a word, where neither is."""
+    """The program xgrow: the one on the path, or compiled; None, with a message, if there is neither."""
     program = shutil.which("xgrow")
     folder = pathlib.Path(tempfile.gettempdir()) / "tilebind-xgrow"
     if program or (folder / "xgrow-program").exists():

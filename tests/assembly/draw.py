@@ -14,7 +14,7 @@ from study import EXCESS, ORDER, blocks_of, ideal, whole  # noqa: E402
 
 
 def show(axis, grown, text, title):
-    """A canvas in the colours of its tiles; tiles with errors that are there to stay have a cross."""
+    """A canvas in the colours of its tiles; tiles with permanent errors have a cross."""
     lines = [it for it in text.splitlines() if it.startswith("- {name:") and "edges:" in it]
     colours = [re.search(r'color: "(#\w{6})"', line) for line in lines]
     colours = [it[1] if it else "#888888" for it in colours]
@@ -57,7 +57,7 @@ def shaking(out):
                 points = [it for it in mine if it[column + ending]]
                 place = [float(it["kt_J"]) / float(it["window_high_J"]) for it in points]
                 label = name if ending == "" else None
-                # No error seen is drawn on the floor.
+                # No observed error is drawn at the bottom.
                 values = [max(float(it[column + ending]), 1e-5) for it in points]
                 axis.plot(place, values, line, color=colour, marker=mark, markersize=4, linewidth=1, label=label)
     for axis, title in ((speed, "tiles a docking time"), (wrong, "errors a tile (1e-5: none seen)")):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A lattice of 3 x 3 tiles, pair by pair: is any bond deeper than the matrix says?
+"""A lattice of 3 x 3 tiles, pair by pair: is any bond deeper than in the matrix?
 
     tests/assembly/lattice.py target/release/tilebind results/assembly/lattice.csv
 

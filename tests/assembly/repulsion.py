@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Why xgrow's files leave repulsion out, and what that costs.
+"""Why xgrow's files omit repulsion, and the effect of that.
 
     tests/assembly/repulsion.py target/release/tilebind results/assembly/repulsion.csv
 
@@ -27,7 +27,7 @@ LINE = "if (Gse(fp, i, j, n) == 0)\n               continue;"
 
 
 def mended(program, folder):
-    """The program with that line mended, compiled beside its sources."""
+    """The program with that line fixed, compiled next to its sources."""
     sources = pathlib.Path(program).parent / "src"
     shutil.copytree(sources, folder / "src")
     text = (folder / "src/grow.c").read_text()
@@ -54,7 +54,7 @@ def with_repulsion(folder):
 
 
 def without_repulsion(folder):
-    """An rgrow file with 0 for what is below."""
+    """An rgrow file with negative values replaced by 0."""
     text = (folder / "assembly.yaml").read_text()
     path = folder / "neutral.yaml"
     path.write_text(re.sub(r"(strength: |\", )-[\d.e-]+([}\]])$", r"\g<1>0.0\2", text, flags=re.M))

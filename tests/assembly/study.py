@@ -21,9 +21,9 @@ from check import whole as of_size
 NAMES = ["unary-square", "binary-tree", "binary-counter", "beaver-square", "spiral"]
 ORDER = ["sierpinski", *NAMES]
 EXCESS = 1.0
-# tau Gse - Gmc of the study of shaking, the most telling first.
+# tau Gse - Gmc of the study of shaking, the most informative first.
 EXCESSES = (1.0, 8.0, 24.0, 4.0, 16.0, 32.0, 2.0, 0.3, -0.5)
-# An engine's events at most.
+# Largest number of an engine's events.
 EVENTS = 20_000_000
 # Blocks of a run by tiles along their edge, and runs.
 BLOCKS = {1: 1000, 2: 500, 3: 200}
@@ -48,7 +48,7 @@ class Table:
             self.rows = rows if head == header else []
 
     def has(self, *key):
-        """Whether there is a row that begins so."""
+        """Whether there is a row with this beginning."""
         key = ["" if it is None else str(it) for it in key]
         return any(row[: len(key)] == key for row in self.rows)
 

@@ -1,4 +1,4 @@
-//! Time to an answer, from the start of the process: a barrier, and an energy.
+//! Time from the start of the process to an answer: a barrier, and an energy.
 //!
 //! The slid state of the paper's tile, back to the bond, to 1 % and to 0.1 % of the barrier; medians
 //! over ten seeds.

@@ -1,7 +1,7 @@
-//! What certified barriers cost: widths, cells, times, and cells per second.
+//! The cost of certified barriers: widths, cells, times, and cells per second.
 //!
-//! The paper's tile with point dipoles, dipoles behind shields and blocks; no pathway known, each
-//! bracket by a certifier of its own, the time to set it up included.
+//! The paper's tile with point dipoles, dipoles behind shields and blocks; without a known pathway,
+//! each bracket by a new certifier, including the time to set it up.
 //!
 //! `cargo bench --bench certificate`
 

@@ -1,4 +1,4 @@
-//! What the energy of uniformly magnetised blocks costs, against that of point dipoles.
+//! The cost of the energy of uniformly magnetised blocks, relative to point dipoles.
 //!
 //! Both tiles are 43 cm squares with four magnets on each face (16 x 16 pairs). Times are the
 //! least of many rounds on one core; each round measures everything once.
@@ -51,7 +51,7 @@ fn main() {
         }
         println!();
     }
-    // Of the widest instructions.
+    // With the widest instructions.
     for (name, rounds) in last {
         let short = match name {
             "touching, aligned" => "blocks-over-dipoles-touching",

@@ -1,10 +1,10 @@
-//! How fast the dipole kernel is, and how close to what the core can do.
+//! The speed of the dipole kernel, and how close it comes to the limit of the core.
 //!
 //! The ceiling is measured in the same run: a loop does as many simple and fused vector operations
 //! and guesses of `1 / sqrt` as the pairs take, but none that waits for another. A kernel's share
-//! of it is that loop's time over its own; so what it does besides the pairs (sines and cosines,
-//! rotations, sums) counts as loss. Times are the least, shares the median of many rounds, in each
-//! of which everything is measured once.
+//! of the ceiling is that loop's time over its own; everything besides the pairs (sines and
+//! cosines, rotations, sums) counts as loss. Times are minima and shares are medians over many
+//! rounds, in each of which everything is measured once.
 //!
 //! `cargo bench --bench kernel`
 
@@ -88,14 +88,14 @@ fn configurations() -> Vec<Configuration> {
 /// Something to be timed.
 struct Work<'a> {
     name: &'static str,
-    /// How often a call does it.
+    /// Number of repetitions per call.
     times: usize,
-    /// Whether it computes gradients; nothing where it computes neither energies nor gradients.
+    /// Whether it computes gradients; `None` if it computes neither energies nor gradients.
     gradient: Option<bool>,
     call: Box<dyn FnMut() + 'a>,
 }
 
-/// Times (s) of doing it once, a row for each round.
+/// Times (s) of one repetition, a row for each round.
 fn measure(works: &mut [Work]) -> Vec<Vec<f64>> {
     let round = |_| {
         let mut row = Vec::new();
@@ -165,7 +165,7 @@ fn kernels<'a>(potential: &'a dyn Potential, qs: &'a [Configuration]) -> Vec<Wor
 #[derive(Clone, Copy)]
 struct Mix<const CHAINS: usize> {
     a_pair: Operations,
-    /// Reciprocals in place of `1 / sqrt`.
+    /// Reciprocals instead of `1 / sqrt`.
     reciprocals: bool,
 }
 

@@ -1,5 +1,6 @@
-//! How many vector operations the dipole kernel does for a pair of dipoles: what the bench measures
-//! its ceiling with. A test of `potential::batch` counts them in the kernel's own arithmetic.
+//! The number of vector operations that the dipole kernel needs for a pair of dipoles, from which
+//! the bench computes the speed limit. A test of `potential::batch` counts them in the kernel's own
+//! arithmetic.
 
 /// Numbers of vector operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,8 +14,8 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// What one pair of dipoles takes (as many pairs as there are lanes, to be precise), with or
-    /// without the gradient.
+    /// The operations of one pair of dipoles (precisely: of as many pairs as there are lanes), with
+    /// or without the gradient.
     pub const fn per_pair(gradient: bool) -> Self {
         let (simple, fused) = if gradient { (15, 19) } else { (11, 13) };
         Self {

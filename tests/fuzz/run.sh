@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Fuzzes the readers (of designs, drawings, tile sets, sets of words, manifests of sweeps, tables) and
-# the energies' bounds over cells, for the given seconds each [20], from the shipped files, the tests'
-# and what was found before (cases/). With `same` in place of the seconds the same inputs as ever are
-# tried, a few thousand. A finding is left in target/fuzz/found; it belongs into cases/, which ordinary
-# tests replay. With names of targets after the seconds, only these. Skips where the fuzzer cannot be
-# built.
+# the energies' bounds over cells, for the given number of seconds each [20], starting from the
+# shipped files, the tests' files and earlier findings (cases/). With `same` instead of the seconds a
+# fixed sequence of a few thousand inputs is tried. A finding is written to target/fuzz/found; move it
+# to cases/, which ordinary tests replay. Names of targets after the seconds select these targets.
+# Skips if the fuzzer cannot be built.
 set -euo pipefail
 cd "$(dirname "$0")"
 effort="${1:-20}"

@@ -30,7 +30,7 @@ CORNERS = [4, 8, 16, 32, 64, 128, 256]
 FACES = [1, 2, 4, 8, 16, 32, 64]
 COLUMNS = ["family", "size", "pairs", "asked", "processor_s", "milestones", "far_starts", "kinds", "states", "barriers",
            "captured", "energies"]
-# What `analyse` is asked for by default where magnets are not very many; all kinds of states.
+# The defaults of `analyse` for tiles without very many magnets; all kinds of states.
 MANY_PAIRS = 16_384
 USUAL = ["--milestones", "8000", "--far-starts", "1000", "--kinds", "1000000"]
 NO_PROOFS = ["--certify-seconds", "0", "--complete-seconds", "0"]

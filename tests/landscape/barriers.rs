@@ -1,5 +1,5 @@
-//! Barriers of real tiles: none lower by way of a third state, nor less proved of it than by that way;
-//! and a way out without play.
+//! Barriers of real tiles: no barrier is higher than a path via a third state, nor are its bounds
+//! worse than that path's; and an exit without play.
 
 use tilebind::budget::Allowance;
 use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
@@ -37,7 +37,8 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     for [first, second, direct] in triples(&analysis.catalogue.barriers) {
         let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
         let chain = upper(first).max(upper(second));
-        // A natural way to free is not given up for one lower by a hundredth of the barrier.
+        // A natural path to free is not replaced by one that is lower by a hundredth of the
+        // barrier.
         let allowed = match direct.to {
             Place::Free => 0.01 * direct.forward(),
             Place::State(_) => 1e-6 * 65.5e-3,
@@ -48,8 +49,9 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     assert!(compared > 10, "{compared}");
 }
 
-/// Of the minimax energies between three places the two highest are equal: what leads on from a place
-/// that is reached lower is proved of the whole way, whichever was looked at first.
+/// The two highest of the minimax energies between three places are equal: a bound for the second
+/// part of a path holds for the whole path if the first part is lower, in whichever order they were
+/// proved.
 #[test]
 fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
     let settings = Settings {
@@ -93,8 +95,8 @@ fn teeth_without_play_are_pulled_out_straight() {
     assert!(way_out.pathway.iter().all(|point| point.clearance > -1e-9));
 }
 
-/// Where the teeth's tips meet, a tile rests 0.07 mm beside the way in, which has no play: it climbs
-/// 0.3 uJ to it.
+/// Where the teeth's tips meet, a tile rests 0.07 mm beside the entrance, which has no play; the
+/// climb to it is 0.3 uJ.
 #[test]
 fn what_rests_beside_the_way_in_is_no_trap() {
     let analysis = square_teeth();
@@ -105,8 +107,8 @@ fn what_rests_beside_the_way_in_is_no_trap() {
     }
 }
 
-/// The teeth's trap, slid by one pitch, has its lowest way out to the bond, hardly lower than that to
-/// `free` and so narrow that no roadmap holds it.
+/// The lowest exit of the teeth's trap, slid by one pitch, leads to the bond. It is hardly lower
+/// than the one to `free`, and too narrow for any roadmap.
 #[test]
 fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
     let design = designs::load("shapes/square-teeth-10mm.toml");
@@ -131,8 +133,8 @@ fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
     assert!(escape.saddle_energy <= upper);
 }
 
-/// Pointed teeth of which two meet point to point: on a slope, though no step that was tried there
-/// led down.
+/// Two pointed teeth meet point to point: this is on a slope, although no step tried there led
+/// downhill.
 #[test]
 fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
     let design = designs::load("tests/designs/good/vertex-points.toml");

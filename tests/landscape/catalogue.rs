@@ -20,7 +20,7 @@ fn state(kind: StateKind, energy: f64) -> State {
     }
 }
 
-/// A barrier between places with these energies, over a saddle of its own.
+/// A barrier between places with these energies, over a separate saddle.
 fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
     let start = Configuration::new(0.0, 0.0, 0.0);
     let to = to.map_or((Place::Free, 0.0), |(id, energy)| {
@@ -32,7 +32,7 @@ fn barrier(to: Option<(usize, f64)>, saddle_energy: f64) -> Barrier {
     }
 }
 
-/// Nothing acts and nothing is in the way.
+/// No forces and no contact.
 fn empty() -> Problem {
     let space = ConfigurationSpace {
         half_size: [10.0, 10.0],
@@ -91,7 +91,7 @@ fn an_escape_is_the_lowest_known_way_down() {
         ..Catalogue::default()
     };
     assert_eq!(catalogue.escape(&problem, 0), Some(to_lower));
-    // A cage is told by the only barrier there is.
+    // The only barrier shows that this is a cage.
     catalogue.barriers = vec![barrier(None, f64::INFINITY)];
     catalogue.barriers[0].bounds.caged = true;
     assert!(catalogue.escape(&problem, 0).unwrap().bounds.caged);
@@ -112,7 +112,7 @@ fn what_one_start_only_ended_in_tells_how_much_is_unseen() {
         };
         catalogue.unseen()
     };
-    // Copies count together: two starts in two copies of one kind are no single ones.
+    // Copies count together: two starts in two copies of one kind are not single ones.
     let few = unseen(vec![
         caught(0, 0, 1),
         caught(1, 0, 1),

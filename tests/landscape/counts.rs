@@ -1,6 +1,6 @@
-//! Exact numbers of energy evaluations and of certified cells for fixed seeds: where one of them
-//! grows, the program has become slower, whatever the machine. Where a change is meant to move them,
-//! the new numbers belong here.
+//! Exact numbers of energy evaluations and of certified cells for fixed seeds: if one of them
+//! grows, the program has become slower on every machine. If a change is meant to alter them, enter
+//! the new numbers here.
 
 use crate::designs;
 use tilebind::Configuration;

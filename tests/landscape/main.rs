@@ -1,5 +1,5 @@
-//! Roadmaps, surveys, certificates and what is made of them, tested on landscapes whose answers are
-//! known, on real tiles, and by symmetries that every answer must have.
+//! Roadmaps, surveys, certificates and what follows from them, tested on landscapes with known
+//! answers, on real tiles, and by symmetries that every answer must have.
 
 #![allow(clippy::disallowed_methods)]
 

@@ -1,4 +1,4 @@
-//! Tiles with so many magnets that as little as possible is asked of their energy.
+//! Tiles with so many magnets that their energy is evaluated as rarely as possible.
 
 use tilebind::budget::Allowance;
 use tilebind::design::Design;
@@ -8,7 +8,7 @@ use tilebind::pipeline::{Settings, analyse};
 
 use crate::designs::load;
 
-/// Two squares, each with a face of so many magnets.
+/// Two squares, each with a face with this many magnets.
 fn of_magnets(count: usize) -> Design {
     let codes = ["NSSN", "SNNS"].map(|code| code.repeat(count / 4));
     let [east, west] = codes.map(|code| format!("{{ code = \"{code}\" }}"));
@@ -16,7 +16,7 @@ fn of_magnets(count: usize) -> Design {
     squares(0.4 / count as f64, &faces)
 }
 
-/// Two squares with magnets so far apart (m) on these faces.
+/// Two squares with magnets at this pitch (m) on these faces.
 fn squares(pitch: f64, [fixed, moving]: &[String; 2]) -> Design {
     let tile = "side = 0.43\nthickness = 0.013\nmass = 0.1";
     let text = format!(
@@ -56,7 +56,7 @@ fn of_very_many_magnets_less_is_asked_for() {
         assert!(more.far_starts > less.far_starts);
         assert!(more.most_kinds.unwrap_or(usize::MAX) > less.most_kinds.unwrap());
     }
-    // Four times the pairs are asked for 4^(2/3) times less.
+    // With four times as many pairs, the effort is reduced by 4^(2/3).
     let ratio = Settings::default().milestones as f64 / of_many.milestones as f64;
     assert!((ratio / 4f64.powf(2.0 / 3.0) - 1.0).abs() < 1e-3, "{ratio}");
     assert!(!of_many.certify.is_none() && of_most.certify.is_none());
@@ -88,7 +88,7 @@ fn from_every_trap_the_bond_is_reached_through_free_space() {
     let ways: Vec<_> = catalogue.barriers.iter().filter(to_bond).collect();
     assert!(ways.len() >= 2, "{}", ways.len());
     for way in ways {
-        // Far apart there is no energy to speak of.
+        // Far apart the energy is negligible.
         let highest = way.saddle_energy / depth;
         assert!(highest < 1e-3, "{highest} from {:?}", way.from);
     }

@@ -1,4 +1,4 @@
-//! Which faces and magnets meet, and the lowest energy over theta.
+//! The faces that touch and the magnets that face each other, and the lowest energy over theta.
 
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::PI;

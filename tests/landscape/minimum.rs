@@ -12,7 +12,7 @@ use tilebind::{Configuration, Problem};
 
 use crate::designs;
 
-/// Where overdamped motion leads, if nothing is known: into a minimum or over the table's rim.
+/// Where overdamped motion leads, without known ends: into a minimum or over the table's rim.
 pub fn drift(problem: &Problem, start: &Configuration) -> Outcome {
     approach(problem, start, &Known::default()).outcome
 }
@@ -118,7 +118,7 @@ fn tiles_slide_along_each_other_however_weak_the_force() {
     assert!((next.q.x - flush.x).abs() > 9e-4, "{next:?}");
 }
 
-/// Where the energy only falls away no step of Newton's method is short enough, and it says so soon.
+/// If the energy only decreases, no step of Newton's method is short enough, and it gives up soon.
 #[test]
 fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
     let problem = designs::load("shapes/shielded-backs.toml").problem();
@@ -136,8 +136,8 @@ fn a_search_for_a_minimum_on_a_slope_is_given_up_soon() {
     assert!(lost > 20, "{lost}");
 }
 
-/// What slides along a face with a slot falls into it, however long steps might be: none of the ways
-/// that steps ten times finer take ends in the trap beside it.
+/// A tile that slides along a face with a slot falls into it, however long the steps are: with
+/// steps ten times finer, no path ends in the trap beside it.
 #[test]
 fn tiles_do_not_pass_by_a_slot_that_they_would_fall_into() {
     let problem = designs::load("shapes/slot-15mm.toml").problem();
@@ -145,7 +145,7 @@ fn tiles_do_not_pass_by_a_slot_that_they_would_fall_into() {
     for start in far_starts(&problem, 60) {
         if let Outcome::Minimum(end) = drift(&problem, &start) {
             let Point { q, energy, .. } = end.point;
-            // Behind the other sides, without magnets, next to nothing holds.
+            // The other sides have no magnets and hold almost nothing.
             let is_bound = energy < -0.06;
             assert!(
                 is_bound || energy > -1e-4,
@@ -160,7 +160,8 @@ fn tiles_do_not_pass_by_a_slot_that_they_would_fall_into() {
 #[test]
 fn tiles_that_slide_flush_are_held_at_both_ends_of_their_faces() {
     let problem = designs::load("shapes/sine-teeth-20mm.toml").problem();
-    // One end of the faces touches, 2 µm are free at the other: force enough presses on both.
+    // One end of the faces touches, the other has a gap of 2 µm: a sufficient force presses on
+    // both.
     let tilted = Configuration::new(-0.266_487_007, -0.430_002_624_331, 1.570_808_533);
     let point = Point::new(&problem, tilted);
     let next = step_along(&problem, &point, &downhill(&problem, &point).unwrap(), 1e-3)
@@ -171,8 +172,8 @@ fn tiles_that_slide_flush_are_held_at_both_ends_of_their_faces() {
     assert!((next.x - tilted.x).abs() > 8e-4, "{next:?}");
 }
 
-/// Two contacts leave the tiles one way only: what comes on a known way along them ends where that
-/// one does, and is followed no farther.
+/// Two contacts allow only one direction of motion: a motion that reaches a known one along them
+/// ends where that one does, and is not followed further.
 #[test]
 fn far_starts_that_come_on_a_known_slide_end_where_it_does() {
     let count = 200;

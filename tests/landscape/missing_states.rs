@@ -1,5 +1,5 @@
-//! Proofs that a list of states is complete: they find what was forgotten, claim nothing beside
-//! what was hidden from them, and say where they are open.
+//! Proofs that a list of states is complete: they find states that were removed, claim nothing
+//! about regions that were hidden from them, and report where they are unfinished.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -17,7 +17,7 @@ use tilebind::{Configuration, Design, Problem, Settings};
 use crate::designs::load;
 use crate::surveys;
 
-/// Traps deeper than a hundredth of the bond that need half of that to leave.
+/// Traps deeper than a hundredth of the bond with an escape barrier of half of that.
 const USUAL: CompletenessSettings = CompletenessSettings {
     below: 0.01,
     escape: 0.005,
@@ -25,7 +25,7 @@ const USUAL: CompletenessSettings = CompletenessSettings {
     allowed: Allowance::UNLIMITED,
 };
 
-/// Settings of a survey from so many milestones.
+/// Settings of a survey with this many milestones.
 fn settings(problem: &Problem, milestones: usize) -> (RoadmapSettings, ExplorationSettings) {
     let settings = Settings {
         milestones,
@@ -121,7 +121,7 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
     assert!((complete.below / problem.depth() + 0.01).abs() < 1e-12);
 }
 
-/// They need a way on to a listed one that rises by no more than is allowed.
+/// They need a path on to a listed one that does not rise more than allowed.
 #[test]
 fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
     let problem = load("tests/designs/good/triangles.toml").problem();
@@ -202,8 +202,8 @@ fn an_energy_without_bounds_or_no_work_proves_nothing() {
 }
 
 /// A small square tile with a hole for a peg in a random place of a random face, a magnet behind
-/// its floor and one in the peg's tip; a few random magnets elsewhere. The wanted bond is another
-/// one. And the numbers of the two faces, and how far one is slid along the other where they meet.
+/// its floor and one in the peg's tip; a few random magnets elsewhere. The intended bond is a
+/// different one. Returns also the indices of the two faces, and the slide at which they meet.
 fn planted(rng: &mut ChaCha8Rng) -> (Design, [usize; 2], f64) {
     let slots = 9;
     let [fixed, moving] = [0; 2].map(|_| rng.random_range(1..4usize));
@@ -276,7 +276,7 @@ fn plant(number_of_traps: usize) {
         let Outcome::Minimum(trap) = descend(&problem, &start).outcome else {
             continue;
         };
-        // A survey that knows next to nothing.
+        // A survey with almost no effort.
         let (roadmap, settings) = settings(&problem, 20);
         let built = surveys::weighed(&problem, &roadmap);
         let survey = Exploration::of_roadmap(&problem, built, &settings);

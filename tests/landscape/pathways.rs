@@ -1,5 +1,5 @@
-//! The pathways that are written are the proved ones: joined by straight motions (linear in x, y and
-//! theta, theta the short way) they are free and rise nowhere above the stated peak. And tiles dock
+//! The written pathways are the proved ones: joined by straight motions (linear in x, y and theta,
+//! theta the short way) they are free and rise nowhere above the stated peak. And tiles dock along
 //! the natural way.
 
 use tilebind::budget::Allowance;
@@ -42,7 +42,7 @@ fn written(barrier: &Barrier) -> Vec<Configuration> {
     table.lines().skip(1).map(row).collect()
 }
 
-/// Samples every leg of every pathway, whatever made it.
+/// Samples every leg of every pathway, however it was found.
 fn check(file: &str) {
     let analysis = analysis(file);
     let problem = &analysis.problem;
@@ -89,7 +89,7 @@ fn pathways_joined_by_straight_motions_are_free_and_as_high_as_stated() {
     }
 }
 
-/// More than half of all far starts are captured by the bond, so there are ways in that never climb.
+/// More than half of all far starts are captured by the bond, so there are paths that never climb.
 #[test]
 fn the_papers_tile_docks_downhill_past_no_trap() {
     let analysis = analysis("shapes/paper-tile.toml");
@@ -111,7 +111,7 @@ fn the_papers_tile_docks_downhill_past_no_trap() {
     assert!(length < 0.3, "{length}");
 }
 
-/// What is done for a wide bracket serves the narrow one.
+/// The work for a wide bracket is reused for the narrow one.
 #[test]
 fn a_smaller_tolerance_never_gives_a_wider_bracket() {
     let design = designs::load("tests/designs/good/ties.toml");
@@ -139,8 +139,8 @@ fn a_smaller_tolerance_never_gives_a_wider_bracket() {
     assert!(narrowest.iter().sum::<f64>() < 0.9 * wide.iter().sum::<f64>());
 }
 
-/// Searches side by side weigh motions for each other, in whatever order: which of two equally good
-/// routes is taken does not depend on it.
+/// Parallel searches share weighed motions, in any order: the choice between two equally good
+/// routes does not depend on it.
 #[test]
 fn ways_are_the_same_on_any_number_of_threads() {
     let design = designs::load("shapes/square-teeth-10mm.toml");

@@ -1,4 +1,5 @@
-//! One barrier, asked for: what its answer says of itself holds, and what has no answer says why.
+//! Queries for one barrier: what an answer states about itself is true, and a missing answer has a
+//! reason.
 
 use tilebind::budget::Allowance;
 use tilebind::landscape::Uncertified;
@@ -26,7 +27,7 @@ fn query(from: Configuration, to: End) -> Query {
     }
 }
 
-/// What holds of every answer.
+/// Checks for every answer.
 fn check(design: &Design, query: &Query, answer: &Answer) {
     let problem = design.problem();
     let barrier = &answer.barrier;

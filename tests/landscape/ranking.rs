@@ -1,4 +1,4 @@
-//! Designs in an order that is proved, or not.
+//! Rankings of designs, with proved and unproved order.
 
 use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::ranking::{order, ranked};

@@ -1,4 +1,4 @@
-//! Milestones and edges against what their definitions say.
+//! Milestones and edges against their definitions.
 
 use crate::plain::Plain;
 use crate::surfaces::DoubleWell;
@@ -162,7 +162,7 @@ fn milestones_follow_their_rule_of_acceptance() {
     }
 }
 
-/// A way that waits before it sets out costs what it costs without the wait.
+/// A path that waits at its start costs the same as without the wait.
 #[test]
 fn waiting_costs_nothing() {
     let energies = [1e-3, 2e-3, 5e-4, 1.5e-3];
@@ -183,8 +183,8 @@ fn waiting_costs_nothing() {
     assert_eq!((nowhere.peak, nowhere.length), (3e-3, 0.0));
 }
 
-/// Squares with forty magnets a face, which are put in groups, and the energy along motions near
-/// and far against all pairs of magnets: between the knots nowhere off by more than the tolerance.
+/// Squares with forty magnets per face, which are grouped; the energy along motions near and far
+/// compared with all pairs of magnets: between the knots the error is within the tolerance.
 #[test]
 fn the_energy_of_many_magnets_is_followed_within_the_tolerance() {
     let word = |k: usize| if (k * k + k / 3) % 5 < 2 { 'N' } else { 'S' };

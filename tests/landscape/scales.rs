@@ -26,7 +26,7 @@ fn scaled(name: &str, s: f64) -> Design {
     let path = format!("{}/shapes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     let mut out = String::new();
-    // What stands before the number: the key that it belongs to.
+    // The text before the number: its key.
     let (mut key, mut word) = (String::new(), String::new());
     let mut comment = false;
     let mut quoted = false;
@@ -73,9 +73,9 @@ fn analysed(name: &str, s: f64, model: MagnetModel) -> Analysis {
     pipeline::analyse(&design, &settings, &Silent)
 }
 
-/// How far numbers may be apart: energies of states are stationary and hold to rounding; barriers are as
-/// good as the survey settles them (half a per cent a round, over a few rounds), as roundings decide which
-/// of two ways is found.
+/// Allowed differences: energies of states are stationary and agree to rounding; barriers agree as
+/// far as the survey settles them (half a per cent per round, over a few rounds), because rounding
+/// decides which of two paths is found.
 const ENERGY: f64 = 1e-6;
 const BARRIER: f64 = 2e-2;
 
@@ -128,7 +128,7 @@ fn designs_of_any_size_have_the_same_answers() {
     }
 }
 
-/// Powers of two change no digit: where a number differs, a length of its own is left in the code.
+/// Powers of two change no digit: if a number differs, the code contains an absolute length.
 #[test]
 fn powers_of_two_change_no_digit() {
     let [one, other] = [1.0, 1.0 / 128.0].map(|s| analysed("tab-20mm", s, MagnetModel::Dipole));

@@ -1,5 +1,5 @@
-//! A landscape whose only low way leads over the seam of theta, from just below pi to just above
-//! -pi: what the survey, the certificate, the flow and the map make of it.
+//! A landscape whose only low way crosses the seam of theta, from just below pi to just above -pi,
+//! in the survey, the certificate, the flow and the map.
 
 use std::collections::HashSet;
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ const SPACE: ConfigurationSpace = ConfigurationSpace {
     rho: LEVER,
     free_distance: 0.5,
 };
-/// Length (m) that turns count with.
+/// Lever (m) of turns.
 const LEVER: f64 = 0.5;
 
 /// Energy (J) of the saddle.

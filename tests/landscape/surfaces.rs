@@ -1,4 +1,4 @@
-//! Landscapes with known minima and saddles, in x and y; theta does not matter to them.
+//! Landscapes with known minima and saddles in x and y, independent of theta.
 
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -89,8 +89,8 @@ impl CellBounds for DoubleWell {
     }
 }
 
-/// The surface of Mueller and Brown (Theor. Chim. Acta 53, 75 (1979), doi:10.1007/BF00547608),
-/// a standard test of methods that look for saddles:
+/// The surface of Mueller and Brown (Theor. Chim. Acta 53, 75 (1979), doi:10.1007/BF00547608), a
+/// standard test of methods that search for saddles:
 ///
 /// ```text
 /// U = scale sum_k A_k exp[a_k (X - X_k)^2 + b_k (X - X_k) (Y - Y_k) + c_k (Y - Y_k)^2]

@@ -1,10 +1,10 @@
-//! Surveys as the tests have them: from roadmaps all of whose motions are weighed.
+//! Surveys for tests: from roadmaps with the costs of all motions known.
 
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings, edge};
 
-/// A roadmap whose motions are tried and weighed, the blocked ones left out.
+/// A roadmap whose motions are tried and weighed, without the blocked ones.
 pub fn weighed(problem: &Problem, settings: &RoadmapSettings) -> Roadmap {
     let Roadmap {
         milestones,

@@ -1,4 +1,5 @@
-//! Answers that symmetries demand: of two tiles exchanged, of their mirror image, of more threads.
+//! Results that symmetries determine: of two tiles exchanged, of their mirror image, of more
+//! threads.
 
 use tilebind::budget::Allowance;
 use tilebind::configuration::Configuration;

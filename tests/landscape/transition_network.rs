@@ -1,5 +1,4 @@
-//! Networks: links that are tried and weighed when they are asked for, and copies of which all is known that
-//! is known of one.
+//! Networks: links whose cost is computed on demand, and copies that share all results.
 
 use std::collections::HashSet;
 
@@ -25,7 +24,7 @@ fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
     (problem, roadmap)
 }
 
-/// The same roadmap, its motions left to be weighed when they are asked for.
+/// The same roadmap, whose motions are weighed on demand.
 fn untried(built: &Roadmap) -> Roadmap {
     let ends = built.edges.iter().map(|edge| (edge.from, edge.to));
     Roadmap {
@@ -35,8 +34,8 @@ fn untried(built: &Roadmap) -> Roadmap {
     }
 }
 
-/// The cost of the cheapest route in a network all of whose links are weighed, by Dijkstra's algorithm,
-/// which knows nothing of where it leads.
+/// The cost of the cheapest route in a network all of whose links are weighed, by Dijkstra's
+/// algorithm, which does not use the goal.
 fn cheapest_blindly(network: &Network, from: usize, to: usize, cost: Cost) -> f64 {
     let mut ways = DiGraphMap::<usize, f64>::new();
     for (number, link) in network.links.iter().enumerate() {
@@ -55,8 +54,8 @@ fn cheapest_blindly(network: &Network, from: usize, to: usize, cost: Cost) -> f6
     dijkstra(&ways, from, Some(to), |(_, _, least)| *least)[&to]
 }
 
-/// Of two networks, one with the free motions of a roadmap, weighed, the other with those of all
-/// neighbours, blocked ones among them.
+/// Two networks: one with the weighed free motions of a roadmap, the other with the motions of all
+/// neighbours, including blocked ones.
 #[test]
 fn what_is_tried_when_asked_for_gives_the_same_routes() {
     const MILESTONES: usize = 600;
@@ -108,7 +107,7 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
             let blind = cheapest_blindly(weighed, from, to, cost);
             assert!((of_weighed.1 - blind).abs() <= 1e-9 * blind, "{cost:?}");
             assert!((of_weighed.1 - of_asked.1).abs() <= 1e-9 * of_weighed.1);
-            // The same, looked for from the other end.
+            // The same, searched from the other end.
             let (total, route) = asked.cheapest_into(from, to, cost).unwrap();
             assert!(
                 (total - of_asked.1).abs() <= 1e-9 * total,
@@ -128,8 +127,8 @@ fn what_is_tried_when_asked_for_gives_the_same_routes() {
     assert!(compared >= 9, "{compared}");
 }
 
-/// Far configurations are joined to `free`, but no route leads from one to another over it: a motion
-/// between them counts though it joins nothing that is not joined.
+/// Far configurations are joined to `free`, but no route leads from one to another via it: a motion
+/// between them counts although they are already joined.
 #[test]
 fn motions_beside_free_are_weighed_when_a_route_needs_them() {
     let (problem, settings) = paper_tile(50);
@@ -150,7 +149,8 @@ fn motions_beside_free_are_weighed_when_a_route_needs_them() {
     assert!(highest.is_some_and(|highest| highest >= ends[0].max(ends[1])));
 }
 
-/// Routes asked for at once, while links are being weighed, are those asked for one by one.
+/// Routes requested in parallel, while links are being weighed, are the same as those requested one
+/// by one.
 #[test]
 fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
     const MILESTONES: usize = 500;
@@ -179,8 +179,8 @@ fn routes_asked_for_at_once_are_those_asked_for_one_by_one() {
     }
 }
 
-/// States and transition states come with all their images, an image joins the images of what its
-/// original joins, and the ways out of all copies of a state are as low.
+/// States and transition states come with all their images, an image joins the images of the states
+/// that its original joins, and the exits of all copies of a state are equally low.
 #[test]
 fn what_is_found_once_is_known_of_all_copies() {
     let (problem, roadmap) = paper_tile(400);

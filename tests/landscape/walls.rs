@@ -1,4 +1,4 @@
-//! Descents that meet walls thinner than their steps.
+//! Descents towards walls thinner than their steps.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is handed out: four crates for cargo, and a source distribution for pip.
+# The packages: four crates for cargo, and a source distribution for pip.
 #
 #     tests/package/run.sh            packs all of it; checks what is in it and how large it is
 #     tests/package/run.sh install    also installs the program and the Python package from what was

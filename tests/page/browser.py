@@ -27,7 +27,7 @@ class Browser:
         (to_read, self.writer), (self.reader, to_write) = os.pipe(), os.pipe()
 
         def as_three_and_four():
-            # Out of the way first, so that neither is overwritten by the other.
+            # Moved first, so that neither overwrites the other.
             a, b = os.dup(to_read), os.dup(to_write)
             os.dup2(a, 3)
             os.dup2(b, 4)
@@ -101,7 +101,7 @@ class Browser:
             time.sleep(0.05)
 
     def settled(self):
-        """Waits until what was asked to be drawn is."""
+        """Waits until everything requested is drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def screenshot(self, whole=False):

@@ -24,7 +24,7 @@ from words import check_words
 
 
 def chromium():
-    """The browser's program, installed if need be; None where there is none."""
+    """The browser's program, installed if needed; None if there is none."""
     names = ["chromium", "chromium-browser", "google-chrome"]
     found = next(filter(None, map(shutil.which, names)), None)
     if found or os.geteuid() != 0 or not shutil.which("apt-get"):

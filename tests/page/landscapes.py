@@ -121,11 +121,11 @@ def check_page(check, name, file):
     browser.run(click)
     check.that(browser.run(column) == upwards[::-1] and len(upwards) > 1, "the table of states sorts by energy")
 
-    # What the page computes of dipoles is what the program says of the states.
+    # The page's energies of dipoles equal those of the program's states.
     off = browser.run("!world.dipoles ? 0 : Math.max(...world.states.map("
                       "(s) => Math.abs(dipoleEnergy(s.pose) / s.energy - 1)))")
     check.that(off < 1e-4, f"the states' energies as the page computes them (off by {off})")
-    # And what it unpacks is near what it computes, away from contact.
+    # The unpacked energies are close to the computed ones, away from contact.
     off = browser.run("(() => { if (!world.dipoles) return 0; const v = views.around.volume, [t, y, x] = v.axes;"
                       " let worst = 0; for (let k = 0; k < v.positions.length; k += 997) {"
                       " const p = v.positions[k]; if (p !== p) continue;"

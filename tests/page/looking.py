@@ -1,4 +1,4 @@
-"""What is looked at on every page."""
+"""Checks for every page."""
 
 LAPTOP, PHONE = (1440, 900), (390, 844)
 WIDE, NARROW = (1400, 900), (400, 900)
@@ -52,7 +52,7 @@ def check_first_look(check, name, file):
 
 
 def check_other_looks(check, name, file):
-    """A page in the dark and on a phone; nothing was complained of since its first look."""
+    """A page in the dark and on a phone; no message has appeared on the console since it was opened."""
     browser = check.browser
     browser.open(file.as_uri(), LAPTOP, dark=True)
     check.keep(f"{name}-dark", whole=True)
@@ -64,7 +64,7 @@ def check_other_looks(check, name, file):
 
 
 def check_links(check, file):
-    """Every link leads to a file beside the page, and what reproduces and cites it is there."""
+    """Every link leads to a file beside the page, and the command line and the citation are there."""
     browser = check.browser
     links = browser.run("[...document.querySelectorAll('#files a')].map((a) => a.getAttribute('href'))")
     check.that(len(links) > 1, f"the page links to files ({links})")
@@ -76,7 +76,7 @@ def check_links(check, file):
 
 
 def check_hints(check, name, file):
-    """At both widths whatever is wider than its place says so, and nothing else does."""
+    """At both widths, boxes that scroll indicate it, and no others do."""
     browser = check.browser
     for size in (WIDE, NARROW):
         browser.open(file.as_uri(), size)

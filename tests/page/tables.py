@@ -9,7 +9,7 @@ SHAPES = pathlib.Path(__file__).resolve().parents[2] / "shapes"
 
 
 def check_table_page(check, name, file, use):
-    """A page of tables and pictures: `use` tries what is its own."""
+    """A page of tables and pictures: `use` tries its specific functions."""
     browser = check.browser
     check_first_look(check, name, file)
     use(browser)
@@ -53,7 +53,7 @@ def check_sweep(check, program, folder):
     design = SHAPES / "tab-20mm.toml"
 
     def hover(browser, spot):
-        """What is told of a spot of a picture, and which row is marked while the pointer is there."""
+        """The text for a spot of a picture, and the row that is marked while the pointer is there."""
         return browser.run(f"(() => {{ const s = {spot}; s.dispatchEvent(new PointerEvent('pointerenter'));"
                            " const here = document.querySelector('#tables tr.chosen');"
                            " const told = [document.querySelector('#point .readout')?.textContent ?? '', s.textContent.trim(),"
@@ -89,7 +89,7 @@ def check_sweep(check, program, folder):
         check_chosen(browser, dot)
 
     def check_chosen(browser, dot):
-        """What is chosen, kept and set against another point."""
+        """Points that are chosen, pinned and compared with another one."""
         row = f"document.querySelectorAll('#tables table')[0].tBodies[0].rows[{dot[0]}]"
         browser.run(f"{row}.click()")
         browser.run("document.querySelector('#charts .panels canvas').dispatchEvent(new PointerEvent('pointerleave'))")

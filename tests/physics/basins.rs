@@ -1,4 +1,4 @@
-//! What the basins of rates hold, and what symmetry makes equal.
+//! The contents of the basins of rates, and equalities that follow from symmetry.
 
 use tilebind::kinetics::rates::{Basin, RateSettings, Rates, rates};
 use tilebind::observer::Silent;
@@ -45,8 +45,8 @@ fn twins_by_a_mirror_have_equal_rates_and_occupations() {
     assert!(alike(finest.rates[1][2], finest.rates[2][1]), "{finest:?}");
 }
 
-/// A mirror and the exchange of the tiles keep energies, and so what basins hold, but not the metric
-/// of motion, which is about the moving tile's centre: committors differ, and rates.
+/// A mirror and the exchange of the tiles preserve energies, and so the contents of basins, but not
+/// the metric of motion, which refers to the moving tile's centre: committors and rates differ.
 #[test]
 fn twins_by_exchange_hold_the_same() {
     for (file, slide) in [
@@ -64,7 +64,7 @@ fn twins_by_exchange_hold_the_same() {
     }
 }
 
-/// What a basin holds is its integral, also where it is narrower than the mesh's first cells.
+/// The content of a basin is its integral, even if it is narrower than the mesh's first cells.
 #[test]
 fn basins_hold_what_their_integrals_say() {
     for file in ["shapes/paper-tile.toml", "shapes/snug-tab.toml"] {
@@ -103,7 +103,7 @@ fn integral(problem: &Problem, basin: &Basin, kt: f64) -> f64 {
     for (i, j) in (-STEPS..STEPS).flat_map(|i| (-STEPS..STEPS).map(move |j| (i, j))) {
         let turn = tilt * middle(j).powi(3);
         let theta = basin.at.theta + turn;
-        // The face's middle slides, not the tile's.
+        // The face's midpoint slides, not the tile's.
         let y = basin.at.y + wide * middle(i).powi(3) + 0.215 * turn;
         let stretch = 9.0 * (middle(i) * middle(j)).powi(2);
         for k in -STEPS / 3..STEPS {

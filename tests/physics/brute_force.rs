@@ -1,7 +1,8 @@
-//! Exits against overdamped motion step by step: Metropolis' rule with steps of one size, which
-//! keeps e^(-U/kT) whatever the size, reflects at contact by rejection, and takes its time from the
-//! limit of small steps. (Rejection of steps whose size varies does not keep it, and a step beyond
-//! the end is too late by a share of its size: both are why several sizes are extrapolated.)
+//! Exits against overdamped motion simulated step by step: Metropolis' rule with steps of one size.
+//! It preserves e^(-U/kT) at any step size, reflects at contact by rejection, and its times are
+//! extrapolated to small steps. (Rejection of steps of varying size does not preserve e^(-U/kT),
+//! and a step beyond the end is too late by a share of its size: hence the extrapolation over
+//! several fixed sizes.)
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -52,7 +53,7 @@ fn asked() -> ExitSettings {
     }
 }
 
-/// What is walked through: the copies of the bond among them.
+/// The landscape of the walks, with the copies of the bond.
 struct Scene {
     problem: Problem,
     bonds: Vec<Configuration>,
@@ -71,7 +72,7 @@ impl Scene {
         }
     }
 
-    /// Whether a tile of this energy (J) is bound: other wells that are as deep are farther away.
+    /// Whether a tile with this energy (J) is bound: other wells of this depth are farther away.
     fn is_bound(&self, q: &Configuration, energy: f64) -> bool {
         const NEAR: f64 = 0.02;
         let is_near = |bond: &Configuration| self.problem.space.distance(bond, q) < NEAR;

@@ -1,4 +1,4 @@
-//! Angles, ways between configurations and their inverses.
+//! Angles, motions between configurations and their inverses.
 
 use std::f64::consts::PI;
 

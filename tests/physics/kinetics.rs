@@ -1,5 +1,5 @@
-//! Exits of overdamped motion: exact where the energy depends on the distance only, the paper's
-//! tile, and what holds for all.
+//! Exits of overdamped motion: exact where the energy depends only on the distance, the paper's
+//! tile, and properties of all exits.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -221,7 +221,7 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     }
 }
 
-/// Of the mesh with bounds and the one without that is told whose rates are known better.
+/// The more accurate of the rates with and without bounds is reported.
 #[test]
 fn coarse_bounds_do_not_take_the_place_of_a_fine_mesh() {
     let kt = 1.0;
@@ -267,8 +267,8 @@ fn a_pair_without_symmetry_has_bounds_on_as_many_cells() {
     assert!(upper < 1.2 * lower, "{lower} {upper}");
 }
 
-/// Square teeth have walls along the way out, where no flux along rays is laid: what is left are the
-/// bounds that trial committors give.
+/// Square teeth have walls along the exit, where there is no flux along rays: only the bounds of
+/// trial committors remain.
 #[test]
 fn outlines_with_walls_along_the_way_out_have_bounds_from_one_side() {
     let found = bounded_rates("square-teeth-10mm", [0.44, 0.04], 3e-3, 1);
@@ -281,8 +281,8 @@ fn outlines_with_walls_along_the_way_out_have_bounds_from_one_side() {
     }
 }
 
-/// A tab in its slot is not convex, but every ray leaves contact once: bounds from both sides hold
-/// what a mesh that does not begin at contact says, and, on nested meshes, each other.
+/// A tab in its slot is not convex, but every ray leaves contact once: bounds from both sides
+/// contain the result of a mesh that does not start at contact and, on nested meshes, each other.
 #[test]
 fn a_tab_has_bounds_from_both_sides() {
     let [coarse, fine] =
@@ -301,8 +301,8 @@ fn a_tab_has_bounds_from_both_sides() {
     assert!(upper < 2.0 * lower, "{lower} {upper}");
 }
 
-/// Rates between free tiles and a basin half as deep as its state at (x, y, 0), with bounds on a mesh
-/// of about so many corners.
+/// Rates between free tiles and a basin half as deep as its state at (x, y, 0), with bounds on a
+/// mesh with about this many corners.
 fn bounded_rates(name: &str, [x, y]: [f64; 2], kt: f64, unknowns: usize) -> Rates {
     let problem = designs::load(&format!("shapes/{name}.toml")).problem();
     let at = Configuration::new(x, y, 0.0);
@@ -343,7 +343,7 @@ fn bounds_hold_the_paper_tiles_exit() {
     assert!(found.bounds[0][1] > upper || found.bounds[0][0] < lower);
 }
 
-/// Cells that do not begin at contact are too coarse for what this well holds, 100 kT deep.
+/// Cells that do not start at contact are too coarse for this well, 100 kT deep.
 #[test]
 fn far_below_the_passes_the_mean_time_lies_between_its_bounds() {
     let design = designs::load("shapes/paper-tile.toml");
@@ -405,7 +405,7 @@ fn rates_balance_in_detail_and_are_those_of_the_integrals() {
         "{:?} {bound}",
         finest.rates[1]
     );
-    // Between the first well and `free` the second one stands.
+    // The second well lies between the first one and `free`.
     assert!(finest.rates[0][2] < 1e-6 * finest.rates[0][1]);
 }
 
@@ -423,7 +423,7 @@ fn a_map_shows_committors_between_none_and_all_and_flux_into_the_bond() {
         let shown = map.committor.iter().filter(|q| q.is_finite());
         assert!(shown.clone().count() > 1000);
         assert!(shown.clone().all(|q| (0.0..=1.0).contains(q)), "{kt}");
-        // What comes in through a circle is all.
+        // All flux enters through a circle.
         let (mut inwards, mut squares) = (0.0, 0);
         for (square, [x, y]) in map.flux.iter().enumerate() {
             let [a, b] = map.middle(square);

@@ -1,5 +1,5 @@
-//! Tiles, their contact, magnets and shields and the way they move, by principle and against
-//! independent numbers; tiles as design files say.
+//! Tiles, contact, magnets, shields and motion, tested by principle and against independent
+//! numbers; tiles as loaded from design files.
 
 #![allow(clippy::disallowed_methods)]
 

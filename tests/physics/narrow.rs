@@ -1,6 +1,6 @@
-//! Exits into a basin much smaller than the cells that a mesh begins with, against motion that is
-//! exact: in flat space a step to anywhere on a sphere about where the tile is, as large as fits
-//! between the ends, takes its radius squared over 6 D on average (Muller 1956,
+//! Exits into a basin much smaller than the initial cells of a mesh, against exact motion: in flat
+//! space a step to a uniformly chosen point of the largest sphere around the tile that fits between
+//! the ends takes its radius squared over 6 D on average (Muller 1956,
 //! doi:10.1214/aoms/1177728169).
 
 use std::f64::consts::TAU;
@@ -116,7 +116,7 @@ fn a_basin_far_smaller_than_first_cells_is_found_as_often_as_it_should_be() {
             problem.symmetries.push(Symmetry { fixed, moving });
         }
     }
-    // The dent is next to nothing against kT.
+    // The dent is negligible compared with kT.
     let asked = ExitSettings {
         certify: None,
         ..ExitSettings::new(1e3, start(), -0.5, FREE)
@@ -167,7 +167,7 @@ model = "dipole"
 const DEPTH: f64 = 0.06;
 const PLAY: f64 = 0.0004;
 
-/// How much is free (m rad) where the tab is drawn out by so much (m): theta by theta the interval
+/// The free area (m rad) with the tab drawn out by this distance (m): for each theta the interval
 /// of y about where the tab's middle would be.
 fn cross_section(problem: &Problem, bond: &Configuration, out: f64) -> f64 {
     const STEPS: i32 = 80;
@@ -184,7 +184,7 @@ fn cross_section(problem: &Problem, bond: &Configuration, out: f64) -> f64 {
     free as f64 * width(tilt) * width(aside)
 }
 
-/// A corridor that no cell of a first mesh meets is found, and nothing that blocks is opened.
+/// A corridor missed by all cells of a first mesh is found, and no blocked region is opened.
 #[test]
 fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
     for (shape, way) in [("draft = 0.0", Way::Open), ("draft = -0.3", Way::Blocked)] {
@@ -206,15 +206,15 @@ fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
     }
 }
 
-/// Through a corridor far narrower than it is long goes what one over the integral of one over its
-/// cross-section says; no cell that a mesh begins with meets it.
+/// The flux through a corridor much narrower than long is the reciprocal of the integral of 1 /
+/// cross-section; no initial cell of the mesh meets it.
 #[test]
 #[ignore = "half a minute"]
 fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says() {
     let design = Design::parse(CORRIDOR, "corridor.toml").unwrap();
     let (problem, bond) = (design.problem(), design.pair.bound);
     let below = 0.5 * problem.energy(&bond);
-    // The magnets are next to nothing against kT.
+    // The magnets are negligible compared with kT.
     let settings = RateSettings {
         tolerance: 0.05,
         certify: None,

@@ -1,4 +1,4 @@
-//! How strong a magnet is: the ways to say it.
+//! The ways to specify the strength of a magnet.
 
 use std::f64::consts::PI;
 
@@ -130,7 +130,7 @@ fn a_pull_of_a_disc_is_the_force_of_a_disc_on_its_image() {
 
 #[test]
 fn a_pull_has_its_limits_and_scales() {
-    // A long bar is drawn by the pressure of its own field alone.
+    // A long bar is attracted only by the pressure of its own field.
     let [a, b] = [0.01, 0.02];
     let most = 1.2 * 1.2 * a * b / (2.0 * MU0);
     assert!((pull(Shape::Block, [10.0, a, b], 1.2) / most - 1.0).abs() < 1e-4);
@@ -142,8 +142,8 @@ fn a_pull_has_its_limits_and_scales() {
     assert!((doubled / one - 16.0).abs() < 1e-10);
 }
 
-/// N38 of a shop (dhit.pl): length, width, height (mm), magnetised through the last, and what it says
-/// that it pulls (N).
+/// N38 of a shop (dhit.pl): length, width, height (mm), magnetised through the last, and the stated
+/// pull (N).
 const SOLD: [([f64; 3], f64); 7] = [
     ([12.0, 10.0, 4.0], 33.88),
     ([40.0, 20.0, 10.0], 241.53),
@@ -162,7 +162,7 @@ fn what_a_shop_states_lies_within_the_spread() {
         let share = stated / pull(Shape::Block, size, n38.remanence[1]);
         let [least, most] = PULL_SPREAD;
         assert!((least - 0.01..most + 0.01).contains(&share), "{share}");
-        // What the pull says, and how sure it is, holds the grade's own remanence.
+        // The range of remanence from the pull contains the grade's remanence.
         let told =
             MU0 * Strength::Pull(stated).moment(Shape::Block, size) / size.iter().product::<f64>();
         let known = n38.remanence[1];

@@ -1,4 +1,4 @@
-//! Partition functions of wells: where they are known in closed form, and by counting.
+//! Partition functions of wells: known closed forms, and counting.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

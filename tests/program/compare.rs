@@ -1,4 +1,4 @@
-//! `tilebind compare` as its users see it.
+//! `tilebind compare`.
 
 use std::path::Path;
 use std::process::Output;
@@ -77,7 +77,8 @@ fn designs_are_ranked_and_the_proved_order_follows_from_the_bounds() {
         let range = &design["bond"]["capture_range"];
         assert!(number(&range["offset_m"][0]) < 0.0 && number(&range["offset_m"][1]) > 0.0);
     }
-    // Both tabs hold at 65 mJ, twice as well as the wrong partner: proved, but not which better.
+    // Both tabs hold with 65 mJ, twice as well as the wrong partner: this is proved, but not which
+    // of them is better.
     let proved = json["certified_order"]["unbinding"].as_array().unwrap();
     let pairs: Vec<[&str; 2]> = proved
         .iter()

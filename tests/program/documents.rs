@@ -1,4 +1,4 @@
-//! Every job's document says the same in all its forms.
+//! The document of every job agrees in all its forms.
 
 use std::collections::{HashMap, HashSet};
 
@@ -63,7 +63,7 @@ fn numbers_agree(table: &Table, rows: &Value) {
     }
 }
 
-/// What must hold of any document.
+/// Checks for any document.
 fn check(document: &Document) {
     assert!(!document.title.is_empty() && document.answer.contains(char::is_alphabetic));
     let report: Value = serde_json::from_str(&document.report()).unwrap();
@@ -103,7 +103,7 @@ fn check(document: &Document) {
                 "{}",
                 head.key
             );
-            // What people see carries its unit.
+            // Displayed values have units.
             let shown = head.is_viewed && table.is_viewed;
             for row in (0..table.rows.len()).filter(|_| shown) {
                 let cell = table.text(row, k);
@@ -158,7 +158,7 @@ fn check(document: &Document) {
     }
 }
 
-/// What was computed is worth more than its pictures.
+/// A failing picture must not discard results.
 #[test]
 fn a_picture_that_breaks_down_takes_nothing_else_along() {
     let (design, problem) = (design(), design().problem());

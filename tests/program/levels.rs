@@ -1,4 +1,4 @@
-//! The same bytes with every instruction set, and whatever the C library's functions are made of.
+//! The same bytes with every instruction set, and with every variant of the C library's functions.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,7 +24,7 @@ const DESIGNS: [(&str, &str); 10] = [
     ("shielded-nearest-face", "dipole"),
 ];
 
-/// What an analysis writes, but for how long it took.
+/// The files of an analysis, without its timing.
 fn analysed((design, model): (&str, &str), out: &Path, prepare: impl Fn(&mut Command)) -> Files {
     let design = format!("shapes/{design}.toml");
     let mut analyse = command(&[
@@ -142,7 +142,7 @@ fn a_table_is_the_same_with_every_level_and_on_any_number_of_threads() {
                 report[varies] = Value::Null;
             }
             files.insert("report.json".to_owned(), report.to_string().into_bytes());
-            // The command line, which the page tells, has the folder's name.
+            // The command line on the page contains the folder's name.
             let page = files.remove("report.html").expect("a page");
             let page = String::from_utf8(page).expect("UTF-8");
             let told = |page: &str| {

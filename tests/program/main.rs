@@ -1,4 +1,4 @@
-//! The program as its users see it: what it prints, writes, draws and answers.
+//! The program as its users see it: what it prints, writes and draws.
 
 #![allow(clippy::disallowed_methods)]
 

@@ -1,5 +1,5 @@
-//! The READMEs: every command they show runs, what they show of its output is what it prints, every
-//! link leads somewhere.
+//! The READMEs: every command they show runs, the output they show is the command's output, and
+//! every link works.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::program::{stderr, stdout};
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const FILES: [&str; 3] = ["README.md", "shapes/README.md", "results/README.md"];
 
-/// What the program is called in the texts: as in a checkout, and as on the path.
+/// The program's name in the texts: in a checkout, and on the path.
 const CARGO: &str = "cargo run --release -- ";
 const NAME: &str = "tilebind ";
 
@@ -40,12 +40,12 @@ fn commands(text: &str) -> Vec<String> {
     found
 }
 
-/// A command made short: fewer milestones, starts, runs and points, and one design of those that are
-/// swept, do the same in less time.
+/// A shortened command: fewer milestones, starts, runs and points, and only one of the swept
+/// designs.
 fn shortened(command: &str) -> String {
     let words = command.strip_prefix(CARGO).or(command.strip_prefix(NAME));
     let mut words: Vec<&str> = words.unwrap().split_whitespace().collect();
-    // Pictures over kT are made by a test of their own.
+    // Pictures over kT have a separate test.
     if words[0] == "rates" {
         let out = words.iter().position(|word| *word == "--out");
         out.map(|place| words.drain(place..place + 2));
@@ -63,7 +63,7 @@ fn shortened(command: &str) -> String {
             _ if fewer => "8".to_owned(),
             list if short.last().is_some_and(|w| w == "--kt") => {
                 let first = list.split(',').next().unwrap();
-                // What is shaken hard leaves soon, over passes that coarse meshes know.
+                // Strongly shaken tiles leave soon, over passes that coarse meshes resolve.
                 if words[0] == "rates" { "8e-3" } else { first }.to_owned()
             }
             word if word.starts_with("--dynamics") => "--dynamics=2".to_owned(),
@@ -186,7 +186,7 @@ fn the_readme_is_of_one_sitting() {
     assert!(read("README.md").lines().count() <= 150);
 }
 
-/// What a link leads to is there.
+/// The targets of links exist.
 #[test]
 fn links_lead_somewhere() {
     for file in FILES {

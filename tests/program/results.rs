@@ -1,4 +1,5 @@
-//! What the folder `results` keeps of the shipped designs is what the program gives, to the byte.
+//! The stored results of the shipped designs in `results` are what the program computes, byte for
+//! byte.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The house as its front page tells it: within each crate files import one way, never in a circle.
+//! Imports within each crate: without cycles among files or sibling folders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -18,17 +18,17 @@ const CRATES: [&str; 5] = [
     "src/python/rust/lib.rs",
 ];
 
-/// Names from the crate's top down: of a module, or of something in one.
+/// A full name within the crate: of a module, or of an item in one.
 type Name = Vec<String>;
 
-/// A file of a crate: what it names of its own crate, and what it makes known under other names.
+/// A file of a crate: the names of its own crate that it uses, and those that it re-exports.
 struct Module {
     file: PathBuf,
     named: BTreeSet<Name>,
     known_as: BTreeMap<String, Name>,
 }
 
-/// Everything that a file names, but for its tests.
+/// Collects every name in a file, except in its tests.
 struct Reader {
     module: Name,
     children: BTreeSet<String>,
@@ -77,7 +77,7 @@ impl Reader {
         }
     }
 
-    /// A path as names from the crate's top, if it leads into the crate.
+    /// A path as a full name, if it is in the crate.
     fn absolute(&self, path: &[String]) -> Option<Name> {
         let mut top = match path[0].as_str() {
             "crate" => Vec::new(),
@@ -167,8 +167,8 @@ fn read(module: Name, file: &Path, folder: &Path, modules: &mut BTreeMap<Name, M
     );
 }
 
-/// The module in which something is defined: the one that its name leads to, or the one from which
-/// that has it.
+/// The module in which something is defined: the one in its name, or the one that this re-exports
+/// it from.
 fn defined_in<'a>(name: &[String], modules: &'a BTreeMap<Name, Module>) -> &'a Name {
     let lengths = (0..=name.len()).rev();
     let mut found = lengths.filter_map(|n| modules.get_key_value(&name[..n]).map(|m| (n, m)));
@@ -180,8 +180,8 @@ fn defined_in<'a>(name: &[String], modules: &'a BTreeMap<Name, Module>) -> &'a N
     }
 }
 
-/// Circles of a crate's files, and of folders that stand side by side. What a folder's `mod.rs` defines
-/// its files may use.
+/// Cycles among a crate's files, and among sibling folders. A folder's files may use definitions in
+/// its `mod.rs`.
 fn circles(first: &str) -> Vec<Vec<String>> {
     let first = Path::new(env!("CARGO_MANIFEST_DIR")).join(first);
     let mut modules = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Designs of the repository.
+//! The designs of the repository.
 
 use std::path::Path;
 

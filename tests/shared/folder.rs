@@ -1,12 +1,13 @@
-//! What lies in a folder.
+//! The contents of a folder.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What tilebind notes about its files in a folder; it has the checksums of files that tell times.
+/// tilebind's record of its files in a folder, with checksums of files that contain times.
 pub const RECORD: &str = ".tilebind.json";
 
-/// All files below a folder but its record with their contents, by their names relative to it.
+/// All files below a folder, without its record, by their names relative to it, with their
+/// contents.
 pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = BTreeMap::new();
     let mut open = vec![folder.to_owned()];
@@ -25,7 +26,7 @@ pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     all
 }
 
-/// The same of results, whose report comes without its timing.
+/// The same for results, without the timing of the report.
 pub fn untimed(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = contents(folder);
     let report = all.get_mut("report.json").expect("a report");
@@ -36,7 +37,7 @@ pub fn untimed(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     all
 }
 
-/// Two folders have the same files, byte for byte; `what` says which is looked at.
+/// Asserts that two folders have the same files, byte for byte; `what` names them in messages.
 pub fn assert_same(
     found: &BTreeMap<String, Vec<u8>>,
     expected: &BTreeMap<String, Vec<u8>>,

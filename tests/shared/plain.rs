@@ -1,5 +1,5 @@
-//! Point dipoles by the plain formulas, one pair after the other, bare or behind shields: what the
-//! kernels, groups and tables of many dipoles are checked against.
+//! Point dipoles by the plain formulas, one pair at a time, bare or behind shields: the reference
+//! for the kernels, groups and tables of many dipoles.
 
 use nalgebra::{Vector2, Vector3};
 use tilebind::Configuration;
@@ -15,12 +15,12 @@ pub type Front = (Option<Shield>, Vector2<f64>);
 /// The interaction energy of two sets of point dipoles, one in each tile.
 pub struct Plain {
     magnets: [Vec<(Dipole, Front, usize)>; 2],
-    /// Middles of the faces, where the nearest ones alone act.
+    /// Midpoints of the faces, if only the nearest ones act.
     middles: Option<[Vec<Vector2<f64>>; 2]>,
 }
 
 impl Plain {
-    /// Of dipoles without shields.
+    /// The energy of dipoles without shields.
     pub fn new(fixed: &[Dipole], moving: &[Dipole]) -> Self {
         let bare = |dipole: &Dipole| (*dipole, (None, Vector2::x()), 0);
         Self {
@@ -29,7 +29,7 @@ impl Plain {
         }
     }
 
-    /// Of tiles with shields.
+    /// The energy of tiles with shields.
     pub fn shielded([fixed, moving]: [&Tile; 2], shields: &Shields) -> Self {
         let smooth = shields.rule == ShieldRule::Smooth;
         let magnets = |tile: &Tile, shields: &[Option<Shield>]| {
@@ -64,7 +64,8 @@ impl Plain {
         pairs.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// All pairs that act: the second tile's dipole as it stands, the two fronts, and the way.
+    /// All acting pairs: the second tile's dipole in place, the two fronts, and the vector between
+    /// them.
     fn pairs(&self, q: &Configuration) -> impl Iterator<Item = Pair> {
         let (rotation, faces) = (q.rotation(), self.faces(q));
         let [fixed, moving] = &self.magnets;

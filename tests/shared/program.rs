@@ -1,4 +1,4 @@
-//! The program and what it says.
+//! The program and its output.
 
 use std::process::{Command, Output};
 

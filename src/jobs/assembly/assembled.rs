@@ -1,4 +1,4 @@
-//! A tile set built of words, whole.
+//! A tile set with its words and simulated growths: the complete result.
 
 use std::path::Path;
 
@@ -14,43 +14,43 @@ use physics::observer::Observer;
 use physics::tile::Magnet;
 use physics::words::Word;
 
-/// A tile set that was built, and all that reproduces it.
+/// A tile set built from magnets, with everything needed to reproduce it.
 pub struct Assembly<'a> {
-    /// It.
+    /// The built set.
     pub built: Built,
-    /// What was asked.
+    /// The request.
     pub request: Request,
-    /// Where its words come from.
+    /// The source of its words.
     pub words: WordSet,
     /// The text of `words.toml`.
     pub words_toml: String,
-    /// The design of which thickness, mass and table are taken, if one was given.
+    /// The design that thickness, mass and table are taken from, if one is given.
     pub design: Option<&'a Design>,
-    /// What was tried to find words; empty where they were given.
+    /// The attempts of the search for words; empty if the words were given.
     pub tried: Vec<Choice>,
-    /// What grows at the shaking asked for, errors included.
+    /// Simulated growth at the requested kT, with errors.
     pub growth: Growth,
-    /// The same at others at which something may grow, the coldest first: kT (J) and what grows.
+    /// The same at other kT at which something may grow, in ascending order: kT (J) and growth.
     pub others: Vec<(f64, Growth)>,
 }
 
-/// Growths at the shaking asked for, and at each other one; of large sets.
+/// Numbers of simulated growths at the requested kT and at each other kT, for large sets.
 const RUNS: [usize; 2] = [100, 40];
 const RUNS_OF_LARGE: [usize; 2] = [40, 20];
-/// Sets that grow into more tiles are large.
+/// Sets that grow into more tiles than this are large.
 const LARGE: usize = 100;
-/// Shakings that are tried, as shares of the hardest at which anything grows.
+/// The other kT, as shares of the highest at which anything grows.
 const TRIED: [f64; 10] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.78, 0.84, 0.89, 0.93, 0.97];
-/// A shaking grows right where at least this share of growths does.
+/// A kT counts as right if at least this share of growths is.
 const RIGHT: f64 = 0.95;
 
 impl Request {
-    /// The tile set of a file, or one that is made to measure: `lattice`, `homogeneous`, `square`.
+    /// The tile set of a file, or a generated one: `lattice`, `homogeneous`, `square`.
     ///
     /// # Errors
-    /// Where there is none, or it is not asked for as it can be.
+    /// If there is no such set, or options contradict it.
     pub fn tile_set(&self, file: &Path) -> Result<TileSet, Refused> {
-        // Of a file whose name is no text this is some other text.
+        // If a file name is not valid text, this is some other text.
         let name = &file.to_string_lossy()[..];
         let wrong = match (name, self.lattice, self.side) {
             ("lattice", Some(size), None) => return Ok(lattice::unique(size)),
@@ -75,10 +75,11 @@ impl Request {
         Err(wrong.into())
     }
 
-    /// A tile set built of words: those given, with the text of their file, or else searched.
+    /// Builds a tile set from words: from the given ones, with the text of their file, or else from
+    /// a search.
     ///
     /// # Errors
-    /// Where there are no such words, or not enough.
+    /// If there are no such words, or too few.
     pub fn build<'a>(
         &self,
         tiles: &TileSet,
@@ -137,8 +138,8 @@ impl Request {
     }
 }
 
-/// The text of a set of words with the words of an assembly in place of its own, in their order, so
-/// that a letter means the same word in every file.
+/// The text of a set of words in the order of an assembly, so that a letter means the same word in
+/// every file.
 fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refused> {
     let mut table: toml::Table = text.parse().map_err(|error| format!("{error}"))?;
     let matrix = &built.matrix;
@@ -179,7 +180,7 @@ fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refuse
 }
 
 impl Assembly<'_> {
-    /// Whether such a shaking grows what is wanted, and without errors that stay.
+    /// Whether the assembly grows at this kT, and without permanent errors.
     pub fn verdict(&self) -> Verdict {
         let growth = &self.growth;
         match self.built.verdict() {
@@ -192,8 +193,8 @@ impl Assembly<'_> {
         }
     }
 
-    /// The shaking (J) to be proposed: the one at which most growths are right, of several such in a
-    /// row the one in the middle; `None` where none grows right more often than not.
+    /// The suggested kT (J): the one at which most growths are right, the middle one of several
+    /// equal ones in a row; `None` if at no kT more than half of the growths are right.
     pub fn proposal(&self) -> Option<(f64, Growth)> {
         let share = |growth: &Growth| growth.right as f64 / growth.runs as f64;
         let shares = self.others.iter().map(|(_, growth)| share(growth));
@@ -209,12 +210,12 @@ impl Assembly<'_> {
         (most > 0.5).then_some(**middle)
     }
 
-    /// What a face is called.
+    /// The name of a face.
     pub fn face(&self, face: usize) -> String {
         self.built.matrix.name(face)
     }
 
-    /// Where a word's magnets lie along the face (m), and their poles.
+    /// The positions of a word's magnets along the face (m), and their poles.
     pub fn magnets(&self, word: Word) -> Vec<(f64, char)> {
         let pitch = self.words.stage.pitch.unwrap_or_default();
         let middle = (word.places() as f64 - 1.0) / 2.0;
@@ -227,25 +228,25 @@ impl Assembly<'_> {
             .collect()
     }
 
-    /// From the face to the magnets' outer pole faces (m).
+    /// The distance from the face to the magnets' outer pole faces (m).
     pub fn inset(&self) -> f64 {
         let (tile, magnet) = (&self.words.stage.pair.fixed, self.magnet());
         let face = &tile.faces[magnet.face];
         let depth = -(magnet.position - face.middle()).dot(&face.normal());
         let inset = depth - magnet.size[0] / 2.0;
-        // What rounding leaves.
+        // Rounding errors only.
         match inset.abs() < 1e-9 {
             true => 0.0,
             false => (inset * 1e12).round() / 1e12,
         }
     }
 
-    /// A magnet like all of them.
+    /// One of the magnets, which are all alike.
     pub fn magnet(&self) -> &Magnet {
         &self.words.stage.pair.fixed.magnets[0]
     }
 
-    /// Of every two faces what holds them slid, where words have a pitch.
+    /// The slid contacts of every two faces, if words have a pitch.
     pub fn slides(&self) -> Vec<Slid> {
         let rules = self.request.rules();
         let lags = Built::lags(&self.words).filter(|_| rules.slides());
@@ -261,7 +262,7 @@ impl Assembly<'_> {
     }
 }
 
-/// Whether growths are right, all but few.
+/// Whether nearly all growths are right.
 fn is_right(growth: &Growth) -> bool {
     growth.right as f64 >= RIGHT * growth.runs as f64
 }

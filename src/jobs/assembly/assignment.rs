@@ -1,10 +1,10 @@
-//! Which word for which bond.
+//! The assignment of words to bonds.
 //!
-//! Engines let a word of one bond meet the mate of another one on the same axis only, aligned. So
-//! among words of equal depth it matters which goes where, and whether a bond's east faces carry a
-//! word or its mate: exchanges are made as long as they lessen the sum of the weights of wrong
-//! meetings. Then bonds are kept from being deeper in whole tiles than their faces alone have them
-//! ([`super::rests`]), by exchanges that cost little of that.
+//! In the engines, a word of one bond meets the mate of another only on the same axis and aligned.
+//! So among words of equal depth the assignment matters, and also whether a bond's east faces carry
+//! a word or its mate. Words are exchanged as long as this reduces the sum of the weights of wrong
+//! contacts. Further exchanges, which increase that sum only a little, keep bonds between whole
+//! tiles from being deeper than those of their faces alone ([`super::rests`]).
 
 use super::depths::Depths;
 use super::matrix::Matrix;
@@ -12,33 +12,33 @@ use super::wiring::{Group, Wiring};
 use physics::order::Order;
 use physics::words::Word;
 
-/// Depth of a bond in kT at which wrong meetings are weighed.
+/// Depth of a bond in kT for the weights of wrong contacts.
 const DEPTH: f64 = 8.0;
-/// Bonds whose depths differ by less than this share may take each other's words.
+/// Bonds whose depths differ by less than this share may exchange words.
 const ALIKE: f64 = 0.05;
-/// Rounds of exchanges at most.
+/// Largest number of rounds of exchanges.
 const ROUNDS: usize = 12;
-/// Steps at most in looking for words that hold each other's mates.
+/// Largest number of steps in the search for words that bind each other's mates.
 const MOST_STEPS: usize = 1_000_000;
 
-/// A face of [`Matrix`] for every bond, that of its east or north faces: the deepest words of
-/// `all` for the strongest bonds, then exchanged.
+/// Assigns a face of [`Matrix`] to every bond, that of its east or north faces: first the deepest
+/// words of `all` to the strongest bonds, then by exchanges.
 ///
 /// # Errors
-/// Where no words hold each other's mates as some bonds ask for.
+/// If no words bind each other's mates as some bonds require.
 pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Result<Vec<Word>, String> {
     let bonds = &wiring.bonds;
     let fixed = fixed(all, wiring)?;
     let (there, needed) = (all.words.len(), bonds.len());
     let is_fixed = |word: &usize| fixed.iter().flatten().any(|face| face % there == *word);
     let mut by_depth: Vec<usize> = (0..there).filter(|word| !is_fixed(word)).collect();
-    // Depths that differ in their last digits only are the same.
+    // Depths that differ only in their last digits are equal.
     let rank = |word: usize| -(all.bond(word) / all.bond(0).abs() * 1e9).round();
     by_depth.order_by(|a, b| rank(*a).total_cmp(&rank(*b)));
     let is_free = |bond: &usize| fixed[*bond].is_none();
     let mut by_strength: Vec<usize> = (0..needed).filter(is_free).collect();
     by_strength.order_by(|a, b| bonds[*b].strength.total_cmp(&bonds[*a].strength));
-    // Faces of bonds, then words that are left.
+    // Faces of bonds, then unused words.
     let mut faces: Vec<usize> = fixed.iter().map(|face| face.unwrap_or(0)).collect();
     for (bond, word) in by_strength.iter().zip(&by_depth) {
         faces[*bond] = *word;
@@ -61,7 +61,7 @@ pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Result<
     Ok(faces[..needed].iter().map(|face| all.code(*face)).collect())
 }
 
-/// The faces of bonds whose words hold each other's mates: the first that do, in order.
+/// Faces for the bonds whose words bind each other's mates: the first solution in order.
 fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
     let mut fixed: Vec<Option<usize>> = vec![None; wiring.bonds.len()];
     for Group { bonds, strengths } in wiring.groups() {
@@ -111,9 +111,10 @@ fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
     Ok(fixed)
 }
 
-/// Exchanges the faces of bonds, with each other and with what is left, and words with mates, as long
-/// as that is `better`, which is told the faces before and after and the bonds that changed. What is
-/// exchanged goes in 1 or 4 `ways`: as it is, or with one or both for their mates as well.
+/// Exchanges the faces of bonds with each other and with unused words, and words with mates, as
+/// long as the result is `better`, a function of the faces before and after and of the changed
+/// bonds. There are 1 or 4 `ways` of each exchange: as it is, or also with one or both replaced by
+/// their mates.
 fn exchange(
     faces: &mut Vec<usize>,
     all: &Matrix,
@@ -161,7 +162,7 @@ fn exchange(
     }
 }
 
-/// The weights of the wrong meetings of some bonds.
+/// The weights of the wrong contacts of some bonds.
 fn weights(all: &Matrix, wiring: &Wiring, faces: &[usize], changed: &[usize]) -> f64 {
     let bonds = &wiring.bonds;
     let meeting = |i: usize, j: usize| {

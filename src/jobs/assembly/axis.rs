@@ -1,4 +1,4 @@
-//! Sides of tiles, and the axes along which these meet.
+//! The sides of tiles, and the axes along which sides meet.
 
 /// North, east, south and west: the order of a tile's glues.
 pub const SIDES: [&str; 4] = ["north", "east", "south", "west"];
@@ -19,7 +19,7 @@ impl Axis {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Horizontal, Self::Vertical];
 
-    /// The sides (places in [`SIDES`]) that carry the word and its mate.
+    /// The sides (indices in [`SIDES`]) that carry the word and its mate.
     pub fn sides(self) -> [usize; 2] {
         match self {
             Self::Horizontal => [1, 3],

@@ -1,17 +1,17 @@
-//! A tile set as magnets build it, for one shaking and one coverage of the table.
+//! A tile set built from magnets, at one kT and one coverage of the table.
 //!
-//! In kTAM a tile comes to a free place with the rate `k_f exp(-Gmc)` and leaves it with
-//! `k_f exp(-b Gse)`, b the strength that holds it there. Their ratio is the equilibrium constant of
-//! one bond, so with U its energy and Z0 its partition function about the bond
+//! In kTAM a tile attaches to a free place with the rate `k_f exp(-Gmc)` and leaves it with `k_f
+//! exp(-b Gse)`, where b is the strength that binds it there. Their ratio is the equilibrium
+//! constant of one bond. With U its energy and Z0 its partition function around the bond,
 //!
 //! ```text
 //! b Gse = -U / kT,    Gmc = -ln(rho Z0 / 2 pi) + ln(sum of shares),
 //! ```
 //!
 //! where rho is the coverage over a tile's area, of all tiles together; each kind has its share of
-//! it, and turns into its place in one of its four directions. Gse is that of the weakest bond of
-//! strength 1, Z0 that bond's. A tile that two bonds hold moves less than that: engines leave this
-//! out, so a real corner holds a little less.
+//! it, and fits into its place in one of its four orientations. Gse and Z0 are those of the weakest
+//! bond of strength 1. A tile bound by two bonds has less freedom than this; the engines ignore
+//! that, so a real corner binds a little less strongly.
 
 use super::assignment::assign;
 use super::axis::Met;
@@ -30,57 +30,57 @@ use physics::words::{Bar, Lags, Word};
 pub struct Built {
     /// The set.
     pub set: TileSet,
-    /// Its bonds, each with the word at the same place of the matrix.
+    /// Its bonds; each has the word at the same index of the matrix.
     pub wiring: Wiring,
-    /// Energies of all faces.
+    /// The energies of all pairs of faces.
     pub matrix: Matrix,
     /// The shaking.
     pub shaking: Shaking,
     /// Depth (J) of the weakest bond, over its strength.
     pub unit: f64,
-    /// That bond.
+    /// The index of that bond.
     pub weakest: usize,
-    /// The integral Z0 (m^2 rad) about that bond.
+    /// The integral Z0 (m^2 rad) around that bond.
     pub volume: f64,
-    /// What it costs a tile to dock, were all tiles of its kind (kT).
+    /// The docking cost of a tile if all tiles were of its kind (kT).
     pub docking_cost: f64,
-    /// Gmc (kT): of a tile of share 1 among its kinds.
+    /// Gmc (kT) of a tile with share 1 among its kinds.
     pub gmc: f64,
     /// What grows without errors.
     pub grown: Grown,
-    /// What the other faces of two tiles add to their bond.
+    /// The contribution of the other faces of two tiles to their bond.
     pub rests: Rests,
 }
 
 /// Whether a tile set grows as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Shaken too hard: nothing holds.
+    /// kT is too high: nothing binds.
     TooHard,
-    /// Too softly: bonds weaker than tau hold as well.
+    /// kT is too low: bonds weaker than tau also hold a tile.
     FewerHold,
-    /// Too softly: a single aligned mismatch holds.
+    /// kT is too low: a single aligned mismatch holds a tile.
     MismatchHolds,
-    /// Bonds of tau hold, weaker ones do not.
+    /// Bonds of strength tau hold a tile, weaker ones do not.
     TauHolds,
-    /// One bond holds, as it should.
+    /// One bond holds a tile, as intended.
     OneHolds,
-    /// Bonds hold as they should, but so do wrong tiles that others lock in: growths end with errors.
+    /// Bonds hold as intended, but wrong tiles are locked in by others: growths end with errors.
     ErrorsStay,
-    /// Bonds hold as they should, but so little that growths do not end.
+    /// Bonds hold as intended, but so weakly that growths do not end.
     Slow,
 }
 
-/// Tiles that grow without errors where they would not end.
+/// Number of tiles at which an unlimited growth without errors is stopped.
 pub const MOST_GROWN: usize = 2500;
-/// Free rows and columns about what grows.
+/// Free rows and columns around the assembly.
 const MARGIN: i32 = 4;
 
 impl Built {
-    /// A set built with words: each goes where wrong meetings weigh least.
+    /// Builds a set with words, assigned so that wrong contacts have the least weight.
     ///
     /// # Errors
-    /// Where that is impossible.
+    /// If that is impossible.
     pub fn new(set: &TileSet, words: &WordSet, shaking: Shaking) -> Result<Self, String> {
         let wiring = Wiring::new(set)?;
         let (bonds, there) = (&wiring.bonds, words.words.len());
@@ -136,8 +136,8 @@ impl Built {
         Some([self.unit / kt, gmc])
     }
 
-    /// By which share bonds are at most stronger or weaker than was asked, in units of the weakest one's;
-    /// with the bond, its strength and what it has.
+    /// The largest relative deviation of a bond's strength from the requested one, in units of the
+    /// weakest bond; with the bond, its requested and its actual strength.
     pub fn unlike(&self) -> Option<(usize, f64, f64)> {
         let bonds = self.wiring.bonds.iter().enumerate();
         let got = bonds.map(|(k, bond)| (k, bond.strength, self.matrix.bond(k) / self.unit));
@@ -150,7 +150,7 @@ impl Built {
         self.unit / self.shaking.kt
     }
 
-    /// The strongest wrong attraction of aligned faces (J, below zero), and whose.
+    /// The strongest wrong attraction of aligned faces (J, negative), and the two faces.
     pub fn strongest_wrong(&self) -> Option<(usize, usize, f64)> {
         let n = self.matrix.words.len();
         let wanted = |i: usize, j: usize| {
@@ -160,13 +160,13 @@ impl Built {
         self.matrix.strongest(&wrong)
     }
 
-    /// The word (place in the matrix; mates lie behind the words) that a face carries.
+    /// The word that a face carries, as an index of the matrix (mates come after the words).
     pub fn face(&self, tile: usize, side: usize) -> Option<usize> {
         let bond = self.wiring.of(&self.set, tile, side)?;
         Some(self.matrix.on(side, bond))
     }
 
-    /// Of two tiles that meet by a bond: its word, and what their other faces add to it (J).
+    /// For two tiles that meet by a bond: its word, and the energy that their other faces add (J).
     pub fn whole(&self, met: &Met) -> Option<(usize, f64)> {
         let Meeting { axis, bond, faces } = self.wiring.meeting(&self.set, met)?;
         let code =
@@ -176,7 +176,7 @@ impl Built {
         Some((bond, self.rests.of(axis, &first, &second)))
     }
 
-    /// Whether such a shaking grows what is wanted.
+    /// Whether the assembly grows at this kT.
     pub fn verdict(&self) -> Verdict {
         let (gse, tau) = (self.gse(), self.set.tau());
         let less = self.wiring.least_strength();
@@ -219,7 +219,7 @@ impl Built {
         set
     }
 
-    /// Seed and canvas: what the set says where there is room, else as what grows needs it.
+    /// Seed and canvas: those of the set if there is room, otherwise as the growth needs.
     fn place(&self, set: &mut TileSet) {
         let [low, high] = self.grown.extent();
         let room = |reach: i32| match self.grown.complete {
@@ -257,9 +257,9 @@ impl Built {
         set.size = Some([side, side]);
     }
 
-    /// Errors a tile where every tile stays as briefly as may be (growth just above standstill):
-    /// the mean over places of what grows of the weights of all wrong tiles against the right one,
-    /// held by those neighbours that came before.
+    /// Errors per tile in the limit of slow growth, just above standstill, where every tile stays
+    /// as briefly as possible: the mean, over the places of the assembly, of the weights of all
+    /// wrong tiles relative to the right one, each bound by the neighbours that attached earlier.
     pub fn errors_at_standstill(&self) -> f64 {
         let engine = Holds::new(&self.engine());
         let gse = self.gse();
@@ -282,12 +282,12 @@ impl Built {
         sum / self.grown.order.len().max(1) as f64
     }
 
-    /// The kT (J) between which bonds of strength tau hold a tile and weaker ones do not; Z0 is taken to
-    /// grow as kT^(5/2), as at a flush edge.
+    /// The range of kT (J) in which bonds of strength tau hold a tile and weaker ones do not; Z0 is
+    /// assumed to grow as kT^(5/2), as at a flush edge.
     pub fn window(&self) -> Option<[f64; 2]> {
         let tau = self.set.tau();
         let less = self.wiring.least_strength();
-        // ln K of bonds of a strength; it falls with kT.
+        // ln K of bonds of a given strength; it decreases with kT.
         let ln_k = |strength: f64, kt: f64| {
             let gmc = self.gmc - 2.5 * libm::log(kt / self.shaking.kt);
             strength * self.unit / kt - gmc
@@ -311,8 +311,8 @@ impl Built {
         Some([lower, end(tau)?])
     }
 
-    /// By which share of its depth a bond is deeper in whole tiles than of two faces: the least and the
-    /// most of all pairs.
+    /// How much deeper a bond is between whole tiles than between two faces, as a share of its
+    /// depth: the minimum and maximum over all pairs.
     pub fn deeper(&self) -> Option<[f64; 2]> {
         let met = self.grown.meetings().into_keys();
         let shares = met.filter_map(|met| {
@@ -325,8 +325,8 @@ impl Built {
         })
     }
 
-    /// Energies of magnets by how many places lie between them; `None` of words whose places are
-    /// not a pitch apart.
+    /// Energies of two magnets by the number of places between them; `None` for words without a
+    /// pitch.
     pub fn lags(words: &WordSet) -> Option<Lags> {
         let design = &words.stage;
         if words.places.is_some() {
@@ -338,19 +338,19 @@ impl Built {
     }
 }
 
-/// The integral Z0 (m^2 rad) about the bond of a word at kT (J).
+/// The integral Z0 (m^2 rad) around the bond of a word at kT (J).
 fn volume(words: &WordSet, word: Word, kt: f64) -> Option<f64> {
     let problem = words.carriers().problem_of(word, word.mate());
     corner::volume(&problem, &words.stage.pair.bound, kt)
 }
 
-/// What it costs a tile to dock, were all tiles of its kind (kT).
+/// The docking cost of a tile if all tiles were of its kind (kT).
 fn docking_cost(words: &WordSet, shaking: &Shaking, volume: f64) -> f64 {
     let area = words.stage.pair.moving.outline.area();
     -libm::log(shaking.coverage / area * volume / std::f64::consts::TAU)
 }
 
-/// What a tile of share 1 has to pay besides, as it is one kind of many (kT).
+/// The additional cost of a tile of share 1, being one kind of many (kT).
 fn of_shares(set: &TileSet) -> f64 {
     let shares: f64 = set.tiles.iter().map(|tile| tile.stoic).sum();
     libm::log(shares.max(f64::MIN_POSITIVE))

@@ -1,8 +1,8 @@
-//! Words for a tile set: as many of each strength as it needs.
+//! The choice of words for a tile set: as many of each strength as it needs.
 //!
-//! A bond of half the strength has half the magnets, on a face of the same length: its word has
-//! empty places, and which ones is part of the code. All wrong meetings of all words, slid ones
-//! included, attract by at most (1 - gap) of the weakest bond of strength 1.
+//! A bond of half the strength has half the magnets on a face of the same length: its word has
+//! empty places, whose positions are part of the code. In all wrong contacts of all words, slid
+//! ones included, the attraction is at most (1 - gap) times the weakest bond of strength 1.
 
 use super::Request;
 use super::wiring::Group;
@@ -18,26 +18,26 @@ use physics::words::{Bar, Constraints, Effort, Lags, Task, Word, local};
 /// Whether there is a set of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It was found.
+    /// A set was found.
     Found,
-    /// There is none, proved.
+    /// It is proved that there is none.
     Refuted,
-    /// Neither.
+    /// Neither was found or refuted.
     Open,
 }
 
-/// The answer for a face of so many places.
+/// The answer for a face with a given number of places.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// Places of the face.
     pub places: usize,
-    /// The gap asked for, or the widest that was reached.
+    /// The requested gap, or the widest one reached.
     pub gap: f64,
     /// Whether there are such words.
     pub verdict: Verdict,
-    /// The words, strongest first; as many as were found.
+    /// The words found, strongest first.
     pub words: Vec<Word>,
-    /// What is known of each strength, the strongest first.
+    /// The results for each strength, strongest first.
     pub classes: Vec<Class>,
 }
 
@@ -48,32 +48,34 @@ pub struct Class {
     pub magnets: usize,
     /// Words needed.
     pub needed: usize,
-    /// Words found, beside those of the stronger classes.
+    /// Words found, compatible with those of the stronger classes.
     pub found: usize,
-    /// There are no more than so many, whatever the other classes are; `usize::MAX` where nothing is
-    /// known. Bounds are asked for only where too few were found.
+    /// Upper bound of their number, independent of the other classes; `usize::MAX` if unknown.
+    /// Bounds are computed only if too few words were found.
     pub upper: usize,
 }
 
-/// Bonds are by so much weaker than their contacts at most: neighbours of equal poles.
+/// Lower bound of a bond's depth relative to the sum of its contacts: neighbours with equal poles
+/// weaken it.
 const WEAKER: f64 = 0.97;
-/// Share of the work left for bounds, where there are several strengths.
+/// Share of the work reserved for bounds if there are several strengths.
 const FOR_BOUNDS: f64 = 0.3;
-/// Weaker words that are judged beside the stronger ones at most, and to choose from at least.
+/// Largest number of weaker words tested against the stronger ones, and smallest number to choose
+/// from.
 const MOST_JUDGED: usize = 1 << 16;
 const LEAST_BESIDE: usize = 256;
-/// Strengths are met by numbers of magnets to within this share where the length is to be found.
+/// Relative tolerance of strengths as numbers of magnets when the length is to be found.
 const NEAR: f64 = 0.1;
-/// What is told while longer and longer faces are tried.
+/// The progress stage while increasingly long faces are tried.
 const PLACES: &str = "words";
-/// The longest face that is looked at.
+/// The longest face that is tried.
 pub const MOST_PLACES: usize = 48;
 
-/// What is asked of words on a face.
+/// The requirements of words on a face.
 struct Asked<'a> {
-    /// Strengths and how many words of each are needed, the strongest first.
+    /// Strengths and the number of words needed of each, strongest first.
     demand: &'a [(f64, usize)],
-    /// Words among them that are to hold each other's mates.
+    /// Groups of words that must bind each other's mates.
     groups: &'a [Group],
     places: usize,
     bar: &'a Bar,
@@ -81,15 +83,15 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// How many magnets a word of some strength has.
+    /// The number of magnets of a word of a given strength.
     fn magnets(&self, strength: f64) -> usize {
         let most = self.request.magnets.unwrap_or(self.places).min(self.places);
         let strongest = self.demand.first().map_or(1.0, |first| first.0);
         ((most as f64 * strength / strongest).round() as usize).clamp(1, most)
     }
 
-    /// Whether any two strengths that differ by more than [`NEAR`] have numbers of magnets that
-    /// differ, and none is off by more than that.
+    /// Whether any two strengths that differ by more than [`NEAR`] have different numbers of
+    /// magnets, and none deviates by more than that.
     fn tells_apart(&self) -> bool {
         let strongest = self.demand.first().map_or(1.0, |first| first.0);
         let all = self.demand.iter().map(|it| it.0);
@@ -101,8 +103,8 @@ impl Asked<'_> {
         all.map(off).all(|off| off <= NEAR)
     }
 
-    /// The numbers of magnets that are needed, with how many words of each, most magnets first:
-    /// strengths so near each other that they have as many share their words.
+    /// The numbers of magnets needed, with the number of words of each, most magnets first.
+    /// Strengths that round to the same number of magnets share their words.
     fn classes(&self) -> Vec<Class> {
         let mut classes: Vec<Class> = Vec::new();
         for (strength, needed) in self.demand {
@@ -135,8 +137,9 @@ impl Asked<'_> {
     }
 }
 
-/// Words for a face of so many places, with the gap asked for or the widest that is reached: all
-/// trials, of which the last one is the answer. `demand` as [`super::Wiring::demand`] gives it.
+/// Chooses words for a face with a given number of places, with the requested gap or the widest
+/// possible one. Returns all trials, of which the last is the answer. `demand` is as from
+/// [`super::Wiring::demand`].
 pub fn choose(
     (demand, groups): (&[(f64, usize)], &[Group]),
     places: usize,
@@ -158,7 +161,8 @@ pub fn choose(
     if let Some(gap) = request.least_gap() {
         return vec![trial(gap, 1.0)];
     }
-    // By net contacts of wrong meetings: between their whole numbers there is nothing to gain.
+    // By the net number of contacts of wrong meetings: it is a whole number, so nothing lies in
+    // between.
     let (mut low, mut high) = (0, unit);
     let count = f64::from(usize::BITS - unit.leading_zeros());
     let mut trials: Vec<Choice> = Vec::new();
@@ -171,7 +175,7 @@ pub fn choose(
         }
         trials.push(choice);
     }
-    // What was found with the widest gap, else what failed with the narrowest one.
+    // The set with the widest gap, otherwise the failed trial with the narrowest one.
     let last = |choice: &Choice| match choice.verdict {
         Verdict::Found => (true, choice.gap),
         _ => (false, -choice.gap),
@@ -183,7 +187,7 @@ pub fn choose(
     trials
 }
 
-/// The answers for longer and longer faces, up to the first that carries the words.
+/// The answers for increasingly long faces, up to the first that carries the words.
 pub fn shortest(
     (demand, groups): (&[(f64, usize)], &[Group]),
     most: usize,
@@ -199,7 +203,7 @@ pub fn shortest(
         bar,
         request,
     };
-    // Strengths that differ take magnets enough to differ.
+    // Different strengths need enough magnets to differ.
     let tells_apart = |places: &usize| asked(*places).tells_apart();
     let first = request.magnets.unwrap_or(1);
     let first = (first..=most).find(tells_apart).unwrap_or(first);
@@ -231,11 +235,11 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
     };
     let count = choice.classes.len();
     let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;
-    // Of several strengths bounds are searched apart.
+    // With several strengths, bounds are searched separately.
     let several = count > 1;
     let for_bounds = effort.budget.share(if several { FOR_BOUNDS } else { 0.0 });
     let mut proof = Effort::new(effort.seed, for_bounds);
-    // Words that hold each other's mates come first, and all others keep away from them.
+    // Words that bind each other's mates come first; all others must be compatible with them.
     let limit = |task: &Task| (1.0 - gap) * unit * WEAKER * task.lags.contact();
     for group in asked.groups {
         let found = linked(asked, group, &choice.words, &limit, effort);
@@ -263,7 +267,7 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
         }
         let task = asked.task(magnets);
         let words = if choice.words.is_empty() {
-            // The gap is of the weakest bond.
+            // The gap refers to the weakest bond.
             let own_gap = 1.0 - (1.0 - gap) * unit / magnets as f64;
             let found = effort.share(1.0 / count as f64, |part| {
                 search::largest(&task, own_gap, needed, part)
@@ -292,8 +296,8 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
     choice
 }
 
-/// Words for bonds of which words and others' mates hold each other as strongly as they should: the
-/// first such in order; fewer than there are bonds where there are none.
+/// Words for linked bonds, whose words bind each other's mates as strongly as required: the first
+/// solution in order, or fewer words than bonds if there is none.
 fn linked(
     asked: &Asked,
     group: &Group,
@@ -313,12 +317,12 @@ fn linked(
             effort.budget.spend(all.work.min(effort.budget.left() / 2));
             let goes = |word: &Word| goes_beside(&task, *word, there, limit(&task));
             let words = all.words.into_iter().filter(goes);
-            // Either of a word and its mate may lie on the east or north faces.
+            // A word or its mate may be on the east or north faces.
             let both: Vec<Word> = words.flat_map(|word| [word, word.mate()]).collect();
             (task, both)
         })
         .collect();
-    // Net contacts that a strength asks for; none where no number of them comes near.
+    // The net number of contacts for a strength; `None` if no number comes close.
     let goes = |i: usize, u: Word, j: usize, v: Word| {
         let (task, strength) = (&lists[i].0, group.strengths[i][j]);
         if strength <= 0.0 {
@@ -353,7 +357,7 @@ fn linked(
                 chosen.push(at);
                 next = 0;
             }
-            // Back to the one before, and on from there.
+            // Backtrack to the previous one and continue from there.
             None => match chosen.pop() {
                 Some(at) if !effort.budget.is_spent() => next = at + 1,
                 _ => return Vec::new(),
@@ -362,9 +366,9 @@ fn linked(
     }
 }
 
-/// Bounds the classes, each as if it stood alone: no wrong meeting among its words attracts by more
-/// than (1 - gap) of the weakest bond, of which no more is known here than that it lies below the
-/// deepest one that a word of the weakest class may have.
+/// Bounds the sizes of the classes, each independently of the others: no wrong contact among its
+/// words attracts by more than (1 - gap) of the weakest bond, whose depth is bounded by the deepest
+/// bond of a word of the weakest class.
 fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
     let last = choice.classes.len() - 1;
     let reach = |task: &Task, sign: f64| {
@@ -379,7 +383,7 @@ fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
             true => choice.gap,
             false => 1.0 - (1.0 - choice.gap) * deepest / reach(&task, -1.0),
         };
-        // Of many words with empty places nothing can be proved.
+        // Nothing can be proved about many words with empty places.
         let hopeless = class.magnets < choice.places && !few(&task);
         if hopeless || !(0.0..=1.0).contains(&own_gap) {
             continue;
@@ -394,25 +398,25 @@ fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
     }
 }
 
-/// Whether there are few enough words to look at them all.
+/// Whether there are few enough words to enumerate them.
 fn few(task: &Task) -> bool {
     number(task.places, task.magnets) <= 4.0 * MOST_JUDGED as f64
 }
 
-/// Words from all over a list: at most so many, or [`LEAST_BESIDE`] if that is more.
+/// Evenly spaced words of a list: at most the given number, or [`LEAST_BESIDE`] if that is larger.
 fn thinned(words: Vec<Word>, most: usize) -> Vec<Word> {
     let step = words.len().div_ceil(most.clamp(LEAST_BESIDE, MOST_JUDGED));
     words.into_iter().step_by(step.max(1)).collect()
 }
 
-/// Whether a word is another one than those that are there, mates included, and goes with them all.
+/// Whether a word differs from the given ones and their mates, and is compatible with all of them.
 fn goes_beside(task: &Task, word: Word, there: &[Word], limit: f64) -> bool {
     there.iter().all(|other| {
         word != *other && word != other.mate() && task.rules.within(&task.lags, word, *other, limit)
     })
 }
 
-/// Words of a weaker class beside those that are there.
+/// Words of a weaker class that are compatible with the given ones.
 fn beside(
     task: &Task,
     there: &[Word],
@@ -434,7 +438,7 @@ fn beside(
     words.retain(|word| {
         task.rules.bond(&task.lags, *word) >= least && goes_beside(task, *word, there, limit)
     });
-    // No more than can be joined with half the work.
+    // At most as many as half the work suffices for.
     let pairs = effort.budget.left() / task.judgement();
     let words = thinned(words, (pairs as f64).sqrt() as usize);
     let graph = Graph::new(task, words, limit, effort.budget.left());

@@ -1,5 +1,5 @@
-//! How much deeper bonds are in whole tiles than those of their faces alone, while words move from
-//! bond to bond.
+//! How much deeper bonds are between whole tiles than between their two faces alone, updated while
+//! words are exchanged between bonds.
 
 use std::collections::BTreeSet;
 
@@ -12,26 +12,27 @@ use super::rests::{Rests, eastern, others};
 use super::wiring::{Meeting, Wiring};
 use physics::words::Word;
 
-/// More words are not looked at: every face's energy with every other one is kept, by sides.
+/// Larger numbers of words are not considered: the energies of every two faces are stored, by
+/// sides.
 const MOST_WORDS: usize = 128;
 
-/// Wrong meetings may weigh so many times more where no bond is deeper for it: little where tiles wait
-/// for their second bond; more where one holds them, which is so deep that below the gap no wrong one
-/// does.
+/// Factors by which the weight of wrong contacts may increase if this makes no bond deeper: a small
+/// one if tiles need a second bond; a larger one if a single bond holds them, which is so deep that
+/// no wrong contact below the gap does.
 const PRICES: [f64; 2] = [1.1, 20.0];
 
-/// What is needed for it.
+/// The data of this computation.
 pub struct Depths<'a> {
-    /// How many times more wrong meetings may weigh for it.
+    /// The allowed factor on the weight of wrong contacts.
     pub price: f64,
     all: &'a Matrix,
     meetings: BTreeSet<Meeting>,
-    /// Of every two faces, see [`Rests::table`].
+    /// The energies of every two faces, see [`Rests::table`].
     energies: [[DMatrix<f64>; 4]; 4],
 }
 
 impl<'a> Depths<'a> {
-    /// Of what grows of a set, with words of a matrix; `None` where there are too many.
+    /// For the assembly of a set with the words of a matrix; `None` if there are too many words.
     pub fn new(
         all: &'a Matrix,
         rests: &Rests,
@@ -52,8 +53,8 @@ impl<'a> Depths<'a> {
         })
     }
 
-    /// By how much bonds are deeper, each as a share of its depth, in sum; `words` are the faces of
-    /// bonds on their tiles' east and north sides.
+    /// The sum over all bonds of the additional depth as a share of the depth; `words` are the
+    /// bonds' faces on the east and north sides of tiles.
     pub fn excess(&self, words: &[usize]) -> f64 {
         let rest = |Meeting { axis, faces, .. }: &Meeting| -> f64 {
             let energy = |[a, b]: [usize; 2]| {

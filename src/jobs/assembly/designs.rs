@@ -1,4 +1,4 @@
-//! Designs of every two tiles that meet.
+//! The designs of every two tiles that meet.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use super::Assembly;
 use super::axis::{Met, SIDES};
 use crate::design::written;
 
-/// Names and texts of the designs of every two tiles that meet in what grows.
+/// Names and texts of the designs of every two tiles that meet in the assembly.
 pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
     let named = named(assembly).into_iter();
     named.map(|(name, met)| {
@@ -16,7 +16,7 @@ pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// The tiles that meet and hold each other, with the names of their designs.
+/// The tiles that meet and bind each other, with the names of their designs.
 pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
     let mut names = BTreeSet::new();
     let met = assembly.built.grown.meetings().into_keys();
@@ -26,7 +26,7 @@ pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
             let plain = name(assembly, &met);
             let mut name = plain.clone();
             let mut number = 2;
-            // Letters that file names do not have may make two names one.
+            // Replacing letters that file names cannot have may make two names equal.
             while !names.insert(name.to_lowercase()) {
                 name = format!("{plain}-{number}");
                 number += 1;
@@ -96,7 +96,7 @@ fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
     text
 }
 
-/// A face of a design.
+/// The entry of a face in a design.
 fn entry(assembly: &Assembly, face: usize) -> String {
     let word = assembly.built.matrix.code(face);
     if assembly.words.places.is_none() {

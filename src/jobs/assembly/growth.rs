@@ -1,17 +1,18 @@
-//! What a tile set grows into without errors: the abstract model (aTAM).
+//! Growth without errors: the abstract tile assembly model (aTAM).
 //!
-//! A tile stays where its bonds sum to tau at least, and never leaves. Places are filled in the
-//! order in which they become neighbours of tiles, so that what grows is round.
+//! A tile attaches where the strengths of its bonds sum to at least tau, and never leaves. Places
+//! are filled in the order in which they become neighbours of tiles, so that the assembly grows
+//! evenly in all directions.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use super::TileSet;
 use super::axis::{Axis, Met};
 
-/// A place: to the east and to the north of the seed.
+/// A place: steps to the east and to the north of the seed.
 pub type Place = (i32, i32);
 
-/// What has grown.
+/// A grown assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grown {
     /// Tiles by place.
@@ -20,21 +21,22 @@ pub struct Grown {
     pub order: Vec<Place>,
     /// Whether nothing more can be added.
     pub complete: bool,
-    /// Places where more than one tile would have stayed; the first of the set was taken.
+    /// The number of places where more than one tile could have attached; the first of the set was
+    /// taken.
     pub choices: usize,
 }
 
 /// The neighbour's offset on each side.
 pub const STEPS: [Place; 4] = [(0, 1), (1, 0), (0, -1), (-1, 0)];
 
-/// The strength with which a tile's side holds its neighbour there, by tile, side and neighbour.
+/// The strength with which a tile binds its neighbour, by tile, side and neighbour.
 pub struct Holds {
     strengths: Vec<Vec<f64>>,
     glues: Vec<[Option<usize>; 4]>,
 }
 
 impl Holds {
-    /// Of a set.
+    /// The strengths of a set.
     pub fn new(set: &TileSet) -> Self {
         Self {
             strengths: set.strengths(),
@@ -42,13 +44,13 @@ impl Holds {
         }
     }
 
-    /// Of a tile and its neighbour on a side.
+    /// The strength between a tile and its neighbour on a side.
     pub fn between(&self, tile: usize, side: usize, neighbour: usize) -> f64 {
         let glues = self.glues[tile][side].zip(self.glues[neighbour][(side + 2) % 4]);
         glues.map_or(0.0, |(a, b)| self.strengths[a][b])
     }
 
-    /// The sum over the neighbours of a place.
+    /// The sum of the strengths over the neighbours of a place.
     pub fn at(&self, tiles: &BTreeMap<Place, usize>, place: Place, tile: usize) -> f64 {
         let hold = |(side, there)| Some(self.between(tile, side, *tiles.get(&there)?));
         neighbours(place)
@@ -108,7 +110,7 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
 }
 
 impl Grown {
-    /// How many there are of each tile of a set of so many.
+    /// The count of each tile, for a set with the given number of tiles.
     pub fn counts(&self, tiles: usize) -> Vec<usize> {
         let mut counts = vec![0; tiles];
         self.tiles.values().for_each(|tile| counts[*tile] += 1);
@@ -129,7 +131,7 @@ impl Grown {
         met
     }
 
-    /// The least and largest place.
+    /// The corners of the bounding box.
     pub fn extent(&self) -> [Place; 2] {
         // The first one lies at the origin.
         let ends = |pick: fn(i32, i32) -> i32| {

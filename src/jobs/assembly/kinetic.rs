@@ -1,15 +1,17 @@
-//! What grows at a shaking, errors included: the kinetic model (kTAM), followed tile by tile.
+//! Growth at a given kT, errors included: the kinetic tile assembly model (kTAM), simulated tile by
+//! tile.
 //!
-//! Winfree's model as the engines have it: to every free place beside a tile each kind of tile comes
-//! at a rate `s exp(-Gmc)` (s its share), and a tile that is held by neighbours with h (kT, repulsion
-//! counted) leaves at `exp(-h)`; the seed stays, and what a leaving tile cuts off from the seed leaves
-//! with it. Times are counted in *waits* exp(Gmc): in one wait a tile of a usual kind comes to a place
-//! once on average. A wrong tile that more holds than docking costs (h > Gmc) stays for exp(h - Gmc)
-//! waits: the colder, the longer, and what docks beside it meanwhile locks it in. This kinetic
-//! trapping, and no weight in equilibrium, makes the errors of cold growth.
+//! Winfree's model as the engines implement it: at every free place beside a tile, each kind of
+//! tile attaches at the rate `s exp(-Gmc)` (s is its share), and a tile bound by its neighbours
+//! with h (kT, repulsion included) leaves at the rate `exp(-h)`. The seed stays; tiles that a
+//! leaving tile disconnects from the seed leave with it. Times are measured in *waits* exp(Gmc):
+//! within one wait a tile of a usual kind arrives at a place once on average. A wrong tile bound by
+//! more than the docking cost (h > Gmc) stays for exp(h - Gmc) waits: the lower kT, the longer, and
+//! tiles that dock beside it meanwhile lock it in. This kinetic trapping, rather than equilibrium
+//! weights, causes the errors of growth at low kT.
 //!
-//! Tiles that would leave within 1e-5 of a wait are left out, which is about the share of errors that
-//! they could make at each place.
+//! Tiles that would leave within 1e-5 of a wait are ignored, which is about the share of errors
+//! that they could cause at each place.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -20,33 +22,33 @@ use physics::dynamics::docking::stream;
 use physics::interruption;
 use physics::parallel;
 
-/// Tiles that stay for a smaller share of a wait are left out: its logarithm.
+/// Tiles that stay for less than this share of a wait are ignored (as a logarithm).
 const FLEETING: f64 = -11.5;
-/// No tile's stay is counted longer than this (kT above Gmc), so that rates stay numbers.
+/// Largest stay of a tile (kT above Gmc), so that rates remain finite.
 const FOR_GOOD: f64 = 600.0;
-/// What grows is followed up to so many tiles.
+/// Growth is simulated up to this number of tiles.
 const MOST_TILES: usize = 400;
-/// Waits that a growth is given: so many, and so many for each tile.
+/// Duration of a growth in waits: a constant, and per tile.
 const WAITS: [f64; 2] = [20.0, 4.0];
-/// Events of a growth at most.
+/// Largest number of events of a growth.
 const MOST_EVENTS: usize = 200_000;
 
-/// What came of several growths at one shaking.
+/// The outcome of several growths at one kT.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
     /// Growths.
     pub runs: usize,
-    /// Of them, those in which every tile was right in the end.
+    /// The number of growths that ended with only right tiles.
     pub right: usize,
-    /// ... and those that ended with wrong tiles; the others were not done.
+    /// The number of growths that ended with wrong tiles; the others did not finish.
     pub wrong: usize,
-    /// Wrong tiles that stay over tiles that were to grow, mean of all growths.
+    /// Permanent wrong tiles over the target number of tiles, mean over all growths.
     pub errors_a_tile: f64,
-    /// Waits until a right one was done, mean; `None` where none was.
+    /// Mean number of waits until a right growth was finished; `None` if none was.
     pub waits: Option<f64>,
 }
 
-/// A tile set to be grown, as an engine would.
+/// A tile set to be grown as the engines do.
 pub struct Kinetics<'a> {
     set: &'a TileSet,
     holds: Holds,
@@ -57,9 +59,9 @@ pub struct Kinetics<'a> {
     /// The right tile of each cell.
     wanted: Vec<Option<usize>>,
     seeds: Vec<(usize, usize)>,
-    /// Tiles with which it is done.
+    /// Number of tiles of the finished assembly.
     target: usize,
-    /// Whether it is then all that grows.
+    /// Whether growth ends there.
     ends: bool,
     /// Whether places have one right tile.
     directed: bool,
@@ -81,7 +83,7 @@ struct State {
 }
 
 impl<'a> Kinetics<'a> {
-    /// Of a set as engines have it (with a canvas, a seed, Gse and Gmc), and what grows of it without
+    /// From a set in the engines' form (with a canvas, a seed, Gse and Gmc), and its growth without
     /// errors.
     pub fn new(set: &'a TileSet, grown: &Grown) -> Self {
         let [rows, columns] = set.size.unwrap_or([1; 2]);
@@ -110,12 +112,12 @@ impl<'a> Kinetics<'a> {
         }
     }
 
-    /// The same at another shaking.
+    /// The same at another kT.
     pub fn at(self, gse: f64, gmc: f64) -> Self {
         Self { gse, gmc, ..self }
     }
 
-    /// So many growths; the same for the same seed.
+    /// Simulates a number of growths; the same seed gives the same results.
     pub fn growths(&self, runs: usize, seed: u64) -> Growth {
         let ends = parallel::map(0..runs, |run| self.grow(&mut stream(seed, run)));
         let right: Vec<&End> = ends.iter().filter(|end| end.right).collect();
@@ -130,7 +132,7 @@ impl<'a> Kinetics<'a> {
         }
     }
 
-    /// The cells about one, by side; `None` beyond the canvas.
+    /// The neighbours of a cell, by side; `None` beyond the canvas.
     fn near(&self, cell: usize) -> [Option<usize>; 4] {
         let (row, column) = ((cell / self.columns) as i32, (cell % self.columns) as i32);
         STEPS.map(|(dx, dy)| {
@@ -141,7 +143,7 @@ impl<'a> Kinetics<'a> {
         })
     }
 
-    /// With what a tile's neighbours hold it in a cell (kT).
+    /// The strength with which neighbours bind a tile in a cell (kT).
     fn held(&self, tiles: &[Option<usize>], cell: usize, tile: usize) -> f64 {
         let sides = self.near(cell).into_iter().enumerate();
         let hold = |(side, near): (usize, Option<usize>)| {
@@ -150,7 +152,7 @@ impl<'a> Kinetics<'a> {
         self.gse * sides.filter_map(hold).sum::<f64>()
     }
 
-    /// What may dock in a free cell and stay a while, with its rate (1/wait).
+    /// The tiles that may dock in a free cell and stay a while, with their rates (1/wait).
     fn docking(&self, tiles: &[Option<usize>], cell: usize) -> impl Iterator<Item = (usize, f64)> {
         let stays = move |tile: &usize| {
             self.set.tiles[*tile].stoic > 0.0
@@ -160,7 +162,7 @@ impl<'a> Kinetics<'a> {
         all.map(|tile| (tile, self.set.tiles[tile].stoic))
     }
 
-    /// The rate (1/wait) of whatever may happen in a cell.
+    /// The total rate (1/wait) of all events in a cell.
     fn rate(&self, tiles: &[Option<usize>], cell: usize) -> f64 {
         match tiles[cell] {
             Some(_) if self.seeds.iter().any(|seed| seed.0 == cell) => 0.0,
@@ -196,7 +198,7 @@ impl<'a> Kinetics<'a> {
         }
     }
 
-    /// The cells of tiles that no chain of tiles that hold each other joins with a seed.
+    /// The cells of tiles that are not connected to a seed.
     fn adrift(&self, tiles: &[Option<usize>]) -> Vec<usize> {
         let mut joined = vec![false; tiles.len()];
         let mut open: Vec<usize> = self.seeds.iter().map(|seed| seed.0).collect();
@@ -217,10 +219,11 @@ impl<'a> Kinetics<'a> {
         there.filter(|cell| !joined[*cell]).collect()
     }
 
-    /// Whether a tile is where it should be or, where there is a choice, beside no wrong one.
+    /// Whether a tile is right: the intended one or, where there is a choice, one without a
+    /// mismatch.
     fn is_right(&self, tiles: &[Option<usize>], cell: usize, tile: usize) -> bool {
         if self.directed {
-            // Of what grows on nothing is known out there.
+            // Nothing is known beyond the simulated part of an unlimited growth.
             return self.wanted[cell] == Some(tile) || (!self.ends && self.wanted[cell].is_none());
         }
         let strengths = self
@@ -233,7 +236,7 @@ impl<'a> Kinetics<'a> {
                 let [one, other] = faces.map(|(tile, side)| self.set.tiles[tile].glues[side]);
                 Some((one, other))
             });
-        // A word meets its mate, n places on, or an empty face another one.
+        // A word meets its mate, which has the index n higher, or two faces are empty.
         let n = self.set.glues.len() / 2;
         let mut pairs = strengths.map(|pair| match pair {
             (None, None) => true,
@@ -295,7 +298,7 @@ impl<'a> Kinetics<'a> {
                 self.put(&mut state, cell, Some(*tile));
             }
         }
-        // Tiles that hardly hold are on their way.
+        // Weakly bound tiles are about to leave.
         let stays = |cell: &usize| {
             let tile = state.tiles[*cell]?;
             let is_seed = self.seeds.iter().any(|seed| seed.0 == *cell);
@@ -316,8 +319,8 @@ impl<'a> Kinetics<'a> {
     }
 }
 
-/// Rates of cells with their sums, so that one is chosen and changed in as many steps as the number
-/// of cells has bits, and no sum drifts.
+/// Rates of cells in a sum tree: choosing and changing one takes a logarithmic number of steps, and
+/// rounding errors do not accumulate.
 struct Tree {
     sums: Vec<f64>,
     leaves: usize,
@@ -345,12 +348,12 @@ impl Tree {
         }
     }
 
-    /// The cell at which the sum of rates passes a number.
+    /// The cell at which the cumulative sum of rates exceeds a number.
     fn at(&self, mut rest: f64) -> usize {
         let mut at = 1;
         while at < self.leaves {
             let left = self.sums[2 * at];
-            // Rounding never leads where nothing happens.
+            // Rounding never leads to a cell without events.
             let goes_left = rest < left || self.sums[2 * at + 1] <= 0.0;
             at = if goes_left { 2 * at } else { 2 * at + 1 };
             rest -= if goes_left { 0.0 } else { left };
@@ -369,9 +372,9 @@ mod tests {
         Kinetics::new(set, grown).at(gse, gmc).growths(400, 3)
     }
 
-    /// A seed with one place, for which two tiles compete, of strengths 1 and w: with h = w Gse > Gmc
-    /// neither leaves in time, so that the wrong one stays half the time; with h far below Gmc it is
-    /// gone before the right one comes, and stays exp(h - Gmc) of a wait.
+    /// A seed with one place, for which two tiles of strengths 1 and w compete. With h = w Gse >
+    /// Gmc neither leaves in time, so the wrong one remains in half of the growths; with h far
+    /// below Gmc it leaves after exp(h - Gmc) of a wait, before the right one arrives.
     #[test]
     fn a_wrong_tile_that_holds_stays_and_one_that_does_not_leaves() {
         let set = |weak: f64| {
@@ -407,12 +410,14 @@ mod tests {
         // 400 tosses of a coin: 0.025 is a standard error.
         assert!((share(0.9, 30.0) - 0.5).abs() < 0.1, "{}", share(0.9, 30.0));
         assert_eq!(share(0.5, 17.0), 0.0);
-        // A wrong tile that stays for t waits is there when the time is over: with the right one
-        // coming once a wait it heals with the rate 1/t, half of the time wrongly.
+        // Probability that a wrong tile that stays for t waits is present at the end: with the
+        // right one arriving once per wait, it is replaced at the rate 1/t, half of the time by a
+        // wrong tile again.
         assert!(share(0.9, 16.0) < 0.1);
     }
 
-    /// Against the exact chain: one free place and one kind of tile is there K / (1 + K) of the time.
+    /// Against the exact chain: with one free place and one kind of tile, it is occupied K / (1 +
+    /// K) of the time.
     #[test]
     fn occupation_is_that_of_the_constant() {
         let set = TileSet {
@@ -432,7 +437,8 @@ mod tests {
             right: 0,
         };
         kinetics.put(&mut state, 3, Some(0));
-        // The place to the east: one kind fits, at one a wait, and leaves at exp(Gmc - Gse).
+        // The place to the east: one kind fits, arrives once per wait, and leaves at exp(Gmc -
+        // Gse).
         assert_eq!(state.rates.sum(), 1.0);
         kinetics.put(&mut state, 4, Some(1));
         assert!((state.rates.sum() - libm::exp(0.5)).abs() < 1e-12);
@@ -440,7 +446,7 @@ mod tests {
         assert_eq!((state.rates.sum(), state.there), (1.0, 1));
     }
 
-    /// What a tile cuts off leaves with it.
+    /// Tiles that a leaving tile disconnects leave with it.
     #[test]
     fn what_is_cut_off_is_adrift() {
         let set = TileSet {
@@ -455,8 +461,9 @@ mod tests {
         assert_eq!(kinetics.adrift(&tiles), [2, 3]);
     }
 
-    /// The colder, the more errors; near standstill a lattice with mismatches of 25 % of a bond grows
-    /// right: two of them are less than Gmc and what nine kinds that fit equally badly count for, ln 9.
+    /// The lower kT, the more errors. Near standstill a lattice with mismatches of 25 % of a bond
+    /// grows correctly: two mismatches are less than Gmc plus the weight of nine equally bad kinds,
+    /// ln 9.
     #[test]
     fn cold_growth_makes_errors() {
         let mut set = lattice::unique([3, 3]);

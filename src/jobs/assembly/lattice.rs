@@ -1,17 +1,17 @@
-//! Lattices: every place a tile of its own, or all places the same tile.
+//! Lattices: a different tile at every place, or the same tile at all places.
 
 use super::{TileSet, TileType};
 
-/// Most tiles of a lattice.
+/// Largest number of tiles of a lattice.
 pub const MOST_TILES: usize = 1024;
 
-/// The words that a lattice of `rows` by `columns` tiles of their own needs:
-/// `m (n - 1) + n (m - 1)`, one for every two neighbours.
+/// The number of words that a lattice of `rows` by `columns` different tiles needs: `m (n - 1) + n
+/// (m - 1)`, one for every two neighbours.
 pub fn words(rows: usize, columns: usize) -> usize {
     rows * (columns - 1) + columns * (rows - 1)
 }
 
-/// The lattice in which every tile has its place: glues are used once. One bond holds a tile
+/// The lattice in which every tile has its own place: each glue is used once. One bond holds a tile
 /// (tau 1).
 pub fn unique([rows, columns]: [usize; 2]) -> TileSet {
     let mut set = TileSet {
@@ -37,7 +37,7 @@ pub fn unique([rows, columns]: [usize; 2]) -> TileSet {
     set
 }
 
-/// The lattice of one tile, on a canvas of so many rows and columns.
+/// The lattice of a single kind of tile, on a canvas with the given rows and columns.
 pub fn homogeneous([rows, columns]: [usize; 2]) -> TileSet {
     let mut set = TileSet {
         name: "homogeneous".to_owned(),

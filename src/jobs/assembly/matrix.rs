@@ -14,7 +14,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Of words of a set, in any order.
+    /// Computes the matrix for words of a set, in any order.
     pub fn new(set: &WordSet, words: &[Word]) -> Self {
         let by_magnets = set.carriers().flush();
         let places = words.first().map_or(0, |word| word.places());
@@ -51,7 +51,7 @@ impl Matrix {
         (face + self.words.len()) % self.energies.len()
     }
 
-    /// What a face is on a side whose bond has this word on east or north faces.
+    /// The face on a given side for a bond that has this word on east or north faces.
     pub fn on(&self, side: usize, word: usize) -> usize {
         match side < 2 {
             true => word,
@@ -67,7 +67,7 @@ impl Matrix {
         }
     }
 
-    /// The code of a face: a word, or a mate behind the words.
+    /// The code of a face: a word, or a mate (after the words).
     pub fn code(&self, face: usize) -> Word {
         match self.words.get(face) {
             Some(word) => *word,
@@ -75,7 +75,7 @@ impl Matrix {
         }
     }
 
-    /// The strongest attraction of aligned faces among some pairs (J, below zero), and whose.
+    /// The strongest attraction of aligned faces among some pairs (J, negative), and the two faces.
     pub fn strongest(&self, of: &dyn Fn(usize, usize) -> bool) -> Option<(usize, usize, f64)> {
         let faces = self.energies.len();
         let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| (i, j)));

@@ -1,23 +1,24 @@
-//! From a pair of tiles to an assembly: tile sets whose glues are words.
+//! Tile sets whose glues are words of magnets.
 //!
-//! Models of tile assembly (Winfree's kTAM, and its abstract sister aTAM) know square tiles with a
-//! glue on each face, a matrix of strengths between glues, and two energies in kT: Gse, what a bond
-//! of strength 1 holds with, and Gmc, what it costs a tile to dock. Here every glue becomes a word
-//! of magnets and every strength an energy of two faces; what comes out runs in the engines `xgrow`
-//! and `rgrow` as it is. The growth is theirs.
+//! Models of tile assembly (Winfree's kTAM, and the abstract model aTAM) have square tiles with a
+//! glue on each face, a matrix of strengths between glues, and two energies in kT: Gse, the depth
+//! of a bond of strength 1, and Gmc, the cost for a tile to dock. Here every glue becomes a word of
+//! magnets and every strength an energy of two faces. The resulting files run unchanged in the
+//! engines `xgrow` and `rgrow`, which simulate the growth.
 //!
-//! kTAM tiles do not turn, magnetic ones do. So a glue on the axis from west to east and the same
-//! glue on that from south to north are two [`wiring::Bond`]s, with a word each: the tile's east or
-//! north face carries the word, the other one's west or south face its mate.
+//! kTAM tiles do not rotate, magnetic ones do. So a glue on the west-east axis and the same glue on
+//! the south-north axis are two [`wiring::Bond`]s with a word each: the east or north face of one
+//! tile carries the word, the west or south face of the other its mate.
 //!
-//! - [`TileSet`] - tiles, glues, strengths, seed; [`rgrow`], [`xgrow`] - as the engines write them;
-//! - [`wiring`] - which faces bind which: the words that are needed;
-//! - [`lattice`], [`square`] - sets made to measure; [`proofread`] - blocks in place of tiles;
-//! - [`growth`] - what grows without errors; [`kinetic`] - and with them;
-//! - [`Request`] - what is asked; [`choice`] - words for a set, and which goes where; [`matrix`] - their energies; [`rests`] - what the
-//!   other faces add; [`slides`] - what engines leave out;
-//! - [`built`] - all of it for one shaking and one coverage of the table; [`Assembly`] - with what
-//!   reproduces it; [`designs`] - of every two tiles that meet.
+//! - [`TileSet`] - tiles, glues, strengths, seed; [`rgrow`], [`xgrow`] - the engines' file formats;
+//! - [`wiring`] - which faces bind which, and the words needed for that;
+//! - [`lattice`], [`square`] - generated sets; [`proofread`] - blocks in place of tiles;
+//! - [`growth`] - growth without errors; [`kinetic`] - growth with errors;
+//! - [`Request`] - the options; [`choice`] - words for a set, and their assignment; [`matrix`] -
+//!   their energies; [`rests`] - the contributions of the other faces; [`slides`] - slid contacts,
+//!   which engines ignore;
+//! - [`built`] - the set at one kT and one coverage of the table; [`Assembly`] - the complete
+//!   result; [`designs`] - the designs of every two tiles that meet.
 
 mod assembled;
 mod assignment;
@@ -58,19 +59,19 @@ pub use wiring::Wiring;
 /// A tile of a set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TileType {
-    /// Its name; the engines call nameless ones by their numbers from 1.
+    /// Its name; for the engines, nameless tiles have their numbers from 1 as names.
     pub name: String,
-    /// Glues, by their places in [`TileSet::glues`], in the order of [`SIDES`]; `None` for a face
-    /// that holds nothing.
+    /// Glues, as indices of [`TileSet::glues`], in the order of [`SIDES`]; `None` for a face that
+    /// binds nothing.
     pub glues: [Option<usize>; 4],
-    /// Its share of the tiles on the table, against that of a usual tile.
+    /// Its share of the tiles on the table, relative to a usual tile.
     pub stoic: f64,
-    /// As the engines name it.
+    /// Its colour, as the engines name it.
     pub color: Option<String>,
 }
 
 impl TileType {
-    /// A usual one.
+    /// A tile with the usual share and no colour.
     pub fn new(name: impl Into<String>, glues: [Option<usize>; 4]) -> Self {
         Self {
             name: name.into(),
@@ -86,47 +87,47 @@ impl TileType {
 pub struct Glue {
     /// Its name.
     pub name: String,
-    /// With what it holds itself, in Gse.
+    /// The strength with which it binds itself, in Gse.
     pub strength: f64,
 }
 
-/// A tile set, as models of tile assembly have it.
+/// A tile set of the tile assembly models.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TileSet {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its tiles.
     pub tiles: Vec<TileType>,
     /// Its glues.
     pub glues: Vec<Glue>,
-    /// Two different glues and with what they hold each other, in Gse.
+    /// Pairs of different glues, with the strength with which they bind each other, in Gse.
     pub links: Vec<(usize, usize, f64)>,
-    /// Tiles that are there from the beginning: row (from the north), column (from the west), tile.
+    /// Seed tiles: row (from the north), column (from the west), tile.
     pub seed: Vec<(usize, usize, usize)>,
     /// Rows and columns of the canvas.
     pub size: Option<[usize; 2]>,
-    /// Least strength that holds a tile.
+    /// The least strength that holds a tile.
     pub tau: Option<f64>,
     /// Gse in kT.
     pub gse: Option<f64>,
     /// Gmc in kT.
     pub gmc: Option<f64>,
-    /// What its file says besides, which only steers the engine and is passed over.
+    /// Ignored keys of its file, which only control the engine.
     pub passed_over: Vec<String>,
 }
 
-/// A tile set may have so many tiles, and so many glues.
+/// Largest number of tiles, and of glues.
 pub const MOST: usize = 4096;
-/// Strengths, and energies in kT, are no larger.
+/// Largest strength, and largest energy in kT.
 const MOST_STRENGTH: f64 = 1e6;
-/// Rows and columns of a canvas at most.
+/// Largest number of rows and columns of a canvas.
 const MOST_CANVAS: usize = 65_536;
 
 impl TileSet {
     /// Reads a file: YAML or JSON of rgrow, or `.tiles` of xgrow, whatever its name.
     ///
     /// # Errors
-    /// Where it cannot be read or is no tile set.
+    /// If the file cannot be read or is not a tile set.
     pub fn load(path: &Path) -> Result<Self, DesignError> {
         let file = path.display().to_string();
         let text = crate::design::read_text(path).map_err(|error| {
@@ -140,9 +141,9 @@ impl TileSet {
     /// Reads a tile set from the text of its file.
     ///
     /// # Errors
-    /// Where it is none.
+    /// If it is none.
     pub fn parse(text: &str, file: &str) -> Result<Self, DesignError> {
-        // Some editors begin a file with a mark of its byte order.
+        // Some editors begin a file with a byte-order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut set = match text.contains("tile edges=") && text.contains("num tile types=") {
             true => xgrow::read(text, file)?,
@@ -150,7 +151,7 @@ impl TileSet {
         };
         let stem = Path::new(file).file_stem();
         let name = stem.map_or(file.into(), |stem| stem.to_string_lossy());
-        // It stands in comments of the files that are written.
+        // The name appears in comments of the written files.
         set.name = name.replace(char::is_control, "\u{fffd}");
         set.check(text, file)?;
         Ok(set)
@@ -170,10 +171,10 @@ impl TileSet {
         table
     }
 
-    /// The same with 0 where glues repel, for xgrow. It counts the rate of a free place from the tiles
-    /// that would be held there, but then chooses among those that would be repelled as well
-    /// (`calc_rates` and `choose_cell` of its grow.c): where one is, a tile later in the list never
-    /// docks, and growth stands still.
+    /// The same with 0 in place of repulsion, for xgrow. It computes the rate of a free place from
+    /// the tiles that would be bound there, but then also chooses among those that would be
+    /// repelled (`calc_rates` and `choose_cell` in its grow.c). If there is one, a tile later in
+    /// the list never docks, and growth stops.
     pub fn without_repulsion(&self) -> Self {
         let mut set = self.clone();
         set.links.retain(|link| link.2 > 0.0);
@@ -183,12 +184,12 @@ impl TileSet {
         set
     }
 
-    /// The least strength that holds a tile; 2, as is usual, where the set does not say.
+    /// The least strength that holds a tile; the usual 2 if the set does not state it.
     pub fn tau(&self) -> f64 {
         self.tau.unwrap_or(2.0)
     }
 
-    /// The place of a glue of this name, which is added if it is new.
+    /// The index of the glue with this name, which is added if it is new.
     pub fn glue(&mut self, name: &str, strength: f64) -> usize {
         let known = self.glues.iter().position(|glue| glue.name == name);
         known.unwrap_or_else(|| {
@@ -198,7 +199,7 @@ impl TileSet {
         })
     }
 
-    /// What is wrong with a set that is well written.
+    /// Checks a set whose syntax is correct.
     fn check(&self, text: &str, file: &str) -> Result<(), DesignError> {
         let wrong = |needle: &str, message: String, help: &str| {
             Err(fault(text, file, needle, message, help))
@@ -301,7 +302,7 @@ impl TileSet {
     }
 }
 
-/// A fault at the place where a text gives something the name `needle`, or first has it.
+/// A fault at the position where a text assigns the name `needle`, or first contains it.
 pub(crate) fn fault(
     text: &str,
     file: &str,

@@ -1,17 +1,18 @@
-//! Blocks of K x K tiles in place of tiles.
+//! Proofreading: each tile becomes a block of K x K tiles.
 //!
 //! Winfree and Bekbolatov, *Proofreading tile sets: error correction for algorithmic self-assembly*
-//! (DNA9, 2003): each glue becomes K glues and each tile a block that glues of its own hold
-//! together, so that an error has to happen K times before it stays. Where a glue alone holds a tile
-//! (strength tau) it does so in the first of the K rows or columns, and the block's own glues there
-//! are as strong: along that row or column the block grows, and the others follow with two bonds.
+//! (DNA9, 2003): each glue becomes K glues and each tile a block held together by glues of its own,
+//! so that an error must occur K times before it becomes permanent. A glue that holds a tile alone
+//! (strength tau) does so only in the first of the K rows or columns, and the block's own glues
+//! there are as strong: the block grows along that row or column, and the others follow with two
+//! bonds.
 
 use super::{Axis, MOST, TileSet, TileType};
 
-/// The set of blocks; of K = 1 the set itself.
+/// The set of blocks; for K = 1 the set itself.
 ///
 /// # Errors
-/// Where it has more tiles than a set may have.
+/// If it would have too many tiles.
 pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
     if k < 2 {
         return Ok(set.clone());
@@ -49,7 +50,7 @@ pub fn blocks(set: &TileSet, k: usize) -> Result<TileSet, String> {
             .extend((0..k).map(|row| (a * k + row, b * k + row, part(*strength, row))));
     }
     for (number, tile) in set.tiles.iter().enumerate() {
-        // A glue's hold on whatever it binds.
+        // The largest strength of a glue.
         let is_strong = |axis: Axis| {
             let glues = axis.sides().into_iter().filter_map(|side| tile.glues[side]);
             let most = |glue: usize| strengths[glue].iter().copied().fold(0.0, f64::max);

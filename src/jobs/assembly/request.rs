@@ -1,4 +1,4 @@
-//! What an assembly is asked for.
+//! The request of an assembly.
 
 use clap::Args;
 
@@ -8,10 +8,10 @@ use crate::request;
 use crate::word_sets;
 use physics::words::{Rules, Shape};
 
-/// The least gap where none is asked for.
+/// The least gap if none is requested.
 const GAP: f64 = 0.5;
 
-/// How a tile set is built of magnets, and of which words.
+/// The options for building a tile set from magnets.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
     /// Effective energy kT of shaking (J)
@@ -87,7 +87,7 @@ fn rows_and_columns(text: &str) -> Result<[usize; 2], String> {
 }
 
 impl Request {
-    /// Which meetings are wrong.
+    /// The rules that say which contacts are wrong.
     pub fn rules(&self) -> Rules {
         Rules {
             shape: self.shape,
@@ -95,7 +95,7 @@ impl Request {
         }
     }
 
-    /// The least gap of words; where `None` the widest there is.
+    /// The least gap of words; `None` for the widest possible.
     pub(super) fn least_gap(&self) -> Option<f64> {
         self.gap.or(self.length.is_none().then_some(GAP))
     }

@@ -1,8 +1,8 @@
-//! What the other faces of two tiles add to the bond of the two that meet.
+//! The contribution of the other faces of two tiles to the bond of the two faces that meet.
 //!
-//! The matrix knows two faces, as glues do. But a row of magnets ends half a pitch from the corner,
-//! and the row of the neighbour begins as far beyond it: with all four faces of either tile a bond is
-//! deeper or shallower by about a hundredth.
+//! The matrix describes two faces, as glues do. But a row of magnets ends half a pitch from the
+//! corner, and the neighbour's row begins just as far beyond it: with all four faces of both tiles
+//! a bond is deeper or shallower by about one per cent.
 
 use nalgebra::{DMatrix, DVector, Rotation2};
 
@@ -15,17 +15,17 @@ use physics::words::Word;
 /// The words or mates that a tile carries, in the order of [`super::SIDES`].
 pub type Faces = [Option<Word>; 4];
 
-/// The energies (J) of magnets of two tiles, the second one east of the first, by the side of either:
-/// of place k of the first tile's face and j of the second one's, north poles out.
+/// The energies (J) of single magnets of two tiles, the second tile east of the first, by side: of
+/// the magnet at place k of the first tile's face and j of the second's, with north poles out.
 pub struct Rests {
     magnets: [[DMatrix<f64>; 4]; 4],
 }
 
 impl Rests {
-    /// For tiles with these words' magnets.
+    /// Computes them for tiles with the magnets of these words.
     pub fn new(set: &WordSet) -> Self {
         let pair = &set.stage.pair;
-        // The stage's fixed tile has its magnets in the east.
+        // The fixed tile of the stage has its magnets in the east.
         let east = &pair.fixed;
         let on = |side: usize| turned(east, 1.0 - side as f64);
         let sides: [Vec<Tile>; 4] = std::array::from_fn(on);
@@ -40,8 +40,8 @@ impl Rests {
         }
     }
 
-    /// What all faces but the two that meet add (J) to a bond along an axis, the first tile in the
-    /// west or south.
+    /// The energy (J) that all faces except the two in contact add to a bond along an axis, with
+    /// the first tile in the west or south.
     pub fn of(&self, axis: Axis, first: &Faces, second: &Faces) -> f64 {
         let poles = |word: Word| DVector::from_fn(word.places(), |k, _| f64::from(word.at(k)));
         let energy = |[a, b]: [usize; 2]| {
@@ -52,8 +52,8 @@ impl Rests {
         others(axis).filter_map(energy).sum()
     }
 
-    /// The same of every two of some faces, by the sides of two tiles in which the second one lies
-    /// east of the first: rows are faces of the first one.
+    /// The same for every two of some faces, by sides, for two tiles of which the second lies east
+    /// of the first: rows are faces of the first.
     pub(super) fn table(&self, faces: &[Word]) -> [[DMatrix<f64>; 4]; 4] {
         let places = faces.first().map_or(0, |face| face.places());
         let poles = DMatrix::from_fn(faces.len(), places, |i, k| f64::from(faces[i].at(k)));
@@ -63,14 +63,14 @@ impl Rests {
     }
 }
 
-/// The sides of two tiles along an axis, but for the two that meet.
+/// The sides of two tiles along an axis, except the two in contact.
 pub(super) fn others(axis: Axis) -> impl Iterator<Item = [usize; 2]> {
     let pairs = (0..4).flat_map(|a| (0..4).map(move |b| [a, b]));
     pairs.filter(move |sides| *sides != axis.sides())
 }
 
-/// What a side becomes where two tiles along an axis are turned so that the second one lies in the
-/// east.
+/// The side that a side becomes when two tiles along an axis are rotated so that the second lies in
+/// the east.
 pub(super) fn eastern(axis: Axis, side: usize) -> usize {
     match axis {
         Axis::Horizontal => side,
@@ -78,7 +78,7 @@ pub(super) fn eastern(axis: Axis, side: usize) -> usize {
     }
 }
 
-/// A tile for each magnet of a tile, with that magnet alone, turned by so many quarters.
+/// One tile for each magnet of a tile, with only that magnet, rotated by a number of quarter turns.
 fn turned(tile: &Tile, quarters: f64) -> Vec<Tile> {
     let angle = quarters * std::f64::consts::FRAC_PI_2;
     let alone = |magnet: &Magnet| Tile {

@@ -1,10 +1,10 @@
-//! Tile sets as rgrow reads them: YAML, of which JSON is a part.
+//! Tile sets in rgrow's format: YAML, of which JSON is a part.
 //!
 //! Keys are those of rgrow 0.23 (`tiles` with `name`, `edges` clockwise from the north, `stoic`,
 //! `color`; `bonds`; `glues`; `seed` as row, column, tile; `size`, `tau`, `Gse`, `Gmc`), with
 //! `options`, `params` or `xgrowargs` for a part of them. A glue that no bond names has strength 1;
-//! the glue 0 is none. Keys that only steer the engine are passed over, and noted; any other key, and a
-//! canvas that no table is, are faults.
+//! the glue 0 means no glue. Keys that only control the engine are ignored with a note; any other
+//! key, and a canvas that cannot be a table, are faults.
 
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ const HALVES: &str = "write the two halves as tiles that share a strong glue";
 /// Reads a set; its name is left empty.
 ///
 /// # Errors
-/// Where the text is no such set.
+/// If the text is not a valid set.
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
     let source = Source { text, file };
     let mut parts = Parts::default();
@@ -25,7 +25,7 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
     parts.set(source)
 }
 
-/// Keys that are read, those that lead to more of them, and those of tiles and of bonds.
+/// Keys that are read, keys of nested mappings, and keys of tiles and of bonds.
 const READ: [&str; 15] = [
     "tiles",
     "bonds",
@@ -46,7 +46,7 @@ const READ: [&str; 15] = [
 const MORE: [&str; 3] = ["options", "xgrowargs", "params"];
 const OF_TILE: [&str; 5] = ["name", "edges", "stoic", "color", "shape"];
 const OF_BOND: [&str; 2] = ["name", "strength"];
-/// Keys of either engine that only steer it.
+/// Keys of both engines that only control the engine.
 const STEERING: [&str; 32] = [
     "alpha",
     "smax",
@@ -82,7 +82,7 @@ const STEERING: [&str; 32] = [
     "info",
 ];
 
-/// What a file says, wherever it says it.
+/// The entries of a file, wherever they occur.
 #[derive(Default)]
 struct Parts {
     tiles: Vec<Node>,
@@ -98,7 +98,7 @@ struct Parts {
 const NUMBERS: [[&str; 2]; 3] = [["tau", "threshold"], ["gse", "Gse"], ["gmc", "Gmc"]];
 
 impl Parts {
-    /// Takes what a mapping says, and those that `more` keys lead to, which have the last word.
+    /// Collects the entries of a mapping and of those under `more` keys, which take precedence.
     fn gather(&mut self, source: Source, node: &Node, more: &[&str]) -> Result<(), DesignError> {
         let entries = source.entries(node, "a tile set")?;
         for names in NUMBERS {
@@ -143,8 +143,8 @@ impl Parts {
         Ok(())
     }
 
-    /// Passes over what only steers the engine; a canvas that no table is, and a model that is none of
-    /// squares, are faults.
+    /// Ignores keys that only control the engine; a canvas that cannot be a table, and a model
+    /// without squares, are faults.
     fn steer(&mut self, source: Source, name: &str, value: &Node) -> Result<(), DesignError> {
         let text = value.text().unwrap_or_default();
         let low = text.to_lowercase();
@@ -160,7 +160,7 @@ impl Parts {
                 let message = format!("its model `{text}` is not for square tiles with glues");
                 return Err(source.wrong(value, message, "write model: kTAM"));
             }
-            // As in files that this writes.
+            // As in files written by this module.
             "fission" if text == "keep-seeded" => {}
             _ => self.passed_over.push(name.to_owned()),
         }
@@ -303,7 +303,7 @@ fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, Desi
     Ok(tile)
 }
 
-/// With what two glues hold each other, or one itself.
+/// The strength with which two glues bind each other, or one binds itself.
 fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignError> {
     let Some([first, second, strength]) = node.list() else {
         let help = "write glues: [[a, b, 0.5]]";
@@ -375,8 +375,8 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
         let [a, b] = [a, b].map(|at| quoted(&set.glues[*at].name));
         let _ = writeln!(text, "- [{a}, {b}, {strength:?}]");
     }
-    // Of pieces that part from each other that with the seed stays. The engines' other way, never to
-    // let a tile go on which others hang, stands still where that tile is not held.
+    // If an assembly falls apart, the piece with the seed stays. The engines' alternative, never to
+    // detach a tile that connects others, stops growth where that tile is not bound.
     text += "fission: keep-seeded\n";
     let numbers = [("Gse", set.gse), ("Gmc", set.gmc), ("tau", set.tau)];
     for (key, value) in numbers {

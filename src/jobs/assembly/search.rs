@@ -1,4 +1,4 @@
-//! The words of an assembly, searched.
+//! The search for the words of an assembly.
 
 use super::choice::{self, Choice, Class, Verdict};
 use super::{Request, Wiring};
@@ -8,18 +8,18 @@ use physics::observer::Observer;
 use physics::units::si;
 use physics::words::{Bar, Word};
 
-/// What a search has found.
+/// The result of a search.
 pub(super) struct Sought {
     /// The magnets.
     pub bar: Bar,
     /// Side of the tiles (m).
     pub side: f64,
-    /// What was tried; last of all what was found.
+    /// The trials; the last one is the result.
     pub tried: Vec<Choice>,
 }
 
 impl Sought {
-    /// The text of a set of words of these magnets.
+    /// The text of a word file with these magnets.
     pub fn text(&self, words: &[Word]) -> String {
         let places = words.first().map_or(0, |word| word.places());
         let headline = format!("{} words of {places} places", words.len());
@@ -33,8 +33,8 @@ impl Sought {
 }
 
 impl Request {
-    /// Words for the bonds of a tile set. Magnets are those of a design's target face, or the
-    /// paper's.
+    /// Searches words for the bonds of a tile set, with the magnets of a design's target face or
+    /// the paper's.
     pub(super) fn search(
         &self,
         wiring: &Wiring,
@@ -59,7 +59,7 @@ impl Request {
         }
     }
 
-    /// The longest face to look at, of which the design's may be this long (m).
+    /// The longest face to try, given the length (m) of the design's face.
     fn most_places(&self, bar: &Bar, face: Option<f64>) -> Result<usize, String> {
         let fitting = |side: f64| ((side - bar.size[1]) / bar.pitch + 1e-9).floor() as usize + 1;
         let most = face.map_or(choice::MOST_PLACES, fitting);
@@ -83,7 +83,7 @@ impl Request {
     }
 }
 
-/// What there is too few of, and whether there can be more.
+/// Describes which words are missing, and whether there can be more.
 fn missing(choice: &Choice) -> String {
     let classes = &choice.classes;
     let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();

@@ -1,28 +1,29 @@
-//! What models of tile assembly leave out: faces that hold slid by some places.
+//! Slid contacts, which models of tile assembly leave out: faces that bind shifted by some places.
 //!
-//! A tile of the engines stands in its place or not at all. A magnetic one that comes along a face
-//! runs, flush and overdamped, down to the nearest slide at which it holds. Of all slides by whole
-//! places this counts how many lead to the aligned meeting and how many to a slid one.
+//! In the engines a tile is either exactly in its place or absent. A magnetic tile that slides
+//! along a face in overdamped motion stops at the nearest slide at which it is stable. Over all
+//! slides by whole places, this module counts how many lead to the aligned contact and how many to
+//! a slid one.
 
 use super::Built;
 use physics::words::{Lags, Rules, Word};
 
-/// Where two faces hold, slid.
+/// The slid contacts of two faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slid {
     /// The faces.
     pub faces: [usize; 2],
-    /// The deepest slid meeting that holds: places that the second face lies farther along the
-    /// first one (counter-clockwise), and energy (J).
+    /// The deepest stable slid contact: the shift of the second face along the first in places
+    /// (counter-clockwise), and energy (J).
     pub deepest: Option<(i32, f64)>,
-    /// Shares of slides that lead to the aligned meeting, and to slid ones that hold.
+    /// Shares of slides that lead to the aligned contact, and to stable slid ones.
     pub captured: [f64; 2],
 }
 
 impl Slid {
-    /// Of two faces with their words.
+    /// Computes them for two faces with their words.
     pub fn of(lags: &Lags, rules: &Rules, faces: [usize; 2], [first, second]: [Word; 2]) -> Self {
-        // Energies (J) over slides, from the most clockwise one on.
+        // Energies (J) over slides, starting with the most clockwise one.
         let middle = usize::from(rules.slides()) * (first.places() - 1);
         let slide = |k: usize| k as i32 - middle as i32;
         let profile: Vec<f64> = (0..=2 * middle)
@@ -58,27 +59,27 @@ impl Slid {
         }
     }
 
-    /// The energy (J) of the deepest meeting; 0 of none.
+    /// The energy (J) of the deepest slid contact; 0 if there is none.
     pub fn energy(&self) -> f64 {
         self.deepest.map_or(0.0, |it| it.1)
     }
 }
 
-/// What may be asked of slid meetings.
+/// A summary of slid contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
-    /// The deepest of them (J).
+    /// The energy of the deepest (J).
     pub deepest: f64,
-    /// Pairs of faces that one slid meeting holds against Gmc, of so many.
+    /// Number of pairs of faces that a single slid contact holds against Gmc.
     pub holding: usize,
-    /// See there.
+    /// Number of all pairs of faces.
     pub pairs: usize,
-    /// Of a word and its mate: the mean share of slides that lead to slid meetings among those that
-    /// lead anywhere.
+    /// For a word and its mate: the mean share of slides that lead to slid contacts among those
+    /// that lead to any contact.
     pub share: f64,
 }
 
-/// What there is to know of all pairs of faces, slid.
+/// Summarises the slid contacts of all pairs of faces.
 pub fn summary(built: &Built, slides: &[Slid]) -> Option<Summary> {
     let n = built.matrix.words.len();
     let deepest = slides.iter().map(Slid::energy).reduce(f64::min)?;

@@ -1,26 +1,26 @@
-//! Squares by counting: N x N tiles from O(log N) kinds of them.
+//! Counted squares: N x N tiles from O(log N) kinds of tiles.
 //!
 //! After Rothemund and Winfree, *The program-size complexity of self-assembled squares* (STOC
-//! 2000): a binary counter of n = O(log N) bits along the west edge and one along the south edge
-//! count until they overflow, and one tile fills what lies between. A counter goes to and fro: a line
-//! of increments from its least bit to its highest one, a line of copies back. The highest bit of a
-//! line of increments begins the next line unless it overflows, so from the value c there are
-//! 2 (2^n - c) lines, the first one included; where their number is odd, one of caps is added.
+//! 2000): binary counters of n = O(log N) bits along the west and the south edge count until they
+//! overflow, and one kind of tile fills the rest. A counter alternates between a line of increments
+//! from its lowest bit to its highest, and a line of copies back. The highest bit of a line of
+//! increments begins the next line unless it overflows, so from the value c there are 2 (2^n - c)
+//! lines, including the first one; if their number is odd, a line of caps is added.
 
 use std::ops::RangeInclusive;
 
 use super::{TileSet, TileType};
 
-/// The least side; and the largest, which a canvas holds.
+/// The smallest side, and the largest that fits a canvas.
 pub const SIDES: RangeInclusive<usize> = 8..=512;
 
-/// Bits of the two counters.
+/// The number of bits of the two counters.
 fn bits(side: usize) -> usize {
     let lines = side.div_ceil(2);
     (usize::BITS - (lines - 1).leading_zeros()).max(2) as usize
 }
 
-/// The set for a square of `side` tiles a side.
+/// The set for a square of `side` x `side` tiles.
 pub fn counted(side: usize) -> TileSet {
     let n = bits(side);
     let mut set = TileSet {
@@ -53,7 +53,7 @@ pub fn counted(side: usize) -> TileSet {
     set
 }
 
-/// A counter; words as if it counted northwards, highest bit in the west.
+/// A counter, described as if it counted northwards with the highest bit in the west.
 struct Counter {
     prefix: &'static str,
     /// The glue of its outer side.
@@ -64,15 +64,15 @@ struct Counter {
 }
 
 impl Counter {
-    /// Adds its tiles; its first tile stands on the one strong glue, and its first line ends with
-    /// the other.
+    /// Adds its tiles; its first tile is on the first strong glue, and its first line ends with the
+    /// last one.
     fn add(&self, set: &mut TileSet, [first, last]: [Option<&str>; 2]) {
         let (n, p) = (self.n, self.prefix);
         let capped = self.lines % 2 == 1;
         let start = (1_usize << n) - self.lines / 2;
         let strong = |name: String| Some((name, 2.0));
         let weak = |name: String| Some((name, 1.0));
-        // The ends of a line have glues of their own, so that no other tile takes their places.
+        // The ends of a line have glues of their own, so that no other tile fits there.
         let bit = |b: usize| weak(format!("{p}-{b}"));
         let high = |b: usize| weak(format!("{p}-high-{b}"));
         let least = |b: usize| weak(format!("{p}-least-{b}"));

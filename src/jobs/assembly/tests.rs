@@ -1,4 +1,4 @@
-//! Tile sets: what is read is what was written, and what grows is what the definitions say.
+//! Tests of tile sets: reading returns what was written, and growth follows the definitions.
 
 use super::choice::{self, Verdict};
 use super::growth::{Grown, grow};
@@ -179,8 +179,8 @@ fn what_only_steers_an_engine_is_noted() {
     assert_eq!(set.tiles[0].glues, [None, Some(0), None, Some(0)]);
 }
 
-/// Two glues that bind themselves and each other half as much: two words, alike in three places of
-/// four; what strengths they have is what was asked.
+/// Two glues that bind themselves, and each other half as strongly: two words, equal in three
+/// places of four; their strengths are as requested.
 #[test]
 fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
     for asked in [0.5, 0.34] {
@@ -201,7 +201,7 @@ fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
         assert!((held / asked - 1.0).abs() < 0.13, "{asked}: {held}");
         let again = -matrix.energies[1][matrix.mate(0)] / matrix.bond(1);
         assert!((held - again).abs() < 0.02, "{held} {again}");
-        // Nothing else holds by more than the gap leaves.
+        // No other contact is stronger than the gap allows.
         let wrong = assembly
             .built
             .strongest_wrong()
@@ -259,7 +259,7 @@ fn glues_that_hold_others_share_their_word() {
                 {name: d, strength: 0}]\nglues:\n- [a, b, 1]\n- [c, d, 1]\n";
     let wiring = Wiring::new(&TileSet::parse(text, "a").unwrap()).unwrap();
     assert_eq!(wiring.bonds.len(), 2);
-    // a holds b and d, c holds d alone, and none itself: no word does that.
+    // a binds b and d, c binds only d, and none binds itself: no words can do that.
     let mixed = TileSet::parse(&(text.to_owned() + "- [a, d, 1]\n"), "a").unwrap();
     assert!(
         Wiring::new(&mixed)
@@ -407,7 +407,7 @@ fn engines_get_the_energies_of_faces() {
             depth(word)
         );
     }
-    // As real magnets grow it, without errors: the same.
+    // Growth with real magnets, without errors, gives the same.
     let grown = grow(
         &TileSet {
             tau: Some(1.9),
@@ -417,7 +417,7 @@ fn engines_get_the_energies_of_faces() {
     );
     let plain = grow(&set, 400);
     assert_eq!(grown.tiles, plain.tiles);
-    // Twice the tiles on the table, ln 2 less to pay; all of seven kinds.
+    // Twice the tiles on the table reduce the cost by ln 2, for all of seven kinds.
     let more = Shaking {
         coverage: 0.2,
         ..shaking

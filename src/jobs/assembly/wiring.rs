@@ -1,27 +1,28 @@
 //! Which faces bind which: the words that a tile set needs.
 //!
-//! On each axis the glues of east (north) faces bind those of west (south) faces. Where each of
-//! some glues on the one side binds each of some on the other alike they are one bond, and one word; a
-//! glue that binds nothing needs none, and its faces stay empty. Glues that bind themselves and, less,
-//! each other have a word each, and these are alike in as many places as the strength asks for
-//! ([`Link`]): `NNNN` holds the mate of `NNNS` with half of its bond.
+//! On each axis the glues of east (north) faces bind those of west (south) faces. If each of some
+//! glues on one side binds each of some glues on the other equally, they form one bond with one
+//! word. A glue that binds nothing needs no word, and its faces stay empty. Glues that bind
+//! themselves and, more weakly, each other have a word each; these words are equal in as many
+//! places as the strength requires ([`Link`]): `NNNN` binds the mate of `NNNS` with half of its
+//! bond.
 
 use super::TileSet;
 use super::axis::{Axis, Met, SIDES};
 use physics::order::Order;
 
-/// Glues that hold each other along an axis, with what carries their word.
+/// Glues that bind each other along an axis through one word.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bond {
-    /// Along which axis.
+    /// The axis.
     pub axis: Axis,
     /// In Gse.
     pub strength: f64,
-    /// The glues of faces that carry the word, and of those that carry its mate.
+    /// The glues of faces that carry the word, and of faces that carry its mate.
     pub glues: [Vec<usize>; 2],
 }
 
-/// Two bonds of which the words of the one hold the mates of the other.
+/// Two bonds such that each one's word binds the other's mate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
     /// The bonds, ascending.
@@ -30,12 +31,13 @@ pub struct Link {
     pub strength: f64,
 }
 
-/// Bonds that links join, and what words they need.
+/// Bonds connected by links, and the requirements of their words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// The bonds, ascending.
     pub bonds: Vec<usize>,
-    /// What holds each one's words and each other's mates (in Gse), their own on the diagonal.
+    /// The strengths (in Gse) between each bond's word and each bond's mate; their own on the
+    /// diagonal.
     pub strengths: Vec<Vec<f64>>,
 }
 
@@ -44,9 +46,9 @@ pub struct Group {
 pub struct Wiring {
     /// The bonds, by their first glue.
     pub bonds: Vec<Bond>,
-    /// What bonds have to do with each other.
+    /// The links between bonds.
     pub links: Vec<Link>,
-    /// By side and glue.
+    /// The bonds by side and glue.
     by_face: [Vec<Option<usize>>; 4],
 }
 
@@ -57,7 +59,7 @@ pub struct Meeting {
     pub axis: Axis,
     /// The bonds of all their faces.
     pub faces: [[Option<usize>; 4]; 2],
-    /// The bond that they meet by.
+    /// The bond by which they meet.
     pub bond: usize,
 }
 
@@ -71,7 +73,7 @@ impl Wiring {
     /// The bonds of a set.
     ///
     /// # Errors
-    /// Where there are none, or glues that words cannot stand for.
+    /// If there are no bonds, or words cannot represent the glues.
     pub fn new(set: &TileSet) -> Result<Self, String> {
         let n = set.glues.len();
         let strengths = set.strengths();
@@ -155,14 +157,14 @@ impl Wiring {
         }
     }
 
-    /// Whether the words of one bond and the mates of the other are to hold each other; bonds that do
-    /// are none of each other's wrong meetings.
+    /// Whether the words of one bond and the mates of the other bind each other by intention; such
+    /// contacts do not count as wrong.
     pub fn are_linked(&self, a: usize, b: usize) -> bool {
         let bonds = [a.min(b), a.max(b)];
         self.links.iter().any(|link| link.bonds == bonds)
     }
 
-    /// The bonds that links join.
+    /// The groups of bonds connected by links.
     pub fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for Link { bonds, .. } in &self.links {
@@ -194,12 +196,12 @@ impl Wiring {
         groups.into_iter().map(group).collect()
     }
 
-    /// The bond of a face of a tile, if it carries anything.
+    /// The bond of a face of a tile, if the face is not empty.
     pub fn of(&self, set: &TileSet, tile: usize, side: usize) -> Option<usize> {
         self.by_face[side][set.tiles[tile].glues[side]?]
     }
 
-    /// Two tiles that meet, if they do by a bond.
+    /// The meeting of two tiles, if they meet by a bond.
     pub fn meeting(&self, set: &TileSet, (first, axis, second): &Met) -> Option<Meeting> {
         let of = |tile: usize| std::array::from_fn(|side| self.of(set, tile, side));
         let faces: [[Option<usize>; 4]; 2] = [of(*first), of(*second)];
@@ -212,7 +214,7 @@ impl Wiring {
         })
     }
 
-    /// How many words of each strength are needed, the strongest first.
+    /// The number of words needed of each strength, strongest first.
     pub fn demand(&self) -> Vec<(f64, usize)> {
         let mut strengths: Vec<f64> = self.bonds.iter().map(|bond| bond.strength).collect();
         strengths.order_by(|a, b| b.total_cmp(a));
@@ -221,8 +223,8 @@ impl Wiring {
     }
 }
 
-/// Of glues that do not all bind alike a bond each, where each binds itself and no other one more
-/// strongly; else `None`.
+/// One bond per glue for glues that do not all bind equally, if each binds itself and no other one
+/// more strongly; otherwise `None`.
 fn each(
     axis: Axis,
     [firsts, seconds]: &[Vec<usize>; 2],

@@ -1,8 +1,8 @@
-//! Tile sets as xgrow reads them: `.tiles`.
+//! Tile sets in xgrow's format, `.tiles`.
 //!
-//! `num tile types`, `num binding types`, names of the latter if they have some, tiles as
-//! `{north east south west}[share](colour)`, strengths, `g(a,b)=x` between different glues, then
-//! arguments a line each. `%` begins a comment.
+//! `num tile types`, `num binding types`, names of the latter if present, tiles as `{north east
+//! south west}[share](colour)`, strengths, `g(a,b)=x` between different glues, then one argument
+//! per line. `%` begins a comment.
 
 use std::fmt::Write;
 
@@ -50,7 +50,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// What stands here up to one of some characters.
+    /// The text from here up to one of the given characters.
     fn until(&mut self, ends: &[char]) -> &'a str {
         self.skip();
         let rest = self.rest();
@@ -77,7 +77,7 @@ const ENDS: [char; 5] = [' ', '\t', '\n', '\r', '}'];
 /// Reads a set; its name is left empty.
 ///
 /// # Errors
-/// Where the text is no such set.
+/// If the text is not a valid set.
 pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
     let mut scan = Scanner { text, file, at: 0 };
     let mut set = TileSet::default();
@@ -169,8 +169,8 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
     Ok(tile)
 }
 
-/// Lines that say something of what grows which magnetic squares on a table cannot do, or which is not
-/// in this file.
+/// Lines that require something that magnetic squares on a table cannot do, or that refer to other
+/// files.
 const REFUSED: [(&str, &str, &str); 6] = [
     ("doubletile=", DOUBLE, HALVES),
     ("vdoubletile=", DOUBLE, HALVES),
@@ -198,7 +198,7 @@ const REFUSED: [(&str, &str, &str); 6] = [
 const DOUBLE: &str = "square magnetic tiles cannot represent double tiles";
 const HALVES: &str = "write the two halves as tiles that share a strong glue";
 
-/// Lines that only steer the engine.
+/// Lines that only control the engine.
 const STEERING: [&str; 64] = [
     "block",
     "update_rate",
@@ -265,10 +265,10 @@ const STEERING: [&str; 64] = [
     "nw",
     "rv",
 ];
-/// Those that this writes itself.
+/// Lines that this module writes itself.
 const OWN: [&str; 1] = ["fission"];
 
-/// A line after the strengths; what only steers the engine is passed over.
+/// Reads a line after the strengths; lines that only control the engine are ignored.
 fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     if scan.takes("g(") {
         let a: usize = scan.number()?;
@@ -328,8 +328,8 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     Ok(())
 }
 
-/// The text of a set, with `remarks` as comments above it. Names of tiles are comments: not every
-/// reader takes them.
+/// The text of a set, with `remarks` as comments above it. Names of tiles are comments, because not
+/// every reader accepts them.
 pub fn write(set: &TileSet, remarks: &[String]) -> String {
     let mut text = String::new();
     for line in remarks {
@@ -341,7 +341,7 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
         set.tiles.len(),
         set.glues.len()
     );
-    // What the reader takes as a name and nothing else.
+    // Names that the reader accepts unambiguously.
     let is_name = |glue: &Glue| {
         let name = &glue.name;
         let is_plain = |c: char| c.is_alphanumeric() || "*_-.".contains(c);
@@ -382,7 +382,7 @@ pub fn write(set: &TileSet, remarks: &[String]) -> String {
     if let Some([rows, columns]) = set.size {
         let _ = writeln!(text, "size={}", rows.max(columns));
     }
-    // As in rgrow's files: pieces may part.
+    // As in rgrow's files: assemblies may fall apart.
     text += "fission\n";
     for (key, value) in [("Gse", set.gse), ("Gmc", set.gmc)] {
         if let Some(value) = value {

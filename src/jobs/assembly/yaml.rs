@@ -1,7 +1,7 @@
-//! YAML, of which JSON is a part, as a tree whose nodes know their places.
+//! YAML (and JSON, which is a part of it) as a tree whose nodes know their positions in the file.
 //!
-//! The parser is `saphyr-parser`: safe Rust without recursion, so that what nests without end or
-//! refers to itself is refused at once, in time linear in the text.
+//! The parser is `saphyr-parser`: safe Rust without recursion, so that unlimited nesting and
+//! self-references are rejected in time linear in the text.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -11,15 +11,15 @@ use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 
 use crate::design::{DesignError, Place};
 
-/// Most lists and mappings within each other; those of a tile set are five.
+/// Deepest nesting of lists and mappings; a tile set needs five.
 const DEEPEST: usize = 16;
 
-/// A part of a text.
+/// A node of the tree.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// Where it begins and ends, in characters.
+    /// Its position, in characters.
     at: Range<usize>,
-    /// Lists and mappings within each other.
+    /// Depth of nested lists and mappings.
     depth: usize,
     /// Shared by all aliases.
     value: Rc<Value>,
@@ -49,7 +49,7 @@ impl Node {
         }
     }
 
-    /// Whether nothing is said.
+    /// Whether it is null.
     pub fn is_null(&self) -> bool {
         matches!(self.plain(), Some("" | "~" | "null" | "Null" | "NULL"))
     }
@@ -77,10 +77,10 @@ impl Node {
     }
 }
 
-/// A text with its file's name, for what is wrong with it.
+/// A text with its file's name, for error messages.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
-    /// All of it.
+    /// The whole text.
     pub text: &'a str,
     /// Its name.
     pub file: &'a str,
@@ -90,7 +90,7 @@ impl Source<'_> {
     /// The tree of the text's only document.
     ///
     /// # Errors
-    /// Where it is no YAML, is nested too deep, or has several documents.
+    /// If the text is not YAML, is nested too deeply, or has several documents.
     pub fn tree(&self) -> Result<Node, DesignError> {
         let mut parser = Parser::new_from_str(self.text);
         let mut tree = Tree::default();
@@ -106,7 +106,7 @@ impl Source<'_> {
         tree.root.ok_or_else(nothing)
     }
 
-    /// Something is wrong with a node.
+    /// An error at a node.
     pub fn wrong(&self, node: &Node, message: impl Into<String>, help: &str) -> DesignError {
         self.fault(node.at.clone(), message.into(), help)
     }
@@ -122,7 +122,7 @@ impl Source<'_> {
     /// The entries of a mapping, each key with its name and value.
     ///
     /// # Errors
-    /// Where it is none, or a key is no name or is there twice.
+    /// If it is not a mapping, or a key is not a name or occurs twice.
     pub fn entries<'n>(
         &self,
         node: &'n Node,
@@ -147,18 +147,18 @@ impl Source<'_> {
     }
 }
 
-/// How a tile set is written.
+/// The expected form of a tile set, for error messages.
 pub(super) const FORM: &str = "write tiles: [{name: a, edges: [north, east, south, west]}] as for \
     rgrow, or a .tiles file for xgrow";
 
-/// A list or mapping that has not ended, whose keys and values take turns.
+/// An unfinished list or mapping, in which keys and values alternate.
 struct Open {
     start: usize,
     anchor: usize,
     items: Vec<Node>,
 }
 
-/// A tree that grows event by event.
+/// A tree under construction from events.
 #[derive(Default)]
 struct Tree {
     open: Vec<Open>,
@@ -166,7 +166,7 @@ struct Tree {
     root: Option<Node>,
 }
 
-/// What is wrong, and where in characters.
+/// An error, and its position in characters.
 type Wrong = (Range<usize>, String);
 
 impl Tree {
@@ -233,7 +233,7 @@ impl Tree {
             depth: inner.map_or(0, |inner| 1 + inner.unwrap_or(0)),
             value: Rc::new(value),
         };
-        // 0 is none.
+        // 0 means no alias.
         if anchor > 0 {
             self.anchors.insert(anchor, node.clone());
         }
@@ -306,7 +306,7 @@ mod tests {
         assert!(tree("").unwrap_err().to_string().contains("empty"));
     }
 
-    /// Each of these took some parser minutes, or all of the stack.
+    /// Each of these took some parser minutes, or overflowed its stack.
     #[test]
     fn no_shape_takes_long() {
         let many = 100_000;

@@ -1,15 +1,16 @@
-//! From pairs that bind and part to the effective kT of their shaking.
+//! Fits the effective kT of shaking to the binding and parting of pairs.
 //!
-//! In equilibrium a pair is bound for K / S times as long as it is apart, K being the bond's constant
-//! of association at kT (see [`physics::kinetics::bond::Hold::association`]) and S the area that the
-//! two have for themselves.
+//! In equilibrium the time that a pair is bound is K / S times the time that it is apart, where K
+//! is the bond's association constant at kT (see [`physics::kinetics::bond::Hold::association`])
+//! and S the area available to the pair.
 //!
-//! Intervals of a Markov process are exponential, of some mean t. Of n that were seen to their ends
-//! and some that were cut off by the end of watching, all time together over n is the likeliest t
-//! (leaving those out that were cut off would favour the short ones), and that time over t has the
-//! gamma distribution of the shape n: exactly where none was cut off, nearly otherwise (Epstein and
-//! Sobel 1953, doi:10.1080/01621459.1953.10483488). The ratio of two such is Fisher's, which gives the
-//! interval for few times as for many.
+//! Intervals of a Markov process are exponentially distributed with some mean t. If n intervals
+//! were observed to their ends and some were cut off by the end of the observation, the total time
+//! over n is the maximum-likelihood estimate of t (omitting the cut-off intervals would favour
+//! short ones), and the total time over t has the gamma distribution of shape n: exactly if none
+//! was cut off, approximately otherwise (Epstein and Sobel 1953,
+//! doi:10.1080/01621459.1953.10483488). The ratio of two such times has Fisher's distribution,
+//! which gives the confidence interval for few and many intervals alike.
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
@@ -17,38 +18,38 @@ use super::lines::{positive, records};
 use physics::dynamics::docking::exponential_statistic;
 use physics::units::to_digits;
 
-/// The columns of a file of intervals: how long a pair was bound, and how long apart (s). Each entry
-/// is one interval, with `>` before it where watching ended first; entries may be left empty.
+/// The columns of a file of intervals: how long a pair was bound, and how long apart (s). Each
+/// entry is one interval, prefixed with `>` if the observation ended first; entries may be empty.
 pub const COLUMNS: [&str; 2] = ["bound_s", "apart_s"];
 
-/// Before an interval that was not seen to its end.
+/// The prefix of an unfinished interval.
 const CUT: char = '>';
-/// What lies beyond either end of an interval of 95 %.
+/// The probability beyond each end of a 95 % interval.
 const TAIL: f64 = 0.025;
 
 /// Intervals of one kind (s).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Times {
-    /// Those that were seen to their ends.
+    /// Finished intervals.
     pub whole: Vec<f64>,
-    /// Those that still lasted when watching ended.
+    /// Intervals cut off by the end of the observation.
     pub cut: Vec<f64>,
 }
 
 impl Times {
-    /// All time together (s).
+    /// The total time (s).
     fn total(&self) -> f64 {
         self.whole.iter().chain(&self.cut).sum()
     }
 
-    /// The likeliest mean (s).
+    /// The maximum-likelihood mean (s).
     pub fn mean(&self) -> f64 {
         self.total() / self.whole.len() as f64
     }
 
-    /// The statistic of Kolmogorov and Smirnov for exponential intervals; above
-    /// [`physics::dynamics::docking::OnRate::CRITICAL`] they are not exponential. `None` where some were
-    /// cut off, of which it knows nothing.
+    /// The Kolmogorov-Smirnov statistic for exponential intervals; above
+    /// [`physics::dynamics::docking::OnRate::CRITICAL`] they are not exponential. `None` if some
+    /// were cut off, which the statistic does not cover.
     pub fn statistic(&self) -> Option<f64> {
         self.cut
             .is_empty()
@@ -56,7 +57,7 @@ impl Times {
     }
 }
 
-/// Intervals that were measured.
+/// Measured intervals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairTimes {
     /// How long pairs were bound, each from attachment to detachment.
@@ -65,27 +66,28 @@ pub struct PairTimes {
     pub apart: Times,
 }
 
-/// kT as intervals tell it.
+/// kT fitted to intervals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimesFit {
-    /// What was measured.
+    /// The measured intervals.
     pub times: PairTimes,
-    /// Area (m^2) that the pair had for itself.
+    /// Area (m^2) available to the pair.
     pub area: f64,
-    /// kT (J) at which pairs bind and part so; `None` where there is none.
+    /// The fitted kT (J); `None` if there is none.
     pub kt: Option<f64>,
     /// Its 95 % interval (J).
     pub interval: [Option<f64>; 2],
 }
 
-/// Fewest whole intervals of either kind.
+/// Least number of finished intervals of each kind.
 const FEWEST: usize = 5;
 
 impl PairTimes {
     /// Reads intervals; empty lines and lines that begin with `#` are skipped.
     ///
     /// # Errors
-    /// Where the text is no table of [`COLUMNS`], or has fewer than five whole intervals of a kind.
+    /// If the text is not a table of [`COLUMNS`], or has fewer than five finished intervals of a
+    /// kind.
     pub fn read(text: &str) -> Result<Self, String> {
         let mut records = records(text);
         let header = records.next().map(|(_, header)| header).unwrap_or_default();
@@ -140,7 +142,7 @@ impl PairTimes {
         let [n, m] = [&self.bound, &self.apart].map(|times| times.whole.len() as f64);
         let share = Beta::new(n, m);
         let end = |p: f64| {
-            // Of unit means: part of all time, then ratio of the two.
+            // In units of the means: the share of the total time, then the ratio of the two.
             let share = share.map_or(f64::NAN, |share| to_digits(share.inverse_cdf(p), 6));
             value - libm::log(share / (1.0 - share) * m / n)
         };
@@ -184,7 +186,7 @@ mod tests {
         }
     }
 
-    /// Fisher's F of 97.5 % as tables have it: the interval's end over the value.
+    /// Fisher's F at 97.5 % from tables: the interval's end over the value.
     #[test]
     fn intervals_are_those_of_fishers_distribution() {
         let times = |count: usize| Times {
@@ -215,14 +217,14 @@ mod tests {
             bound: times(30_000),
             apart: times(20_000),
         };
-        // Of many nearly normal, of the variance 1 / n + 1 / m.
+        // For many intervals nearly normal, with the variance 1 / n + 1 / m.
         let high = pair.log_odds().1[1];
         assert!((high / 0.017_89 - 1.0).abs() < 2e-3, "{high}");
     }
 
-    /// Watched for no longer than bonds last on average, half of them and more are cut off: the mean is
-    /// that of all, and its interval holds it as often as it says; that of the whole ones alone is
-    /// not.
+    /// If the observation is no longer than bonds last on average, half of them or more are cut
+    /// off. The estimated mean is right, and its interval contains the true mean as often as
+    /// stated; the mean of the finished intervals alone is wrong.
     #[test]
     fn what_is_cut_off_counts() {
         let mut rng = stream(3, 0);

@@ -1,10 +1,10 @@
-//! From how far apart pairs are found to the effective kT of their shaking.
+//! Fits the effective kT of shaking to the distances at which pairs are found.
 //!
-//! Distances of the centres of a pair, each taken when the pair has long forgotten the one before,
-//! are drawn from the distribution that [`Distances`] gives at every kT. The kT of the greatest
-//! likelihood is the answer, and its 95 % interval is where the logarithm of the likelihood is lower
-//! by half the quantile of chi-square (Wilks 1938, doi:10.1214/aoms/1177732360). Only which part of
-//! about 2 cm a distance lies in counts, so that it need be measured no better than that.
+//! Statistically independent distances of the centres of a pair follow the distribution that
+//! [`Distances`] gives at every kT. The result is the kT of maximum likelihood; its 95 % interval
+//! ends where the log-likelihood is lower by half the quantile of chi-square (Wilks 1938,
+//! doi:10.1214/aoms/1177732360). Distances are counted in bins of about 2 cm, so they need not be
+//! measured more precisely.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -19,43 +19,43 @@ use physics::problem::Problem;
 /// The column of a file of distances (m).
 pub const COLUMN: &str = "distance_m";
 
-/// Fewest distances.
+/// Least number of distances.
 const FEWEST: usize = 10;
-/// By how much the logarithm of the likelihood is less at the ends of the interval: half of 3.84.
+/// Drop of the log-likelihood at the ends of the interval: half of 3.84.
 const DROP: f64 = 1.92;
-/// Depths of the bond in kT between which kT is looked for ...
+/// Range of the bond's depth in kT in which kT is searched ...
 const DEPTHS: [f64; 2] = [0.5, 60.0];
-/// ... in steps of its logarithm, at each of which the distribution is found; between them the
-/// logarithms of its shares are cubic.
+/// ... in steps of its logarithm. The distribution is computed at each step; between steps the
+/// logarithms of its shares are interpolated cubically.
 const STEP: f64 = 0.1;
-/// Steps of the first search.
+/// Stride of the first search, in steps.
 const STRIDE: i32 = 6;
-/// Parts of a step in which the likelihood is looked at.
+/// Subdivisions of a step at which the likelihood is evaluated.
 const FINE: i32 = 50;
 
-/// Distances (m) that were measured, with their lines.
+/// Measured distances (m), with their lines in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairDistances {
     rows: Vec<(usize, f64)>,
 }
 
-/// kT as distances tell it.
+/// kT fitted to distances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceFit {
-    /// kT (J) of the greatest likelihood; `None` where it lies at an end of what is looked at.
+    /// kT (J) of maximum likelihood; `None` if it lies at an end of the searched range.
     pub kt: Option<f64>,
-    /// Its 95 % interval (J); `None` at an end that nothing bounds.
+    /// Its 95 % interval (J); `None` for an unbounded end.
     pub interval: [Option<f64>; 2],
-    /// Distances that count.
+    /// Number of distances used.
     pub count: usize,
-    /// Distances beyond the end.
+    /// Number of distances beyond the limit.
     pub beyond: usize,
-    /// The end (m).
+    /// The limit of distances (m).
     pub within: f64,
-    /// The greatest error of the distributions' shares, as the last refinement tells it.
+    /// The largest error of the distributions' shares, estimated from the last refinement.
     pub error: f64,
     /// Pearson's statistic of the distances against the distribution at kT, and its degrees of
-    /// freedom: parts that few are expected in are taken together.
+    /// freedom: bins with few expected counts are merged.
     pub pearson: Option<(f64, usize)>,
 }
 
@@ -70,7 +70,7 @@ impl PairDistances {
     /// Reads distances; empty lines and lines that begin with `#` are skipped.
     ///
     /// # Errors
-    /// Where a line is no distance.
+    /// If a line is not a distance.
     pub fn read(text: &str) -> Result<Self, String> {
         let row = |(line, record): (usize, StringRecord)| match record.len() {
             1 => positive(&record[0])
@@ -87,10 +87,10 @@ impl PairDistances {
         Ok(Self { rows })
     }
 
-    /// The kT at which a pair would be found so, of the distances up to an end (m).
+    /// Fits kT to the distances up to a limit (m).
     ///
     /// # Errors
-    /// Where too few lie there, or the tiles would overlap.
+    /// If there are too few, or the tiles would overlap.
     pub fn fit(
         &self,
         problem: &Problem,
@@ -100,7 +100,8 @@ impl PairDistances {
         let depth = -problem.energy(bond);
         let kt = |at: f64| depth * libm::exp(-at);
         let law = |node: i32| Distances::new(problem, bond, kt(f64::from(node) * STEP), within);
-        // Where all is free, so that a part without probability is one that contact closes.
+        // At distances where everything is free, so that bins without probability are those closed
+        // by contact.
         let nodes = DEPTHS.map(|depth| (libm::log(depth) / STEP).round() as i32);
         let first = law(nodes[0]);
         let (mut counts, mut beyond) = (vec![0_usize; first.shares.len()], 0);
@@ -148,7 +149,7 @@ impl PairDistances {
             .fold(0.0, f64::max);
         Ok(DistanceFit {
             kt: is_inside.then(|| of(best)),
-            // The higher kT, the shallower.
+            // A higher kT means a shallower bond.
             interval: [ends[1].map(of), ends[0].map(of)],
             count,
             beyond,
@@ -159,7 +160,7 @@ impl PairDistances {
     }
 }
 
-/// The likelihood over the logarithm of the depth in kT, in fine parts of steps.
+/// The likelihood over the logarithm of the depth in kT, in fine steps.
 struct Search<'a> {
     nodes: [i32; 2],
     logarithms: &'a dyn Fn(i32) -> Vec<f64>,
@@ -167,7 +168,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The best place, and where on either side of it the likelihood has dropped.
+    /// The maximum, and the positions on both sides where the likelihood has dropped.
     fn run(&self) -> (i32, [Option<i32>; 2]) {
         let [low, high] = self.nodes;
         let rough = (low..=high).step_by(STRIDE as usize);
@@ -202,7 +203,7 @@ impl Search<'_> {
         self.at(fine).into_iter().map(libm::exp).collect()
     }
 
-    /// The logarithms of the shares: by Lagrange's cubic through four nodes.
+    /// The logarithms of the shares, by Lagrange's cubic through four nodes.
     fn at(&self, fine: i32) -> Vec<f64> {
         let [low, high] = self.nodes;
         let below = fine.div_euclid(FINE);
@@ -223,9 +224,9 @@ impl Search<'_> {
     }
 }
 
-/// Pearson's statistic and its degrees of freedom, one being spent on kT.
+/// Pearson's statistic and its degrees of freedom, less one for the fitted kT.
 fn pearson(shares: &[f64], counts: &[usize]) -> (f64, usize) {
-    /// Fewest expected in what is compared.
+    /// Least expected count of a bin.
     const EXPECTED: f64 = 5.0;
     let all = counts.iter().sum::<usize>() as f64;
     let mut groups: Vec<[f64; 2]> = vec![[0.0; 2]];

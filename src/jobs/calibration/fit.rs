@@ -1,4 +1,4 @@
-//! Least squares by Levenberg's and Marquardt's method.
+//! Least squares by the Levenberg-Marquardt method.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,9 +10,9 @@ pub struct Fit<const N: usize> {
     pub square: f64,
     /// Standard errors, infinite where the residuals do not depend on a number.
     pub standard_errors: [f64; N],
-    /// Steps that were taken.
+    /// Number of steps.
     pub steps: usize,
-    /// Whether no step led further down.
+    /// Whether it converged: no step led further down.
     pub settled: bool,
 }
 

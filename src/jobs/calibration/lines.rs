@@ -1,13 +1,13 @@
-//! The lines of files of measurements.
+//! The lines of measurement files.
 
 use std::io::Read;
 
 use csv::{ReaderBuilder, StringRecord, Terminator, Trim};
 
-/// The lines that say something, with their numbers, cut into trimmed entries.
+/// The non-empty lines with their numbers, split into trimmed entries.
 pub(super) fn records(text: &str) -> impl Iterator<Item = (usize, StringRecord)> {
-    // Every line ends with a line feed, also the last one: so the reader has passed just one more
-    // than those it has read, whatever it skipped.
+    // Every line ends with a line feed, including the last one, so the reader has passed exactly
+    // one more than it has read, whatever it skipped.
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)

@@ -1,16 +1,16 @@
-//! Fitting a shield's constants to measured forces and energies.
+//! Fits the constants of a shield to measured forces and energies.
 //!
 //! Rows of poses, with and without iron, are compared with a shielded pair of tiles (see
-//! [`physics::potential::shielding`]). The constants A, l, delta and the front gain G of one shield,
-//! the same on all shielded faces, are fitted by least squares (Levenberg 1944, Marquardt 1963,
-//! doi:10.1137/0111030); the magnets' common strength, which multiplies all energies, by the rows
-//! without iron alone, if there are any. Energies, forces and torques are made comparable by the
-//! root mean square of their measured values. Every fifth row with iron and every fifth without
-//! (or as set) is held out of the fit, and the residuals of the rows held out say what the fit is
-//! worth.
+//! [`physics::potential::shielding`]). The constants A, l, delta and the front gain G of one
+//! shield, the same on all shielded faces, are fitted by least squares (Levenberg 1944, Marquardt
+//! 1963, doi:10.1137/0111030). The magnets' common strength, a factor on all energies, is fitted
+//! only to the rows without iron, if there are any. Energies, forces and torques are scaled by the
+//! root mean square of their measured values. Every fifth row with iron and every fifth without (or
+//! as set) is held out of the fit; the residuals of these rows measure the quality of the fit.
 //!
-//! What the rows do not depend on they cannot tell: A and l show behind and beside the iron only,
-//! G in front of it. A standard error as large as the constant itself says so.
+//! Constants that the rows do not depend on cannot be determined: A and l have an effect only
+//! behind and beside the iron, G only in front of it. In that case the standard error is as large
+//! as the constant itself.
 
 pub mod bonds;
 pub mod distances;
@@ -36,7 +36,7 @@ use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::tile::Tile;
 pub use rows::{COLUMNS, read_rows};
 
-/// What is asked of measurements.
+/// The options of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
     /// Table area per pair (m^2) [default: the design's table]
@@ -54,20 +54,20 @@ pub struct Request {
     pub hold_out: u16,
 }
 
-/// What measurements tell.
+/// The result of a calibration.
 pub enum Fitted {
     /// The constants of shields.
     Shields(Box<Calibration>),
-    /// kT of pairs' distances.
+    /// kT fitted to the distances of pairs.
     Distances(DistanceFit),
-    /// kT of intervals for which pairs were bound and apart.
+    /// kT fitted to the intervals for which pairs were bound and apart.
     Times(TimesFit),
 }
 
-/// Why measurements tell nothing.
+/// Why a calibration failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// They are wrong or too few: what is wrong, and where.
+    /// The measurements are invalid or too few: what is wrong, and where.
     #[error("{0}")]
     Table(String),
     /// There is no bond.
@@ -88,7 +88,7 @@ impl Unanswered for FitError {
 }
 
 impl Request {
-    /// The constants of shields, of a table of forces and energies.
+    /// Fits the constants of shields to a table of forces and energies.
     ///
     /// # Errors
     /// See [`FitError`].
@@ -99,7 +99,7 @@ impl Request {
         Ok(Fitted::Shields(Box::new(found)))
     }
 
-    /// kT, of a table of pairs: their distances, or how long they were bound and apart.
+    /// Fits kT to a table of pairs: their distances, or how long they were bound and apart.
     ///
     /// # Errors
     /// See [`FitError`].
@@ -121,7 +121,7 @@ impl Request {
         let bond = Hold::bond(&analysis.problem, &analysis.catalogue)?;
         let area = self.area.unwrap_or(design.table[0] * design.table[1]);
         let (odds, [low, high]) = times.log_odds();
-        // The longer tiles are bound, the colder they are.
+        // The longer tiles are bound, the lower kT.
         let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));
         Ok(Fitted::Times(TimesFit {
             times,
@@ -132,7 +132,7 @@ impl Request {
     }
 }
 
-/// What can be measured at a pose, and its unit.
+/// The quantities that can be measured at a pose, and their units.
 pub const QUANTITIES: [(&str, &str); 4] = [
     ("energy", "J"),
     ("force along x", "N"),
@@ -149,27 +149,27 @@ pub struct Row {
     pub configuration: Configuration,
     /// Whether the shields were in place.
     pub iron: bool,
-    /// Energy (J), force on the moving tile along x and y (N) and torque about its reference
-    /// point (N m), as far as they were measured.
+    /// Energy (J), force on the moving tile along x and y (N) and torque about its reference point
+    /// (N m), if measured.
     pub measured: [Option<f64>; 4],
 }
 
-/// What was measured: two tiles, and which of their faces had shields in the rows with iron (those
-/// with a shield in `shields`, all where there are none; the constants there do not matter).
+/// The measured specimen: two tiles, and which of their faces had shields in the rows with iron
+/// (those with a shield in `shields`, or all if there are none; the constants in it are ignored).
 #[derive(Clone, Copy, Debug)]
 pub struct Specimen<'a> {
-    /// How the magnets are modelled.
+    /// The magnet model.
     pub model: MagnetModel,
-    /// The tile that is held, in whose frame poses are given.
+    /// The fixed tile, in whose frame poses are given.
     pub fixed: &'a Tile,
-    /// The tile whose poses the rows give.
+    /// The tile whose poses are in the rows.
     pub moving: &'a Tile,
-    /// Which faces had shields in the rows with iron; their constants are not looked at.
+    /// Which faces had shields in the rows with iron; the constants are ignored.
     pub shields: &'a Shields,
 }
 
 impl<'a> Specimen<'a> {
-    /// The tiles of a design, and the settings of a fit that begins with the design's own shield.
+    /// The tiles of a design, and the settings of a fit that starts with the design's own shield.
     pub fn of(design: &'a Design, hold_out_every: usize) -> (Self, CalibrationSettings) {
         let shields = &design.interaction.shields;
         let known = shields.fixed.iter().chain(&shields.moving).flatten().next();
@@ -206,14 +206,14 @@ impl<'a> Specimen<'a> {
     }
 }
 
-/// What to hold out, and where to start.
+/// The settings of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CalibrationSettings {
-    /// Every so many rows of either kind, with and without iron, one is held out of the fit.
+    /// One of this many rows is held out of the fit, separately for rows with and without iron.
     pub hold_out_every: usize,
-    /// The shield that the fit begins with.
+    /// The shield that the fit starts with.
     pub start: Shield,
-    /// Greatest number of steps of the fit.
+    /// Largest number of steps of the fit.
     pub steps: usize,
 }
 
@@ -235,11 +235,11 @@ impl Default for CalibrationSettings {
 /// Root mean squares of measured minus modelled values, for each of [`QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// How many of them were taken with shields in place.
+    /// Number of rows with shields in place.
     pub with_iron: usize,
-    /// In the quantity's own unit; `None` where nothing was measured.
+    /// In the quantity's unit; `None` if it was not measured.
     pub rms: [Option<f64>; 4],
     /// The same, relative to the root mean square of the measured values.
     pub relative: [Option<f64>; 4],
@@ -254,23 +254,23 @@ pub struct Calibration {
     pub standard_errors: [f64; 4],
     /// Factor by which the measured energies without iron exceed the model's.
     pub strength: f64,
-    /// Of the rows that were fitted.
+    /// Residuals of the fitted rows.
     pub fitted: Residuals,
-    /// Of the rows that were held out.
+    /// Residuals of the rows held out.
     pub held_out: Residuals,
-    /// Steps of the fit that were taken.
+    /// Number of steps of the fit.
     pub steps: usize,
-    /// Whether the fit settled within the steps allowed.
+    /// Whether the fit converged within the allowed steps.
     pub settled: bool,
 }
 
-/// By how much (m) the tiles may overlap at a pose that was measured, with its error.
+/// Largest overlap (m) of the tiles at a measured pose, to allow for its error.
 const MEASURED_OVERLAP: f64 = 1e-3;
 
 /// Fits a shield to rows of measurements.
 ///
 /// # Errors
-/// Where there are too few rows, or the tiles overlap at one of them.
+/// If there are too few rows, or the tiles overlap at one of them.
 pub fn calibrate(
     specimen: &Specimen,
     rows: &[Row],
@@ -340,8 +340,8 @@ pub fn calibrate(
     })
 }
 
-/// The fit starts with the length l set and with these multiples of it, for with a poor start it
-/// can end in a hollow at one of the ends of the attenuation.
+/// The fit starts with these multiples of the given length l, because from a poor start it can end
+/// in a local minimum at one end of the attenuation.
 const STARTING_LENGTHS: [f64; 3] = [1.0, 0.3, 3.0];
 
 /// The rows to fit and those held out: one in every `every` of those with iron and of those
@@ -355,8 +355,9 @@ fn hold_out(rows: &[Row], every: usize) -> (Vec<&Row>, Vec<&Row>) {
     })
 }
 
-/// The unbounded numbers that are fitted: A is the logistic of the first, l, delta and G are the
-/// exponentials of the others, so that every set of numbers is a shield.
+/// The shield for a set of unbounded fit parameters: A is the logistic function of the first, l,
+/// delta and G are the exponentials of the others, so that every set of parameters is a valid
+/// shield.
 fn shield_of(constants: &[f64; 4]) -> Shield {
     Shield {
         attenuation: 1.0 / (1.0 + libm::exp(-constants[0])),
@@ -376,7 +377,7 @@ fn constants_of(shield: &Shield) -> [f64; 4] {
     ]
 }
 
-/// Standard errors of the shield's constants from those of the numbers fitted.
+/// Standard errors of the shield's constants from those of the fit parameters.
 fn standard_errors(shield: &Shield, errors: &[f64; 4]) -> [f64; 4] {
     [
         errors[0] * shield.attenuation * (1.0 - shield.attenuation),
@@ -401,7 +402,7 @@ fn predictions(potential: &ShieldedPotential, row: &Row) -> [f64; 4] {
     [energy, -gradient.x, -gradient.y, -gradient.z]
 }
 
-/// What residuals are worked out from.
+/// The data for computing residuals.
 struct Data<'a> {
     specimen: &'a Specimen<'a>,
     bare: &'a ShieldedPotential,

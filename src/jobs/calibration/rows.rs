@@ -1,4 +1,4 @@
-//! Measurements from a CSV file.
+//! Reads measurements from a CSV file.
 
 use csv::StringRecord;
 
@@ -8,9 +8,9 @@ use crate::request::FARTHEST;
 use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
-/// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0),
-/// and what was measured on the moving tile (the torque about its reference point). The columns
-/// may come in any order and those of the measured values may be left out, as may their entries.
+/// The columns of a file of measurements: the pose, whether the shields were in place (1 or 0), and
+/// the values measured on the moving tile (the torque about its reference point). The columns can
+/// be in any order. Columns of measured values can be absent, and their entries empty.
 pub const COLUMNS: [&str; 8] = [
     "x_m",
     "y_m",
@@ -22,13 +22,13 @@ pub const COLUMNS: [&str; 8] = [
     "torque_Nm",
 ];
 
-/// How many of the columns must be there.
+/// Number of required columns.
 const NEEDED: usize = 4;
 
 /// Reads measurements. Lines without entries and lines that begin with `#` are skipped.
 ///
 /// # Errors
-/// Where the text is not a table of the given [`COLUMNS`]: what is wrong, and where.
+/// If the text is not a table of the given [`COLUMNS`]: what is wrong, and where.
 pub fn read_rows(text: &str) -> Result<Vec<Row>, String> {
     let mut records = records(text);
     let (_, header) = records.next().ok_or_else(|| {

@@ -1,7 +1,7 @@
-//! The capture range: from how far off the way into the bond is downhill.
+//! The capture range: how far from the bond the way into it still leads downhill.
 //!
-//! Three straight lines of starts are tried, all with the moving tile's target face in front of the
-//! fixed one's and brought straight up to it until the tiles touch:
+//! Three straight lines of starts are tried. In all of them the moving tile's target face is in
+//! front of the fixed tile's and moved straight towards it until the tiles touch:
 //!
 //! - *offset*: slid along the target face to either side (m), in contact, not tilted;
 //! - *gap*: drawn straight back from contact (m), neither slid nor tilted;
@@ -9,13 +9,13 @@
 //!   contact, not slid.
 //!
 //! A start is captured if overdamped motion from it (`v = -M^-1 grad U`, sliding along contact,
-//! without friction) ends in a minimum that lies within [`SAME_BOND`] of the bound state and at most
-//! [`ENERGY_SHARE`] of the bond's depth above its energy. The range along a line is the largest
-//! amount up to which every start that was tried is captured. Starts are tried in [`STEPS`] even
-//! steps from 0 to the line's limit and, between the last captured and the first that is not, by
-//! [`HALVINGS`] halvings; a pocket narrower than a step in which the tile is not captured can go
-//! unseen. Limits: half the face's length, the distance at which the tiles are free of each other,
-//! and half a turn; a range may reach its limit.
+//! without friction) ends in a minimum that lies within [`SAME_BOND`] of the bound state and at
+//! most [`ENERGY_SHARE`] of the bond's depth above its energy. The range along a line is the
+//! largest amount up to which every tried start is captured. Starts are tried in [`STEPS`] equal
+//! steps from 0 to the line's limit; between the last captured start and the first that is not,
+//! [`HALVINGS`] bisections follow. A region narrower than a step in which the tile is not captured
+//! can be missed. Limits: half the face's length, the distance at which the tiles are free of each
+//! other, and half a turn; a range may reach its limit.
 
 use std::f64::consts::PI;
 
@@ -27,17 +27,17 @@ use physics::landscape::minimum::{Known, Outcome, learn};
 use physics::parallel;
 use physics::problem::Problem;
 
-/// Even steps along a line of starts.
+/// Number of equal steps along a line of starts.
 pub const STEPS: u32 = 48;
-/// Halvings of the step in which capture ends.
+/// Number of bisections of the step in which capture ends.
 pub const HALVINGS: u32 = 6;
-/// Distance (m, metric of the configuration space, told for the paper's tile and in proportion for
-/// others) from the bound state that still counts as the bond.
+/// Largest distance from the bound state that still counts as the bond (m, metric of the
+/// configuration space; stated for the paper's tile and scaled for others).
 pub const SAME_BOND: f64 = 5e-3;
 /// Energy above that of the bound state that still counts as the bond, as a fraction of its depth.
 pub const ENERGY_SHARE: f64 = 1e-3;
 
-/// Largest offset, gap and tilt from which the way into the bond is downhill.
+/// The largest offset, gap and tilt from which the way into the bond is downhill.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaptureRange {
     /// To either side along the target face (m): at most 0, at least 0. Along the face means
@@ -50,16 +50,16 @@ pub struct CaptureRange {
     /// To either side (rad): at most 0, at least 0. Positive is counter-clockwise.
     #[serde(rename = "tilt_rad")]
     pub tilt: [f64; 2],
-    /// The largest offset, gap (m) and tilt (rad) that were looked at: a range that reaches so far
-    /// may reach farther.
+    /// The largest offset, gap (m) and tilt (rad) that were tried: a range that ends here may
+    /// extend farther.
     pub limits: [f64; 3],
 }
 
-/// The capture range of the bound state at `bond` with its energy (J), where something is known of
-/// where motions end; `None` where not even a tile that meets the other head-on is captured.
+/// The capture range of the bound state at `bond` with its energy (J); `known` are known ends of
+/// motions. `None` if not even an aligned tile is captured.
 ///
-/// Starts of a line lie close together: most of them come onto the slide of one before, from where on
-/// they need not be followed.
+/// Starts of a line are close together: most of them reach the path of an earlier one, and need not
+/// be followed from there on.
 pub fn find(
     problem: &Problem,
     mut known: Known,
@@ -85,7 +85,7 @@ pub fn find(
         [-PI, 0.0, 0.0],
         [PI, 0.0, 0.0],
     ];
-    // Each line learns for itself, so that it does not matter which is worked on first.
+    // Each line keeps its own known ends, so that the order of computation does not matter.
     let shares: Vec<f64> = parallel::map(&ends[..], |[tilt, offset, gap]| {
         let mut known = known.clone();
         reach(|share| captured(&mut known, share * tilt, share * offset, share * gap))
@@ -118,7 +118,7 @@ fn is_captured(
     }
 }
 
-/// The largest share of a line, 0 to 1, up to which all that is tried holds.
+/// The largest share of a line, 0 to 1, up to which every trial holds.
 fn reach(mut holds: impl FnMut(f64) -> bool) -> f64 {
     let at = |step: f64| step / f64::from(STEPS);
     let first_miss = (1..=STEPS).find(|&step| !holds(at(step.into())));
@@ -151,7 +151,7 @@ mod tests {
         }
         assert_eq!(reach(|_| true), 1.0);
         assert_eq!(reach(|_| false), 0.0);
-        // What lies beyond a gap does not count.
+        // Captured starts beyond a gap do not count.
         assert!(reach(|share| !(0.2..0.4).contains(&share)) < 0.2);
     }
 
@@ -166,7 +166,7 @@ mod tests {
             range.offset[1] > 0.005 && range.offset[1] < 0.040,
             "{range:?}"
         );
-        // Flush against the face, the tile sees the same magnets from either side.
+        // Flush against the face, the magnets are symmetric on both sides of the tile.
         assert!(
             (range.offset[0] + range.offset[1]).abs() < 0.004,
             "{range:?}"
@@ -186,7 +186,7 @@ mod tests {
         assert!(slid(0.5 * range.offset[1]) && slid(0.98 * range.offset[1]));
         assert!(!slid(range.offset[1] + 0.0005));
     }
-    /// What earlier starts teach saves work and changes no end.
+    /// Known ends of earlier starts save work and change no result.
     #[test]
     fn what_earlier_starts_teach_leaves_the_range_as_it_is() {
         let design = Design::load("../../shapes/sine-teeth-10mm.toml".as_ref()).unwrap();

@@ -1,16 +1,15 @@
-//! Designs side by side: what the main job says of each in a dozen figures.
+//! Compares designs: an analysis of each, summarised in a dozen figures.
 //!
-//! [`assess`] runs the main job on a design and keeps an [`Assessment`]; a [`Quantity`] reads one
-//! figure of it, with its bounds; [`ranking`] sorts designs by a figure and says which order is
-//! proved.
+//! [`assess`] analyses a design and keeps an [`Assessment`]; a [`Quantity`] reads one figure of it,
+//! with its bounds; [`ranking`] sorts designs by a figure and states which order is proved.
 //!
 //! - The *depth* of a state is minus its energy.
-//! - *Unbinding* climbs from the bond to `free`, *binding* the other way, over the same saddle: a
-//!   barrier for binding is the saddle's energy above that of tiles far apart, which is 0, and 0
-//!   where the saddle lies below that. Bounds are those of the saddle, shifted likewise.
+//! - *Unbinding* leads from the bond to `free`, *binding* the other way, over the same saddle. The
+//!   barrier of binding is the saddle's energy above that of tiles far apart, which is 0; it is 0
+//!   if the saddle lies below that. Bounds are those of the saddle, shifted in the same way.
 //! - *Selectivity* is the depth of the bond over that of the deepest trap.
-//! - What is *unlisted* is at most so deep: besides the states that were found no other takes more
-//!   than half a hundredth of the bond to leave, proved but for what lies above that.
+//! - *Unlisted* is the largest possible depth of a state that is not listed: it is proved that
+//!   below this depth no other state has an escape barrier above half a hundredth of the bond.
 //! - The *capture range* is defined in [`capture_range`].
 
 pub mod capture_range;
@@ -32,34 +31,34 @@ pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
 pub use request::{Question, Request};
 
-/// What is compared of a design. Poses are x, y (m) and theta (rad), energies in J.
+/// The compared figures of a design. Poses are x, y (m) and theta (rad), energies in J.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
-    /// Of the design.
+    /// The design's name.
     pub name: String,
     /// SHA-256 of the design file's bytes.
     pub sha256: String,
     /// The drawings that the design refers to.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub drawings: Vec<Drawing>,
-    /// The magnet model, as design files call it.
+    /// The magnet model, as in design files.
     pub model: String,
-    /// What magnets of that model are: dipoles, blocks, discs.
+    /// What the magnets are modelled as: dipoles, blocks, discs.
     #[serde(default)]
     pub magnets: String,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// Energy with the target faces coinciding (J).
     #[serde(rename = "target_energy_J")]
     pub target_energy: f64,
-    /// `None` where the bond does not hold.
+    /// `None` if the bond does not hold.
     pub bond: Option<Bond>,
-    /// Kinds of trap, symmetric copies taken together.
+    /// Number of kinds of trap, without symmetric copies.
     pub trap_kinds: usize,
-    /// The one of lowest energy; `None` where there are no traps.
+    /// The trap of lowest energy; `None` if there are no traps.
     pub deepest_trap: Option<Trap>,
-    /// Besides the states that were found none lies lower than this (J) that takes more than a share
-    /// of the bond to leave, proved; `None` where nothing is.
+    /// It is proved that below this energy (J) no other state has an escape barrier above a share
+    /// of the bond's depth; `None` if nothing is proved.
     #[serde(
         default,
         rename = "unlisted_above_J",
@@ -68,17 +67,17 @@ pub struct Assessment {
     pub unlisted_above: Option<f64>,
     /// Number of far starts.
     pub far_starts: usize,
-    /// How many of the far starts end in the bond.
+    /// Number of far starts that end in the bond.
     pub captured: usize,
-    /// How many of the far starts end in no state.
+    /// Number of far starts that end in no state.
     pub uncaptured: usize,
-    /// Barriers that moving tiles checked; `None` where they were not asked.
+    /// Number of barriers checked by moving tiles; `None` without the check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub barriers_checked: Option<usize>,
-    /// What they contradict, a barrier each.
+    /// The contradicted barriers, one text for each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contradictions: Vec<String>,
-    /// Barriers without certified bounds that they show to be estimated too high.
+    /// Barriers without certified bounds that the check shows to be estimated too high.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub overestimates: Vec<String>,
 }
@@ -93,7 +92,7 @@ pub struct Bond {
     pub energy: f64,
     /// To `free`.
     pub way_out: Way,
-    /// `None` where tiles that meet head-on do not bind.
+    /// `None` if aligned tiles do not bind.
     pub capture_range: Option<CaptureRange>,
 }
 
@@ -112,10 +111,10 @@ pub struct Trap {
 /// The best way out of a state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Way {
-    /// Highest energy on the way (J); `None` where no way was found.
+    /// Highest energy on the path (J); `None` if no path was found.
     #[serde(rename = "saddle_energy_J")]
     pub saddle: Option<f64>,
-    /// What is proved of the least possible highest energy.
+    /// Proved bounds of the lowest possible maximum energy.
     #[serde(flatten)]
     pub bounds: SaddleBounds,
 }
@@ -146,10 +145,10 @@ impl Way {
     }
 }
 
-/// A cell of blocks takes as long as about this many of dipoles.
+/// A cell of blocks costs as much as about this many cells of dipoles.
 const CELLS_OF_BLOCKS: usize = 30;
 
-/// Analyses a design and keeps what is compared.
+/// Analyses a design and keeps the compared figures.
 pub fn assess(
     design: &Design,
     request: &Request,
@@ -198,26 +197,27 @@ impl Observer for Part<'_> {
 }
 
 impl Assessment {
-    /// Whether there is a bond, and no trap that it has to be told from.
+    /// Whether there is a bond and no trap.
     pub fn has_no_trap(&self) -> bool {
         self.bond.is_some() && self.deepest_trap.is_none()
     }
 
-    /// How many barriers moving tiles checked, contradict, and show to be estimated too high; `None`
-    /// where they were not asked.
+    /// The numbers of barriers that moving tiles checked, contradicted, and showed to be estimated
+    /// too high; `None` without the check.
     pub fn checks(&self) -> Option<[usize; 3]> {
         let checked = self.barriers_checked?;
         Some([checked, self.contradictions.len(), self.overestimates.len()])
     }
 
-    /// Whether the bond is proved to have no way out at all.
+    /// Whether it is proved that no way leads out of the bond.
     pub fn is_caged(&self) -> bool {
         let bond = self.bond.as_ref();
         bond.is_some_and(|bond| bond.way_out.bounds.caged)
     }
 
-    /// Why tiles of this design do not find into the bond, where they do not: nothing holds, no way
-    /// leads in, or none of the far starts came in. The worst first, by its number from 3 to 1.
+    /// Why tiles of this design do not reach the bond, if they do not: there is no bond, no way
+    /// leads in, or no far start ended there. The number, from 3 for the worst to 1, is the
+    /// severity.
     pub fn obstacle(&self) -> Option<(u8, String)> {
         if self.bond.is_none() {
             return Some((3, "the bond does not hold".to_owned()));
@@ -237,7 +237,7 @@ impl Assessment {
         })
     }
 
-    /// What is compared of an analysed design; the capture range is found here.
+    /// The compared figures of an analysed design; also computes the capture range.
     pub fn new(design: &Design, analysis: &Analysis) -> Self {
         let catalogue = &analysis.catalogue;
         let captured = |state: &State| state.capture.map_or(0, |capture| capture.count);

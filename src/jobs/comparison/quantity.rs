@@ -1,9 +1,8 @@
-//! The quantities that are compared, in one table.
+//! The table of compared quantities.
 //!
-//! A new quantity is one entry of [`QUANTITIES`] and nothing else: files, the tables of `compare`,
-//! pages, the curves and maps of sweeps, the picture of the ranking and `--by` read from there all
-//! that they know of it. The order of the entries is that of columns in files; the tables and the
-//! pictures are arranged by [`Place`]s.
+//! A new quantity needs only one entry in [`QUANTITIES`]: files, the tables of `compare`, pages,
+//! the curves and maps of sweeps, the picture of the ranking and `--by` all read it from there.
+//! Columns in files have the order of the entries; tables and pictures are arranged by [`Place`]s.
 
 use std::collections::BTreeMap;
 
@@ -13,39 +12,39 @@ use physics::landscape::Proportion;
 use Measure::{Angle, Count, Energy, Length, Ratio, Share};
 use Reading::Number;
 
-/// Why a bond has no capture range, in short.
+/// The short reason why a bond has no capture range.
 pub const NOT_HEAD_ON: &str = "not head-on";
-/// Why there is no figure of the deepest trap.
+/// The reason why there is no figure of the deepest trap.
 pub const NO_TRAPS: &str = "no traps";
 
-/// A figure, and between which bounds it lies where bounds are known.
+/// A figure with its bounds, if known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Infinite for the climb out of a cage.
     pub value: f64,
-    /// `None` where no bounds are known; infinite for the climb out of a cage.
+    /// `None` if no bounds are known; infinite for the climb out of a cage.
     pub low: Option<f64>,
-    /// `None` where no bounds are known, and for the climb out of a cage.
+    /// `None` if no bounds are known, and for the climb out of a cage.
     pub high: Option<f64>,
 }
 
 impl Estimate {
-    /// The value and its bounds, `None` for what is not known or not finite.
+    /// The value and its bounds, `None` if not known or not finite.
     pub fn finite(&self) -> [Option<f64>; 3] {
         [Some(self.value), self.low, self.high].map(|number| number.filter(|v| v.is_finite()))
     }
 }
 
-/// What an [`Assessment`] says of a quantity, in SI units.
+/// The value of a quantity in an [`Assessment`], in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
     /// Without bounds.
     Number(f64),
-    /// As far as was looked: what lies beyond is not known.
+    /// A value at the limit of the search: the true value may be larger.
     AtLimit(f64),
-    /// Between the bounds that are known.
+    /// A value with known bounds.
     Bounded(Estimate),
-    /// Counted, with its 95 % interval.
+    /// A counted share with its 95 % interval.
     Share(Proportion),
 }
 
@@ -61,7 +60,7 @@ impl Reading {
     }
 }
 
-/// What is measured: it decides the unit, and how numbers are written and drawn.
+/// The dimension of a quantity, which determines the unit and how numbers are written and drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// In J, shown with a prefix.
@@ -72,7 +71,7 @@ pub enum Measure {
     Angle,
     /// From 0 to 1, shown in percent.
     Share,
-    /// Drawn by its logarithm where it spans more than two powers of ten.
+    /// Drawn on a logarithmic axis if it spans more than two powers of ten.
     Ratio,
     /// A whole number.
     Count,
@@ -90,18 +89,17 @@ impl Measure {
     }
 }
 
-/// What files call the bounds below and above that are proved for the stated model.
+/// The suffixes in files of the lower and upper bounds proved for the stated model.
 pub const CERTIFIED: Option<[&str; 2]> = Some(["lower", "upper"]);
-/// What they call those of a 95 % interval.
+/// The suffixes of the ends of a 95 % interval.
 const INTERVAL: Option<[&str; 2]> = Some(["low", "high"]);
 
-/// Where a quantity stands among others, from 0. Those in one place share it: the two sides of a
-/// range.
+/// The position of a quantity among others, from 0. The two sides of a range share a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// Which of the tables, of the rows of panels, or of the ranking's plots.
+    /// The table, the row of panels, or the plot of the ranking.
     pub row: u8,
-    /// Which column in it; in the ranking's plots, which colour.
+    /// The column in it; in the ranking's plots, the colour.
     pub column: u8,
     /// Its name there, without the unit.
     pub heading: &'static str,
@@ -115,42 +113,42 @@ const fn at(row: u8, column: u8, heading: &'static str) -> Option<Place> {
     })
 }
 
-/// All that is known of a quantity.
+/// The description of a quantity.
 #[derive(Debug)]
 pub struct Quantity {
     /// Name in files and on the command line, without the unit.
     pub key: &'static str,
     /// Name for people.
     pub label: &'static str,
-    /// Decides the unit and how numbers are shown.
+    /// Determines the unit and how numbers are shown.
     pub measure: Measure,
-    /// What files call its bounds, `None` where it has none.
+    /// The suffixes of its bounds in files, `None` if it has none.
     pub bounds: Option<[&'static str; 2]>,
-    /// In the tables of `compare`.
+    /// Its place in the tables of `compare`.
     pub column: Option<Place>,
-    /// Among a sweep's curves.
+    /// Its place among a sweep's curves.
     pub panel: Option<Place>,
-    /// Whether a sweep's maps show its panel as well.
+    /// Whether a sweep's maps also show its panel.
     pub mapped: bool,
-    /// In the picture of the ranking, with its name there: a bar among the depths (row 0), where the
-    /// number of a ratio stands beside the bars, or a point among the barriers (1) or captures (2).
+    /// Its place in the picture of the ranking, with its name there: a bar among the depths (row 0;
+    /// a ratio is written beside the bars), or a point among the barriers (1) or captures (2).
     pub ranking: Option<Place>,
-    /// What the page calls the design that has most of it.
+    /// The page's name for the design with the largest value.
     pub most: Option<&'static str>,
-    /// Whether the page tells it of a point under the pointer.
+    /// Whether the page shows it for the point under the pointer.
     pub in_readout: bool,
-    /// Its value, or why there is none.
+    /// Reads its value, or the reason why there is none.
     pub read: fn(&Assessment) -> Result<Reading, &'static str>,
 }
 
-/// A quantity that is in files, in the pages' tables and nowhere else.
+/// The base of an entry: a quantity that is only in files and in the pages' tables.
 #[rustfmt::skip]
 const PLAIN: Quantity = Quantity {
     key: "", label: "", measure: Count, bounds: None, column: None, panel: None, mapped: false,
     ranking: None, most: None, in_readout: false, read: |_| Err("not known"),
 };
 
-/// All of them, in the order of files.
+/// All quantities, in the order of files.
 #[rustfmt::skip]
 pub static QUANTITIES: &[Quantity] = &[
     Quantity {
@@ -232,7 +230,7 @@ pub static QUANTITIES: &[Quantity] = &[
     },
 ];
 
-/// How deep at most what is not listed is; what may be deeper than the bond says nothing of the list.
+/// The largest possible depth of an unlisted state; a limit deeper than the bond is meaningless.
 fn unlisted(assessment: &Assessment) -> Result<Reading, &'static str> {
     let deepest = assessment
         .bond
@@ -263,7 +261,7 @@ fn range(assessment: &Assessment) -> Result<&CaptureRange, &'static str> {
     bond(assessment)?.capture_range.as_ref().ok_or(NOT_HEAD_ON)
 }
 
-/// How far capture reaches to a side, of the farthest that was looked at.
+/// The capture range to one side, with the limit of the search.
 fn reach(amount: f64, limit: f64) -> Reading {
     if amount.abs() >= limit {
         Reading::AtLimit(amount)
@@ -273,12 +271,13 @@ fn reach(amount: f64, limit: f64) -> Reading {
 }
 
 impl Quantity {
-    /// The figure; `None` where there is none, such as the depth of a bond that does not hold.
+    /// The figure; `None` if there is none, such as the depth of a bond that does not hold.
     pub fn of(&self, assessment: &Assessment) -> Option<Estimate> {
         Some((self.read)(assessment).ok()?.estimate())
     }
 
-    /// Name in files with the unit: `unbinding_J`. `part` is between the two, such as `_lower`.
+    /// Name in files with the unit: `unbinding_J`. `part`, such as `_lower`, is inserted between
+    /// the two.
     pub fn name(&self, part: &str) -> String {
         match self.measure.unit() {
             "" => format!("{}{part}", self.key),
@@ -287,7 +286,7 @@ impl Quantity {
     }
 }
 
-/// The quantities that have a place, in the order of places, those of one place together.
+/// The quantities that have a place, in the order of places; those of one place are grouped.
 pub fn placed(
     place: impl Fn(&Quantity) -> Option<Place>,
 ) -> BTreeMap<Place, Vec<&'static Quantity>> {

@@ -1,4 +1,4 @@
-//! Designs sorted by a figure, and which order is proved.
+//! Ranks designs by a figure, and states which part of the order is proved.
 
 use super::{Assessment, Quantity};
 use ordered_float::OrderedFloat;
@@ -6,8 +6,8 @@ use physics::landscape::minimax::{self, Ordering};
 use physics::order::Order;
 use std::cmp::Reverse;
 
-/// The designs' places in `assessments` from the best to the worst by a figure, larger being
-/// better; those without the figure come last (but see [`value`]), equal ones in their order.
+/// The indices of `assessments` from the best to the worst design by a figure (larger is better).
+/// Designs without the figure come last (but see [`value`]); equal ones keep their order.
 pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     let value = |index: usize| value(&assessments[index], by);
     let mut order: Vec<usize> = (0..assessments.len()).collect();
@@ -15,8 +15,8 @@ pub fn ranked(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     order
 }
 
-/// What a design is ranked by: the figure, without bound where a bond has no trap to be told from, and
-/// below all others where it is not known.
+/// The value a design is ranked by: the figure; infinite if the figure compares the bond with a
+/// trap and there is none; below all others if it is not known.
 pub fn value(assessment: &Assessment, by: &Quantity) -> f64 {
     match by.of(assessment) {
         Some(estimate) => estimate.value,
@@ -25,7 +25,7 @@ pub fn value(assessment: &Assessment, by: &Quantity) -> f64 {
     }
 }
 
-/// The same, but designs that do not find into the bond stand behind all others, whatever the
+/// The same, but designs whose tiles do not reach the bond come after all others, whatever the
 /// figure: see [`Assessment::obstacle`].
 pub fn ranked_for_use(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     let mut order = ranked(assessments, by);
@@ -33,11 +33,11 @@ pub fn ranked_for_use(assessments: &[Assessment], by: &Quantity) -> Vec<usize> {
     order
 }
 
-/// Which of two designs is proved to have the higher figure: undecided where bounds overlap, are
-/// not known, or the models of the magnets differ.
+/// Which of two designs is proved to have the higher figure: undecided if bounds overlap or are not
+/// known, or if the models of the magnets differ.
 ///
-/// The bounds are those of the saddle; the energy of the state from which the climb is measured is
-/// computed in double precision at the minimum that was found.
+/// The bounds are those of the saddle; the energy of the state from which the barrier is measured
+/// is computed in double precision at the minimum found.
 pub fn order(a: &Assessment, b: &Assessment, quantity: &Quantity) -> Ordering {
     let bounds = |assessment| {
         let estimate = quantity.of(assessment)?;

@@ -1,4 +1,4 @@
-//! What is asked of an assessment.
+//! The request of an assessment.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -19,9 +19,10 @@ Check the barriers of bond and deepest trap with RUNS trajectories each [default
 1000 trajectories take one core-second, up to five for curved shapes. If a trajectory contradicts a \
 barrier, all results are still written and the exit status is 1.";
 
-/// How much work a design is worth: all that decides an assessment besides the design and the seed.
+/// The effort spent on a design: everything that determines an assessment besides the design and
+/// the seed.
 ///
-/// Work is counted, so that every machine finds the same.
+/// Work is counted, so that results are the same on every machine.
 #[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 #[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)))]
 pub struct Request {
@@ -46,7 +47,7 @@ pub struct Request {
     /// Most cells for the search for missed states; 0: no search [default: 300000]
     ///
     /// The default is 0 for very many magnets.
-    // For blocks it is a thirtieth, which takes about as long.
+    // For blocks one thirtieth, which takes about as long.
     #[arg(long, value_name = "N", value_parser = request::count_or_none)]
     pub complete_cells: Option<usize>,
 
@@ -56,7 +57,7 @@ pub struct Request {
     pub check: Check,
 }
 
-/// How designs are assessed, and with which seed.
+/// The options of assessments, with the seed.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Question {
     /// How much work a design is worth.
@@ -70,7 +71,7 @@ pub struct Question {
 }
 
 impl Request {
-    /// With nothing left open, the same for all designs: see [`Settings::of`].
+    /// With all defaults filled in, the same for all designs: see [`Settings::of`].
     #[must_use]
     pub fn of<'a>(&self, designs: impl IntoIterator<Item = &'a Design>) -> Self {
         let usual = Settings::of(designs);
@@ -85,10 +86,10 @@ impl Request {
         }
     }
 
-    /// Refuses what no command line could ask for: it may have been read from a file.
+    /// Checks the limits of the command line, since the request may come from a file.
     ///
     /// # Errors
-    /// Which setting has a value that it cannot have.
+    /// If a setting is outside its limits.
     pub fn check(&self) -> Result<(), Misused> {
         let Value::Object(settings) = json!(self) else {
             return Ok(());
@@ -105,7 +106,7 @@ impl Request {
         of_keywords::<Self>(given.map(option)).map(drop)
     }
 
-    /// The settings of the main job.
+    /// The settings of an analysis.
     pub fn settings(&self, seed: u64) -> Settings {
         let worth = |cells: usize| match cells {
             0 => Allowance::NONE,

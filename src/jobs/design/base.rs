@@ -12,15 +12,15 @@ use physics::tile::Face;
 use physics::tile::outline::{Outline, OutlineError};
 use physics::tile::profile::{Arcs, Polyline};
 
-/// Most faces of a tile.
+/// Largest number of faces of a tile.
 const MOST_FACES: u32 = 64;
 
-/// The straight faces of a tile, and all names of each; the first is what messages use.
+/// The straight faces of a tile with all names of each; messages use the first.
 pub(super) struct Base {
     pub faces: Vec<Face>,
     /// The line of each face that has no profile of its own; empty for the base line.
     pub lines: Vec<Polyline>,
-    /// Which points of these lines lie on arcs.
+    /// The points of these lines that lie on arcs.
     pub arcs: Vec<Arcs>,
     pub names: Vec<Vec<String>>,
 }
@@ -55,7 +55,7 @@ pub(super) fn read(section: &Section) -> Result<Base> {
     Ok(base(&vertices(&entry)?, &[]))
 }
 
-/// A regular polygon about its centre; face 0 has its outward normal along +x.
+/// A regular polygon around its centre; face 0 has its outward normal along +x.
 fn regular(section: &Section) -> Result<Base> {
     let help = "give the side length, side = 0.43 (m), the corners, vertices = [...], or a \
         drawing: outline = { file = \"tile.svg\" }";
@@ -85,7 +85,7 @@ fn regular(section: &Section) -> Result<Base> {
     Ok(base(&corners, &[]))
 }
 
-/// The faces between corners; each has its number for a name, behind one of `names` if there are some.
+/// The faces between corners; the name of each is its number, after one of `names` if given.
 fn base(corners: &[Vector2<f64>], names: &[&str]) -> Base {
     let n = corners.len();
     let named = |i: usize| names.get(i).map(|name| (*name).to_owned());
@@ -123,7 +123,7 @@ fn vertices(entry: &Entry) -> Result<Vec<Vector2<f64>>> {
     }
 }
 
-/// A list of corners that is no outline, as a fault of the corner that is to be changed.
+/// The fault of a list of corners that is not a valid outline, at the corner to change.
 fn fix(entry: &Entry, items: &[Entry], error: OutlineError) -> super::DesignError {
     let message = error.to_string();
     match error {

@@ -1,4 +1,5 @@
-//! What magnets cover of their tile: where they overlap, stick out or break through.
+//! Checks of the magnets' blocks: where they overlap, stick out of their tile or break through its
+//! outline.
 
 use nalgebra::Vector2;
 
@@ -8,11 +9,11 @@ use physics::tile::assembly::{face_edges, surface_height};
 use physics::tile::outline::ConvexPart;
 use physics::tile::{Face, Magnet};
 
-/// Depth (m) up to which blocks may overlap or stick out: rounding, a ten-thousandth of the thinnest
-/// magnets that are read (10 um).
+/// Depth (m) up to which blocks may overlap or stick out, to allow for rounding: a ten-thousandth
+/// of the thinnest accepted magnets (10 um).
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// What a magnet covers.
+/// The rectangle of a magnet.
 pub(super) fn block(magnet: &Magnet) -> ConvexPart {
     ConvexPart::new(magnet.outline())
 }
@@ -46,8 +47,8 @@ pub(super) fn breaks_through(built: &BuiltTile, magnet: &Magnet) -> bool {
     excess(&edges, face, magnet) > ROUNDING
 }
 
-/// By how much (m, along the face's normal) the highest corner of a block overtops the lowest
-/// surface over the block's width.
+/// How far (m, along the face's normal) the highest corner of a block is above the lowest surface
+/// within the block's width.
 pub(super) fn excess(edges: &[[[f64; 2]; 2]], face: &Face, magnet: &Magnet) -> f64 {
     let local: Vec<_> = magnet
         .outline()

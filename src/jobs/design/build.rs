@@ -1,4 +1,4 @@
-//! From the contents of its faces to a tile.
+//! Builds a tile from the contents of its faces.
 
 use super::DesignError;
 use super::error::{Result, Span};
@@ -13,7 +13,7 @@ use physics::tile::profile::SHALLOWEST;
 use physics::tile::strength::Strength;
 use physics::tile::{Magnet, Tile};
 
-/// A tile, and where the file puts each of its magnets.
+/// A tile, with the place in the file of each of its magnets.
 pub(super) struct BuiltTile {
     pub tile: Tile,
     /// The outline with the face that each edge belongs to.
@@ -21,16 +21,16 @@ pub(super) struct BuiltTile {
     pub placings: Vec<Placing>,
 }
 
-/// Where the file puts a magnet.
+/// The place in the file of a magnet.
 pub(super) struct Placing {
     pub span: Span,
-    /// How far it lies behind the surface (m).
+    /// Its distance behind the surface (m).
     pub inset: f64,
-    /// How the file says how strong it is.
+    /// Its strength as stated in the file.
     pub strength: Option<Strength>,
 }
 
-/// Puts a tile together from the contents of its faces.
+/// Builds a tile from the contents of its faces.
 pub(super) fn build(entry: &TileEntry, contents: &[FaceContent]) -> Result<BuiltTile> {
     let faces = &entry.base.faces;
     let thickness = entry.thickness;
@@ -85,10 +85,10 @@ fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
     ))
 }
 
-/// Density (kg/m^3) of the densest material there is, osmium.
+/// Density (kg/m^3) of the densest material, osmium.
 const HIGHEST_DENSITY: f64 = 22_590.0;
 
-/// The tile's mass (kg), unless that would make it denser than any material.
+/// Checks that the tile's mass (kg) does not make it denser than any material.
 fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
     let (entry, mass) = entry
         .mass
@@ -107,7 +107,7 @@ fn check_mass(entry: &TileEntry, volume: f64) -> Result<f64> {
     Ok(mass)
 }
 
-/// Most points of an outline: each is compared with every other.
+/// Largest number of points of an outline: each is compared with every other.
 const MOST_POINTS: usize = 10_000;
 
 fn lines(contents: &[FaceContent]) -> Vec<FaceLine> {
@@ -146,7 +146,7 @@ fn outline(entry: &TileEntry, contents: &[FaceContent]) -> Result<(Ring, Outline
     }
 }
 
-/// Profiles that make no outline, as a fault of the profile that is to be changed.
+/// The fault of profiles that do not form a valid outline, at the profile to change.
 fn mend_outline(
     entry: &TileEntry,
     contents: &[FaceContent],
@@ -157,7 +157,7 @@ fn mend_outline(
     match *error {
         OutlineError::SelfCrossing(i, j) => {
             let (a, b) = (ring.faces[i], ring.faces[j]);
-            // The face with a profile is the culprit, not its flat neighbour.
+            // The face with a profile is at fault, not its flat neighbour.
             let (culprit, other) = match contents[a].polyline.is_empty() {
                 true => (b, a),
                 false => (a, b),
@@ -197,8 +197,8 @@ fn mend_outline(
     }
 }
 
-/// The largest depth (m) that the profile of a face may have beside the others, rounded down;
-/// `None` where no depth mends it.
+/// The largest depth (m) that the profile of a face can have next to the others, rounded down;
+/// `None` if no depth is valid.
 fn largest_depth(entry: &TileEntry, contents: &[FaceContent], face: usize) -> Option<f64> {
     let mut profile = contents[face].profile.clone()?;
     let depth = *depth_of(&mut profile)?;

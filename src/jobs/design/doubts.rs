@@ -1,4 +1,4 @@
-//! What may be meant otherwise, though it can be worked with.
+//! Warnings: entries that are usable but may be meant otherwise.
 
 use super::DesignError;
 use super::face::FaceContent;
@@ -6,7 +6,7 @@ use super::quantity::{self, four_digits};
 use super::reader::Section;
 use super::tile::{TileEntry, nearly_mates};
 
-/// Doubts about a design that is sound: an enormous table, a fit that swallows the shape.
+/// Warnings about a valid design: an enormous table, a fit larger than the shape's depth.
 pub(super) fn find(
     root: &Section,
     entries: &[TileEntry; 2],
@@ -21,7 +21,7 @@ pub(super) fn find(
     doubts.chain(nearly_mates(entries)).collect()
 }
 
-/// A table so large that another unit may have been meant.
+/// Warns of a table so large that another unit may have been meant.
 fn enormous(root: &Section, table: [f64; 2]) -> Option<DesignError> {
     let [x, y] = table;
     let proposals = quantity::TABLE_SIZE.doubt(x.max(y))?;
@@ -37,7 +37,7 @@ fn enormous(root: &Section, table: [f64; 2]) -> Option<DesignError> {
     ))
 }
 
-/// A face drawn back by as much as its line is deep: nothing is left that could interlock.
+/// Warns of a face drawn back by as much as its profile is deep: nothing can interlock.
 fn loose(entry: &TileEntry, face: &str, content: &FaceContent) -> Option<DesignError> {
     let heights = content.polyline.iter().map(|p| p[1].abs());
     let depth = heights.fold(0.0, f64::max);

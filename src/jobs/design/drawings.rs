@@ -1,4 +1,4 @@
-//! The drawings that a design refers to: where they are read from, and what was found.
+//! The drawings that a design refers to: where they are read from, and their contents.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub struct Drawing {
 /// The drawings of one design.
 #[derive(Debug, Default)]
 pub(super) struct Drawings<'a> {
-    /// Contents of the files by their names, where files are not to be read.
+    /// Contents of the files by name, if files are not to be read.
     held: Option<&'a BTreeMap<String, String>>,
     used: RefCell<BTreeMap<String, Drawing>>,
     skipped: RefCell<Vec<DesignError>>,
@@ -34,8 +34,8 @@ pub(crate) fn read_text(design: &str, name: &str) -> std::io::Result<String> {
     file::read_text(&path(design, name))
 }
 
-/// Whether faults may show lines of a drawing: one that lies with its design. A design that comes
-/// from elsewhere is not to show what any other file holds.
+/// Whether messages may quote lines of a drawing: only if it is in its design's folder. A design
+/// from elsewhere must not reveal the contents of other files.
 pub(super) fn may_be_quoted(design: &str, name: &str) -> bool {
     let folder = Path::new(design).parent();
     folder.is_some_and(|folder| file::is_below(&path(design, name), folder))
@@ -46,7 +46,7 @@ pub(crate) fn path(design: &str, name: &str) -> std::path::PathBuf {
 }
 
 impl<'a> Drawings<'a> {
-    /// Drawings that are held, or else those beside the design.
+    /// Drawings with given contents, or else those beside the design.
     pub fn new(held: Option<&'a BTreeMap<String, String>>) -> Self {
         Self {
             held,
@@ -54,10 +54,10 @@ impl<'a> Drawings<'a> {
         }
     }
 
-    /// The text of the drawing that the design at `design` calls `name`; it counts as used.
+    /// The text of the drawing that the design at `design` calls `name`; marks it as used.
     ///
     /// # Errors
-    /// Where it is not held and cannot be read.
+    /// If its contents are not given and it cannot be read.
     pub fn text(&self, design: &str, name: &str) -> std::io::Result<String> {
         let text = match self.held {
             Some(held) => held.get(name).cloned().ok_or_else(|| {
@@ -76,7 +76,7 @@ impl<'a> Drawings<'a> {
         Ok(text)
     }
 
-    /// Notes a doubt about a drawing, once.
+    /// Notes a warning about a drawing, once.
     pub fn note(&self, doubt: DesignError) {
         let mut doubts = self.skipped.borrow_mut();
         if !doubts.contains(&doubt) {
@@ -84,7 +84,7 @@ impl<'a> Drawings<'a> {
         }
     }
 
-    /// The drawings that were used, by name, and what of them was not read.
+    /// The drawings used, by name, and warnings about parts of them that were ignored.
     pub fn finish(self) -> (Vec<Drawing>, Vec<DesignError>) {
         let used = self.used.into_inner().into_values().collect();
         (used, self.skipped.into_inner())

@@ -1,15 +1,15 @@
-//! What is wrong with a design file, where, and how to fix it.
+//! The error of a design file: what is wrong, where, and how to fix it.
 
 use std::fmt::{self, Write};
 use std::ops::Range;
 
-/// What is read, or what is wrong with it.
+/// The result of reading a design.
 pub(super) type Result<T> = std::result::Result<T, DesignError>;
 
 /// A fault of a design file.
 ///
-/// Its `Display` is what a user reads: the place, what is wrong, the line of the file with the
-/// place marked, and the fix; then the same of every further fault:
+/// Its `Display` is the user's message: the place, what is wrong, the line of the file with the
+/// place marked, and the fix; then the same for every further fault:
 ///
 /// ```text
 /// flat.toml:12:8: `side` = 430 m: did you mean 0.43 (430 mm)?
@@ -22,17 +22,17 @@ pub(super) type Result<T> = std::result::Result<T, DesignError>;
 pub struct DesignError {
     /// The file's name, as it was given.
     pub file: String,
-    /// Where in the file; `None` where the file as a whole is at fault (it cannot be read).
+    /// The place in the file; `None` if the file as a whole is at fault (it cannot be read).
     pub place: Option<Box<Place>>,
     /// What is wrong.
     pub message: String,
     /// How to fix it.
     pub help: String,
-    /// What else is wrong with the file, in its order; none of them has further ones.
+    /// Further faults of the file, in order; these have no further ones themselves.
     pub also: Vec<DesignError>,
 }
 
-/// Most faults that are told at a time.
+/// Largest number of faults shown at a time.
 const MOST_TOLD: usize = 20;
 
 /// A place in a file.
@@ -42,16 +42,15 @@ pub struct Place {
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
-    /// How many characters of the line are meant, at least 1.
+    /// Number of characters, at least 1.
     pub width: usize,
-    /// The line's text; `None` where it is not to be shown, as of a drawing elsewhere than its
-    /// design.
+    /// The line's text; `None` if it must not be shown, such as that of a drawing outside the
+    /// design's folder.
     pub source: Option<String>,
 }
 
 impl Place {
-    /// The place of a range of bytes of `text`; a range over several lines is cut at the end of
-    /// its first.
+    /// The place of a range of bytes of `text`; a range over several lines ends with the first.
     pub(super) fn new(text: &str, span: Span) -> Self {
         let start = floor_char_boundary(text, span.start);
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
@@ -70,8 +69,8 @@ impl Place {
         Self::new(text, range.into())
     }
 
-    /// The line as it is shown, and the column in it: of a long line (a drawing can be one line) a
-    /// part about the place.
+    /// The line as shown, and the column in it: for a long line (a drawing can be one line) the
+    /// part around the place.
     fn window(&self) -> Option<(String, usize)> {
         const MOST: usize = 160;
         let source = self.source.as_ref()?.replace('\t', " ");
@@ -107,13 +106,13 @@ impl fmt::Display for DesignError {
     }
 }
 
-/// Without what stands in a file's lines and names, and a terminal or a page would obey.
+/// Removes characters from lines and names that would control a terminal or a page.
 fn harmless(told: &str) -> String {
     told.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
 }
 
 impl DesignError {
-    /// A fault of a file, alone.
+    /// A single fault of a file.
     pub fn new(
         file: &str,
         place: Option<Place>,
@@ -149,7 +148,7 @@ impl DesignError {
         )?;
         if let Some((source, column)) = place.window() {
             let indent = " ".repeat(column - 1);
-            // Ends of lines belong to no line: a place may lie beyond what is shown.
+            // Line ends do not belong to a line, so a place may be beyond the shown text.
             let left = (source.chars().count() + 1).saturating_sub(column);
             let carets = "^".repeat(place.width.min(left).max(1));
             writeln!(f, "{gutter} |")?;

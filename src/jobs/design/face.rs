@@ -1,4 +1,4 @@
-//! The entries of `[fixed.faces]` and `[moving.faces]`: a face's line and its magnets.
+//! The entries of `[fixed.faces]` and `[moving.faces]`: a face's profile and its magnets.
 
 use super::error::{Result, Span};
 use super::magnet::{ListedMagnet, MAGNET_KEYS, MagnetKeys};
@@ -19,7 +19,7 @@ pub(super) enum Pattern {
 }
 
 impl Pattern {
-    /// The magnets of the mating face, which `span` asks for.
+    /// The magnets of the mating face, requested at `span`.
     fn mate(&self, span: Span) -> Self {
         match self {
             Self::Code(code, _) => Self::Code(code.mate(), vec![span; code.len()]),
@@ -31,19 +31,19 @@ impl Pattern {
     }
 }
 
-/// Everything that makes a face, before it is put on its tile.
+/// The contents of a face, before it is placed on its tile.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FaceContent {
     pub polyline: Polyline,
-    /// Which of its points lie on arcs.
+    /// The points that lie on arcs.
     pub arcs: Arcs,
     /// The profile that the face's own keys describe.
     pub profile: Option<Profile>,
-    /// How far the line is drawn back (m).
+    /// The distance by which the line is drawn back (m).
     pub fit: f64,
     pub pattern: Pattern,
     pub keys: MagnetKeys,
-    /// Where the file draws the line, draws it back and places the magnets.
+    /// The places in the file of the line, its fit and the magnets.
     pub line_span: Span,
     pub fit_span: Span,
     pub pattern_span: Span,
@@ -66,7 +66,7 @@ impl FaceContent {
     }
 }
 
-/// What the file says of one face: its own entry over `all`.
+/// The entries of one face: its own over `all`.
 #[derive(Clone, Copy)]
 pub(super) struct FaceEntry<'a> {
     own: Option<Section<'a>>,
@@ -100,7 +100,7 @@ impl<'a> FaceEntry<'a> {
         Ok(Self { own, all })
     }
 
-    /// The face that this one mates with, unless the face's own entry describes a face of its own.
+    /// The face that this one mates with, unless the face's own entry describes its contents.
     pub fn mates(&self) -> Option<Entry<'a>> {
         let own = self.own.and_then(|own| own.get("mates"));
         let of_its_own = self.own.as_ref().and_then(first_of).is_some();
@@ -118,8 +118,8 @@ impl<'a> FaceEntry<'a> {
             .find_map(|section| keys.iter().find_map(|key| section.get(key)))
     }
 
-    /// The content of a face that mates with none; `length` is the face's (m), `drawn` its line in
-    /// the tile's own outline and the arcs of that.
+    /// The contents of a face without `mates`; `length` is the face's (m), `drawn` its line and
+    /// arcs in the tile's drawn outline.
     pub fn content(
         &self,
         length: f64,
@@ -158,7 +158,7 @@ impl<'a> FaceEntry<'a> {
         })
     }
 
-    /// The content of a face that mates with `partner`.
+    /// The contents of a face that mates with `partner`.
     pub fn mate_of(&self, partner: &FaceContent, mates: &Entry) -> Result<FaceContent> {
         let complement = partner.mate(mates.span());
         let keys = self.magnet_keys()?.over(complement.keys);
@@ -170,7 +170,7 @@ impl<'a> FaceEntry<'a> {
         Ok(content)
     }
 
-    /// What the entry says of the face's shield; a mate does not take over its partner's.
+    /// The keys of the face's shield; a mate does not take over its partner's shield.
     pub fn shield_keys(&self) -> Result<ShieldKeys> {
         let mut keys = ShieldKeys::default();
         for section in self.sections() {
@@ -191,13 +191,13 @@ impl<'a> FaceEntry<'a> {
     }
 }
 
-/// The first key of a face's entry that `mates` would replace.
+/// The first key of a face's entry that conflicts with `mates`.
 fn first_of<'a>(section: &Section<'a>) -> Option<Entry<'a>> {
     let keys = ["code", "magnets", "profile"];
     keys.iter().find_map(|key| section.get(key))
 }
 
-/// Most places for magnets on a face.
+/// Largest number of places for magnets on a face.
 const MOST_PLACES: usize = 1000;
 
 fn check_count(entry: &Entry, count: usize) -> Result<()> {
@@ -232,7 +232,7 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     Ok(Pattern::Code(code, spans))
 }
 
-/// Which face a word or number means, among the names of a tile's faces.
+/// Finds the face that a word or number names.
 pub(super) fn find_face(names: &[Vec<String>], entry: &Entry, tile: &str) -> Result<usize> {
     let name = entry.name_or_number()?;
     let found = names.iter().position(|names| names.contains(&name));

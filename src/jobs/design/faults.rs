@@ -1,11 +1,11 @@
-//! The faults of a design, gathered while it is read on, as compilers do.
+//! The faults of a design, collected as compilers do: reading continues after a fault.
 
 use physics::order::Order;
 use std::cell::{Cell, RefCell};
 
 use super::error::{DesignError, Result};
 
-/// What is wrong so far.
+/// The faults found so far.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     found: RefCell<Vec<DesignError>>,
@@ -13,7 +13,7 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Adds a fault, once for each place and fix: what `all` says wrongly is wrong for every face.
+    /// Adds a fault, once per place and fix: a fault in `all` applies to every face.
     pub fn add(&self, fault: DesignError) {
         let mut found = self.found.borrow_mut();
         let same = |one: &DesignError| {
@@ -24,12 +24,12 @@ impl Faults {
         }
     }
 
-    /// Notes that a number is read on with a guess in its place.
+    /// Notes that reading continues with a guess in place of a number.
     pub fn guess(&self) {
         self.guessed.set(true);
     }
 
-    /// Ends the reading here if some number is a guess: what does not fit it may be no fault.
+    /// Stops if some number is a guess: further faults may be due to the guess.
     pub fn check_guesses(&self) -> Result<()> {
         match self.guessed.get() {
             true => self.check(),
@@ -37,12 +37,12 @@ impl Faults {
         }
     }
 
-    /// Ends the reading here if anything is wrong.
+    /// Stops if there is any fault.
     pub fn check(&self) -> Result<()> {
         self.found.borrow().first().cloned().map_or(Ok(()), Err)
     }
 
-    /// What comes of the reading: all that is wrong, in the order of the file, or its result.
+    /// Ends the reading: returns all faults in the order of the file, or the result.
     pub fn conclude<T>(self, result: Result<T>) -> Result<T> {
         if let Err(fault) = &result {
             self.add(fault.clone());

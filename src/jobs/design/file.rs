@@ -6,14 +6,14 @@ use std::path::Path;
 
 use crate::text::decode;
 
-/// Largest file that is read (bytes).
+/// Largest size of a file (bytes).
 const LARGEST: u64 = 16 << 20;
 
-/// The bytes of a regular file. Devices, pipes and directories are refused: some of them never
-/// end, and others wait for ever to be opened.
+/// The bytes of a regular file. Devices, pipes and directories are rejected: some of them never
+/// end, and opening others blocks forever.
 ///
 /// # Errors
-/// Where there is no such file, or it is not regular, too large or not readable.
+/// If there is no such file, or it is not regular, too large or not readable.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
     let found = metadata(path)?;
     if found.is_dir() {
@@ -22,7 +22,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
     if !found.is_file() {
         return Err(Error::other("it is not a regular file"));
     }
-    // Read to a bound all the same: a file may grow, and those of /proc say that they are empty.
+    // The size is limited here as well: a file may grow, and files in /proc claim to be empty.
     let mut bytes = Vec::new();
     File::open(path)?
         .take(LARGEST + 1)
@@ -37,12 +37,12 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
 /// The text of a regular file.
 ///
 /// # Errors
-/// As for [`read`], and where the bytes are no text.
+/// As for [`read`], or if the bytes are not text.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
     decode(read(path)?).map_err(Error::other)
 }
 
-/// Whether a file lies in a folder or below it, wherever links lead.
+/// Whether a file is in a folder or below it, with links resolved.
 pub(super) fn is_below(path: &Path, folder: &Path) -> bool {
     let folder = if folder.as_os_str().is_empty() {
         Path::new(".")

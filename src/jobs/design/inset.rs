@@ -1,16 +1,16 @@
-//! The fix of magnets that stick out: another inset.
+//! Suggests an inset for magnets that stick out.
 
 use super::blocks::{block, breaks_through, overlap, sticks_out};
 use super::build::BuiltTile;
 use physics::tile::Magnet;
 
-/// Insets that are tried between the surface and the far side of a tile.
+/// Number of insets tried between the surface and the far side of a tile.
 const TRIED: usize = 120;
-/// What is written: a tenth of a millimetre, or finer where that overshoots.
+/// Rounding of the suggestion: a tenth of a millimetre, or finer if that overshoots.
 const STEPS: [f64; 2] = [1e-4, 1e-6];
 
-/// What to write where magnets with this inset (m) stick out: the nearest one with which all of
-/// them, on both tiles, are sound. `None` where there is none.
+/// Suggests a replacement for an inset (m) with which magnets stick out: the nearest one that is
+/// valid for all of them, on both tiles. `None` if there is none.
 pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let all: Vec<_> = built.iter().map(|tile| Shifted::new(tile, inset)).collect();
     let sound = |to: f64| all.iter().all(|tile| tile.sits(to - inset));
@@ -20,7 +20,7 @@ pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     let nearest = tried
         .filter(|&to| sound(to))
         .min_by(|a, b| (a - inset).abs().total_cmp(&(b - inset).abs()))?;
-    // Between a wrong one and a right one, as near to the wrong one as is still right.
+    // Bisects between an invalid and a valid inset for the valid one closest to the invalid one.
     let (mut wrong, mut right) = (inset, nearest);
     for _ in 0..30 {
         let middle = (wrong + right) / 2.0;
@@ -49,12 +49,12 @@ pub(super) fn fix(built: &[BuiltTile; 2], inset: f64) -> Option<String> {
     })
 }
 
-/// Without the last bits of a product: 0.0032, not 0.0032000000000000003.
+/// Rounds off the last bits of a product: 0.0032, not 0.0032000000000000003.
 fn tidy(value: f64) -> f64 {
     format!("{value:.9}").parse().unwrap_or(value)
 }
 
-/// The magnets of a tile with one inset, to be moved together, and the others.
+/// The magnets of a tile that share one inset and are moved together, and the others.
 struct Shifted<'a> {
     built: &'a BuiltTile,
     moved: Vec<&'a Magnet>,
@@ -85,7 +85,7 @@ impl<'a> Shifted<'a> {
         })
     }
 
-    /// Whether all of them are inside the tile.
+    /// Whether all are inside the tile.
     fn sits(&self, deeper: f64) -> bool {
         let sits = |magnet: &Magnet| {
             !sticks_out(self.built, magnet) && !breaks_through(self.built, magnet)

@@ -10,7 +10,7 @@ use physics::tile::grade::Grade;
 use physics::tile::magnet::Shape;
 use physics::tile::strength::{Strength, pull};
 
-/// The magnet keys of one place in the file; what is not given there is `None`.
+/// The magnet keys of one place in the file; keys that are not given are `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct MagnetKeys {
     pub size: Option<Size>,
@@ -20,7 +20,7 @@ pub(super) struct MagnetKeys {
     pub axis: Option<Axis>,
 }
 
-/// How large a magnet is (m).
+/// The size of a magnet (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Size {
     /// A block: along its axis, and the two others.
@@ -29,7 +29,7 @@ pub(super) enum Size {
     Disc(Option<f64>, Option<f64>),
 }
 
-/// Where a magnet's axis points.
+/// The direction of a magnet's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Axis {
     /// At this angle (rad) from the face's normal.
@@ -41,7 +41,7 @@ pub(super) enum Axis {
 /// A magnet by itself.
 pub(super) struct Body {
     pub shape: Shape,
-    /// As it is sold, the one along its axis first (m).
+    /// Its dimensions, the one along its axis first (m).
     pub size: [f64; 3],
     /// A m^2.
     pub moment: f64,
@@ -65,7 +65,7 @@ pub(super) const MAGNET_KEYS: [&str; 12] = [
 ];
 
 impl MagnetKeys {
-    /// Reads what a table says of a magnet; which other keys it may hold is the caller's affair.
+    /// Reads the magnet keys of a table; the caller checks the other keys.
     pub fn read(section: &Section) -> Result<Self> {
         let strength = strength(section);
         let [pitch, inset] = [("pitch", quantity::PITCH), ("inset", quantity::INSET)]
@@ -84,7 +84,7 @@ impl MagnetKeys {
         })
     }
 
-    /// These keys, and those of `lower` where these are silent.
+    /// These keys, with missing ones from `lower`.
     pub fn over(self, lower: Self) -> Self {
         Self {
             size: Size::over(self.size, lower.size),
@@ -106,7 +106,7 @@ impl MagnetKeys {
         }
     }
 
-    /// The magnet, if all that it must have is given; or which key is not.
+    /// The magnet, if all required keys are given; otherwise the missing key.
     pub fn body(&self) -> std::result::Result<Body, &'static str> {
         let (shape, size) = self.size.ok_or("size")?.told()?;
         let strength = self.strength.ok_or("remanence")?;
@@ -117,7 +117,7 @@ impl MagnetKeys {
         })
     }
 
-    /// How much room it takes along a face (m).
+    /// Its width along a face (m).
     pub fn width(&self) -> Option<f64> {
         let (_, size) = self.size?.told().ok()?;
         Some(size[1])
@@ -136,7 +136,7 @@ impl Body {
 }
 
 impl Size {
-    /// A size, and what it leaves open of another one of its kind.
+    /// A size, with missing dimensions from another one of the same kind.
     fn over(upper: Option<Self>, lower: Option<Self>) -> Option<Self> {
         Some(match (upper, lower) {
             (Some(Self::Disc(height, diameter)), Some(Self::Disc(below, across))) => {
@@ -146,7 +146,7 @@ impl Size {
         })
     }
 
-    /// The shape and the size, the one along the axis first; or which key is not given.
+    /// The shape and the size, the one along the axis first; or the missing key.
     fn told(self) -> std::result::Result<(Shape, [f64; 3]), &'static str> {
         Ok(match self {
             Self::Block(size) => (Shape::Block, size),
@@ -158,7 +158,7 @@ impl Size {
     }
 }
 
-/// How large a table says its magnets are: a block has a size, a disc a diameter and a height.
+/// Reads the size of magnets: a block has a size, a disc a diameter and a height.
 fn size(section: &Section) -> Result<Option<Size>> {
     let [shape, size, diameter, height] =
         ["shape", "size", "diameter", "height"].map(|key| section.get(key));
@@ -197,7 +197,7 @@ fn size(section: &Section) -> Result<Option<Size>> {
     Ok(Some(Size::Disc(length(height)?, length(diameter)?)))
 }
 
-/// The one way in which a table says how strong its magnets are.
+/// Reads the strength of magnets, for which a table must use exactly one key.
 fn strength(section: &Section) -> Result<Option<Strength>> {
     let mut given: Vec<Entry> = STRENGTHS
         .iter()
@@ -231,7 +231,7 @@ fn grade(entry: &Entry) -> Result<Grade> {
     Grade::named(name).ok_or_else(|| {
         let lower = name.to_lowercase();
         let help = match lower.starts_with("aln") || lower.starts_with("lng") {
-            // What is left of its remanence depends on its length and on what it has been through.
+            // Its remaining remanence depends on its length and its history.
             true => {
                 "short AlNiCo magnets demagnetise themselves: measure the field at the pole, \
                  surface_field = \"60 mT\", or give their pull"
@@ -245,14 +245,14 @@ fn grade(entry: &Entry) -> Result<Grade> {
     })
 }
 
-/// The remanence (T) that no material comes near; a moment or a surface field that asks for more
-/// was given in another unit.
+/// A remanence (T) far beyond any material; a moment or a surface field that implies more was given
+/// in another unit.
 const IMPOSSIBLE_REMANENCE: f64 = 10.0;
-/// The largest remanence (T) of magnets that can be bought; what a pull says beyond it, the pull or
-/// the size is wrong.
+/// The largest remanence (T) of magnets on the market; if a pull implies more, the pull or the size
+/// is wrong.
 const STRONGEST: f64 = 1.7;
 
-/// What is wrong with the strength of a block, if anything.
+/// Checks whether the strength of a block is possible.
 pub(super) fn impossible(body: &Body, strength: Option<Strength>) -> Option<(String, String)> {
     let Body {
         shape,
@@ -330,7 +330,7 @@ impl ListedMagnet {
         })
     }
 
-    /// The magnet that binds it on the mating face, which `span` asks for.
+    /// The magnet that binds it on the mating face, requested at `span`.
     pub fn mate(self, span: Span) -> Self {
         Self {
             at: -self.at,

@@ -1,35 +1,36 @@
 //! The design file: a pair of tiles in TOML, read and checked.
 //!
 //! [`Design::load`] turns a file into a [`Pair`] of tiles, the configuration in which they are
-//! meant to bind, and the table they float on. Everything that can be wrong with a file is found here and
-//! told as a [`DesignError`] with line, column and the fix; behind this door tiles are sound.
+//! meant to bind, and the table they float on. All mistakes in a file are found here and reported
+//! as a [`DesignError`] with line, column and fix, so that all tiles beyond this point are valid.
 //! Lengths are in m, masses in kg, angles in rad, fields in T, moments in A m^2; a number in quotes
-//! may carry another unit: `"12 cm"`, `"100 g"`, `"30 deg"`, `"300 mT"`. Everything that is wrong
-//! with a file is told at once, as far as it can be read.
+//! may carry another unit: `"12 cm"`, `"100 g"`, `"30 deg"`, `"300 mT"`. All mistakes in a file are
+//! reported together, as far as it can be read.
 //!
-//! What the keys mean where a choice had to be made:
+//! The meaning of keys that leave a choice:
 //!
 //! - A face's own entry overrides `all` key by key. `code`, `magnets` or `profile` in a face's own
-//!   entry set aside a `mates` of `all`.
-//! - A mate takes over its partner's line, code or magnets *and* its `magnet` keys (another pitch
-//!   or size would keep it from being the complement); `magnet` keys given for the mate itself
-//!   have the last word.
-//! - The outermost point of a magnet's block lies `inset` behind the outline at the magnet's s,
-//!   measured along the face's normal. For a block along the normal this is the centre of its
-//!   outer pole face. At a step of the outline, the lower side counts; on a face drawn back by
-//!   `fit`, the line drawn back.
+//!   entry override a `mates` of `all`.
+//! - A mate takes over its partner's line, code or magnets *and* its `magnet` keys (with another
+//!   pitch or size it would not be the complement); `magnet` keys given for the mate itself take
+//!   precedence.
+//! - The outermost point of a magnet's block is `inset` behind the outline at the magnet's s,
+//!   measured along the face's normal. For a block along the normal this is the centre of its outer
+//!   pole face. At a step of the outline, the lower side counts; on a face drawn back by `fit`, the
+//!   line drawn back.
 //! - `[shield]` gives the constants of every face's soft-iron shield: `attenuation` (A), `length`
-//!   (l, m), `width` (delta) and `front_gain` (G, 1 where not given), see
+//!   (l, m), `width` (delta) and `front_gain` (G, default 1), see
 //!   [`physics::potential::shielding`]. `shield` under `[fixed]` or `[moving]`, and in a face's
-//!   entry, overrides them key by key; `shield = false` takes the shield away. A mate does not
-//!   take over its partner's shield, which is iron of the other tile. `[shield] rule =
-//!   "nearest-face"` takes no constants.
-//! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths start
-//!   from the design file's folder. How they are read is told in `svg` below this module: sizes in
-//!   physical units or with a `unit` or `dpi`, curves to within 1/2150 of the drawn shape's size. A face
-//!   of a drawn outline follows its drawn line unless it has a `profile` or `mates`.
-//! - Faces that are to meet may differ by what no cutter resolves, up to 50 um or a thousandth of
-//!   their length: see `tolerance`, which says what is made of them.
+//!   entry, overrides them key by key; `shield = false` removes the shield. A mate does not take
+//!   over its partner's shield, which is iron of the other tile. `[shield] rule = "nearest-face"`
+//!   takes no constants.
+//! - Drawings (`shape = "svg"` of a profile, `outline` of a tile) are SVG files; their paths are
+//!   relative to the design file's folder. The module `svg` below describes how they are read:
+//!   sizes in physical units or with a `unit` or `dpi`, curves to within 1/2150 of the drawn
+//!   shape's size. A face of a drawn outline follows its drawn line unless it has a `profile` or
+//!   `mates`.
+//! - Faces that meet may differ by less than a cutter resolves, up to 50 um or a thousandth of
+//!   their length: see `tolerance` for how they are treated.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
 //!   opposite (`S`).
 
@@ -114,27 +115,25 @@ use tile::{TILES, TileEntry};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The design's name; the file's where it gives none.
+    /// The design's name; by default the file's.
     pub name: String,
-    /// What the file says of it; empty where it says nothing.
+    /// The design's description; empty if there is none.
     pub description: String,
     /// SHA-256 of the file's bytes, in hexadecimal.
     pub sha256: String,
     /// Size of the air table (m) along x and along y.
     pub table: [f64; 2],
-    /// The two tiles, and how they are meant to bind.
+    /// The two tiles and their intended bond.
     pub pair: Arc<Pair>,
-    /// How their magnets are modelled, and the shields behind them.
+    /// The magnet model, and the shields behind the magnets.
     pub interaction: Interaction,
-    /// Centre to centre of neighbouring magnets (m), as `[magnet]` gives it.
+    /// Distance between centres of neighbouring magnets (m), as given in `[magnet]`.
     pub pitch: Option<f64>,
-    /// The kinds of magnets that are given by what shops say of them, a grade or a pull, each with
-    /// its size (m).
+    /// The kinds of magnets specified by a shop's grade or pull, each with its size (m).
     pub sold: Vec<(Strength, Magnet)>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
-    /// Doubts that do not keep the design from being used, such as a magnet whose corners break
-    /// through a curved surface.
+    /// Non-fatal warnings, such as a magnet whose corners break through a curved surface.
     pub warnings: Vec<DesignError>,
 }
 
@@ -154,7 +153,7 @@ impl Design {
     /// Reads a design file.
     ///
     /// # Errors
-    /// Where the file cannot be read, or is no sound design.
+    /// If the file cannot be read, or is not a valid design.
     pub fn load(path: &Path) -> Result<Self> {
         let file = path.display().to_string();
         let bytes = file::read(path).map_err(|error| {
@@ -181,19 +180,19 @@ impl Design {
         }
     }
 
-    /// Reads a design from the text of its file; `file` is its name, for messages and where the
-    /// design gives no name of its own.
+    /// Reads a design from the text of its file; `file` is its name, for messages and as the
+    /// default name of the design.
     ///
     /// # Errors
-    /// Where the text is no sound design.
+    /// If the text is not a valid design.
     pub fn parse(text: &str, file: &str) -> Result<Self> {
         Self::read(text, file, Drawings::default())
     }
 
-    /// Reads a design whose drawings are held: the text of each by its name in the design.
+    /// Reads a design whose drawings are given as text, by their names in the design.
     ///
     /// # Errors
-    /// Where the text is no sound design.
+    /// If the text is not a valid design.
     pub fn parse_with(text: &str, file: &str, drawings: &BTreeMap<String, String>) -> Result<Self> {
         Self::read(text, file, Drawings::new(Some(drawings)))
     }
@@ -219,7 +218,7 @@ impl Design {
         })
     }
 
-    /// The design of a file; whatever of it can be read is read before the first fault is told.
+    /// The design of a file; reads as much of it as possible before it reports faults.
     fn of(source: Source, root: &DeTable) -> Result<Self> {
         let faults = source.faults;
         let root = Section::root(source, root, "the design file");
@@ -233,7 +232,7 @@ impl Design {
         let target = target::read(&root, &entries);
         let shields = shields(&root, &entries);
         let contents = tile::resolve(&entries, keys.clone().unwrap_or_default());
-        // From here on parts are put together, of which each is sound by itself.
+        // From here on parts are combined, each of which is valid by itself.
         faults.check()?;
         let (table, keys, contents, target) = (table?, keys?, contents?, target?);
         let [fixed, moving] = [0, 1].map(|i| build::build(&entries[i], &contents[i]));
@@ -272,9 +271,9 @@ impl Design {
         Ok(design)
     }
 
-    /// The space of configurations of the moving tile: its reference point on the table, rho its
-    /// radius of gyration, the tiles free of each other where their circles about the reference
-    /// points are.
+    /// The space of configurations of the moving tile: its reference point is on the table, rho is
+    /// its radius of gyration, and the tiles are free of each other where the circles around their
+    /// reference points are.
     pub fn space(&self) -> ConfigurationSpace {
         ConfigurationSpace {
             half_size: self.table.map(|size| size / 2.0),
@@ -283,12 +282,12 @@ impl Design {
         }
     }
 
-    /// The problem that the design poses.
+    /// The problem of the design.
     pub fn problem(&self) -> Problem {
         Problem::new(self.space(), self.pair.clone(), &self.interaction)
     }
 
-    /// Refuses a table on which the tiles cannot bind or cannot come apart.
+    /// Checks that the tiles can bind and come apart on the table.
     fn check_table(&self, root: &Section) -> Result<()> {
         let space = self.space();
         let entry = root
@@ -313,8 +312,8 @@ impl Design {
     }
 }
 
-/// The bound configuration, and a doubt where the target faces overlap a little there; where only
-/// that helps, the moving tile is built anew with its face drawn back by the overlap.
+/// The bound configuration, and a warning if the target faces overlap a little there; if necessary,
+/// the moving tile is rebuilt with its face drawn back by the overlap.
 fn bound(
     target: &target::Target,
     entries: &[TileEntry; 2],
@@ -326,7 +325,7 @@ fn bound(
         Bound::At(bound, doubt) => return Ok((bound, doubt)),
         Bound::Overlap(overlap) => overlap,
     };
-    // With room for what rounding makes of a corner.
+    // With a tolerance for rounded corners.
     let drawn = overlap * (1.0 + 1e-6);
     let mut moving = contents[1].clone();
     moving[target.faces.1].fit += drawn;
@@ -340,7 +339,7 @@ fn bound(
     );
     match target.meet(&built[0].tile, &built[1].tile)? {
         Bound::At(bound, _) => Ok((bound, Some(doubt))),
-        // Not the face's line, but something beside it is in the way.
+        // Not the face's line but something beside it is in the way.
         Bound::Overlap(_) => Err(target.blocked(overlap)),
     }
 }
@@ -382,7 +381,7 @@ fn magnet_keys(root: &Section) -> Result<MagnetKeys> {
     MagnetKeys::read(&section)
 }
 
-/// The shields of both tiles, and a doubt where the file describes shields in vain.
+/// The shields of both tiles, and a warning if the file describes shields that have no effect.
 fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<DesignError>)> {
     let (rule, keys) = shield::read(root)?;
     let mut shields = Shields {
@@ -402,7 +401,7 @@ fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<
     Ok((shields, None))
 }
 
-/// Refuses shields behind magnets whose energy is not known with them.
+/// Rejects shields behind magnets for which there is no model.
 fn check_shielded(root: &Section, shields: &Shields, built: &[BuiltTile; 2]) -> Result<()> {
     let is_known = |magnet: &Magnet| magnet.form == Form::default();
     let mut magnets = built.iter().flat_map(|built| &built.tile.magnets);

@@ -1,4 +1,4 @@
-//! Magnets where none can be: in one another, or out of the tile.
+//! Impossible placements: magnets that overlap each other or leave the tile.
 
 use ordered_float::OrderedFloat;
 
@@ -13,12 +13,12 @@ use super::tile::TileEntry;
 use physics::contact::{Placement, separation};
 use physics::tile::assembly::face_edges;
 
-/// Refuses magnets that overlap or stick out of their tile.
+/// Rejects magnets that overlap or stick out of their tile.
 ///
 /// A block in a straight face never leaves the tile, but on a curved or slanted line a corner of
-/// its outer pole face may break through the surface while the block as a whole sits in the tile.
-/// That is a matter of a millimetre of inset and changes no energy, so it is returned as a
-/// warning, one for each face. So is a tile without any magnet.
+/// its outer pole face may break through the surface although the block as a whole is inside the
+/// tile. A millimetre of inset fixes this and no energy depends on it, so it is returned as a
+/// warning, one for each face. A tile without any magnet also gives a warning.
 pub(super) fn check_magnets(
     entries: &[TileEntry; 2],
     built: &[BuiltTile; 2],
@@ -54,7 +54,7 @@ fn outside(section: &Section, built: &[BuiltTile; 2], tile: usize) {
 fn overlaps(entry: &TileEntry, built: &BuiltTile) {
     let magnets = &built.tile.magnets;
     let blocks: Vec<_> = magnets.iter().map(block).collect();
-    // Which magnet of its face it is, counter-clockwise from 1.
+    // The index of a magnet on its face, counter-clockwise from 1.
     let name = |i: usize| {
         let face = magnets[i].face;
         let number = magnets[..=i].iter().filter(|m| m.face == face).count();

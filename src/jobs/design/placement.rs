@@ -1,4 +1,4 @@
-//! Where the magnets of a face sit in their tile.
+//! The positions of a face's magnets in their tile.
 
 use nalgebra::Vector2;
 
@@ -13,7 +13,7 @@ use physics::tile::barcode::Pole;
 use physics::tile::magnet::{Form, Standing};
 use physics::tile::{Face, Magnet};
 
-/// The magnets of a face with all that they take from the keys above them.
+/// The magnets of a face, with inherited keys.
 pub(super) fn placed(
     entry: &TileEntry,
     content: &FaceContent,
@@ -102,7 +102,7 @@ pub(super) fn magnet(
         _ => 0.0,
     };
     let size = body.in_plane(stands.is_some());
-    // How far the block reaches from its centre towards the surface.
+    // The extent of the block from its centre towards the surface.
     let reach = (size[0] * libm::cos(axis).abs() + size[1] * libm::sin(axis).abs()) / 2.0;
     let height = surface - listed.keys.inset.unwrap_or(0.0) - reach;
     let outward = match listed.pole {
@@ -122,7 +122,7 @@ pub(super) fn magnet(
     })
 }
 
-/// Whether a magnet stands, or what is wrong with its pole.
+/// Whether a magnet's axis points up, or what is wrong with its pole.
 fn standing(listed: &ListedMagnet) -> std::result::Result<Option<Standing>, (String, String)> {
     let up = listed.keys.axis == Some(Axis::Up);
     let letter = listed.pole.letter();

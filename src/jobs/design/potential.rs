@@ -1,13 +1,13 @@
 //! The section `[potential]`: how magnets are modelled.
 //!
-//! A design that says nothing has blocks, which is what magnets are. A set of words that says nothing
-//! has the paper's dipoles, by which words are searched.
+//! The default of a design is blocks, since real magnets are blocks. The default of a set of words
+//! is the paper's dipoles, with which words are searched.
 
 use super::error::Result;
 use super::reader::Section;
 use physics::potential::MagnetModel;
 
-/// The model that the file says, `silent` where it says none.
+/// The model stated in the file, or else `silent`.
 pub(super) fn read(root: &Section, silent: MagnetModel) -> Result<MagnetModel> {
     let Some(section) = root.section("potential", "[potential]")? else {
         return Ok(silent);

@@ -1,4 +1,4 @@
-//! The key `profile` of a face: which line its outline follows.
+//! The key `profile` of a face: the shape of its outline.
 
 use ordered_float::OrderedFloat;
 
@@ -9,14 +9,14 @@ use super::reader::{Entry, Section, all};
 use super::svg;
 use physics::tile::profile::{Polyline, Profile, ProfileError, Waveform};
 
-/// A shape: its name, the keys of its profiles, and what reads one on a face of some length (m).
+/// A shape: its name, its keys, and the function that reads it for a face of a given length (m).
 type Shape = (
     &'static str,
     &'static [&'static str],
     fn(&Section, f64) -> Result<Profile>,
 );
 
-/// The shapes that can be read.
+/// The known shapes.
 pub(super) const SHAPES: [Shape; 6] = [
     ("flat", &["shape"], |_, _| Ok(Profile::Flat)),
     ("tab", &["shape", "width", "depth", "draft", "offset"], tab),
@@ -30,13 +30,14 @@ pub(super) const SHAPES: [Shape; 6] = [
     ),
 ];
 
-/// Most points of a face's line, curves drawn as chords: contact with more takes too long.
+/// Largest number of points of a face's line, with curves as chords: contact with more takes too
+/// long.
 const MOST_POINTS: usize = 4000;
 
-/// Most teeth on a face.
+/// Largest number of teeth on a face.
 const MOST_TEETH: u32 = 200;
 
-/// The line of a face of the given length (m), as its `profile` draws it.
+/// The line of a face of the given length (m), from its `profile`.
 pub(super) fn read_profile(entry: &Entry, length: f64) -> Result<(Profile, Polyline)> {
     let section = entry.section("`profile`")?;
     let example = "write shape = \"flat\", \"tab\", \"teeth\", \"arc\", \"points\" or \"svg\"";
@@ -136,7 +137,7 @@ fn depth(section: &Section) -> Result<f64> {
         .number(quantity::PROFILE_DEPTH)
 }
 
-/// A profile that cannot be drawn, as a fault of the key that is to be changed.
+/// The fault of an impossible profile, at the key to change.
 fn fix(section: &Section, profile: &Profile, error: ProfileError) -> DesignError {
     match error {
         ProfileError::SidesMeet { largest_draft } => {
@@ -169,7 +170,7 @@ fn fix(section: &Section, profile: &Profile, error: ProfileError) -> DesignError
     }
 }
 
-/// Refuses a profile that leaves its face to the left or to the right.
+/// Rejects a profile that is wider than its face.
 fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: f64) -> Result<()> {
     let half = length / 2.0;
     let farthest = line
@@ -196,7 +197,7 @@ fn within_face(section: &Section, profile: &Profile, line: &[[f64; 2]], length: 
     Err(fault(section, entry, message, help))
 }
 
-/// A fault of a key of a profile, or of all of it.
+/// A fault of a key of a profile, or of the profile as a whole.
 fn fault(
     section: &Section,
     entry: Option<Entry>,
@@ -215,7 +216,7 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
         (key, fix)
     };
     match *profile {
-        // Wider than its base: by its depth.
+        // It is wider than its base, because of its depth.
         Profile::Tab {
             width,
             draft,
@@ -242,7 +243,7 @@ fn narrower(profile: &Profile, half: f64) -> (&'static str, String) {
     }
 }
 
-/// How deep a profile is (m), if that is one of its keys.
+/// The depth of a profile (m), if it has this key.
 pub(super) fn depth_of(profile: &mut Profile) -> Option<&mut f64> {
     match profile {
         Profile::Tab { depth, .. } | Profile::Arc { depth, .. } | Profile::Teeth { depth, .. } => {

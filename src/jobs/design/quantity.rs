@@ -1,30 +1,30 @@
-//! Quantities of a design file: their units, and which magnitudes give one pause.
+//! The quantities of a design file: their units, and the magnitudes that are implausible.
 
 use std::f64::consts::{PI, TAU};
 
 use super::units::{self, Units};
 
-/// A kind of quantity, and the magnitudes of it that tiles and magnets have.
+/// A kind of quantity, with its range for tiles and magnets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantity {
     kind: Kind,
     sign: Sign,
-    /// Magnitudes taken without a question.
+    /// Magnitudes accepted without question.
     accepted: (f64, f64),
-    /// Magnitudes that a question may propose.
+    /// Magnitudes that may be proposed.
     typical: (f64, f64),
 }
 
-/// What is measured in the same units.
+/// A dimension with its units.
 #[derive(Clone, Copy, Debug)]
 struct Kind {
-    /// What the unit is called after a number: `m`.
+    /// The symbol of the unit after a number: `m`.
     unit: &'static str,
-    /// What to tell a reader who took another unit.
+    /// The message for a user who used another unit.
     rule: &'static str,
-    /// Other units that the number may have been given in: how many make one, and their name.
+    /// Other units that may have been meant: how many make one, and their name.
     others: &'static [(f64, &'static str)],
-    /// Units that may stand behind a number in quotes.
+    /// Units allowed after a number in quotes.
     units: Units,
 }
 
@@ -115,7 +115,7 @@ pub(super) const FIT: Quantity = LENGTH.not_negative(0.05, (1e-5, 5e-3));
 pub(super) const PROFILE_WIDTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 2.0));
 pub(super) const PROFILE_DEPTH: Quantity = LENGTH.any(1.0, (1e-4, 0.1));
 pub(super) const ALONG_FACE: Quantity = LENGTH.any(10.0, (1e-3, 2.0));
-/// A user unit of a drawing: from what 25,400 dots per inch leave to drawings in metres.
+/// A user unit of a drawing: from that of 25,400 dots per inch to drawings in metres.
 pub(super) const DRAWING_UNIT: Quantity = LENGTH.positive((1e-6, 1.0), (1e-5, 0.01));
 /// Dots per inch of a drawing.
 pub(super) const DPI: Quantity = Kind {
@@ -125,11 +125,11 @@ pub(super) const DPI: Quantity = Kind {
     units: &[("dpi", 1.0), ("ppi", 1.0)],
 }
 .positive((1.0, 25_400.0), (10.0, 2400.0));
-/// The lean of a side: below a right angle.
+/// The draft of a side: below a right angle.
 pub(super) const DRAFT: Quantity = ANGLE.any(1.5, (0.0, 1.5));
-/// A direction: up to a whole turn either way.
+/// A direction: up to a full turn either way.
 pub(super) const AXIS: Quantity = ANGLE.any(TAU, (0.0, TAU));
-/// How much of the energy a shield takes away behind it, close by.
+/// The share of the energy that a shield removes behind it, at short distance.
 pub(super) const ATTENUATION: Quantity =
     share("the attenuation is a fraction").not_negative(1.0, (0.0, 1.0));
 pub(super) const SHIELD_LENGTH: Quantity = LENGTH.positive((1e-4, 10.0), (1e-3, 1.0));
@@ -139,16 +139,16 @@ pub(super) const SHIELD_WIDTH: Quantity =
 pub(super) const FRONT_GAIN: Quantity =
     share("the gain is a factor, 1 for a shield that only attenuates")
         .positive((0.1, 10.0), (0.1, 10.0));
-/// Of a tile.
+/// The mass of a tile.
 pub(super) const MASS: Quantity = WEIGHT.positive((1e-9, 1e3), (1e-3, 10.0));
 pub(super) const REMANENCE: Quantity = FIELD.positive((1e-3, 2.5), (0.05, 1.6));
 pub(super) const SURFACE_FIELD: Quantity = FIELD.positive((1e-5, 1.25), (0.01, 0.8));
-/// Of a magnet off thick steel.
+/// The pull-off force of a magnet from thick steel.
 pub(super) const PULL: Quantity = FORCE.positive((1e-4, 1e5), (0.01, 2e3));
 pub(super) const MOMENT: Quantity = DIPOLE.positive((1e-9, 1e4), (1e-4, 100.0));
 
 impl Quantity {
-    /// Whether `value`, given for `what`, may stand; or what is wrong with it and the fix.
+    /// Checks `value`, given for `what`; otherwise returns what is wrong with it and the fix.
     pub fn check(&self, what: &str, value: f64) -> Result<(), (String, String)> {
         let help = |text: &str| format!("{text}; {}", self.kind.rule);
         let value_and_unit = self.with_unit(value);
@@ -188,17 +188,17 @@ impl Quantity {
         Err((message, help(&format!("{what} must be {limits}"))))
     }
 
-    /// A number with a unit behind it, in the file's own unit.
+    /// A number with a unit, converted to the file's own unit.
     pub fn read(&self, text: &str) -> Option<f64> {
         units::read(text, self.kind.units)
     }
 
-    /// The units that may stand behind a number in quotes.
+    /// The units allowed after a number in quotes.
     pub fn unit_names(&self) -> impl Iterator<Item = &'static str> {
         self.kind.units.iter().map(|(name, _)| *name)
     }
 
-    /// What to write for a number, from one that is there in quotes.
+    /// An example of how to write a quoted number correctly.
     pub fn example(&self, text: &str) -> String {
         let with_unit = self.kind.units.iter().find(|(_, factor)| *factor > 1.0);
         let (name, _) = with_unit.unwrap_or(&self.kind.units[0]);
@@ -228,8 +228,8 @@ impl Quantity {
         }
     }
 
-    /// What a number without a unit may mean: without the quotes, or with the units in which it has a
-    /// common magnitude.
+    /// Possible meanings of a quoted number without a unit: without the quotes, or with units in
+    /// which it has a common magnitude.
     fn meant(&self, value: f64) -> Vec<String> {
         let (low, high) = self.typical;
         let common = |meant: f64| (low..=high).contains(&meant.abs());
@@ -254,7 +254,7 @@ impl Quantity {
         }
     }
 
-    /// A magnitude that may stand, near to what was meant by one that may not.
+    /// A valid magnitude close to the intended one, in place of an invalid one.
     pub fn guess(&self, value: f64) -> f64 {
         let (low, high) = self.typical;
         let mut meant = self.kind.others.iter().map(|(factor, _)| value / factor);
@@ -266,12 +266,12 @@ impl Quantity {
             .unwrap_or_else(|| value.abs().clamp(low, high).copysign(sign))
     }
 
-    /// What may have been meant by a magnitude that is uncommonly large; `None` where it is not.
+    /// Possible meanings of an unusually large magnitude; `None` if it is not.
     pub fn doubt(&self, value: f64) -> Option<Vec<String>> {
         (value.abs() > self.typical.1).then(|| self.proposals(value))
     }
 
-    /// A number with the unit, if there is one.
+    /// A number with its unit, if there is one.
     fn with_unit(&self, value: f64) -> String {
         format!("{value} {}", self.kind.unit).trim_end().to_owned()
     }

@@ -1,4 +1,4 @@
-//! Typed reading of a TOML tree in which every key and value knows its place in the file.
+//! Typed reading of a TOML tree in which every key and value knows its position in the file.
 
 use physics::order::Order;
 use toml::Spanned;
@@ -12,9 +12,9 @@ use super::source::Source;
 #[derive(Clone, Copy)]
 pub(super) struct Section<'a> {
     pub source: Source<'a>,
-    /// What a message calls it: `[fixed.faces]`.
+    /// Its name in messages: `[fixed.faces]`.
     name: &'a str,
-    /// The byte range that stands for it where something is missing from it.
+    /// The byte range for faults about missing keys.
     pub span: Span,
     table: &'a DeTable<'a>,
 }
@@ -31,7 +31,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Notes every key that is not among `known`, naming the nearest one that is.
+    /// Notes every key that is not among `known`, with the nearest known one.
     pub fn allow(&self, known: &[&str]) {
         let entries = self.entries().into_iter();
         for entry in entries.filter(|entry| !known.contains(&entry.key)) {
@@ -63,7 +63,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The entry for `key`; where it is missing, `help` says what to write.
+    /// The entry for `key`; if it is missing, `help` says what to write.
     pub fn require(&self, key: &str, help: &str) -> Result<Entry<'a>> {
         self.get(key)
             .ok_or_else(|| self.error(format!("{} lacks `{key}`", self.name), help))
@@ -90,7 +90,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// What all of some readings give, each of which is made even where one before it fails.
+/// The results of several readings; each is attempted even if an earlier one fails.
 pub(super) fn all<T>(results: impl Iterator<Item = Result<T>>) -> Result<Vec<T>> {
     let results: Vec<Result<T>> = results.collect();
     results.into_iter().collect()
@@ -157,9 +157,8 @@ impl<'a> Entry<'a> {
         self.value.get_ref().as_bool()
     }
 
-    /// A text without control characters: a terminal would obey them, and no picture or page can
-    /// hold them. Lines may end in it, and have tabs.
-    /// The value, if it is a string.
+    /// The value as a text without control characters, except line ends and tabs: a terminal would
+    /// obey them, and pictures and pages cannot contain them. `None` if it is not a string.
     pub fn text(&self) -> Option<&'a str> {
         self.value.get_ref().as_str()
     }
@@ -176,7 +175,7 @@ impl<'a> Entry<'a> {
     }
 
     fn without(&self, text: &'a str, refused: impl Fn(char) -> bool) -> Result<&'a str> {
-        // The last two are no characters of XML either.
+        // The last two are not characters of XML either.
         let odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
         match text.chars().find(|&c| odd(c) && refused(c)) {
             None => Ok(text),
@@ -190,8 +189,8 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The place of character `index` of a string: the character itself where the string is
-    /// written out plainly, the whole value where escapes or several lines hide it.
+    /// The place of character `index` of a string: the character itself if the string is written
+    /// plainly, the whole value if it has escapes or several lines.
     pub fn character_span(&self, index: usize) -> Span {
         let span = self.value.span();
         let written = &self.source.text[span.clone()];
@@ -213,7 +212,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The word, one of `known`; any other is answered with the nearest of them.
+    /// The word, one of `known`; the error for any other names the nearest one.
     pub fn word<T: Copy>(&self, known: &[(&str, T)]) -> Result<T> {
         let word = self.string()?;
         let found = known.iter().find(|(name, _)| *name == word);
@@ -224,7 +223,8 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// Whether it is a number, or a text that begins with one, for a quantity that may be a word.
+    /// Whether it is a number or a text that begins with one, for entries that can be a quantity or
+    /// a word.
     pub fn is_quantity(&self) -> bool {
         let text = self.value.get_ref().as_str();
         text.is_none_or(|text| {
@@ -233,7 +233,7 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// A number; one with a unit in quotes, where `quantity` says which units there are.
+    /// A number; also one with a unit in quotes, if `quantity` gives the units.
     fn raw_number(&self, quantity: Option<Quantity>) -> Result<f64> {
         let parsed = match self.value.get_ref() {
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
@@ -257,7 +257,7 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// A number; one that cannot stand is noted, and reading goes on with a guess.
+    /// A number; an invalid one is noted, and reading continues with a guess.
     pub fn number(&self, quantity: Quantity) -> Result<f64> {
         let value = self.raw_number(Some(quantity))?;
         match quantity.check(&format!("`{}`", self.key), value) {
@@ -317,7 +317,7 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// Words from elsewhere, each with a word that is known where it is meant, and what to write.
+/// Common wrong words, each with the known word it replaces, and what to write.
 const ELSEWHERE: [(&str, &str, &str); 9] = [
     ("length", "diameter", DISC_OR_BLOCK),
     ("thickness", "diameter", DISC_OR_BLOCK),
@@ -344,7 +344,7 @@ const ELSEWHERE: [(&str, &str, &str); 9] = [
 const DISC_OR_BLOCK: &str = "a disc has `diameter` and `height`, where the height is along the \
     magnetic axis; a block has size = [...]";
 
-/// Names the known word nearest to `word`, or all of them where none is near.
+/// Names the known word nearest to `word`, or all of them if none is near.
 pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
     let elsewhere = ELSEWHERE
         .iter()
@@ -352,7 +352,7 @@ pub(crate) fn nearest_help(word: &str, known: &[&str]) -> String {
     if let Some((.., help)) = elsewhere {
         return (*help).to_owned();
     }
-    // Of numbers none is near another.
+    // Numbers are never near each other.
     let number = word.bytes().all(|b| b.is_ascii_digit());
     let nearest = known
         .iter()

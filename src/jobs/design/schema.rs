@@ -1,12 +1,13 @@
 //! The JSON Schema of the design file, and a design to start from.
 //!
-//! The schema is there for editors: it knows the keys, their types, units and limits. What takes
-//! geometry to tell, such as tiles that overlap, only [`Design::load`](super::Design::load) finds.
+//! The schema is for editors: it describes the keys, their types, units and limits. Mistakes that
+//! depend on geometry, such as overlapping tiles, are found only by
+//! [`Design::load`](super::Design::load).
 
 /// The JSON Schema (draft 2020-12) of the design file.
 pub const SCHEMA: &str = include_str!("schema.json");
 
-/// A design with remarks, to start from.
+/// A commented design to start from.
 pub const STARTER: &str = include_str!("starter.toml");
 
 #[cfg(test)]
@@ -111,7 +112,7 @@ mod tests {
         assert_eq!(rule["default"], ShieldRule::default().name());
     }
 
-    /// Each limit of the schema is accepted by the reader, and what lies just beyond is not.
+    /// The reader accepts each limit of the schema, and rejects values just beyond it.
     #[test]
     fn its_limits_are_those_of_the_reader() {
         let schema = schema();
@@ -159,7 +160,7 @@ mod tests {
                 .collect();
             let end = format!(" *({}) *$", units.join("|"));
             let pattern = limits["pattern"].as_str().unwrap();
-            // A magnet's axis may be a word, too.
+            // A magnet's axis can also be a word.
             let pattern = match name {
                 "axis" => pattern.strip_prefix("^up$|").unwrap(),
                 _ => pattern,

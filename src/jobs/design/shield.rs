@@ -5,7 +5,7 @@ use super::quantity::{self, Quantity};
 use super::reader::{Entry, Section};
 use physics::potential::shielding::{Shield, ShieldRule};
 
-/// The constants of a shield, as a file names them.
+/// The constants of a shield, with their keys.
 pub(super) const CONSTANTS: [(&str, Quantity); 4] = [
     ("attenuation", quantity::ATTENUATION),
     ("length", quantity::SHIELD_LENGTH),
@@ -13,11 +13,11 @@ pub(super) const CONSTANTS: [(&str, Quantity); 4] = [
     ("front_gain", quantity::FRONT_GAIN),
 ];
 
-/// What one place of the file says of shields; where it is silent `None`.
+/// The shield keys of one place in the file; `None` if not given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ShieldKeys {
     constants: [Option<f64>; CONSTANTS.len()],
-    /// Whether there is a shield, and where the file says so.
+    /// Whether there is a shield, and where the file states it.
     present: Option<(bool, Span)>,
 }
 
@@ -42,7 +42,7 @@ impl ShieldKeys {
         Ok(keys)
     }
 
-    /// These keys, and those of `lower` where these are silent.
+    /// These keys, with missing ones from `lower`.
     pub fn over(self, lower: Self) -> Self {
         Self {
             constants: std::array::from_fn(|i| self.constants[i].or(lower.constants[i])),
@@ -73,7 +73,7 @@ impl ShieldKeys {
         }))
     }
 
-    /// A doubt where the file describes shields that its rule has no use for.
+    /// A warning if the file describes shields that its rule does not use.
     pub fn doubt(&self, section: &Section) -> Option<DesignError> {
         let (_, span) = self.present?;
         Some(section.source.doubt(
@@ -84,7 +84,7 @@ impl ShieldKeys {
     }
 }
 
-/// What `[shield]` says: the rule, and the constants of every face's shield.
+/// Reads `[shield]`: the rule, and the constants of every face's shield.
 pub(super) fn read(root: &Section) -> Result<(ShieldRule, ShieldKeys)> {
     let Some(section) = root.section("shield", "[shield]")? else {
         return Ok(Default::default());

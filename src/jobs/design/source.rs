@@ -4,21 +4,21 @@ use super::drawings::Drawings;
 use super::error::{DesignError, Place, Span};
 use super::faults::Faults;
 
-/// A design file's name and text, from which every fault takes its place.
+/// A design file's name and text, to which the places of faults refer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source<'a> {
     pub file: &'a str,
     pub text: &'a str,
-    /// Whether faults may show lines of it.
+    /// Whether messages may quote lines of it.
     pub quoted: bool,
     /// The drawings that the design refers to.
     pub drawings: &'a Drawings<'a>,
-    /// What is wrong with the design so far.
+    /// The faults of the design so far.
     pub faults: &'a Faults,
 }
 
 impl Source<'_> {
-    /// A fault, which is added to the design's.
+    /// Adds a fault to the design's.
     pub fn error(
         &self,
         span: Span,
@@ -30,7 +30,7 @@ impl Source<'_> {
         fault
     }
 
-    /// A doubt that does not keep the design from being used.
+    /// Adds a non-fatal warning.
     pub fn doubt(
         &self,
         span: Span,

@@ -1,4 +1,4 @@
-//! From text to TOML.
+//! Parses text as TOML.
 
 use std::ops::Range;
 
@@ -15,12 +15,12 @@ const HELP: &str = "the file is TOML: `key = value` lines under [section] header
 /// The keys and values of a file.
 ///
 /// # Errors
-/// Where it is no TOML; every place is noted.
+/// If the text is not TOML; every fault is noted.
 pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
     let (root, errors) = DeTable::parse_recoverable(source.text);
     for error in errors {
         let span = error.span().unwrap_or_default();
-        // A number with its unit, but not in quotes: the fault may be at either.
+        // A number with its unit but without quotes: the parser's position may be at either.
         let written = source.text.get(..span.start).unwrap_or_default();
         let word = written.rfind(|c: char| c.is_whitespace() || "=[,".contains(c));
         let from = word.map_or(0, |at| at + 1);
@@ -46,14 +46,15 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
     Ok(root.into_inner())
 }
 
-/// What is no TOML but easily meant, at or about a place of the text: a decimal comma, or text without
-/// its quotes. Where it stands, what is wrong with it and what to write.
+/// Recognises common mistakes at or around a position: a decimal comma, or text without quotes.
+/// Returns the position, what is wrong and what to write.
 fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String)> {
     let begin = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
     let end = text[at..]
         .find(['\n', '\r', '#'])
         .map_or(text.len(), |end| at + end);
-    // `side = 0,43`, also in a table or an array: the fault is at the comma or behind it.
+    // `side = 0,43`, also in a table or an array: the parser's position is at the comma or after
+    // it.
     let in_number = |c: char| c.is_ascii_digit() || ",-+".contains(c);
     let from = last_word(text[begin..at].trim_end_matches([' ', '\t']), |c| {
         !in_number(c)
@@ -66,7 +67,7 @@ fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String
         let told = format!("write {meant}");
         return Some((from..to, "use a decimal point, not a comma", told));
     }
-    // `code = NNS`, as a value of its own, in a table or in an array.
+    // `code = NNS`, as a single value, in a table or in an array.
     let between = |c: char| c.is_whitespace() || "=[,{".contains(c);
     let from = begin + last_word(&text[begin..at], between);
     let word = &text[from..end];
@@ -81,7 +82,7 @@ fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String
     (is_value && is_word).then(|| (from..from + word.len(), "text goes in quotes", told))
 }
 
-/// Where the last word of a text begins, of words with certain letters between them.
+/// The start of the last word of a text, with given separators.
 fn last_word(text: &str, between: impl Fn(char) -> bool) -> usize {
     text.len() - text.rsplit(between).next().map_or(0, str::len)
 }

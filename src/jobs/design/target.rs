@@ -1,4 +1,5 @@
-//! The section `[target]`: which faces are meant to bind, and where that puts the moving tile.
+//! The section `[target]`: which faces are meant to bind, and the pose of the moving tile when they
+//! do.
 
 use nalgebra::Vector2;
 
@@ -17,11 +18,11 @@ use physics::tile::{Face, Tile};
 pub(super) struct Target<'a> {
     /// Face of the fixed tile, face of the moving tile.
     pub faces: (usize, usize),
-    /// By how much they may overlap (m).
+    /// Largest allowed overlap (m).
     pub allowance: f64,
-    /// That they are not quite equal.
+    /// A warning that they are not quite equal.
     pub doubt: Option<DesignError>,
-    /// What the two are called.
+    /// The names of the two faces.
     names: [String; 2],
     moving: Entry<'a>,
 }
@@ -51,7 +52,7 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
             "choose two faces of equal length",
         ));
     }
-    // A mate that is nearly as long is told of at its `mates`.
+    // A mate that is nearly as long is reported at its `mates`.
     let mates = tiles[1].mates_of(moving).is_some();
     let doubt = (kind == Lengths::Near && !mates)
         .then(|| nearly_equal(&entry, "the target faces measure", a, b));
@@ -64,20 +65,20 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
     })
 }
 
-/// How two tiles meet with their target faces.
+/// The contact of two tiles with their target faces.
 pub(super) enum Bound {
-    /// There they are bound; with a doubt where they had to be drawn apart to touch.
+    /// The bound configuration; with a warning if they had to be drawn apart to touch.
     At(Configuration, Option<DesignError>),
-    /// They overlap by so much (m), no more than is allowed, and drawing them apart does not help.
+    /// They overlap by this much (m), within the allowance, and drawing them apart does not help.
     Overlap(f64),
 }
 
-/// Halvings of how far tiles are drawn apart: to 1e-13 of the allowance.
+/// Number of bisections of the distance by which tiles are drawn apart: to 1e-13 of the allowance.
 const HALVINGS: usize = 44;
 
 impl Target<'_> {
-    /// The configuration in which the two base lines coincide, face to face, drawn apart as far as
-    /// they overlap by less than a cutter resolves.
+    /// The configuration in which the two base lines coincide, face to face; the tiles are drawn
+    /// apart if they overlap by less than a cutter resolves.
     pub fn meet(&self, fixed: &Tile, moving: &Tile) -> Result<Bound> {
         let flush = face_to_face(&fixed.faces[self.faces.0], &moving.faces[self.faces.1]);
         let contact = Contact::new(&fixed.outline, &moving.outline);
@@ -115,7 +116,7 @@ impl Target<'_> {
         Ok(Bound::At(drawn(outside), Some(doubt)))
     }
 
-    /// That the target faces cannot meet for an overlap (m).
+    /// The error that the target faces cannot meet because of an overlap (m).
     pub fn blocked(&self, overlap: f64) -> DesignError {
         self.moving.error(
             format!(
@@ -129,7 +130,7 @@ impl Target<'_> {
         )
     }
 
-    /// That the target faces overlap by so much (m), and what is made of it.
+    /// The warning that the target faces overlap by this much (m), and how that is treated.
     pub fn overlapping(&self, overlap: f64, made: &str) -> DesignError {
         self.moving.source.doubt(
             self.moving.span(),
@@ -143,7 +144,7 @@ impl Target<'_> {
     }
 }
 
-/// Where the moving tile is when its face lies on the fixed tile's, the other way round.
+/// The pose of the moving tile when its face lies on the fixed tile's, in opposite direction.
 fn face_to_face(fixed: &Face, moving: &Face) -> Configuration {
     let (to, from) = (-fixed.normal(), moving.normal());
     let theta = libm::atan2(clean(cross(from, to)), clean(from.dot(&to)));
@@ -152,7 +153,8 @@ fn face_to_face(fixed: &Face, moving: &Face) -> Configuration {
     Configuration::new(clean(position.x), clean(position.y), theta)
 }
 
-/// Zero for what is zero but for rounding, so that squares meet at exact right angles; never -0.
+/// Replaces rounding errors by exact zero, so that squares meet at exact right angles; never
+/// returns -0.
 fn clean(x: f64) -> f64 {
     if x.abs() < 1e-15 { 0.0 } else { x }
 }

@@ -1,4 +1,4 @@
-//! The sections `[fixed]` and `[moving]`: their faces, and which of them mate.
+//! The sections `[fixed]` and `[moving]`: their faces, and which faces mate.
 
 use super::DesignError;
 use super::base::{self, Base};
@@ -26,7 +26,7 @@ pub(super) const TILE_KEYS: [&str; 8] = [
     "shield",
 ];
 
-/// What the file says of one tile.
+/// The entries of one tile.
 pub(super) struct TileEntry<'a> {
     /// `fixed` or `moving`.
     pub name: &'static str,
@@ -34,7 +34,7 @@ pub(super) struct TileEntry<'a> {
     pub base: Base,
     /// m.
     pub thickness: f64,
-    /// Where the file says how heavy the tile is, and what it says (kg).
+    /// The entry of the mass, and its value (kg).
     pub mass: Option<(Entry<'a>, f64)>,
     faces: Vec<FaceEntry<'a>>,
 }
@@ -54,7 +54,7 @@ impl<'a> TileEntry<'a> {
             name,
             section,
             base,
-            // Faulty ones are told and never built with.
+            // Faulty ones are reported and never used.
             thickness: thickness.unwrap_or(0.0),
             mass: mass.ok(),
             faces,
@@ -74,12 +74,12 @@ fn mass<'a>(section: &Section<'a>) -> Result<(Entry<'a>, f64)> {
 }
 
 impl<'a> TileEntry<'a> {
-    /// What a face says that it mates, if it does.
+    /// The `mates` entry of a face, if it has one.
     pub fn mates_of(&self, face: usize) -> Option<Entry<'a>> {
         self.faces[face].mates()
     }
 
-    /// The shield of each face, where `lower` is what the file says of all tiles.
+    /// The shield of each face; `lower` are the keys for all tiles.
     pub fn shields(&self, lower: ShieldKeys) -> Result<Vec<Option<Shield>>> {
         let keys = self.shield_keys(lower)?;
         keys.iter()
@@ -88,7 +88,7 @@ impl<'a> TileEntry<'a> {
             .collect()
     }
 
-    /// All that the file says of each face's shield.
+    /// All shield keys of each face.
     pub fn shield_keys(&self, lower: ShieldKeys) -> Result<Vec<ShieldKeys>> {
         let lower = ShieldKeys::read(&self.section, "a tile's `shield`")?.over(lower);
         self.faces
@@ -98,7 +98,7 @@ impl<'a> TileEntry<'a> {
     }
 }
 
-/// Sorts the entries of `[*.faces]` by the faces that they speak of.
+/// Assigns the entries of `[*.faces]` to faces.
 fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<'a>>> {
     let mut known = vec!["all"];
     known.extend(base.names.iter().flatten().map(String::as_str));
@@ -121,7 +121,7 @@ fn face_entries<'a>(section: &Section<'a>, base: &Base) -> Result<Vec<FaceEntry<
     }))
 }
 
-/// The content of every face of both tiles; mates are followed to the face that they copy.
+/// The contents of all faces of both tiles; mates are resolved to the face they copy.
 pub(super) fn resolve(tiles: &[TileEntry; 2], keys: MagnetKeys) -> Result<[Vec<FaceContent>; 2]> {
     let [fixed, moving] = [0, 1].map(|tile: usize| {
         let faces = 0..tiles[tile].faces.len();
@@ -169,7 +169,7 @@ fn resolve_face(
     let partner = resolve_face(tiles, keys, (other, partner), on_the_way)?;
     let mut content = entry.mate_of(&partner, &mates)?;
     if lengths == Lengths::Near {
-        // The line of a longer face ends where this one does.
+        // The line of a longer face is cut at the end of this one.
         let end = base.length() / 2.0;
         for [s, _] in &mut content.polyline {
             *s = s.clamp(-end, end);
@@ -178,7 +178,7 @@ fn resolve_face(
     Ok(content)
 }
 
-/// Mates that are a little longer or shorter than what they mate.
+/// Warns of mates that are slightly longer or shorter than their partners.
 pub(super) fn nearly_mates(tiles: &[TileEntry; 2]) -> Vec<DesignError> {
     let mut doubts = Vec::new();
     for (tile, entry) in tiles.iter().enumerate() {

@@ -1,31 +1,30 @@
-//! Lengths that differ by what no cutter resolves.
+//! Tolerance for lengths that differ by less than a cutter resolves.
 //!
-//! Faces that are meant to meet may differ by up to [`allowance`]: a side drawn in points or in
-//! inches, corners that a program rounded to 0.01 mm, an arc drawn once as an arc and once as
-//! Beziers. What is done then, always with a warning:
+//! Faces that meet may differ by up to [`allowance`]: a side drawn in points or in inches, corners
+//! that a program rounded to 0.01 mm, an arc drawn once as an arc and once as Bezier curves. They
+//! are treated as follows, always with a warning:
 //!
-//! - the outlines stay as they are drawn, and the base lines of the target faces meet middle on
-//!   middle;
+//! - the outlines stay as drawn, and the base lines of the target faces meet centre on centre;
 //! - the complement of a longer face ends where its own face ends;
-//! - where the target faces overlap so by no more than that, the bound configuration is drawn straight
-//!   apart until they touch; where that takes more (a tab with upright flanks, too wide for its
-//!   slot), the moving face is drawn back by the overlap, as `fit` draws it.
+//! - if the target faces then overlap by no more than the allowance, the tiles are drawn straight
+//!   apart until they touch; if that takes more (a tab with upright flanks, too wide for its slot),
+//!   the moving face is drawn back by the overlap, as by `fit`.
 //!
-//! Everything after that, contact, energies and their bounds, is of the outlines and of the bound
-//! configuration that come of it, exactly: no bound is widened.
+//! Contact, energies and their bounds then refer exactly to the resulting outlines and bound
+//! configuration: no bound is widened.
 
 use super::error::DesignError;
 use super::reader::Entry;
 use physics::units::{plain, to_digits};
 
-/// What cutters and printers resolve (m).
+/// The resolution of cutters and printers (m).
 const RESOLVED: f64 = 50e-6;
-/// The part of a face's length that may be missing all the same.
+/// The share of a face's length that two faces may differ by in any case.
 const SHARE: f64 = 1e-3;
-/// Lengths that differ by less than this share are the same but for rounding.
+/// Lengths that differ by less than this share are equal up to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// By how much (m) two faces of these lengths (m) may differ or overlap.
+/// The allowed difference or overlap (m) of two faces of these lengths (m).
 pub(super) fn allowance(a: f64, b: f64) -> f64 {
     RESOLVED.min(SHARE * a.min(b))
 }
@@ -33,7 +32,7 @@ pub(super) fn allowance(a: f64, b: f64) -> f64 {
 /// How two lengths compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lengths {
-    /// The same but for rounding.
+    /// Equal up to rounding.
     Same,
     /// Different by no more than the allowance.
     Near,
@@ -42,18 +41,18 @@ pub(super) enum Lengths {
 }
 
 impl Lengths {
-    /// Of two faces (m).
+    /// Compares the lengths of two faces (m).
     pub fn of(a: f64, b: f64) -> Self {
         match (a - b).abs() {
             difference if difference <= ROUNDING * a.max(b) => Self::Same,
-            // With what rounding does to a difference that is just allowed.
+            // With a tolerance for the rounding of a difference that is just allowed.
             difference if difference <= allowance(a, b) * (1.0 + 1e-9) => Self::Near,
             _ => Self::Unequal,
         }
     }
 }
 
-/// Two lengths (m) in millimetres, with as many digits as it takes to tell them apart.
+/// Two lengths (m) in millimetres, with enough digits to distinguish them.
 pub(super) fn told_apart(a: f64, b: f64) -> [String; 2] {
     let both = |digits: usize| [a, b].map(|x| to_digits(x * 1e3, digits).to_string());
     let digits = (4..16).find(|digits| {
@@ -68,7 +67,7 @@ pub(super) fn micrometres(length: f64) -> String {
     format!("{} um", plain(length * 1e6, 3))
 }
 
-/// That two faces are unequal by less than a cutter resolves, and what is made of them.
+/// The warning that two faces differ by less than a cutter resolves, and how they are treated.
 pub(super) fn nearly_equal(entry: &Entry, what: &str, a: f64, b: f64) -> DesignError {
     let [first, second] = told_apart(a, b);
     entry.source.doubt(

@@ -1,6 +1,6 @@
 //! Numbers with a unit, as `"12 cm"`, `"0.3 T"` or `"30 deg"`.
 
-/// Units of one kind of quantity: the name, and how many of it make one of the file's own unit.
+/// Units of one kind of quantity: the name, and how many of them make one of the file's own unit.
 pub(super) type Units = &'static [(&'static str, f64)];
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -46,7 +46,7 @@ pub(super) const MASS: Units = &[
 ];
 /// Kilograms that weigh a newton, by the standard gravity of 9.80665 m/s^2.
 const WEIGHT: f64 = 1.0 / 9.806_65;
-/// Forces, weights among them: shops state pulls in kilograms and pounds.
+/// Units of force, including weights: shops state pulls in kilograms and pounds.
 pub(super) const FORCE: Units = &[
     ("N", 1.0),
     ("kN", 1e-3),
@@ -95,7 +95,8 @@ const TIME: Units = &[
 ];
 pub(super) const SHARE: Units = &[("%", 1e2)];
 
-/// A finite number and one of `units` behind it, with or without a space, in the file's own unit.
+/// Reads a finite number followed by one of `units`, with or without a space; returns it in the
+/// file's own unit.
 pub(super) fn read(text: &str, units: Units) -> Option<f64> {
     units.iter().find_map(|(name, factor)| {
         let value = number(text.trim().strip_suffix(name)?.trim_end())?;
@@ -103,10 +104,11 @@ pub(super) fn read(text: &str, units: Units) -> Option<f64> {
     })
 }
 
-/// A decimal number, or one with a fraction as inches have them: `1/2`, `1 3/8`.
+/// A decimal number, or one with a fraction, as usual for inches: `1/2`, `1 3/8`.
 fn number(text: &str) -> Option<f64> {
     let plain = |text: &str| {
-        // Not `inf` and `nan`, which are numbers to Rust; and `12 m` is none of `12 mm`.
+        // Rejects `inf` and `nan`, which Rust parses as numbers; and does not read `12 mm` as `12
+        // m`.
         let plain = text.ends_with(|c: char| c.is_ascii_digit() || c == '.');
         text.parse::<f64>().ok().filter(|_| plain)
     };
@@ -119,9 +121,8 @@ fn number(text: &str) -> Option<f64> {
     Some(whole(units.trim_end())? + whole(above)? / below)
 }
 
-/// A number and a unit of any kind at the beginning of a value, such as `12cm` or `12 cm`: the number
-/// in the file's own unit, where only one kind of quantity has such a unit, and both as they are
-/// written.
+/// A number and a unit of any kind at the beginning of a value, such as `12cm` or `12 cm`: the
+/// number in the file's own unit, if only one kind of quantity has this unit, and both as written.
 pub(super) fn beginning(text: &str) -> Option<(Option<f64>, &str)> {
     let end = text.find(['\n', '\r', ',', ']', '}', '#']);
     let written = text[..end.unwrap_or(text.len())].trim_end();
@@ -131,7 +132,7 @@ pub(super) fn beginning(text: &str) -> Option<(Option<f64>, &str)> {
     Some((values.next().is_none().then_some(value), written))
 }
 
-/// A length (m): a plain number, or one with a unit behind it.
+/// A length (m): a plain number, or one followed by a unit.
 ///
 /// ```
 /// use tilebind_jobs::design::{angle, energy, length, time};
@@ -143,17 +144,17 @@ pub fn length(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, LENGTH))
 }
 
-/// An angle (rad): a plain number, or one with a unit behind it.
+/// An angle (rad): a plain number, or one followed by a unit.
 pub fn angle(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, ANGLE))
 }
 
-/// An energy (J): a plain number, or one with a unit behind it.
+/// An energy (J): a plain number, or one followed by a unit.
 pub fn energy(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, ENERGY))
 }
 
-/// A time (s): a plain number, or one with a unit behind it.
+/// A time (s): a plain number, or one followed by a unit.
 pub fn time(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, TIME))
 }

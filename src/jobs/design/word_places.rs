@@ -1,7 +1,8 @@
-//! Words whose magnets lie anywhere along the face, as words over places common to all of them.
+//! Words whose magnets lie anywhere along the face, expressed as words over one common list of
+//! places.
 //!
-//! The places are where any word or mate has a magnet: they lie mirror-symmetrically, so that the
-//! mate of a word is what it is for evenly spaced ones.
+//! The places are all positions at which a word or a mate has a magnet. They are mirror-symmetric,
+//! so that mates are defined as for evenly spaced words.
 
 use super::error::Result;
 use super::quantity;
@@ -10,7 +11,8 @@ use physics::order::Order;
 use physics::words::word::MOST_PLACES;
 use physics::words::{Bar, Word};
 
-/// Positions closer than this (m) are one: a thousandth of the micrometre to which files tell them.
+/// Positions closer than this (m) are equal: a thousandth of the micrometre to which files state
+/// them.
 const SAME: f64 = 1e-9;
 
 /// Places (m along the face, ascending) and words of faces, each with its name and its list of
@@ -45,7 +47,7 @@ pub(super) fn common(
     Ok((places, words))
 }
 
-/// The magnets of a face, ascending: where along it (m), and their poles.
+/// The magnets of a face in ascending order: positions along the face (m), and poles.
 fn magnets<'a>(
     (name, entry): &(&str, Entry<'a>),
     bar: &Bar,
@@ -88,7 +90,7 @@ fn magnets<'a>(
     Ok(magnets)
 }
 
-/// The letters of both poles of magnets that lie, or that stand.
+/// The letters of the two poles, for magnets that lie flat or point up.
 pub(super) fn letters(bar: &Bar) -> [char; 2] {
     match bar.form.stands {
         Some(_) => ['U', 'D'],

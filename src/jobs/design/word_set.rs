@@ -1,4 +1,4 @@
-//! Files of words: `words.toml`, and sets from elsewhere.
+//! Word files: `words.toml`, and sets from other sources.
 //!
 //! ```toml
 //! words = ["NNSN", "NSSN"]       # without their mates
@@ -27,17 +27,17 @@ use physics::order::Order;
 use physics::words::crosstalk::Stage;
 use physics::words::{Bar, Word};
 
-/// A set of words and what carries them.
+/// A set of words and the tiles that carry them.
 #[derive(Clone, Debug)]
 pub struct WordSet {
     /// The words, in the order of the file, of one length.
     pub words: Vec<Word>,
-    /// The faces' names, where the file gives them.
+    /// The faces' names, if the file gives them.
     pub names: Vec<String>,
-    /// Where the places lie along the face (m), where they are not a pitch apart.
+    /// The positions of the places along the face (m), if they are not one pitch apart.
     pub places: Option<Vec<f64>>,
-    /// Two square tiles whose target faces, east and west, carry a north pole in every place, and
-    /// nothing elsewhere.
+    /// Two square tiles whose target faces, east and west, have a north pole at every place; the
+    /// other faces are empty.
     pub stage: Design,
 }
 
@@ -51,14 +51,14 @@ const KEYS: [&str; 7] = [
     "potential",
     "faces",
 ];
-/// Most words of a set.
+/// Largest number of words of a set.
 const MOST_WORDS: usize = 500;
 
 impl WordSet {
-    /// Reads a set; magnets as `model` says, if it says so.
+    /// Reads a set; `model` overrides the magnet model of the file.
     ///
     /// # Errors
-    /// Where the file cannot be read or is no set of words.
+    /// If the file cannot be read or is not a set of words.
     pub fn load(path: &Path, model: Option<MagnetModel>) -> Result<Self> {
         let name = path.display().to_string();
         let text = file::read_text(path).map_err(|found| {
@@ -78,7 +78,7 @@ impl WordSet {
     /// Reads a set from the text of its file.
     ///
     /// # Errors
-    /// Where it is no set of words.
+    /// If it is not a set of words.
     pub fn parse(text: &str, name: &str, model: Option<MagnetModel>) -> Result<Self> {
         let (drawings, faults) = (Drawings::default(), Faults::default());
         let source = Source {
@@ -175,7 +175,7 @@ impl WordSet {
     }
 }
 
-/// The faces of a set, mates among them, by their names.
+/// The faces of a set, including mates, by name.
 fn faces<'a>(root: &Section<'a>) -> Result<Vec<(&'a str, Section<'a>)>> {
     let Some(section) = root.section("faces", "[faces]")? else {
         return Ok(Vec::new());
@@ -190,7 +190,7 @@ fn faces<'a>(root: &Section<'a>) -> Result<Vec<(&'a str, Section<'a>)>> {
     entries.iter().map(face).collect()
 }
 
-/// Words of one length, each once.
+/// Reads words of equal length, each once.
 fn read_words(codes: &[Entry], bar: &Bar) -> Result<Vec<Word>> {
     let mut words: Vec<Word> = Vec::new();
     let [first, second] = word_places::letters(bar);

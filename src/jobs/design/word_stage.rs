@@ -10,7 +10,7 @@ use physics::tile::magnet::{Form, Standing};
 use physics::tile::strength::Strength;
 use physics::words::Bar;
 
-/// The magnets of words: those of a file, or the paper's.
+/// The magnets of words: those of a file, or by default the paper's.
 pub(super) fn bar(keys: MagnetKeys, model: MagnetModel) -> std::result::Result<Bar, &'static str> {
     let paper = Bar::paper();
     let keys = MagnetKeys {
@@ -59,7 +59,7 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
         tile("fixed", "east"),
         tile("moving", "west")
     );
-    // What is wrong with magnets or tile is told of the design made of them.
+    // Faults of the magnets or the tile are reported for the design made of them.
     let mut stage = Design::parse(&text, name).map_err(|found| DesignError {
         place: None,
         ..found
@@ -71,8 +71,7 @@ pub(super) fn stage(bar: &Bar, side: f64, places: &[f64], name: &str) -> Result<
     Ok(stage)
 }
 
-/// Puts a magnet like the one in a face's middle at every place (m): slots may be narrower than
-/// magnets.
+/// Places a copy of a face's middle magnet at every place (m): slots may be narrower than magnets.
 fn fill(tile: &mut Tile, face: usize, places: &[f64]) {
     let along = tile.faces[face].tangent();
     let magnet = |at: &f64| {

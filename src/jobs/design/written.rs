@@ -1,8 +1,8 @@
-//! Magnets as design files have them.
+//! Magnets in the notation of design files.
 
 use physics::tile::magnet::{Form, Shape};
 
-/// The lines of `[magnet]` that say what a magnet is: of a form, and of a size (m) as tiles have it.
+/// The lines of `[magnet]` for a magnet of a given form and size (m).
 pub fn magnet(form: Form, [a, b, c]: [f64; 3]) -> String {
     let [height, width, depth] = match form.stands {
         Some(_) => [c, b, a],

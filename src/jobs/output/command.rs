@@ -1,24 +1,24 @@
-//! The names that a command's files can have.
+//! The file names that a command writes.
 
 /// The folder of pictures.
 pub const PICTURES: &str = "pictures";
-/// Endings of the files of a picture: its forms and its numbers.
+/// File name extensions of a picture: its formats and its numbers.
 const FORMS: [&str; 4] = ["svg", "png", "pdf", "csv"];
 
-/// A command that writes files, and all names that they can have in its folder of results: no other
-/// file is ever taken away as an old result, whatever a record says.
+/// A command that writes files, and all names they can have in its results folder: no other file is
+/// ever removed as an old result, whatever a record says.
 #[derive(Debug)]
 pub struct Command {
     /// Its name.
     pub name: &'static str,
-    /// The names. `#` stands for a number or `free`, `*` for anything but a slash.
+    /// The names. `#` stands for a number or `free`, `*` for any text without a slash.
     pub files: &'static [&'static str],
-    /// Names of pictures; `-` and more may follow, of panels and of variants.
+    /// Names of pictures; `-` and a suffix may follow, for panels and variants.
     pub pictures: &'static [&'static str],
 }
 
 impl Command {
-    /// A command that writes single files only, named by the user.
+    /// A command that only writes single files, named by the user.
     pub const fn of_single_files(name: &'static str) -> Self {
         Self {
             name,
@@ -44,7 +44,7 @@ impl Command {
         self.files.iter().any(|pattern| fits(pattern, name)) || is_picture() == Some(true)
     }
 
-    /// The folders that its results are in, within that of them all (the empty name).
+    /// The folders of its results, relative to the results folder (the empty name).
     pub(super) fn folders(&self) -> impl Iterator<Item = &'static str> {
         let named = self
             .files

@@ -1,4 +1,4 @@
-//! Folders that cannot be written to.
+//! Errors of folders that cannot be written to.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -7,11 +7,11 @@ use std::path::Path;
 
 use super::{OutputError, or_here};
 
-/// Refuses a folder that files cannot be written to, before any work is done. Nothing is left in it,
-/// and it is not made.
+/// Checks that files can be written to a folder, before any work is done. It creates neither the
+/// folder nor any file in it.
 ///
 /// # Errors
-/// Where it cannot be made or written to.
+/// If it cannot be created or written to.
 pub fn check(folder: &Path) -> Result<(), OutputError> {
     let folder = or_here(folder);
     let refused = |source: io::Error| OutputError::Folder {
@@ -33,7 +33,7 @@ pub fn check(folder: &Path) -> Result<(), OutputError> {
                 )));
             }
             Err(error) => match error.kind() {
-                // A link that leads nowhere is there all the same.
+                // A dangling link also exists.
                 ErrorKind::NotFound if path.symlink_metadata().is_err() => {}
                 ErrorKind::NotADirectory => {}
                 _ => return Err(refused(error)),
@@ -43,7 +43,7 @@ pub fn check(folder: &Path) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Whether a folder may have such a name in it: not one of a thousand letters.
+/// Whether a folder can contain such a name: not one of a thousand letters.
 fn possible(folder: &Path, name: &OsStr) -> io::Result<()> {
     match folder.join(name).symlink_metadata() {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
@@ -56,7 +56,7 @@ fn try_to_write(folder: &Path) -> io::Result<()> {
     let probe = super::staging::make_place(folder)?;
     let written = fs::write(probe.join("0"), "tilebind");
     match written.and(fs::remove_dir_all(&probe)) {
-        // Another process may have taken it for a leftover.
+        // Another process may have removed it as a leftover.
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }

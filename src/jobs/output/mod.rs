@@ -1,21 +1,21 @@
-//! The files that commands write: nothing of the user's is lost, and a set of files is all new or
+//! Writes output files safely: no file of the user is lost, and a set of files is either all new or
 //! all old.
 //!
-//! - A file is replaced, or taken away with the results that it belonged to, only if the same command
-//!   wrote it and nobody has changed it since. Anything else that is in the way is refused before the
-//!   work, and again when the results are written; `force` replaces it all the same.
-//! - What the command reads is never replaced, by whatever name it goes: see [`Output::reading`].
-//! - All files are first written in full beside their places; then the old ones are taken out and the
-//!   new ones put in. Where that fails, all is put back. Where the process is killed in between, the
-//!   next one that looks at the folder puts the old files back, or puts the rest of the new ones in if
-//!   the first was: old and new ones are never together.
+//! - A file is replaced or removed only if the same command wrote it and it is unchanged since. Any
+//!   other file in the way is an error before the work, and again when the results are written;
+//!   `force` replaces it.
+//! - Input files are never replaced, by whatever name they are given: see [`Output::reading`].
+//! - All files are first written completely beside their places; then the old ones are moved out
+//!   and the new ones in. If that fails, everything is restored. If the process is killed in
+//!   between, the next process that uses the folder restores the old files, or moves in the rest of
+//!   the new ones if the first was already in place: old and new ones are never mixed.
 //!
-//! Who wrote what is known by a record in each folder, `.tilebind.json`: of every file the command and
-//! the SHA-256. Several commands may have their results in one folder, as long as no two of their
-//! files have one name. Results of versions without such records are not known.
+//! Each folder has a record, `.tilebind.json`, with the command and the SHA-256 of every file.
+//! Several commands can share a results folder as long as their files have different names. Results
+//! of versions without such records are not recognised.
 //!
-//! Points of sweeps ([`crate::sweep::Store`]) are outside of this: their names are hashes of what they
-//! hold, each tells whether it is sound, and one that is damaged is worked on again.
+//! Points of sweeps ([`crate::sweep::Store`]) are exempt: their names are hashes of their inputs,
+//! each file can be verified, and a damaged one is computed again.
 
 mod command;
 mod folder;
@@ -38,7 +38,7 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 /// Why files were not written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// Something is in the way: which file, and what to do.
+    /// A file is in the way: which one, and what to do.
     #[error("{0}")]
     Refused(String),
     /// The folder cannot be written to.
@@ -46,15 +46,15 @@ pub enum OutputError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the file system says.
+        /// The error of the file system.
         source: io::Error,
     },
-    /// The file system refused; all files are as they were.
+    /// The file system failed; all files are unchanged.
     #[error("cannot write {}: {source}", path.display())]
     File {
         /// The file.
         path: PathBuf,
-        /// What the file system says.
+        /// The error of the file system.
         source: io::Error,
     },
 }
@@ -66,18 +66,18 @@ impl OutputError {
     }
 }
 
-/// What is in the way of a file.
+/// An obstacle to writing a file.
 #[derive(Debug, PartialEq, Eq)]
 enum Obstacle {
-    /// The command reads it.
+    /// It is an input of the command.
     Input,
-    /// A folder, a pipe, a device.
+    /// It is a folder, a pipe or a device.
     Irregular,
-    /// It is there, and no record is kept.
+    /// It exists, and no record is kept.
     There,
-    /// The record does not tell of it.
+    /// It is not in the record.
     Foreign,
-    /// It is not as it was written.
+    /// It has changed since it was written.
     Changed,
     /// Another command wrote it.
     Other(String),
@@ -100,12 +100,12 @@ impl Obstacle {
     }
 }
 
-/// Where a command's files go.
+/// The destination of a command's files.
 #[derive(Clone, Debug)]
 pub struct Output {
     command: &'static Command,
     folder: PathBuf,
-    /// The only file, where it is not a folder of results.
+    /// The single file, if it is not a results folder.
     file: Option<PathBuf>,
     inputs: Vec<PathBuf>,
     force: bool,
@@ -113,7 +113,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// A folder of results; it is made if need be.
+    /// A results folder; created if missing.
     pub fn folder(command: &'static Command, folder: &Path) -> Self {
         Self {
             command,
@@ -125,10 +125,10 @@ impl Output {
         }
     }
 
-    /// A single file; its folder is made if need be.
+    /// A single file; its folder is created if missing.
     ///
     /// # Errors
-    /// Where the path names no file.
+    /// If the path does not name a file.
     pub fn file(command: &'static Command, file: &Path) -> Result<Self, OutputError> {
         let refused = |why| {
             let file = file.display();
@@ -146,19 +146,19 @@ impl Output {
         }
     }
 
-    /// With the files that the command reads, which it never replaces.
+    /// Adds input files, which are never replaced.
     pub fn reading(mut self, inputs: impl IntoIterator<Item = PathBuf>) -> Self {
         self.inputs.extend(inputs);
         self
     }
 
-    /// Replacing what is in the way, if `force` says so: files that tilebind did not write, that were
-    /// changed since, and those of other commands.
+    /// With `force`, replaces files in the way: files that tilebind did not write, that changed
+    /// since, and those of other commands.
     pub fn forced(self, force: bool) -> Self {
         Self { force, ..self }
     }
 
-    /// Keeping no record: what is written is the user's from then on.
+    /// Keeps no record: written files belong to the user from then on.
     pub fn unrecorded(self) -> Self {
         Self {
             recorded: false,
@@ -166,14 +166,14 @@ impl Output {
         }
     }
 
-    /// Refuses what is in the way of any file that the command can write and that `may_come`, and a
-    /// folder that cannot be written to, before any work is done. Nothing is written.
+    /// Checks, before any work is done, that the folder is writable and that nothing is in the way
+    /// of files that the command may write, according to `may_come`. Nothing is written.
     ///
     /// # Errors
     /// See [`OutputError`].
     pub fn check(&self, may_come: impl Fn(&str) -> bool) -> Result<(), OutputError> {
         folder::check(&self.folder)?;
-        // While nobody else writes: their files and their record belong together.
+        // With the lock held: files and record of other processes belong together.
         let _alone = staging::settle(&self.folder)?;
         let mut names: Vec<String> = self.file_name().into_iter().collect();
         let folders = self.command.folders().filter(|_| self.file.is_none());
@@ -194,15 +194,15 @@ impl Output {
         self.refuse(names.iter().map(String::as_str)).map(drop)
     }
 
-    /// Whether a file of this name is one of those that the command reads.
+    /// Whether a file of this name is an input of the command.
     pub fn reads(&self, name: &str) -> bool {
         self.is_input(&self.path(name))
     }
 
-    /// Writes a folder's files in place of those that the command wrote before.
+    /// Writes a folder's files, replacing those that the command wrote before.
     ///
     /// # Errors
-    /// See [`OutputError`]; all files are then as they were.
+    /// See [`OutputError`]; all files are then unchanged.
     pub fn write(&self, files: &Files) -> Result<(), OutputError> {
         drop(staging::settle(&self.folder)?);
         let staging = Staging::open(&self.folder)?;
@@ -217,7 +217,7 @@ impl Output {
             Noted::stage(&staging, &self.folder, [&new, &settled])
         });
         let noted = noted.transpose()?;
-        // First, so that no file is ever unknown to the record.
+        // First, so that every file is always in the record.
         if let Some(noted) = &noted {
             noted.begin()?;
         }
@@ -226,7 +226,7 @@ impl Output {
         if let Some(noted) = &noted {
             noted.end(exchanged.is_ok());
         }
-        // Of a folder that is not empty this takes nothing away.
+        // This does not remove a folder that is not empty.
         for emptied in stale.iter().filter_map(|name| name.rsplit_once('/')) {
             let _ = fs::remove_dir(self.folder.join(emptied.0));
         }
@@ -236,14 +236,14 @@ impl Output {
     /// Writes a single file.
     ///
     /// # Errors
-    /// See [`OutputError`]; all is then as it was.
+    /// See [`OutputError`]; everything is then unchanged.
     pub fn write_file(&self, content: impl Into<Vec<u8>>) -> Result<(), OutputError> {
         let content = content.into();
         let name = self.file_name().into_iter();
         self.write(&name.map(|name| (name, content.clone())).collect())
     }
 
-    /// The name of the only file, as the record has it.
+    /// The name of the single file, as in the record.
     fn file_name(&self) -> Option<String> {
         let name = self.file.as_ref()?.file_name()?;
         Some(name.to_string_lossy().into_owned())
@@ -259,15 +259,15 @@ impl Output {
         self.folder.join(self.place(name))
     }
 
-    /// Which files are taken out of their places, and which are put in, in order.
+    /// The files to move out of their places and those to move in, in order.
     fn moves(&self, stale: &[String], files: &Files) -> (Vec<PathBuf>, Vec<PathBuf>) {
-        // A report is taken out first and put in last: where it is, the others are too.
+        // A report is moved out first and moved in last: if it exists, the others do too.
         let mut new: Vec<&String> = files.keys().collect();
         new.sort_by_key(|name| *name == "report.json");
         let taken = new.iter().rev().filter(|name| is_there(&self.path(name)));
         let old = taken.copied().chain(stale);
         let old = match files.len() {
-            // A single file simply takes the place of the old one.
+            // A single file simply replaces the old one.
             1 if stale.is_empty() => Vec::new(),
             _ => old.map(|name| self.place(name)).collect(),
         };
@@ -291,7 +291,7 @@ impl Output {
             let gives_way = self.force && obstacle.gives_way_to_force();
             (!gives_way).then(|| (self.path(name), obstacle))
         }));
-        // What force does not help against comes first.
+        // Obstacles that `force` cannot override come first.
         in_the_way.sort_by_key(|(_, obstacle)| obstacle.gives_way_to_force());
         let Some((first, obstacle)) = in_the_way.first() else {
             return Ok(record);
@@ -325,7 +325,7 @@ impl Output {
         if !found.is_file() && !found.is_symlink() {
             return Some(Obstacle::Irregular);
         }
-        // A link was made by somebody else. If it is replaced, what it leads to is not touched.
+        // A link was made by somebody else. If it is replaced, its target is not touched.
         let writer = record.writer(name).filter(|_| found.is_file());
         let Some(writer) = writer else {
             return Some(match self.recorded {
@@ -344,7 +344,7 @@ impl Output {
         file.is_some() && self.inputs.iter().any(|input| identity(input) == file)
     }
 
-    /// Results that the command wrote before, that are as they were, and that do not come again.
+    /// Unchanged earlier results of the command that are not written again.
     fn stale(&self, record: &Record, files: &Files) -> Vec<String> {
         if self.file.is_some() {
             return Vec::new();
@@ -357,8 +357,8 @@ impl Output {
     }
 }
 
-/// Keeps a file that only tilebind has a name for, synced: it is there as a whole or not at all,
-/// whatever happens. `name` is relative to the folder; its own folder is made if need be.
+/// Writes an internal file and syncs it: it is complete or absent, whatever happens. `name` is
+/// relative to the folder; its own folder is created if missing.
 ///
 /// # Errors
 /// See [`OutputError`].
@@ -369,19 +369,19 @@ pub fn keep(folder: &Path, name: &str, content: &[u8]) -> Result<(), OutputError
     let synced = fs::File::open(staged).and_then(|staged| staged.sync_all());
     synced.map_err(OutputError::of_file(&path))?;
     staging.exchange(&[], &[name.to_owned()])?;
-    // The new name, too, is to survive a power cut; not every file system can sync a folder.
+    // The new name should also survive a power cut; not every file system can sync a folder.
     if let Some(Ok(folder)) = path.parent().map(fs::File::open) {
         let _ = folder.sync_all();
     }
     Ok(())
 }
 
-/// Whether there is something by this name, be it a link that leads nowhere.
+/// Whether this name exists, also as a dangling link.
 fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
-/// What tells a file from all others, whichever path leads to it; `None` where there is none.
+/// The identity of a file, independent of the path; `None` if it does not exist.
 #[cfg(unix)]
 fn identity(path: &Path) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
@@ -389,13 +389,13 @@ fn identity(path: &Path) -> Option<(u64, u64)> {
     Some((found.dev(), found.ino()))
 }
 
-/// What tells a file from all others, whichever path leads to it; `None` where there is none.
+/// The identity of a file, independent of the path; `None` if it does not exist.
 #[cfg(not(unix))]
 fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok()
 }
 
-/// The empty path is the folder that one is in.
+/// The empty path means the current folder.
 fn or_here(path: &Path) -> &Path {
     match path.as_os_str().is_empty() {
         true => Path::new("."),

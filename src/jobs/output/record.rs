@@ -1,4 +1,4 @@
-//! What tilebind wrote into a folder.
+//! The record of the files that tilebind wrote into a folder.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ use crate::checksum::{sha256, sha256_of_file};
 /// The record's file.
 pub(super) const NAME: &str = ".tilebind.json";
 
-/// The files of a folder, by their names relative to it, that tilebind wrote.
+/// The files that tilebind wrote into a folder, by their names relative to it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Record {
     /// The version that wrote the record.
@@ -26,7 +26,7 @@ pub(super) struct Record {
 struct Entry {
     /// The command that wrote the file.
     command: String,
-    /// Of its content; while it is being replaced, of the new and of the old.
+    /// The checksum of its content; of the new and the old content while it is being replaced.
     sha256: Vec<String>,
 }
 
@@ -40,7 +40,7 @@ impl Default for Record {
 }
 
 impl Record {
-    /// Reads a record; it is empty where there is none. `None` where the file is something else.
+    /// Reads a record; it is empty if there is none. `None` if the file is something else.
     pub fn read(path: &Path) -> Option<Self> {
         match path.symlink_metadata() {
             Ok(found) if found.is_file() => serde_json::from_slice(&fs::read(path).ok()?).ok(),
@@ -51,7 +51,7 @@ impl Record {
 
     /// The record as it is written.
     pub fn text(&self) -> String {
-        // Plain values with string keys are always written.
+        // Plain values with string keys can always be serialised.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
@@ -76,7 +76,7 @@ impl Record {
         own.map(|(name, _)| name.as_str())
     }
 
-    /// The record while a command's files take the places of those in the folder: both are known.
+    /// The record while a command's files replace those in the folder: it lists both.
     pub fn with(&self, command: &str, files: &Files) -> Self {
         let mut new = Self {
             files: self.files.clone(),
@@ -95,7 +95,7 @@ impl Record {
         new
     }
 
-    /// The record once they have: without what they replaced, what is stale and what is gone.
+    /// The record afterwards: without replaced, stale and missing files.
     pub fn settled(&self, folder: &Path, files: &Files, stale: &[String]) -> Self {
         let mut settled = self.clone();
         settled.files.retain(|name, entry| {
@@ -109,17 +109,17 @@ impl Record {
     }
 }
 
-/// A record on the way from one state of a folder to the next.
+/// A record during the transition from one state of a folder to the next.
 pub(super) struct Noted {
     path: PathBuf,
-    /// As it was, if there was one.
+    /// The previous record, if there was one.
     before: Option<PathBuf>,
-    /// While files are exchanged, and then.
+    /// The records during and after the exchange of files.
     next: [PathBuf; 2],
 }
 
 impl Noted {
-    /// Writes the folder's records, while files are exchanged and then, beside their place.
+    /// Writes the folder's records during and after the exchange, beside their place.
     pub fn stage(
         staging: &Staging,
         folder: &Path,
@@ -139,13 +139,13 @@ impl Noted {
         })
     }
 
-    /// From now on new and old files are known.
+    /// From now on the record lists new and old files.
     pub fn begin(&self) -> Result<(), OutputError> {
         fs::rename(&self.next[0], &self.path).map_err(OutputError::of_file(&self.path))
     }
 
-    /// Files were exchanged, or not. If this fails, the record tells of more files than there are,
-    /// which does no harm.
+    /// Ends the exchange, successful or not. If this fails, the record lists files that do not
+    /// exist, which does no harm.
     pub fn end(&self, exchanged: bool) {
         let _ = match (exchanged, &self.before) {
             (true, _) => fs::rename(&self.next[1], &self.path),

@@ -1,4 +1,4 @@
-//! Files on the way to their places.
+//! Temporary files on the way to their final places.
 
 use std::cell::{Cell, RefCell};
 use std::fs::{self, File, TryLockError};
@@ -8,38 +8,38 @@ use std::time::{Duration, Instant};
 
 use super::{OutputError, identity, is_there, or_here};
 
-/// The folder of files on their way is called `.tilebind-PROCESS-NUMBER.partial`.
+/// The staging folder is called `.tilebind-PROCESS-NUMBER.partial`.
 const PREFIX: &str = ".tilebind-";
 const SUFFIX: &str = ".partial";
 
-/// What is in it: new files, by their later names;
+/// Its contents: new files, by their final names;
 const NEW: &str = "new";
-/// old files that were taken out of their places, while there are others to be taken out;
+/// old files that were moved out of their places, while others remain to be moved;
 const OLD: &str = "old";
-/// the same once they all were: from then on new ones take their places.
+/// the same once all have been moved: from then on the new ones are moved in.
 const GONE: &str = "gone";
 
-/// How long another process may take to write into the same folder.
+/// How long to wait for another process that writes into the same folder.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// How often it is looked whether it is done.
+/// The interval of checking for that process.
 const BLINK: Duration = Duration::from_millis(5);
 
-/// A place for files beside the folder's own, on the same file system. One process at a time has one
-/// in a folder, where the file system has locks. It goes with all that is still in it, and with the
-/// folders that were made in vain.
+/// A staging folder inside the results folder, on the same file system. Only one process at a time
+/// has one, if the file system supports locks. When dropped, it is removed with its contents, and
+/// with folders that were created in vain.
 pub(super) struct Staging {
     folder: PathBuf,
     place: PathBuf,
-    /// Whether something is in it that nobody else has.
+    /// Whether it contains the only copy of a file.
     is_needed: Cell<bool>,
-    /// Folders that were not there, outer ones first.
+    /// Folders that were created, outer ones first.
     made: RefCell<Vec<PathBuf>>,
     /// Released when it is closed.
     _lock: Option<File>,
 }
 
 impl Staging {
-    /// Makes the folder, and waits for other processes to finish theirs.
+    /// Creates the folder, and waits for other processes to finish.
     pub fn open(folder: &Path) -> Result<Self, OutputError> {
         let folder = or_here(folder);
         let mut made = Vec::new();
@@ -55,7 +55,7 @@ impl Staging {
         Ok(staging)
     }
 
-    /// Writes a file that is to be in the folder by this name.
+    /// Stages a file for this name in the folder.
     pub fn add(&self, name: &Path, content: &[u8]) -> Result<PathBuf, OutputError> {
         let staged = self.place.join(NEW).join(name);
         make_parent(&staged)
@@ -64,7 +64,7 @@ impl Staging {
         Ok(staged)
     }
 
-    /// Writes a file beside them, to be renamed by the caller to `path`.
+    /// Stages a file that the caller will rename to `path`.
     pub fn add_apart(
         &self,
         name: &str,
@@ -76,8 +76,8 @@ impl Staging {
         Ok(staged)
     }
 
-    /// Takes the old files out of their places and puts the new ones, which were added, into theirs;
-    /// so there never are old and new ones together. Where that fails all are put back.
+    /// Moves the old files out of their places and the staged ones in, so that old and new files
+    /// are never mixed. If that fails, everything is restored.
     pub fn exchange(&self, old: &[PathBuf], new: &[PathBuf]) -> Result<(), OutputError> {
         for name in new {
             let path = self.folder.join(name);
@@ -85,7 +85,7 @@ impl Staging {
             make(folder, &mut self.made.borrow_mut()).map_err(refused(folder))?;
         }
         let [staged, aside, gone] = [NEW, OLD, GONE].map(|it| self.place.join(it));
-        // Nothing else is done to a single file but to put it into its place.
+        // A single file is only moved into its place.
         let is_set = !old.is_empty() || new.len() > 1;
         if is_set {
             fs::create_dir(&aside).map_err(refused(&self.place))?;
@@ -119,14 +119,14 @@ impl Drop for Staging {
         if !self.is_needed.get() {
             let _ = fs::remove_dir_all(&self.place);
         }
-        // Of a folder that is not empty this takes nothing away.
+        // This removes nothing from a folder that is not empty.
         for folder in self.made.borrow().iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// Makes a folder with those that it is in, and notes which were not there.
+/// Creates a folder and its parents, and notes which were missing.
 fn make(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<()> {
     let missing = folder.ancestors().take_while(|it| !or_here(it).exists());
     let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
@@ -134,20 +134,20 @@ fn make(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<()> {
     fs::create_dir_all(folder)
 }
 
-/// Makes a folder and has it alone; `None` where the file system has no locks.
+/// Creates a folder and locks it; `None` if the file system has no locks.
 fn make_alone(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<Option<File>> {
     let mut tries = 0;
     loop {
         match make(folder, made).and_then(|()| hold(folder)) {
-            // A process that gave up has taken the folder away that it had made.
+            // A process that failed removed the folder that it had created.
             Err(error) if error.kind() == ErrorKind::NotFound && tries < 20 => tries += 1,
             held => return held,
         }
     }
 }
 
-/// Settles what killed processes left in a folder, which nobody else writes into until what is
-/// returned goes.
+/// Cleans up what killed processes left in a folder. Nobody else writes into the folder until the
+/// returned lock is dropped.
 pub(super) fn settle(folder: &Path) -> Result<Option<File>, OutputError> {
     let folder = or_here(folder);
     let held = match hold(folder) {
@@ -160,7 +160,7 @@ pub(super) fn settle(folder: &Path) -> Result<Option<File>, OutputError> {
     Ok(held)
 }
 
-/// Has a folder alone; `None` where the file system has no locks.
+/// Locks a folder; `None` if the file system has no locks.
 fn hold(folder: &Path) -> io::Result<Option<File>> {
     let start = Instant::now();
     loop {
@@ -191,7 +191,7 @@ fn refused(folder: &Path) -> impl Fn(io::Error) -> OutputError {
     }
 }
 
-/// Whether an open folder still is the one of that name.
+/// Whether an open folder is still the one of that name.
 #[cfg(unix)]
 fn is_at(held: &File, folder: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -199,18 +199,18 @@ fn is_at(held: &File, folder: &Path) -> bool {
     held.is_some() && held == identity(folder)
 }
 
-/// Whether an open folder still is the one of that name: elsewhere it cannot be removed.
+/// Always true: on this system an open folder cannot be removed.
 #[cfg(not(unix))]
 fn is_at(_: &File, folder: &Path) -> bool {
     identity(folder).is_some()
 }
 
-/// Makes the folder that a file is to be in.
+/// Creates the parent folder of a file.
 fn make_parent(path: &Path) -> io::Result<()> {
     path.parent().map_or(Ok(()), fs::create_dir_all)
 }
 
-/// Makes the folder of files on their way, which nobody else has.
+/// Creates a unique staging folder.
 pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
     let process = std::process::id();
     let mut number = 0;
@@ -223,8 +223,7 @@ pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Finishes what killed processes began, or puts back what they had taken out; for when nobody else
-/// writes.
+/// Finishes or reverts the exchanges of killed processes; requires the lock.
 fn settle_leftovers(folder: &Path) {
     for place in folders(folder) {
         if is_ours(&place) {
@@ -235,7 +234,7 @@ fn settle_leftovers(folder: &Path) {
             let _ = fs::remove_dir_all(place);
             continue;
         }
-        // In folders of results it is only tried whether one can write there.
+        // In results folders this only tests whether they are writable.
         let probes = folders(&place).filter(|probe| is_ours(probe));
         for probe in
             probes.filter(|probe| ![NEW, OLD, GONE].iter().any(|it| probe.join(it).exists()))
@@ -252,7 +251,7 @@ fn folders(folder: &Path) -> impl Iterator<Item = PathBuf> {
     folders.map(|entry| entry.path())
 }
 
-/// Whether a folder has the name of those of files on their way.
+/// Whether a folder has the name of a staging folder.
 fn is_ours(folder: &Path) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
@@ -263,7 +262,7 @@ fn is_ours(folder: &Path) -> bool {
     numbers.is_some_and(|(process, number)| is_number(process) && is_number(number))
 }
 
-/// Moves all files of a folder into another one, but where something is already.
+/// Moves all files of a folder into another one, without overwriting.
 fn move_where_free(from: &Path, to: &Path) {
     for entry in fs::read_dir(from).into_iter().flatten().flatten() {
         let (from, to) = (entry.path(), to.join(entry.file_name()));

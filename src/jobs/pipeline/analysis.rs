@@ -1,4 +1,4 @@
-//! What the main job finds out about a design, as plain values.
+//! The result of an analysis, as plain values.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -11,33 +11,33 @@ use physics::landscape::{Barrier, Catalogue, Completeness, LeftOut, Uncaptured, 
 use physics::problem::Problem;
 use physics::roadmap::RoadmapSettings;
 
-/// The result of the main job, with everything that reproduces it.
+/// The result of an analysis, with everything needed to reproduce it.
 #[derive(Clone)]
 pub struct Analysis {
-    /// What was analysed.
+    /// The analysed problem.
     pub problem: Arc<Problem>,
-    /// What was asked for.
+    /// The request.
     pub settings: Settings,
-    /// What that meant for the roadmap.
+    /// The resulting settings of the roadmap.
     pub roadmap: RoadmapSettings,
     /// The configuration in which the target faces coincide, and its energy (J).
     pub bound: (Configuration, f64),
     /// States, barriers and pathways.
     pub catalogue: Catalogue,
-    /// What is proved of the states that the catalogue may lack, or why nothing is.
+    /// What is proved about states missing from the catalogue, or why nothing is.
     pub completeness: Result<Completeness, Uncertified>,
     /// Shares of the far starts that end in no state.
     pub uncaptured: Uncaptured,
     /// Inner and outer radius (m) of the ring of far starts.
     pub ring: [f64; 2],
-    /// Why the barriers have no certified bounds, where they have none.
+    /// Why the barriers have no certified bounds, if they have none.
     pub uncertified: Option<Uncertified>,
-    /// What ended the certificate before all bounds were as narrow as was asked for; `None` where
+    /// What ended the certification before all bounds were as narrow as requested; `None` if
     /// nothing did.
     pub certificate_ended: Option<Ended>,
-    /// What moving tiles say of the barriers; `None` where they were not asked.
+    /// The check of the barriers by moving tiles; `None` without the check.
     pub dynamics: Option<Vec<BarrierCheck>>,
-    /// How much was done.
+    /// Amounts of work.
     pub counts: Counts,
     /// Wall time (s) and energy evaluations of each stage, in order.
     pub stages: Vec<Stage>,
@@ -62,7 +62,7 @@ impl Analysis {
     }
 }
 
-/// How much was done.
+/// Amounts of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Counts {
     /// Milestones of the roadmap.
@@ -71,22 +71,22 @@ pub struct Counts {
     pub edges: usize,
     /// Transition states found, copies counted one by one.
     pub transition_states: usize,
-    /// Kinds of states that were found and are not listed, as so many are asked for only.
+    /// Kinds of states that were found but exceed the requested number.
     #[serde(default)]
     pub left_out: Option<LeftOut>,
-    /// Energies computed, with their gradients or without.
+    /// Number of energies computed, with or without gradients.
     pub energy_evaluations: u64,
     /// Cells of the certificate.
     pub cells: usize,
 }
 
-/// A stage of the main job.
+/// A stage of an analysis.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Stage {
-    /// What the observer was told.
+    /// Its name for the observer.
     pub name: Cow<'static, str>,
     /// Wall time (s).
     pub wall_s: f64,
-    /// Energies computed meanwhile.
+    /// Energies computed during the stage.
     pub energy_evaluations: u64,
 }

@@ -1,4 +1,4 @@
-//! Measures the stages of the main job.
+//! Measures how long the stages of an analysis take.
 
 use std::time::Instant;
 
@@ -6,7 +6,7 @@ use super::Stage;
 use physics::observer::Observer;
 use physics::problem::Problem;
 
-/// Measures the stages, and tells an observer of them.
+/// Measures the stages, and reports them to an observer.
 pub struct Clock<'a> {
     problem: &'a Problem,
     observer: &'a dyn Observer,
@@ -25,8 +25,8 @@ impl<'a> Clock<'a> {
         }
     }
 
-    /// A stage begins; `share` of the whole time (0 to 1) is behind. What was spent on one of the
-    /// same name before is added to.
+    /// Begins a stage, at `share` (0 to 1) of the total time. Stages with the same name are added
+    /// up.
     pub fn start(&mut self, name: &'static str, share: f64) {
         self.finish();
         self.observer.stage(name, share);

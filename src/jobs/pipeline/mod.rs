@@ -1,4 +1,4 @@
-//! The main job in one readable page: from a design to its states, barriers and pathways.
+//! The analysis on one page: from a design to its states, barriers and pathways.
 
 mod analysis;
 mod clock;
@@ -27,13 +27,13 @@ use physics::potential::{Interaction, MagnetModel};
 use physics::problem::Problem;
 use physics::roadmap::{Roadmap, RoadmapSettings};
 
-/// The main job. The same design and settings give the same result on any number of threads, unless a
-/// clock that was set ends a proof.
+/// Analyses a design. The same design and settings give the same result on any number of threads,
+/// unless a time limit ends a proof.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
     analyse_problem(design, design.problem(), settings, observer)
 }
 
-/// The same of a design's problem that has been set up.
+/// Analyses the given problem of a design.
 pub fn analyse_problem(
     design: &Design,
     problem: Problem,
@@ -68,7 +68,7 @@ pub fn analyse_problem(
         catalogue.widen_spread(&problem, &other);
     }
     weigh_blocks(design, &mut catalogue);
-    // What captures most is certified first.
+    // States that capture most are certified first.
     catalogue.count_captures(&problem, &ends);
     clock.start("certificate", 0.75);
     let certified = certify(&problem, &mut catalogue, settings, observer);
@@ -98,8 +98,8 @@ pub fn analyse_problem(
     }
 }
 
-/// Certifies the barriers that are claimed, and leaves out what that shows to be no trap; of what is
-/// left another trap may be the deepest, whose barriers are then claimed.
+/// Certifies the claimed barriers, and removes states that prove not to be traps. Another trap may
+/// then be the deepest, and its barriers are claimed.
 fn certify(
     problem: &Problem,
     catalogue: &mut Catalogue,
@@ -120,8 +120,8 @@ fn certify(
     }
 }
 
-/// One roadmap and what is found from it; `guesses` are configurations that may lie near minima,
-/// besides those that the faces suggest.
+/// Builds one roadmap and surveys the landscape from it; `guesses` are configurations that may lie
+/// near minima, besides those suggested by the faces.
 pub(crate) fn survey<'a>(
     problem: &'a Problem,
     settings: &Settings,
@@ -151,8 +151,8 @@ pub(crate) fn survey<'a>(
     (survey, counts)
 }
 
-/// Where the magnets are modelled as point dipoles, gives each state the energy of the real blocks
-/// there (behind the same shields), so that nobody takes the dipoles' depth for the real one.
+/// For point dipoles, adds to each state the energy of the real blocks there (behind the same
+/// shields), so that nobody mistakes the dipoles' depth for the real one.
 fn weigh_blocks(design: &Design, catalogue: &mut Catalogue) {
     let blocks = Interaction {
         model: MagnetModel::Cuboid,
@@ -173,7 +173,7 @@ fn weigh_blocks(design: &Design, catalogue: &mut Catalogue) {
     });
 }
 
-/// What moving tiles say of the barriers that are claimed, if they are asked.
+/// Checks the claimed barriers by moving tiles, if requested.
 fn check_barriers(
     problem: &Problem,
     catalogue: &Catalogue,

@@ -1,4 +1,4 @@
-//! What the main job is asked for.
+//! The request of an analysis.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -9,10 +9,10 @@ use crate::request;
 use physics::budget::Allowance;
 use physics::landscape::CompletenessSettings;
 
-/// What is asked of an analysis.
+/// The options of an analysis.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
-    /// How thoroughly the landscape is surveyed.
+    /// The thoroughness of the survey.
     #[command(flatten)]
     pub survey: Survey,
 
@@ -39,7 +39,7 @@ pub struct Request {
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
-    /// What bounds of barriers are worth.
+    /// The effort of bounds of barriers.
     #[command(flatten)]
     pub certify: Certify,
 
@@ -110,7 +110,7 @@ impl Request {
     }
 }
 
-/// How thoroughly the landscape is surveyed.
+/// The thoroughness of the survey.
 #[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
 pub struct Survey {
     /// Milestones of the roadmap [default: 8000; fewer for very many magnets]
@@ -155,7 +155,7 @@ impl Default for Survey {
 }
 
 impl Survey {
-    /// With what is usual in place of what was not asked for.
+    /// The options with missing ones filled in from `usual`.
     #[must_use]
     pub fn of(&self, usual: &Settings) -> Self {
         Self {
@@ -186,18 +186,18 @@ pub struct Check {
     #[arg(long = "dynamics", id = "dynamics", alias = "dynamics-runs", value_name = "RUNS",
           num_args = 0..=1, require_equals = true, default_missing_value = "1000", default_value = "0",
           hide_default_value = true, value_parser = request::runs_or_none)]
-    // Settings of sweeps without the check read as they always did.
+    // Settings of sweeps without the check keep their format.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub dynamics_runs: usize,
 }
 
-// As serde calls it.
+// In the form that serde requires.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_zero(runs: &usize) -> bool {
     *runs == 0
 }
 
-/// What the certificate is worth.
+/// The effort of certification.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Certify {
     /// Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
@@ -214,7 +214,7 @@ pub struct Certify {
 }
 
 impl Certify {
-    /// What is asked for in place of a default.
+    /// The requested limits, or else the default.
     pub fn allowed(&self, default: Allowance) -> Allowance {
         default.or(
             self.certify_work,

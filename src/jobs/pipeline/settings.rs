@@ -1,4 +1,4 @@
-//! What the main job is asked for, and what that means for each of its stages.
+//! The settings of an analysis, and the settings of its stages that follow from them.
 
 use crate::design::Design;
 use physics::budget::Allowance;
@@ -13,50 +13,50 @@ use physics::roadmap::{
     Acceptance, EdgeSettings, MilestoneSettings, ProfileTolerance, RoadmapSettings, neighbour,
 };
 
-/// All that decides the result, besides the design.
+/// Everything that determines the result, besides the design.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Settings {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Milestones of the roadmap.
     pub milestones: usize,
-    /// Neighbours of each milestone; by the PRM* rule where `None`.
+    /// Neighbours of each milestone; the PRM* rule if `None`.
     pub neighbours: Option<usize>,
     /// Accept milestones by Boltzmann's rule at this energy (J) instead of the linear rule.
     pub boltzmann: Option<f64>,
-    /// Thermal energy (J) of the transition probabilities; a hundredth of the bond where `None`.
+    /// Thermal energy (J) of the transition probabilities; a hundredth of the bond if `None`.
     pub thermal_energy: Option<f64>,
-    /// A barrier is settled when it moves by less than this fraction.
+    /// A barrier has converged when it changes by less than this fraction.
     pub settled: f64,
-    /// Milestones added in each round around a meeting place of basins that is not settled.
+    /// Milestones added in each round around a pass between basins that has not converged.
     pub added_milestones: usize,
-    /// Minima are left out whose escape barrier is below this fraction of the deepest energy.
+    /// Minima with an escape barrier below this fraction of the deepest energy are omitted.
     pub least_depth: f64,
-    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    /// Number of kinds of states to analyse, deepest first; all if `None`.
     pub most_kinds: Option<usize>,
     /// Number of far starts.
     pub far_starts: usize,
-    /// Width (J) to which certified bounds are narrowed; where `None`, a hundredth of the bond or a
-    /// twentieth of the barrier, whichever is less.
+    /// Target width (J) of certified bounds; if `None`, a hundredth of the bond or a twentieth of
+    /// the barrier, whichever is smaller.
     pub tolerance: Option<f64>,
-    /// What may be spent on the certificate, after which it keeps the bounds it has.
+    /// The allowance of the certification, after which the bounds stay as they are.
     pub certify: Allowance,
-    /// Cells spent on the bounds of one barrier at most, so that a hard one leaves work for the
-    /// others.
+    /// Largest number of cells for the bounds of one barrier, so that a hard one leaves work for
+    /// the others.
     pub certify_cells: usize,
     /// Which barriers are certified, and checked by moving tiles.
     pub claims: Claims,
-    /// How the proof is sought that no state is missing from the list.
+    /// Settings of the proof that no state is missing.
     pub completeness: CompletenessSettings,
     /// Number of runs, each with the next seed, whose spread is reported.
     pub repeats: usize,
-    /// Trajectories below each barrier by which the barriers are checked; 0 for no check.
+    /// Number of trajectories below each barrier that check it; 0 for no check.
     pub dynamics_runs: usize,
 }
 
-/// Work that the certificate is worth, and the proof that no state is missing, each: as what takes about
-/// so many seconds of a core. Of the shipped designs the proof takes up to 15, and 160 of the paper's
-/// tile with blocks; where it comes to no end more would not change that.
+/// Default work of the certification, and of the proof that no state is missing, in core-seconds
+/// each. For the shipped designs the proof takes up to 15, and 160 for the paper's tile with
+/// blocks; where it does not finish, more work would not help.
 const WORK: f64 = 180.0;
 
 impl Default for Settings {
@@ -88,19 +88,21 @@ impl Default for Settings {
     }
 }
 
-/// From [`MANY_PAIRS`] of magnets on there is less of everything by this power of their number:
-/// energies, of far groups, take less than all pairs would.
+/// From [`MANY_PAIRS`] of magnets on, all amounts of work are reduced by this power of their
+/// number: with groups of far magnets, energies cost less than in proportion to the pairs.
 const THINNED: f64 = 2.0 / 3.0;
-/// Kinds of states that are looked at of so many pairs.
+/// Number of kinds of states analysed at [`MANY_PAIRS`].
 const KINDS_OF_MANY: f64 = 800.0;
-/// Far starts that there are at least: none of 60 still says less than 7 %.
+/// Least number of far starts: 0 of 60 still means less than 7 %.
 const FEWEST_STARTS: f64 = 60.0;
-/// From so many pairs on the usual work on a proof comes to nothing: of squares with 100 magnets a face ...
+/// From this number of pairs on, the default work does not suffice for proofs: squares with 100
+/// magnets per face ...
 const HOPELESS_PAIRS: f64 = 500_000.0;
 
 impl Settings {
-    /// Defaults for designs: of very many magnets less of everything, so that a result comes within
-    /// minutes; all of them the same, those that the one with the most pairs of magnets needs.
+    /// Defaults for designs: less of everything for very many magnets, so that a result takes
+    /// minutes. All designs have the same settings, those for the largest number of pairs of
+    /// magnets.
     pub fn of<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
         let pairs = |design: &Design| {
             let tiles = [&design.pair.fixed, &design.pair.moving];
@@ -132,7 +134,7 @@ impl Settings {
         }
     }
 
-    /// For states and barriers without proofs and capture shares, as kinetics needs them.
+    /// Settings for states and barriers without proofs and capture shares, as needed for kinetics.
     pub fn without_proofs(seed: u64) -> Self {
         let default = Self::default();
         Self {
@@ -148,7 +150,7 @@ impl Settings {
         }
     }
 
-    /// The roadmap's settings for a problem, with nothing left open.
+    /// The roadmap's settings for a problem, with all defaults filled in.
     pub fn roadmap(&self, problem: &Problem) -> RoadmapSettings {
         let depth = problem.depth();
         let linear = Acceptance::Linear {

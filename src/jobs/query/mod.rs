@@ -1,4 +1,4 @@
-//! One barrier, asked for: from a pose of the moving tile to another, or to anywhere far apart.
+//! Queries for one barrier: from a pose of the moving tile to another, or to anywhere far apart.
 
 pub mod poses;
 mod request;
@@ -16,22 +16,20 @@ use physics::observer::Observer;
 use physics::problem::Problem;
 use ways::Search;
 
-/// Cells that the certificate may spend before a roadmap is asked for a way: worth about as much
-/// time as a roadmap.
+/// Number of cells of the certificate before a roadmap is built: they take about as long as a
+/// roadmap.
 const CELLS_BEFORE_ROADMAP: usize = 100_000;
 
-/// What is asked.
+/// A query for one barrier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
-    /// Where the way starts.
+    /// The start of the path.
     pub from: Configuration,
-    /// Where it ends.
+    /// The end of the path.
     pub to: End,
-    /// Settings of the roadmap from which the way is found, and what may be spent on the
-    /// certificate.
+    /// Settings of the roadmap, and the allowance of the certification.
     pub settings: Settings,
-    /// The certificate's bounds are narrowed to this width (J); a hundredth of the bond's depth
-    /// where `None`.
+    /// Target width (J) of the bounds; a hundredth of the bond's depth if `None`.
     pub tolerance: Option<f64>,
 }
 
@@ -40,9 +38,9 @@ pub struct Query {
 pub struct Answer {
     /// From the start, as state 0, to the end, as state 1 or `free`.
     pub barrier: Barrier,
-    /// Why there are no bounds, where there are none.
+    /// Why there are no bounds, if there are none.
     pub uncertified: Option<Uncertified>,
-    /// What ended the certificate before the bounds were as narrow as was asked for.
+    /// What ended the certification before the bounds were as narrow as requested.
     pub ended: Option<Ended>,
 }
 
@@ -61,22 +59,22 @@ pub enum QueryError {
     )]
     /// An end lies off the table of this half size (m).
     OffTheTable(Configuration, [f64; 2]),
-    /// Neither a way nor a proof that there is none was found.
+    /// Neither a path nor a proof that there is none was found.
     #[error("no path was found or excluded: use more milestones")]
     NoWay,
 }
 
 /// The barrier between two poses, or between a pose and far apart.
 ///
-/// Where the energy can be bounded, the certificate comes first: it finds a way by itself, most
-/// often faster than a roadmap does, and the transition states near the way's peaks give the saddle
-/// to full accuracy. Where it is not narrow enough after a while, or where nothing can be certified,
-/// a roadmap as for the main job is surveyed with the two poses as further nodes, and its minimax
-/// pathway is the start from which the certificate goes on.
+/// If the energy can be bounded, the certificate comes first: it finds a path by itself, usually
+/// faster than a roadmap, and the transition states near the path's peaks give the saddle to full
+/// accuracy. If its bounds are not narrow enough after a while, or if nothing can be certified, a
+/// roadmap as in an analysis is surveyed with the two poses as additional nodes, and the
+/// certification continues from its minimax pathway.
 ///
 /// # Errors
-/// Where an end is off the table or the tiles overlap there, and where no way is found though none
-/// is disproved.
+/// If an end is off the table or the tiles overlap there, or if no path is found although none is
+/// disproved.
 pub fn barrier(
     design: &Design,
     query: &Query,
@@ -127,7 +125,7 @@ pub fn barrier(
     })
 }
 
-/// The barrier that is asked for, of which nothing is known yet.
+/// The requested barrier, with nothing known yet.
 fn unknown_barrier(problem: &Problem, query: &Query) -> Barrier {
     let from = (Place::State(0), problem.energy(&query.from));
     let to = match &query.to {
@@ -147,7 +145,7 @@ fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
     Ok(())
 }
 
-/// The certificate of one query.
+/// The certification of one query.
 struct Certificate<'a> {
     certifier: Certifier<'a>,
     query: &'a Query,
@@ -171,8 +169,8 @@ impl<'a> Certificate<'a> {
         })
     }
 
-    /// Narrows the bounds to a width (J), until about so many cells have been assessed altogether,
-    /// and takes over the certificate's pathway, made finer, where it is lower.
+    /// Narrows the bounds to a width (J), until about the given total number of cells has been
+    /// assessed, and takes over the certificate's pathway, refined, if it is lower.
     fn narrow(&mut self, barrier: &mut Barrier, width: f64, cells: usize) {
         let known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
         let effort = Effort {

@@ -1,4 +1,4 @@
-//! Poses from a CSV file, and what is felt at a pose.
+//! Reads poses from a CSV file, and computes energy, force and torque at a pose.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -8,25 +8,25 @@ use crate::text::{column, decimal_comma};
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
-/// What is known of a pose.
+/// Energy, force and torque at a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Felt {
-    /// Of the moving tile.
+    /// The pose of the moving tile.
     pub pose: Configuration,
     /// U (J).
     pub energy: f64,
-    /// On the moving tile (N).
+    /// The force on the moving tile (N).
     pub force: [f64; 2],
-    /// On the moving tile, about its reference point (N m).
+    /// The torque on the moving tile about its reference point (N m).
     pub torque: f64,
-    /// Between the outlines (m), see [`clearance`].
+    /// The distance between the outlines (m), see [`clearance`].
     pub clearance: f64,
     /// Whether the tiles do not overlap.
     pub is_free: bool,
 }
 
 impl Felt {
-    /// At a pose.
+    /// Evaluates a pose.
     pub fn new(problem: &Problem, pose: &Configuration) -> Self {
         let (energy, gradient) = problem.energy_and_gradient(pose);
         Self {
@@ -40,7 +40,7 @@ impl Felt {
     }
 }
 
-/// The distance between the outlines (m), negative where they overlap.
+/// The distance between the outlines (m), negative if they overlap.
 pub fn clearance(problem: &Problem, pose: &Configuration) -> f64 {
     let clearance = problem.clearance(pose);
     // Tiles that touch may overlap by a rounding error.
@@ -50,15 +50,15 @@ pub fn clearance(problem: &Problem, pose: &Configuration) -> f64 {
     }
 }
 
-/// Names of the columns, each with those that other files of this program give it.
+/// Names of the columns, each with its names in other files of this program.
 const COLUMNS: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["theta", "theta_rad"]];
 
-/// Reads poses (m, m, rad; or with units, as `12 mm`), one a line: the columns x, y and theta where
-/// the first line names columns (others are passed over, so that a pathway is read too), or else
-/// three numbers. Empty lines and those that begin with `#` are skipped.
+/// Reads poses (m, m, rad; or with units, such as `12 mm`), one per line: the columns x, y and
+/// theta if the first line names columns (others are ignored, so that pathways can be read), or
+/// else three numbers. Empty lines and lines that begin with `#` are skipped.
 ///
 /// # Errors
-/// What is wrong, with the line, counted from 1.
+/// If the text is invalid; the message has the line, counted from 1.
 ///
 /// ```
 /// use tilebind_jobs::query::poses;
@@ -77,7 +77,7 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
     let mut entries = 0;
     let mut poses = Vec::new();
     let mut record = StringRecord::new();
-    // Text that is in memory cannot fail to be read.
+    // Reading from memory cannot fail.
     while reader.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, csv::Position::line);
         if columns.is_none() {
@@ -98,8 +98,7 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
     Ok(poses)
 }
 
-/// A line with more entries than it should have is no pose: where commas are decimal, its numbers are
-/// others than meant.
+/// Rejects a line with too many entries: with decimal commas, its numbers would be wrong.
 fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
     let text = record.iter().collect::<Vec<_>>().join(",");
     match record.iter().skip(entries).any(|entry| !entry.is_empty()) {
@@ -114,7 +113,7 @@ fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
     }
 }
 
-/// Where x, y and theta stand, if the line names columns.
+/// The columns of x, y and theta, if the line names columns.
 fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
     if record
         .iter()

@@ -1,4 +1,4 @@
-//! What is asked of a barrier.
+//! The request of a barrier.
 
 use clap::Args;
 
@@ -17,7 +17,7 @@ Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
 
 Counted in steps, not timed.";
 
-/// Between which poses a barrier is asked for, and how closely.
+/// The options of a query for one barrier.
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("certify_work", |work| work.help(WORK).long_help(WORK_LONG)))]
 pub struct Request {
@@ -33,7 +33,7 @@ pub struct Request {
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
     pub tolerance: Option<f64>,
 
-    /// What its bounds are worth.
+    /// The effort of its bounds.
     #[command(flatten)]
     pub certify: Certify,
 

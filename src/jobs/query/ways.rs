@@ -1,4 +1,4 @@
-//! Ways between the ends of a query: from a roadmap, or from a certificate's pathway.
+//! Pathways between the ends of a query: from a roadmap, or from a certificate.
 
 use ordered_float::OrderedFloat;
 use std::cell::OnceCell;
@@ -21,24 +21,24 @@ use physics::order::Order;
 use physics::problem::{Problem, Symmetry};
 use physics::roadmap::{Point, Roadmap, RoadmapSettings, edge};
 
-/// Nodes of the network to which an end is joined by straight motions, where these are free.
+/// Number of nodes of the network to which an end is joined by straight motions, if these are free.
 const JOINED: usize = 40;
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
-/// So many peaks of a pathway are looked at for transition states, the highest first.
+/// Number of peaks of a pathway searched for transition states, highest first.
 const PEAKS: usize = 8;
-/// The direction in which a peak is passed is that between the points so far (m) from it.
+/// The direction of a pathway at a peak is taken between the points at this distance (m) from it.
 const PASSING: f64 = 2e-3;
 
-/// Far starts of which those are followed that end where a way to `free` starts.
+/// Number of far starts; those that end where the path to `free` starts are followed.
 const FAR_STARTS: usize = 100;
 
-/// Looks for ways between the two ends of a query.
+/// Searches paths between the two ends of a query.
 pub(super) struct Search<'a> {
     problem: &'a Problem,
     query: &'a Query,
     roadmap: RoadmapSettings,
-    /// Far starts, each with where it comes to rest; made when they are first asked for.
+    /// Far starts, each with its end; computed on first use.
     arrivals: OnceCell<Vec<(Configuration, Configuration)>>,
 }
 
@@ -52,8 +52,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Adds the ways in which far starts come to rest, where the way that is asked for leads to
-    /// `free`.
+    /// Adds the motions of far starts to their ends, if the requested path leads to `free`.
     fn add_arrivals(&self, survey: &mut Exploration) {
         if self.query.to != End::Free {
             return;
@@ -70,7 +69,7 @@ impl<'a> Search<'a> {
         survey.add_arrivals(arrivals);
     }
 
-    /// The minimax pathway that a roadmap holds; empty where it holds none.
+    /// The minimax pathway of a roadmap; empty if there is none.
     pub fn through_roadmap(&self, observer: &dyn Observer) -> Pathway {
         let Query { from, settings, .. } = self.query;
         let guesses: Vec<Configuration> = [Some(from), self.query.to.configuration()]
@@ -90,9 +89,9 @@ impl<'a> Search<'a> {
         self.lowest(&survey, from, to)
     }
 
-    /// The minimax pathway near a proved one, which a certificate drew no finer than its bounds:
-    /// along the descents from the transition states at its peaks, where these lead from end to
-    /// end, and nowhere higher than the proved one.
+    /// The minimax pathway near a proved one, which is only as precise as the certificate's bounds.
+    /// It follows the descents from the transition states at the peaks, if these connect the ends
+    /// and are nowhere higher than the proved pathway.
     pub fn near(&self, proved: &[Configuration]) -> Pathway {
         let depth = self.problem.depth();
         let proved = pathway::of_configurations(self.problem, proved, BEND * depth);
@@ -141,8 +140,8 @@ impl<'a> Search<'a> {
         .map_or_else(Pathway::new, |(_, pathway)| pathway)
     }
 
-    /// Adds a configuration to the network, joined by its descent and by the straight motions to
-    /// the nearest nodes.
+    /// Adds a configuration to the network, with its descent and straight motions to the nearest
+    /// nodes.
     fn attach(&self, survey: &mut Exploration, q: &Configuration) -> usize {
         let problem = self.problem;
         let near = self.nearest(survey, q);
@@ -167,7 +166,7 @@ impl<'a> Search<'a> {
         node
     }
 
-    /// The nodes nearest to a configuration, with theirs.
+    /// The nodes nearest to a configuration, with their configurations.
     fn nearest(&self, survey: &Exploration, q: &Configuration) -> Vec<(usize, Configuration)> {
         let nodes = survey.network.nodes.iter().enumerate();
         let mut near: Vec<(f64, usize, Configuration)> = nodes
@@ -182,8 +181,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The highest inner peaks of a way, each with the direction in which the way passes it, read off
-/// the points some way before and after.
+/// The highest inner peaks of a path, each with the direction of the path there, from points some
+/// distance before and after.
 fn peaks(problem: &Problem, points: &[Point]) -> Vec<(Configuration, Vector3<f64>)> {
     let mut peaks: Vec<usize> = (1..points.len().saturating_sub(1))
         .filter(|&i| {

@@ -1,5 +1,5 @@
-//! What shaken tiles do in overdamped motion: how soon a pose is left and whereto, and the rates
-//! between the bond, the deepest traps and free tiles.
+//! Overdamped motion of shaken tiles: how soon a tile leaves a pose and where it goes, and the
+//! rates between the bond, the deepest traps and free tiles.
 
 mod over_kt;
 mod states;
@@ -21,12 +21,12 @@ use physics::kinetics::rates::{RateSettings, RatesError, rates};
 use physics::kinetics::{Certify, OVERDAMPED, why_unprovable};
 use physics::problem::Problem;
 
-/// Mean exit times after which a moving tile is given up.
+/// Number of mean exit times after which a moving tile is abandoned.
 const PATIENCE: f64 = 30.0;
-/// Squares along x and y of the committor's map.
+/// Number of squares along x and y of the committor's map.
 const SQUARES: usize = 120;
 
-/// What is asked; `None` for what is usual.
+/// The options; `None` for the default.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Question {
     /// Effective energy kT of shaking (J)
@@ -64,10 +64,10 @@ pub struct Question {
     pub prove: bool,
 }
 
-/// What is asked of rates between states, or of a pose that is left.
+/// The options of rates between states, or of the exit from a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
-    /// At which shaking, between which ends and how closely.
+    /// kT, ends and accuracy.
     #[command(flatten)]
     pub question: Question,
 
@@ -97,16 +97,16 @@ pub struct Request {
 /// Why there are no rates.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RateFault {
-    /// A proof is asked for that there is not.
+    /// A proof is requested that does not exist.
     #[error("{0}")]
     Unprovable(String),
-    /// Of a pose that is left.
+    /// The exit from a pose has no answer.
     #[error(transparent)]
     Exit(#[from] ExitError),
-    /// Of rates between states.
+    /// Rates between states have no answer.
     #[error(transparent)]
     Rates(#[from] RatesError),
-    /// No body moves so.
+    /// The rigid bodies cannot move with these settings.
     #[error(transparent)]
     Motion(#[from] SettingsError),
 }
@@ -123,7 +123,7 @@ impl Unanswered for RateFault {
 }
 
 impl Request {
-    /// Refuses a proof that there is not.
+    /// Rejects requests for proofs that do not exist.
     ///
     /// # Errors
     /// See [`RateFault`].
@@ -133,8 +133,8 @@ impl Request {
         why.map_or(Ok(()), |why| Err(RateFault::Unprovable(why)))
     }
 
-    /// The mean exit time of a tile that is let go at a pose, where it comes first, and what rigid bodies
-    /// do, if they are asked.
+    /// The mean exit time of a tile released at a pose, the end that it reaches first, and the
+    /// result of rigid bodies, if requested.
     ///
     /// # Errors
     /// See [`RateFault`].
@@ -150,7 +150,8 @@ impl Request {
         Ok((found, check))
     }
 
-    /// Rates between the bond, the deepest traps and free tiles; more where they are to be pictured.
+    /// Rates between the bond, the deepest traps and free tiles; with additional results if they
+    /// are to be plotted.
     ///
     /// # Errors
     /// See [`RateFault`].
@@ -166,16 +167,16 @@ impl Request {
     }
 }
 
-/// How soon a pose is left, and whereto.
+/// The exit from a pose: how soon the tile leaves, and where it goes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseExit {
-    /// What was asked.
+    /// The request.
     pub asked: ExitSettings,
     /// Drag rate c / mass (1/s).
     pub drag: f64,
     /// D = kT / c (m^2/s).
     pub diffusion: f64,
-    /// What was found.
+    /// The result.
     pub found: Exit,
 }
 
@@ -185,7 +186,7 @@ pub fn diffusion(design: &Design, kt: f64, drag: f64) -> f64 {
 }
 
 impl Question {
-    /// The mean exit time of a tile that is let go at a pose, and where it comes first.
+    /// The mean exit time of a tile released at a pose, and the end that it reaches first.
     ///
     /// # Errors
     /// See [`ExitError`].
@@ -209,8 +210,8 @@ impl Question {
         })
     }
 
-    /// Rates between the bond, so many of the deepest traps at most, and free tiles; with a map of the
-    /// committor and the rates at other kT if they are to be pictured.
+    /// Rates between the bond, at most the given number of the deepest traps, and free tiles; with
+    /// a map of the committor and the rates at other kT if they are to be plotted.
     ///
     /// # Errors
     /// See [`RatesError`].
@@ -242,7 +243,7 @@ impl Question {
         Ok(found)
     }
 
-    /// How closely things are bounded, and whether that is proved.
+    /// The requested accuracy of bounds, and whether they are proved.
     fn certified(&self, usual: fn() -> Certify) -> Certify {
         let certify = self.certify.map_or_else(usual, Certify::to);
         match self.prove {
@@ -268,7 +269,7 @@ impl PoseExit {
         bounds[0].is_finite().then_some(bounds)
     }
 
-    /// By how much the mean exit time may be off, relative, as far as meshes tell.
+    /// The relative error of the mean exit time, estimated from meshes.
     pub fn error(&self) -> f64 {
         match (self.found.midway, self.found.bracket()) {
             (Some(midway), Some([_, upper])) => upper / midway - 1.0,
@@ -276,17 +277,17 @@ impl PoseExit {
         }
     }
 
-    /// Whether a proof was asked for.
+    /// Whether a proof was requested.
     pub fn is_to_be_proved(&self) -> bool {
         let certify = self.asked.certify;
         certify.is_some_and(|certify| certify.pieces > 0)
     }
 
-    /// What so many rigid bodies with inertia do from the same start to the same ends; a knock gives
-    /// back this share of the approach velocity.
+    /// Simulates a number of rigid bodies with inertia from the same start to the same ends, with
+    /// this coefficient of restitution.
     ///
     /// # Errors
-    /// Where no body moves so.
+    /// If the settings are invalid.
     fn checked(
         &self,
         (design, problem): (&Design, &Problem),

@@ -1,4 +1,4 @@
-//! Rates out of states over kT, and what corner wells in closed form say of them.
+//! Rates of states over a range of kT, compared with closed forms for corner wells.
 
 use super::diffusion;
 use super::table::{AtKt, StateRates};
@@ -8,13 +8,13 @@ use physics::kinetics::rates::{RateSettings, Rates, rates};
 use physics::parallel;
 use physics::problem::Problem;
 
-/// kT over the one asked for.
+/// Ratios to the requested kT.
 const SHAKINGS: [f64; 5] = [0.6, 0.8, 1.0, 1.3, 1.7];
-/// Meshes of pictures: the committors' relative error, and unknowns at most.
+/// Meshes for plots: the committors' relative error, and the largest number of unknowns.
 const ROUGH: (f64, usize) = (0.04, 12_000);
 
 impl StateRates {
-    /// The rates out of states at some kT about the one asked for.
+    /// The rates out of states at several kT around the requested one.
     pub(super) fn at_other_kts(&self, design: &Design, problem: &Problem) -> Vec<AtKt> {
         let energies = self.states.iter().map(|state| state.energy);
         let lowest = energies.fold(f64::INFINITY, f64::min);
@@ -35,7 +35,7 @@ impl StateRates {
             };
             let finest = found.as_ref().map(Rates::finest);
             let rate = |state: usize| -> Option<f64> {
-                // Where no way was found nothing is known.
+                // If no path was found, nothing is known.
                 found.as_ref().filter(|found| found.is_known_out(state))?;
                 Some(finest?.rates[state].iter().sum::<f64>() * diffusion)
             };

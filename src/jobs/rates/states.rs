@@ -1,32 +1,32 @@
-//! The states that rates are told of.
+//! The states for which rates are reported.
 
 use crate::pipeline::Analysis;
 use physics::configuration::Configuration;
 use physics::kinetics::rates::Basin;
 use physics::landscape::Place;
 
-/// Energies that differ by less than this share are those of twins.
+/// States whose energies differ by less than this share are twins.
 const TWINS: f64 = 1e-6;
 
 /// A state with rates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RatedState {
-    /// What people call it.
+    /// Its letter.
     pub name: String,
     /// The minimum.
     pub at: Configuration,
     /// Its energy (J).
     pub energy: f64,
-    /// Its basin is where U is lower (J).
+    /// Upper energy limit (J) of its basin.
     pub below: f64,
-    /// How many states the pair's symmetries make of it.
+    /// Number of its symmetric copies.
     pub copies: usize,
 }
 
 impl RatedState {
-    /// The bond and the deepest traps, so many at most, that hold at kT (J). The bond's basin is
-    /// below `basin_energy` (J) if that is given, else half way up to its lowest barrier as others.
-    /// Twins that do not hold apart from each other share the first one's basin.
+    /// The bond and at most the given number of the deepest traps that hold a tile at kT (J). The
+    /// bond's basin is below `basin_energy` (J) if that is given, else half way up to its lowest
+    /// barrier, like others. Twins that are not separated by a barrier share the first one's basin.
     pub fn held(
         analysis: &Analysis,
         kt: f64,
@@ -41,7 +41,7 @@ impl RatedState {
             let Some(escape) = analysis.escape(state.id) else {
                 continue;
             };
-            // Where no way is known it is taken to be as high as that of free tiles.
+            // If no path is known, its height is assumed to be that of free tiles.
             let known = escape.forward();
             let barrier = if known.is_finite() {
                 known
@@ -75,8 +75,7 @@ impl RatedState {
         held
     }
 
-    /// Lowers basins, from the one of number `first` on, that reach over the pass (J) that another
-    /// state leaves by.
+    /// Lowers basins, from index `first` on, that extend over the pass (J) of another state's exit.
     fn keep_apart(held: &mut [Self], passes: &[f64], first: usize) {
         for (own, state) in held.iter_mut().enumerate().skip(first) {
             let others = passes.iter().enumerate().filter(|(other, _)| *other != own);

@@ -1,4 +1,4 @@
-//! Rates between states and `free`, and what follows from them.
+//! Rates between states and `free`, and quantities derived from them.
 
 use nalgebra::DMatrix;
 
@@ -13,108 +13,109 @@ use physics::kinetics::rates::{Leaving, RateSettings, Rates};
 pub struct AtKt {
     /// kT (J).
     pub kt: f64,
-    /// Out of each state (1/s), on a rough mesh; `None` where the states are none at this kT.
+    /// Rates out of each state (1/s), on a coarse mesh; `None` if it is not a state at this kT.
     pub leaving: Vec<Option<f64>>,
-    /// The same capacities over the closed form of corner wells, see [`physics::kinetics::corner`]; `None` where contact
-    /// holds the tile in no such way. Ways to free have no pass, whose closed form it could take.
+    /// Ratios of the same capacities to the closed form of corner wells, see
+    /// [`physics::kinetics::corner`]; `None` if the well is not of this kind. Paths to free have no
+    /// pass for which there is a closed form.
     pub corner: Vec<Option<f64>>,
 }
 
-/// Rates between places: the states in their order, and last `free`.
+/// Rates between places: the states in order, and last `free`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateRates {
-    /// What was asked.
+    /// The request.
     pub asked: RateSettings,
     /// Drag rate c / mass (1/s).
     pub drag: f64,
     /// D = kT / c (m^2/s).
     pub diffusion: f64,
-    /// The states, in the order of the basins asked for.
+    /// The states, in the order of the requested basins.
     pub states: Vec<RatedState>,
-    /// What was found.
+    /// The results.
     pub found: Rates,
-    /// Rates out of the states at other kT; none where they were not asked for.
+    /// Rates out of the states at other kT; empty if not requested.
     pub over_kt: Vec<AtKt>,
 }
 
 impl StateRates {
-    /// How many places there are, `free` among them.
+    /// The number of places, including `free`.
     pub fn count(&self) -> usize {
         self.states.len() + 1
     }
 
-    /// What people call a place.
+    /// The name of a place.
     pub fn name(&self, place: usize) -> &str {
         self.states.get(place).map_or("free", |state| &state.name)
     }
 
-    /// Every two places, from and to.
+    /// All ordered pairs of places.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let count = self.count();
         (0..count).flat_map(move |i| (0..count).filter(move |j| *j != i).map(move |j| (i, j)))
     }
 
-    /// The map of the committor, where tiles come to the bond at all.
+    /// The map of the committor, if tiles reach the bond at all.
     pub fn map(&self) -> Option<&Map> {
         let bind = self.known_rate(self.states.len(), 0)?;
         self.found.map.as_ref().filter(|_| bind > 0.0)
     }
 
-    /// Rate (1/s) from one place to another, where anything is known of it.
+    /// Rate (1/s) from one place to another, if known.
     pub fn known_rate(&self, from: usize, to: usize) -> Option<f64> {
         let is_known = self.found.is_known(from, to);
         is_known.then(|| self.rate(from, to))
     }
 
-    /// Rate (1/s) out of a place, where anything is known of it.
+    /// Rate (1/s) out of a place, if known.
     pub fn known_rate_out(&self, from: usize) -> Option<f64> {
         let is_known = self.found.is_known_out(from);
         is_known.then(|| self.rate_out(from))
     }
 
-    /// A share of time spent in or about a place, where anything is known of it: a basin without a way
-    /// may be one between contacts that the mesh has no cell in.
+    /// A share of time spent in or around a place, if known: a basin without a path may lie between
+    /// contacts where the mesh has no cell.
     pub fn known_share(&self, place: usize, part: f64) -> Option<f64> {
         let is_known = place == self.states.len() || self.found.ways[place] != Way::Lost;
         is_known.then_some(part)
     }
 
-    /// The probability that one place is the first that is reached from another.
+    /// The probability that one place is the first one reached from another.
     pub fn first(&self, from: usize, to: usize) -> Option<f64> {
         let share = self.known_rate(from, to)? / self.known_rate_out(from)?;
         Some(share).filter(|share| share.is_finite())
     }
 
-    /// Rate (1/s) from one place to another, 0 where no way is known.
+    /// Rate (1/s) from one place to another, 0 if no path is known.
     pub fn rate(&self, from: usize, to: usize) -> f64 {
         self.found.finest().rates[from][to] * self.diffusion
     }
 
-    /// The rate (1/s) out of a place, 0 where no way is known.
+    /// The rate (1/s) out of a place, 0 if no path is known.
     pub fn rate_out(&self, from: usize) -> f64 {
         (0..self.count()).map(|to| self.rate(from, to)).sum()
     }
 
-    /// By how much a rate may be off, relative, as far as meshes tell.
+    /// The relative error of a rate, estimated from meshes.
     pub fn error(&self, from: usize, to: usize) -> f64 {
         let spread = Some(self.found.spread(from, to)).filter(|spread| spread.is_finite());
         spread.unwrap_or(0.0).max(self.found.error())
     }
 
-    /// Bounds (1/s) of the rate from one place to another, where there are any.
+    /// Bounds (1/s) of the rate from one place to another, if any.
     pub fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
         let bounds = self.found.bounds.as_ref();
         self.scaled(bounds.map(|bounds| bounds.rates[from][to]))
     }
 
-    /// Bounds (1/s) of the rate out of a place, where there are any.
+    /// Bounds (1/s) of the rate out of a place, if any.
     pub fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
         let bounds = self.found.bounds.as_ref();
         self.scaled(bounds.map(|bounds| bounds.leaving[from]))
     }
 
-    /// Bounds (1/s), those that say anything: of what is 0 from below none is known, unless it is
-    /// 0 altogether.
+    /// Meaningful bounds (1/s): a lower bound of 0 counts as unknown, unless the upper bound is 0
+    /// as well.
     fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
         let scaled = |end: f64| Some(end * self.diffusion).filter(|end| end.is_finite());
         let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
@@ -124,20 +125,20 @@ impl StateRates {
         ]
     }
 
-    /// The mean time (s) from one place to another, by whatever way; a tile that is anywhere else
-    /// does not count.
+    /// The mean time (s) from one place to another, by any path; time outside of all places does
+    /// not count.
     pub fn mean_first_passage(&self, from: usize, to: usize) -> f64 {
         let rate = |i: usize, j: usize| self.rate(i, j);
         let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
         chain.mean_times(&[to])[from]
     }
 
-    /// What is proved of how a basin is left.
+    /// The proved bounds of leaving a basin.
     pub fn proved(&self, place: usize) -> Option<&Leaving> {
         self.found.proved.get(place)?.as_ref()
     }
 
-    /// Whether a proof was asked for.
+    /// Whether a proof was requested.
     pub fn is_to_be_proved(&self) -> bool {
         let certify = self.asked.certify;
         certify.is_some_and(|certify| certify.pieces > 0)

@@ -1,15 +1,15 @@
-//! Requests made from keyword arguments.
+//! Requests from keyword arguments.
 
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Command};
 
-/// What is wrong with keyword arguments.
+/// An error in keyword arguments.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Misused {
     /// There is no such argument.
     #[error("there is no argument {0:?}; known: {known}", known = .1.join(", "))]
     Unknown(String, Vec<String>),
-    /// An argument has a value that it cannot have, or is missing or too much.
+    /// An argument has an invalid value, is missing, or is not allowed.
     #[error("{0}")]
     Wrong(String),
 }
@@ -21,15 +21,15 @@ pub fn options<R: Args>() -> Vec<String> {
     named.map(keyword).collect()
 }
 
-/// The keyword of an option as clap writes it: `--kt <E_J>`.
+/// The keyword for an option as clap writes it: `--kt <E_J>`.
 fn keyword(option: &str) -> String {
     let name = option.trim_start_matches("--");
     let name = name.split([' ', '=', '[']).next().unwrap_or(name);
     name.replace('-', "_")
 }
 
-/// A request out of keyword arguments, each with its values as a command line has them: none for what
-/// is not asked for, an empty one for an option that stands alone.
+/// Creates a request from keyword arguments, each with its values as on a command line: no values
+/// if the option is absent, an empty one for an option without a value.
 ///
 /// # Errors
 /// See [`Misused`].
@@ -58,7 +58,7 @@ pub fn of_keywords<R: Args>(
     R::from_arg_matches(&matches).map_err(wrong)
 }
 
-/// What clap says of an option, said of a keyword.
+/// Clap's message about an option, rephrased for a keyword.
 fn told(error: &clap::Error) -> String {
     let text = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.clone()),

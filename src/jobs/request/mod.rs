@@ -1,8 +1,8 @@
-//! What is asked of a job, in one struct each: options with their defaults, limits and help.
+//! Requests: one struct per job, with the defaults, limits and help of its options.
 //!
-//! A request is a set of options of clap's ([`clap::Args`]): the command line parses it, and
-//! [`of_keywords`] takes the same options from keyword arguments, as Python has them. An option is
-//! declared once, and what one of them refuses, so does the other.
+//! A request is a set of clap options ([`clap::Args`]): the command line parses it, and
+//! [`of_keywords`] takes the same options from Python's keyword arguments. Each option is declared
+//! once, so both reject the same values.
 
 mod keywords;
 mod motion;

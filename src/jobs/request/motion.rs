@@ -1,4 +1,4 @@
-//! How tiles move on the table: what docking runs and many tiles have in common.
+//! How tiles move on the table: the options shared by docking runs and many tiles.
 
 use clap::Args;
 
@@ -32,7 +32,7 @@ pub struct MotionOptions {
 }
 
 impl MotionOptions {
-    /// These with all others as usual.
+    /// These settings, with defaults for all others.
     pub fn settings(&self) -> MotionSettings {
         MotionSettings {
             drag: self.drag,
@@ -47,7 +47,7 @@ impl MotionOptions {
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 ///
 /// # Errors
-/// Where it is none.
+/// If the text is not a fan.
 pub fn fan(text: &str) -> Result<Fan, String> {
     const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
                         0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\"; optionally ,A,F: relative \

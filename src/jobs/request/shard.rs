@@ -1,28 +1,28 @@
-//! Parts of a job, each of which a machine of its own can do.
+//! Parts of a job that can run on different machines.
 
-/// Part `number`, from 1, of `of` parts: every `of`th thing.
+/// Part `number`, from 1, of `of` parts: every `of`th item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Which part, from 1.
+    /// The index of the part, from 1.
     pub number: usize,
-    /// How many parts there are.
+    /// The number of parts.
     pub of: usize,
 }
 
 impl Shard {
-    /// The only part of what is not divided.
+    /// The whole as a single part.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// Whether the part holds a thing, by its number from 0.
+    /// Whether the part contains an item, by its index from 0.
     pub fn contains(&self, index: usize) -> bool {
         index % self.of + 1 == self.number
     }
 }
 
-/// A part as `i/n`.
+/// Parses a part written as `i/n`.
 ///
 /// # Errors
-/// Where it is none.
+/// If the text is not a part.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let (number, of) = text.split_once('/').ok_or("a part is i/n, such as 1/4")?;
     let parse = |part: &str| part.trim().parse().ok();

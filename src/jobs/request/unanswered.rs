@@ -1,4 +1,4 @@
-//! Why there is no answer: what was asked for has none, or the work failed.
+//! Errors of jobs without a result: the request has no answer, or the work failed.
 
 use std::fmt::Display;
 
@@ -11,15 +11,15 @@ use physics::kinetics::bond::BondError;
 use physics::kinetics::exit::ExitError;
 use physics::kinetics::rates::RatesError;
 
-/// Why there is no answer.
+/// An error of a job without a result.
 pub trait Unanswered: Display {
-    /// Whether it is what was asked for that has none; else the work failed.
+    /// Whether the request has no answer; otherwise the work failed.
     fn is_of_the_question(&self) -> bool {
         true
     }
 }
 
-/// Of what was typed.
+/// Errors in user input.
 impl Unanswered for String {}
 
 impl Unanswered for BondError {

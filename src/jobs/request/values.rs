@@ -1,10 +1,10 @@
-//! What users type: poses, numbers with limits.
+//! Parses user input: poses, numbers with limits.
 
 use crate::design;
 use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
-/// Coordinates (m, rad) beyond this, whose powers would be infinite, are none.
+/// Largest coordinate (m, rad): powers of larger ones would be infinite.
 pub const FARTHEST: f64 = 1e30;
 
 /// A coordinate (m), or with a unit.
@@ -36,20 +36,20 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     Ok(Configuration::from([x, y, theta]))
 }
 
-/// Finite numbers with commas between them.
+/// Finite numbers separated by commas.
 pub fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',')
         .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite()))
         .collect()
 }
 
-/// A whole number, at least 1; `1e4` is one too.
+/// A whole number, at least 1; `1e4` is also accepted.
 pub fn count(text: &str) -> Result<usize, String> {
     let found = count_or_none(text).ok().filter(|&count| count > 0);
     found.ok_or_else(|| "a whole number of 1 or more is needed, such as 8000 or 8e3".to_owned())
 }
 
-/// A whole number, 0 among them.
+/// A whole number, including 0.
 pub fn count_or_none(text: &str) -> Result<usize, String> {
     let scientific = || {
         let number = text.parse().ok();
@@ -75,7 +75,7 @@ pub fn seed(text: &str) -> Result<u64, String> {
     found.ok_or_else(|| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
 
-/// Most runs of anything whose results are all held in memory.
+/// Largest number of runs if all results are kept in memory.
 const MOST_RUNS: usize = 10_000_000;
 
 /// A number of runs, at least 1.
@@ -83,7 +83,7 @@ pub fn runs(text: &str) -> Result<usize, String> {
     count(text).and_then(not_too_many)
 }
 
-/// A number of runs of which a mean with its error comes.
+/// A number of runs for a mean with its error.
 pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
     match runs(text)? {
         1 => Err("one run gives no error of the mean: use 2 or more".to_owned()),
@@ -91,7 +91,7 @@ pub fn runs_of_a_mean(text: &str) -> Result<usize, String> {
     }
 }
 
-/// A number of runs, 0 among them.
+/// A number of runs, including 0.
 pub fn runs_or_none(text: &str) -> Result<usize, String> {
     count_or_none(text).and_then(not_too_many)
 }
@@ -142,7 +142,7 @@ pub fn binding(text: &str) -> Result<f64, String> {
     found.ok_or_else(|| format!("a number less than 0 is needed, {JOULES}"))
 }
 
-/// How energies are told.
+/// The notation of energies.
 const JOULES: &str = "in J or with a unit: 3e-3 or \"3 mJ\"";
 
 /// A positive time (s), or with a unit.
@@ -157,7 +157,7 @@ pub fn time_or_none(text: &str) -> Result<f64, String> {
     found.ok_or_else(|| format!("a number of 0 or more is needed, {SECONDS}"))
 }
 
-/// How times are told.
+/// The notation of times.
 const SECONDS: &str = "in s or with a unit: 120 or \"2 min\"";
 
 /// A positive number.
@@ -168,7 +168,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number greater than 0 is needed".to_owned())
 }
 
-/// Energies (J) that shaking may have.
+/// Range of energies (J) of shaking.
 const SHAKING: [f64; 2] = [1e-12, 1e3];
 
 /// An effective energy of shaking (J).
@@ -187,7 +187,7 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a number of 0 or more is needed".to_owned())
 }
 
-/// A share, or nothing or all.
+/// A share from 0 to 1.
 pub fn share(text: &str) -> Result<f64, String> {
     of_one(text)
         .filter(|x| (0.0..=1.0).contains(x))

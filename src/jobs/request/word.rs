@@ -1,4 +1,4 @@
-//! A word out of a few, which shells complete.
+//! Options that take one of a few words, which shells complete.
 
 use std::ffi::OsStr;
 
@@ -7,22 +7,22 @@ use clap::{Arg, Command, Error};
 
 use crate::design::MagnetModel;
 
-/// A magnet model by the name that design files use.
+/// A magnet model by its name in design files.
 pub fn model() -> Word<MagnetModel> {
     let wrong = "a model is dipole or cuboid".to_owned();
     Word::new(&MagnetModel::NAMES, wrong)
 }
 
-/// Reads one of several names as what it stands for.
+/// A parser of one of several names.
 #[derive(Clone)]
 pub struct Word<T> {
     names: Vec<(&'static str, T)>,
-    /// What is said of any other word.
+    /// The message for any other word.
     wrong: String,
 }
 
 impl<T: Clone> Word<T> {
-    /// Of these names; `wrong` is said of any other word.
+    /// A parser of these names; `wrong` is the message for any other word.
     pub fn new(names: &[(&'static str, T)], wrong: String) -> Self {
         Self {
             names: names.to_vec(),

@@ -2,10 +2,10 @@
 
 use toml::{Table, Value as Toml};
 
-/// Sets the key at a dotted path; tables on the way that are missing are made.
+/// Sets the key at a dotted path; missing tables are created.
 ///
 /// # Errors
-/// Where the path leads through something that is neither a table nor an array long enough.
+/// If the path leads through something that is neither a table nor a long enough array.
 pub fn set(document: &mut Table, path: &str, value: Toml) -> Result<(), String> {
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
     let (first, rest) = parts.split_first().ok_or("the path is empty")?;
@@ -71,7 +71,7 @@ pub fn paths(document: &Table, name: &str) -> Vec<String> {
     found
 }
 
-/// Whether there is something at a dotted path.
+/// Whether there is a value at a dotted path.
 pub fn holds(document: &Table, path: &str) -> bool {
     let mut parts = path.split('.').map(str::trim);
     let first = parts.next().and_then(|part| document.get(part));

@@ -1,5 +1,5 @@
-//! The drawings that the designs of a sweep refer to. The manifest holds them, so that a point is
-//! the same wherever it is worked on, and a changed drawing makes another point.
+//! The drawings that the designs of a sweep refer to. The manifest contains them, so that a point
+//! is the same on every machine, and a changed drawing makes another point.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use toml::{Table, Value as Toml};
 use super::vary::{Axis, Value};
 use crate::design::drawings;
 
-/// The key that names a drawing, wherever it stands.
+/// The key that names a drawing, in any table.
 const FILE: &str = "file";
 
 /// The drawings that a design names.
@@ -35,8 +35,8 @@ pub fn named(document: &Table) -> BTreeSet<&str> {
     names
 }
 
-/// The text of every drawing that the design at `file` names, as it stands or with varied keys set,
-/// and that can be read.
+/// The text of every readable drawing that the design at `file` names, as it is or with varied keys
+/// set.
 pub fn held(file: &str, document: &Table, axes: &[Axis]) -> BTreeMap<String, String> {
     let mut names = named(document);
     for axis in axes {

@@ -1,29 +1,29 @@
-//! Why there is no such sweep.
+//! Errors of sweeps that cannot be planned.
 
 use crate::design::DesignError;
 
-/// Most points of a sweep.
+/// Largest number of points of a sweep.
 pub(super) const MOST_POINTS: usize = 1_000_000;
 
-/// Why there is no such sweep.
+/// Why a sweep cannot be planned.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError {
-    /// A point is no design that can be built.
+    /// A point is not a valid design.
     #[error(transparent)]
     Design(#[from] Box<DesignError>),
     /// A key is varied by two axes.
     #[error("`{0}` is varied twice")]
     Twice(String),
-    /// There are more points than can be handled.
+    /// There are too many points.
     #[error("the sweep has {0} points, more than {MOST_POINTS}")]
     TooMany(u128),
-    /// Two designs have one name.
+    /// Two designs have the same name.
     #[error("two designs are called `{0}`: give them different names")]
     SameName(String),
-    /// No point is called so.
+    /// There is no point with this name.
     #[error("there is no point `{0}`: give varied values, such as `{1}`, or a design's name")]
     NoBaseline(String, String),
-    /// There is no curve to add points to.
+    /// The sweep is not a curve to which points can be added.
     #[error(
         "--refine adds points to one varied number of three values or more\n  help: vary one \
          number, such as --vary fixed.faces.east.profile.depth=0:0.04:5"
@@ -37,10 +37,10 @@ pub enum PlanError {
         /// Why not.
         reason: String,
     },
-    /// No point is a design that can be built.
+    /// No point is a valid design.
     #[error("none of the {0} points is possible; the first: {1}")]
     NonePossible(usize, String),
-    /// What was read is no manifest.
+    /// The text is not a manifest.
     #[error("not a manifest of a sweep: {0}")]
     Malformed(String),
     /// The manifest was written by another version.

@@ -1,4 +1,4 @@
-//! The manifest of a sweep: everything that decides it, and the points that come of it.
+//! The manifest of a sweep: all its inputs, and the points that follow from them.
 
 use std::collections::HashSet;
 
@@ -18,34 +18,34 @@ use physics::parallel;
 
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
-/// Characters of the name that make the seed: 48 bits, exact in every reader of JSON.
+/// Characters of the name that form the seed: 48 bits, which every JSON reader reads exactly.
 const SEED: usize = 12;
 
-/// A sweep: designs, what is varied of them, and how they are assessed.
+/// A sweep: designs, varied keys, and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Version of tilebind.
     pub tilebind: String,
-    /// What is varied; no two have one name.
+    /// The designs; their names are distinct.
     pub designs: Vec<Source>,
-    /// The first one varies slowest.
+    /// The varied keys; the first varies slowest.
     pub axes: Vec<Axis>,
-    /// How every point is assessed.
+    /// The settings of all points.
     pub settings: Request,
-    /// Goes into every point's name, and so into its seed.
+    /// Part of every point's name, and so of its seed.
     pub seed: u64,
-    /// The point that all are set against, see [`Plan::against`].
+    /// The point that all others are compared with, see [`Plan::against`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub baseline: Option<String>,
 }
 
 impl Plan {
-    /// A sweep over designs that have been read.
+    /// Plans a sweep over designs.
     ///
     /// # Errors
-    /// Where a design is not sound as it stands, a key cannot be varied or varies twice, or there
-    /// are too many points or none is possible. A key that the design does not hold is taken for a
-    /// mistake if no value of it gives a possible design.
+    /// If a design is invalid, a key cannot be varied or is varied twice, there are too many
+    /// points, or none is possible. A key that the design does not have counts as a mistake if none
+    /// of its values gives a possible design.
     pub fn of(
         mut designs: Vec<Source>,
         axes: Vec<Axis>,
@@ -69,11 +69,12 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The same, all points set against one: the first of a design by its name, or of some values
-    /// (`depth=0`, or `depth=0,width=0.1`; the last part of a key's path is enough).
+    /// The same, with all points compared with one: the first point of a design by its name, or the
+    /// one with given values (`depth=0`, or `depth=0,width=0.1`; the last part of a key's path
+    /// suffices).
     ///
     /// # Errors
-    /// Where there is no such point.
+    /// If there is no such point.
     pub fn against(self, baseline: &str) -> Result<Self, PlanError> {
         let plan = Self {
             baseline: Some(baseline.to_owned()),
@@ -89,7 +90,7 @@ impl Plan {
         Err(PlanError::NoBaseline(baseline.to_owned(), example))
     }
 
-    /// The place of the point that all are set against, if one was named.
+    /// The index of the baseline point, if one is named.
     pub fn baseline_of(&self, points: &[Point]) -> Option<usize> {
         let parts: Vec<&str> = self.baseline.as_ref()?.split(',').map(str::trim).collect();
         let is_meant = |point: &&Point| {
@@ -105,7 +106,7 @@ impl Plan {
         Some(points.iter().find(is_meant)?.index)
     }
 
-    /// Refuses what leaves nothing to do, too much, or something twice.
+    /// Rejects empty, too large and ambiguous plans.
     fn check(&self) -> Result<(), PlanError> {
         let malformed = |message: String| Err(PlanError::Malformed(message));
         if self.designs.is_empty() {
@@ -135,7 +136,7 @@ impl Plan {
         }
     }
 
-    /// The manifest's text. It lists the points too, for people and schedulers.
+    /// The manifest's text. It also lists the points, for people and schedulers.
     pub fn to_text(&self) -> String {
         let points: Vec<_> = self
             .points()
@@ -151,14 +152,14 @@ impl Plan {
         if let Some(object) = all.as_object_mut() {
             object.insert("points".to_owned(), points.into());
         }
-        // Plain values with string keys are always written.
+        // Plain values with string keys can always be serialised.
         serde_json::to_string_pretty(&all).unwrap_or_default() + "\n"
     }
 
     /// Reads a manifest.
     ///
     /// # Errors
-    /// Where it is none, one of another version, or one without points or of too many.
+    /// If the text is not a manifest, is from another version, or has no or too many points.
     pub fn parse(text: &str) -> Result<Self, PlanError> {
         let plan: Self =
             serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;
@@ -169,12 +170,12 @@ impl Plan {
         Ok(plan)
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn count(&self) -> usize {
         self.designs.len() * self.grid()
     }
 
-    /// How many points there are of each design.
+    /// The number of points of each design.
     fn grid(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
@@ -184,7 +185,8 @@ impl Plan {
         self.each(|point| point)
     }
 
-    /// What comes of each point, in order; of a million the points alone would take gigabytes.
+    /// Applies a function to each point, in order, without storing the points: a million of them
+    /// would take gigabytes.
     pub fn each<T: Send>(&self, of: impl Fn(Point) -> T + Sync) -> Vec<T> {
         let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
         let settings = json!({"settings": self.settings, "seed": self.seed}).to_string();
@@ -240,14 +242,14 @@ impl Plan {
         name
     }
 
-    /// The design of a point; where it is impossible, why.
+    /// The design of a point, or why it is impossible.
     pub fn design(&self, point: &Point) -> Result<Design, String> {
         let source = &self.designs[point.design];
         let text = point.text.as_ref().map_err(Clone::clone)?;
         source.parse(text).map_err(|error| error.sentence())
     }
 
-    /// Refuses a sweep of which no point is possible.
+    /// Rejects a sweep without any possible point.
     fn check_possible(&self) -> Result<(), PlanError> {
         let points = self.points();
         let mut first = None;
@@ -255,7 +257,7 @@ impl Plan {
             match self.design(point) {
                 Ok(_) => return Ok(()),
                 Err(reason) => {
-                    // By the keys as they were asked for.
+                    // In the order of the requested keys.
                     let values = self.axes.iter().zip(&point.values);
                     let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
                     let values: Vec<String> = values.collect();
@@ -267,7 +269,7 @@ impl Plan {
         Err(PlanError::NonePossible(points.len(), reason))
     }
 
-    /// Refuses a key that the designs do not hold, if no value of it gives a possible design.
+    /// Rejects a key that the designs do not have, if none of its values gives a possible design.
     fn check_keys(&self) -> Result<(), PlanError> {
         let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
         for axis in &self.axes {

@@ -1,26 +1,26 @@
-//! One design of a sweep, and parts of all of them.
+//! One design of a sweep, and shards of all of them.
 
 use super::vary::Value;
 
 /// One design of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Place in the sweep, from 0.
+    /// Index in the sweep, from 0.
     pub index: usize,
     /// Hash of the design, the settings and the version.
     pub name: String,
-    /// Of its random numbers, from its name.
+    /// The seed of its random numbers, derived from its name.
     pub seed: u64,
-    /// Which of the plan's designs.
+    /// The index of its design in the plan.
     pub design: usize,
     /// A value for each of the plan's axes.
     pub values: Vec<Value>,
-    /// The design's text with the values set; where they cannot be set, why.
+    /// The design's text with the values set, or why they cannot be set.
     pub(super) text: Result<String, String>,
 }
 
 impl Point {
-    /// The design's text with the values set, where they can be set.
+    /// The design's text with the values set, if they can be set.
     pub fn text(&self) -> Option<&str> {
         self.text.as_deref().ok()
     }

@@ -1,4 +1,4 @@
-//! More points where the figures of a sweep bend.
+//! Adds points where the curves of a sweep bend most.
 
 use ordered_float::OrderedFloat;
 
@@ -9,7 +9,7 @@ use crate::comparison::Assessment;
 use crate::comparison::quantity::{Measure, QUANTITIES};
 use physics::order::Order;
 
-/// The figures that are looked at.
+/// The figures considered.
 const FIGURES: [&str; 5] = [
     "bond_depth",
     "trap_depth",
@@ -17,15 +17,14 @@ const FIGURES: [&str; 5] = [
     "unbinding",
     "captured",
 ];
-/// What a figure bends by, over all that it changes, below which it is taken for straight: shares are
-/// counted to a twentieth or so.
+/// A figure counts as straight if it bends by less than this, relative to its total change: the
+/// statistical error of shares is about a twentieth.
 const STRAIGHT: f64 = 0.05;
-/// Steps over the whole range are not made smaller than this.
+/// Smallest step relative to the whole range.
 const FINEST: f64 = 1.0 / 512.0;
 
-/// The plan with at most `more` values added to its only axis of numbers, between those at which the
-/// figures of the points bend most: each of them lies midway between two. `None` where nothing
-/// bends, or there is no one such axis.
+/// The plan with at most `more` values added to its only numerical axis, midway between the values
+/// where the figures bend most. `None` if nothing bends, or if there is not exactly one such axis.
 pub(super) fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<Plan> {
     let varied = |k: &usize| plan.axes[*k].numbers().is_some_and(|all| all.len() > 1);
     let mut varied = (0..plan.axes.len()).filter(varied);
@@ -65,13 +64,13 @@ pub(super) fn refined(plan: &Plan, outcomes: &[Outcome], more: usize) -> Option<
     Some(finer)
 }
 
-/// By how much the figures bend at either end of each step of the axis, at most, over all that they
+/// The largest bend of the figures at the ends of each step of the axis, relative to their total
 /// change in the sweep.
 fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &[f64]) -> Vec<f64> {
     let lengths: Vec<usize> = plan.axes.iter().map(|axis| axis.values.len()).collect();
     let stride: usize = lengths[which + 1..].iter().product();
     let length = lengths[which];
-    // Points that differ in nothing but the axis.
+    // Points that differ only in the axis.
     let firsts = (0..outcomes.len()).filter(|index| (index / stride).is_multiple_of(length));
     let series: Vec<Vec<&Outcome>> = firsts
         .map(|first| {
@@ -105,7 +104,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
             known().fold(f64::NEG_INFINITY, f64::max),
         ];
         let spread = high - low;
-        // Without two known values there is no spread either.
+        // Without two known values there is no spread.
         if spread.is_nan() || spread <= 1e-3 * low.abs().max(high.abs()) {
             continue;
         }
@@ -132,7 +131,7 @@ mod tests {
     use super::*;
     use crate::comparison::{Bond, Request, Way};
 
-    /// A sweep over depth in which the bond's depth is a function of it.
+    /// A sweep over depth, with the bond's depth as a given function of it.
     fn plan(values: &str, depth: impl Fn(f64) -> f64) -> (Plan, Vec<Outcome>) {
         let plan = Plan {
             tilebind: String::new(),
@@ -160,7 +159,7 @@ mod tests {
 
     #[test]
     fn points_are_added_beside_a_bend() {
-        // There is nothing between whole numbers next to each other.
+        // There is nothing between adjacent whole numbers.
         let (coarse, outcomes) = plan("0:4:5", |x| (x - 2.0).abs() + 1.0);
         assert_eq!(refined(&coarse, &outcomes, 2), None);
         let (coarse, outcomes) = plan("0.0,1.0,2.0,3.0,4.0", |x| (x - 2.0).abs() + 1.0);

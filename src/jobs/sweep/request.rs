@@ -1,4 +1,4 @@
-//! What is asked of a sweep.
+//! The request of a sweep.
 
 use clap::Args;
 
@@ -12,10 +12,10 @@ use crate::comparison::Question;
 use crate::design::Design;
 use crate::request;
 
-/// Rounds in which points are added.
+/// Number of rounds in which points are added.
 const ROUNDS: usize = 3;
 
-/// What is asked of a sweep, besides the designs and what is varied of them.
+/// The options of a sweep, besides the designs and the varied keys.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
     /// Add N points where the curves bend most (one varied number)
@@ -26,17 +26,17 @@ pub struct Request {
     #[arg(long, value_name = "POINT")]
     pub baseline: Option<String>,
 
-    /// How points are assessed.
+    /// The options of the assessments.
     #[command(flatten)]
     pub question: Question,
 }
 
 impl Request {
-    /// The sweep over designs.
+    /// Plans the sweep over designs.
     ///
     /// # Errors
-    /// As [`Plan::of`] and [`Plan::against`], and where points are to be added to what is no curve over
-    /// one number.
+    /// As [`Plan::of`] and [`Plan::against`], and if points are to be added to a sweep that is not
+    /// a curve over one number.
     pub fn plan(&self, designs: Vec<(Source, Design)>, axes: Vec<Axis>) -> Result<Plan, PlanError> {
         let (sources, designs): (Vec<Source>, Vec<Design>) = designs.into_iter().unzip();
         let settings = self.question.request.of(&designs);
@@ -52,11 +52,11 @@ impl Request {
         }
     }
 
-    /// Works on points where the figures bend, in rounds that each look at what is known by then; how
-    /// many of those that were asked for are not added, as nothing else bends.
+    /// Computes points where the figures bend, in rounds that each use all results so far. Returns
+    /// how many of the requested points were not added because nothing else bends.
     ///
     /// # Errors
-    /// The first one of `work`, which works on all points of a plan.
+    /// The first error of `work`, which computes all points of a plan.
     pub fn refined<E>(
         &self,
         mut plan: Plan,
@@ -72,7 +72,7 @@ impl Request {
                 .sum::<usize>()
         };
         while left > 0 {
-            // A third at a time: enough to see what the first ones show.
+            // A third at a time, so that later points use the results of earlier ones.
             let round = asked.div_ceil(ROUNDS).min(left);
             let finer = known(&plan).and_then(|outcomes| refined(&plan, &outcomes, round));
             let Some(finer) = finer else { break };

@@ -1,4 +1,4 @@
-//! Working on points.
+//! Computes the points of a sweep.
 
 use std::any::Any;
 use std::collections::HashSet;
@@ -13,11 +13,11 @@ use crate::comparison;
 use physics::interruption;
 use physics::observer::Silent;
 
-/// Works on points, `threads` of them at a time while there are that many; `finished` is told of
-/// each, from any thread. Points of the same name are worked on once.
+/// Computes points, up to `threads` at a time; calls `finished` for each, from any thread. Points
+/// with the same name are computed once.
 ///
 /// # Errors
-/// The first error of `finished`, after which no further point is begun.
+/// The first error of `finished`, after which no further point is started.
 pub fn run<E: Send>(
     plan: &Plan,
     points: &[Point],
@@ -46,8 +46,8 @@ pub fn run<E: Send>(
             }
         }
     };
-    // A pool of its own for each worker: in a shared one, a worker that waits for part of its
-    // point would begin another point meanwhile.
+    // Each worker has a thread pool of its own: in a shared one, a worker that waits for part of
+    // its point would start another point meanwhile.
     let interruption = interruption::current();
     let pool = || interruption::pool(threads / workers, interruption.clone());
     std::thread::scope(|scope| {
@@ -64,7 +64,7 @@ pub fn run<E: Send>(
     failure.map_or(Ok(()), Err)
 }
 
-/// What came of a point; `None` where the work was given up.
+/// The outcome of a point; `None` if the work was interrupted.
 fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
     let assessed = catch_unwind(AssertUnwindSafe(|| {
         let design = plan.design(point)?;
@@ -87,7 +87,7 @@ fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
     })
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())

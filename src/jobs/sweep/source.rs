@@ -11,12 +11,12 @@ use super::{document, drawings};
 use crate::checksum::sha256;
 use crate::design::{Design, DesignError, file};
 
-/// A design that is varied.
+/// A varied design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     /// Its name.
     pub name: String,
-    /// Its file as it was named.
+    /// Its file name, as given.
     pub file: String,
     /// SHA-256 of the file's bytes.
     pub sha256: String,
@@ -31,19 +31,19 @@ impl Source {
     /// A design file with its drawings.
     ///
     /// # Errors
-    /// Where it cannot be read or is no sound design.
+    /// If it cannot be read or is not a valid design.
     pub fn read(path: &Path) -> Result<(Self, Design), DesignError> {
         match file::read_text(path) {
             Ok(text) => Self::of_text(&text, &path.display().to_string()),
-            // Loading tells what is wrong; if it no longer is, the file is read again.
+            // Loading reports what is wrong; if nothing is wrong any more, the file is read again.
             Err(_) => Design::load(path).and_then(|_| Self::read(path)),
         }
     }
 
-    /// The text of a design, whose drawings lie beside `file`.
+    /// A design from its text, with drawings in the folder of `file`.
     ///
     /// # Errors
-    /// Where it is no sound design.
+    /// If it is not a valid design.
     pub fn of_text(text: &str, file: &str) -> Result<(Self, Design), DesignError> {
         let design = Design::parse(text, file)?;
         Ok((Self::new(text.to_owned(), file.to_owned(), &design), design))
@@ -61,34 +61,33 @@ impl Source {
         source
     }
 
-    /// Keeps the drawings that the design names, as it stands or with varied keys set, and that can
-    /// be read; those that are held already stay as they are.
+    /// Stores the readable drawings that the design names, as it is or with varied keys set; those
+    /// already stored are unchanged.
     pub(super) fn hold_drawings(&mut self, axes: &[Axis]) {
         let mut found = drawings::held(&self.file, &self.document(), axes);
         found.append(&mut self.drawings);
         self.drawings = found;
     }
 
-    /// The files that it was read from: the design's, and its drawings beside it.
+    /// The files it was read from: the design and its drawings.
     pub fn files(&self) -> impl Iterator<Item = PathBuf> {
         let names = self.drawings.keys();
         let drawings = names.map(|name| crate::design::drawings::path(&self.file, name));
         [PathBuf::from(&self.file)].into_iter().chain(drawings)
     }
 
-    /// The design itself, with the drawings that are held.
+    /// The design itself, with the stored drawings.
     ///
     /// # Errors
-    /// Where it is no sound design.
+    /// If it is not a valid design.
     pub fn design(&self) -> Result<Design, DesignError> {
         self.parse(&self.text)
     }
 
-    /// The same design with the key at a dotted path set to a value; tables on the way that are
-    /// missing are made.
+    /// The same design with the key at a dotted path set to a value; missing tables are created.
     ///
     /// # Errors
-    /// Where the path leads through something that is neither a table nor an array long enough.
+    /// If the path leads through something that is neither a table nor a long enough array.
     pub fn with(&self, path: &str, value: toml::Value) -> Result<Self, String> {
         let mut document = self.document();
         document::set(&mut document, path, value)?;
@@ -102,7 +101,7 @@ impl Source {
         Ok(with)
     }
 
-    /// A design made of this one, with the drawings that are held.
+    /// A variant of this design, with the stored drawings.
     pub(super) fn parse(&self, text: &str) -> Result<Design, DesignError> {
         Design::parse_with(text, &self.file, &self.drawings)
     }
@@ -116,7 +115,7 @@ impl Source {
         document
     }
 
-    /// What is wrong with the design where only this key is set.
+    /// What is wrong with the design if only this key is set.
     pub(super) fn fault(&self, document: &Table, key: &str, value: &Value) -> Option<String> {
         let mut document = document.clone();
         if let Err(reason) = document::set(&mut document, key, value.toml()) {

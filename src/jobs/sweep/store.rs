@@ -15,21 +15,21 @@ use crate::output::{self, OutputError};
 /// Folder of the points' files within that of the sweep.
 const POINTS: &str = "points";
 
-/// What came of a point.
+/// The outcome of a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "status", rename_all = "lowercase")]
 pub enum Outcome {
     /// It was assessed.
     Done {
-        /// What was found.
+        /// The result.
         result: Box<Assessment>,
     },
-    /// There is no such design.
+    /// The design is impossible.
     Impossible {
-        /// Why, as told to whoever wrote the design.
+        /// The reason, as a message to the designer.
         reason: String,
     },
-    /// The analysis broke down: a fault of tilebind.
+    /// The analysis failed, by a fault of tilebind.
     Failed {
         /// What went wrong.
         reason: String,
@@ -41,7 +41,7 @@ pub enum Outcome {
 struct Record {
     tilebind: String,
     point: String,
-    /// Of the outcome as compact JSON: a damaged file is not believed.
+    /// The checksum of the outcome as compact JSON, to detect damaged files.
     sha256: String,
     #[serde(flatten)]
     outcome: Outcome,
@@ -57,7 +57,7 @@ impl Record {
         })
     }
 
-    /// The outcome, if the record is what this version writes of a point.
+    /// The outcome, if the record is valid for this version and point.
     fn outcome_of(self, point: &Point) -> Option<Outcome> {
         let sound = Self::new(point, self.outcome).ok()?;
         let found = (self.tilebind, self.point, self.sha256);
@@ -65,23 +65,23 @@ impl Record {
     }
 }
 
-/// How many points there are of each kind.
+/// The numbers of points by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Progress {
     /// All points.
     pub points: usize,
-    /// Those that were assessed.
+    /// Assessed points.
     pub done: usize,
-    /// Those of which there is no design.
+    /// Points with impossible designs.
     pub impossible: usize,
-    /// Those whose analysis broke down.
+    /// Points whose analysis failed.
     pub failed: usize,
-    /// Those that nothing is known of yet.
+    /// Points not computed yet.
     pub missing: usize,
 }
 
 impl Progress {
-    /// Counts what came of points, `None` where nothing is known.
+    /// Counts the outcomes of points, `None` for those not computed yet.
     pub fn new<'a>(outcomes: impl IntoIterator<Item = Option<&'a Outcome>>) -> Self {
         let mut progress = Self::default();
         for outcome in outcomes {
@@ -96,7 +96,7 @@ impl Progress {
         progress
     }
 
-    /// Counts what came of all points of a plan.
+    /// Counts the outcomes of all points of a plan.
     pub fn of(plan: &Plan, store: &Store) -> Self {
         let of_points = plan.each(|point| Self::new([store.load(&point).as_ref()]));
         of_points
@@ -129,18 +129,18 @@ impl Store {
         self.folder.join(name(point))
     }
 
-    /// What came of a point; `None` where nothing is known, as of a file that is damaged or of
-    /// another version.
+    /// The outcome of a point; `None` if there is none, or if its file is damaged or of another
+    /// version.
     pub fn load(&self, point: &Point) -> Option<Outcome> {
         let text = fs::read_to_string(self.path(point)).ok()?;
         let record: Record = serde_json::from_str(&text).ok()?;
         record.outcome_of(point)
     }
 
-    /// Keeps what came of a point: its file is there as a whole or not at all, whatever happens.
+    /// Stores the outcome of a point: its file is complete or absent, whatever happens.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// If the file system reports an error.
     pub fn save(&self, point: &Point, outcome: &Outcome) -> Result<(), OutputError> {
         let record = Record::new(point, outcome.clone());
         let record = record.and_then(|record| Ok(serde_json::to_vec_pretty(&record)?));
@@ -151,17 +151,17 @@ impl Store {
         output::keep(&self.folder, &name(point), &content)
     }
 
-    /// Refuses a folder that points cannot be kept in. Nothing is written.
+    /// Checks that points can be stored in the folder. Nothing is written.
     ///
     /// # Errors
-    /// Where the file system refuses.
+    /// If the file system reports an error.
     pub fn check(&self) -> Result<(), OutputError> {
         output::check_folder(&self.folder.join(POINTS))
     }
 }
 
 /// The file of a point, relative to the sweep's folder. The name is a hash of the design and its
-/// settings: nobody else gives a file such a name.
+/// settings, so that no other file has it.
 fn name(point: &Point) -> String {
     format!("{POINTS}/{}.json", point.name)
 }

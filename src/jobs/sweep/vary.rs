@@ -1,4 +1,4 @@
-//! What is varied: a key of the design and the values it takes.
+//! The varied keys of a design, and their values.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{angle, length};
 
-/// Most points on a range.
+/// Largest number of points of a range.
 const MOST_VALUES: usize = 100_000;
 
 /// A value of a key.
@@ -24,7 +24,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The value as it stands in a design file.
+    /// The value in the notation of design files.
     pub fn toml(&self) -> toml::Value {
         match self {
             Self::Truth(truth) => toml::Value::Boolean(*truth),
@@ -121,7 +121,7 @@ impl std::str::FromStr for Axis {
     }
 }
 
-/// `count` evenly spaced numbers; whole ones where all of them are and both ends are written so.
+/// `count` evenly spaced numbers; whole ones if all are whole and both ends are written so.
 fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let (first, last) = (end(from)?, end(to)?);
     let steps = count.trim().parse().ok();
@@ -131,7 +131,7 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let number = |k: usize| {
         let share = k as f64 / (count - 1).max(1) as f64;
         let value = rounded(first + (last - first) * share);
-        // Where the ends cancel, what is left is rounding: -0.01:0.02:4 passes through 0.
+        // Removes rounding errors where the ends cancel: -0.01:0.02:4 passes through 0.
         if value.abs() < 1e-12 * first.abs().max(last.abs()) {
             0.0
         } else {
@@ -151,7 +151,7 @@ fn range(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     Ok(numbers.into_iter().map(value).collect())
 }
 
-/// A number, or a length or an angle with its unit.
+/// A number, also a length or an angle with a unit.
 pub(super) fn number(text: &str) -> Option<f64> {
     length(text).or_else(|| angle(text))
 }
@@ -175,7 +175,7 @@ fn value(word: &str) -> Result<Value, String> {
         return Err("a value of the list is missing".to_owned());
     }
     if let Ok(whole) = word.parse() {
-        // Nobody writes `04` but for what stands behind a decimal comma.
+        // `04` only occurs as the part after a decimal comma.
         return match word.len() > 1 && word.starts_with('0') {
             true => Err(format!(
                 "`{word}` begins with 0: use a decimal point, not a comma: 0.{word}"

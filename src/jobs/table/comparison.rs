@@ -1,4 +1,4 @@
-//! What `tilebind bond` and `tilebind yield` say of as many tiles.
+//! The predictions of `tilebind bond` and `tilebind yield` for the same number of tiles.
 
 use super::{Found, Request};
 use crate::design::Design;
@@ -6,8 +6,8 @@ use crate::request::of_keywords;
 use crate::yields::{Question, YieldError, Yields, yields};
 use physics::observer::Observer;
 
-/// What is asked of `yield`: as many pairs, on a table as large, as long, with the same drag and
-/// restitution. The tiles of the scarcer kind decide.
+/// The corresponding request of `yield`: the same number of pairs, table area, time, drag and
+/// restitution. The scarcer kind of tile determines the number of pairs.
 fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
     let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
     let pairs = counts.into_iter().min().filter(|pairs| *pairs > 0)?;
@@ -27,7 +27,8 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
     of_keywords(words).ok()
 }
 
-/// The yield by detailed balance, where it is asked for and there is one design; or why there is none.
+/// The yield by detailed balance, or why it cannot be computed; `None` if it is not requested or
+/// there is not exactly one design.
 pub fn compared(
     designs: &[Design],
     request: &Request,

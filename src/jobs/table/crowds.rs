@@ -1,4 +1,4 @@
-//! Kinds of tiles of a design, or of a tile set.
+//! The kinds of tiles of a design or of a tile set.
 
 use std::sync::Arc;
 
@@ -17,20 +17,21 @@ use physics::tile::{Pair, Tile};
 /// Pairs' energies are cut off below this share of the bond's depth.
 const CUT_OFF: f64 = 1e-4;
 
-/// The fixed and the moving tile of a design as kinds `fixed` and `moving`, of several designs as `NAME
-/// fixed` and `NAME moving`, on the table of the first; any two attract and touch each other, those of one
-/// kind or of two designs too. Bonds are those of a design's own two tiles.
+/// The fixed and the moving tile of a design as the kinds `fixed` and `moving`; for several designs
+/// `NAME fixed` and `NAME moving`, on the first design's table. All tiles interact with each other,
+/// including those of one kind and of different designs. Bonds are those between a design's own two
+/// tiles.
 ///
 /// # Errors
-/// Where there is no design, models differ, or forces do not belong to energies.
+/// If there is no design, models differ, or forces are not gradients of energies.
 pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
     let first = designs.first().ok_or("there is no design")?;
     let (model, rule) = (first.interaction.model, first.interaction.shields.rule);
     for other in designs {
         if other.interaction.model != model || other.interaction.shields.rule != rule {
             return Err(format!(
-                "{} and {} have magnets or shields of different models, which cannot be on one table: give \
-                 --model, or the designs the same [potential] and [shield]",
+                "{} and {} have different models of magnets or shields, which cannot share a table: give \
+                 --model, or both designs the same [potential] and [shield]",
                 first.name, other.name
             ));
         }
@@ -73,11 +74,11 @@ pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
     crowd.map_err(|error| error.to_string())
 }
 
-/// The tiles of a set as kinds, by their names, on a table of a size (m). Bonds are those of every two
-/// tiles that meet in what grows.
+/// The tiles of a set as kinds with their names, on a table of the given size (m). Bonds are those
+/// of every two tiles that meet in the assembly.
 ///
 /// # Errors
-/// Where a tile meets no other, or forces do not belong to energies.
+/// If a tile meets no other, or forces are not gradients of energies.
 pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refused> {
     let types = &assembly.built.set.tiles;
     let met: Vec<Met> = designs::named(assembly)
@@ -96,7 +97,8 @@ pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refuse
     let lone = tiles.iter().position(Option::is_none);
     if let Some(lone) = lone.or(pairs.is_empty().then_some(0)) {
         let name = types.get(lone).map_or("", |it| it.name.as_str());
-        let message = format!("the tile `{name}` meets no other in what grows: it has no bonds");
+        let message =
+            format!("the tile `{name}` meets no other tile in the assembly, so it has no bonds");
         return Err(message.into());
     }
     let kinds = types.iter().zip(tiles.into_iter().flatten());
@@ -123,7 +125,7 @@ pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refuse
     crowd.map_err(|error| error.to_string().into())
 }
 
-/// The problem of a design in which the moving tile is taken for the fixed one.
+/// The problem of a design with the fixed and the moving tile exchanged.
 fn turned(design: &Design) -> Problem {
     let pair = &design.pair;
     let turned = Pair {

@@ -1,4 +1,4 @@
-//! Many tiles on a table: what is asked of it, the runs, and what they tell together.
+//! Simulations of many tiles on a table: the request, the runs, and their statistics.
 
 mod comparison;
 mod crowds;
@@ -24,45 +24,45 @@ use physics::parallel;
 use physics::table::run::{Run, RunError, Start, run};
 use physics::table::{Crowd, TableSettings};
 
-/// What came of a table.
+/// The result of a table.
 pub struct Found {
-    /// The tiles and what acts between them.
+    /// The tiles and their interactions.
     pub crowd: Crowd,
-    /// With what the runs were made.
+    /// The settings of the runs.
     pub settings: TableSettings,
-    /// The number of the kind of each tile.
+    /// The index of each tile's kind.
     pub kinds: Vec<usize>,
-    /// The runs, by their numbers.
+    /// The runs, in order.
     pub runs: Vec<Run>,
-    /// What they tell together.
+    /// Statistics over the runs.
     pub statistics: Statistics,
-    /// How much of what was meant has come about.
+    /// How much of the target is complete.
     pub target: Target,
-    /// Whether places are kept in all runs, not the first only.
+    /// Whether poses are recorded in all runs, not only in the first.
     pub frames: bool,
     /// Wall time (s).
     pub wall_s: f64,
-    /// On so many threads.
+    /// Number of threads.
     pub threads: usize,
 }
 
-/// Why there is nothing to tell.
+/// Why there is no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("run {index}: {error}")]
 pub struct TableError {
-    /// Which run, from 0.
+    /// The run's index, from 0.
     pub index: usize,
     /// Why.
     pub error: RunError,
 }
 
-/// What tiles start with and how long steps are is asked for.
+/// Starts and steps are part of the request.
 impl Unanswered for TableError {}
 
-/// Makes all runs. The same request gives the same result on any number of threads.
+/// Simulates all runs. The same request gives the same result on any number of threads.
 ///
 /// # Errors
-/// Where tiles cannot start as asked, or steps are too long.
+/// If tiles cannot start as requested, or steps are too long.
 pub fn table(
     (about, crowd): (&About, Crowd),
     request: &Request,

@@ -1,4 +1,4 @@
-//! What is asked of a table.
+//! The request of a table.
 
 use clap::Args;
 
@@ -12,14 +12,14 @@ use physics::table::{Crowd, Orbital, TableSettings};
 const LONGEST_STEP: f64 = 0.01;
 /// Time between two random kicks (s) ...
 const KICKS: f64 = 5e-3;
-/// ... of which drag takes no more than this share of the velocity.
+/// ... during which drag takes at most this share of the velocity.
 const DRAG_A_KICK: f64 = 0.25;
-/// Most tiles.
+/// Largest number of tiles.
 const MOST_TILES: usize = 100_000;
-/// Moments that are looked at where no frames are asked for.
+/// Number of samples if no frames are requested.
 const MOMENTS: f64 = 200.0;
 
-/// What is asked of a table.
+/// The options of a table.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Request {
     /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
@@ -68,7 +68,7 @@ pub struct Request {
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
 
-    /// Compare with what `tilebind bond` and `tilebind yield` give for as many tiles at this kT
+    /// Compare with the predictions of `tilebind bond` and `tilebind yield`
     #[arg(long)]
     pub compare: bool,
 
@@ -78,7 +78,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// With what runs are made.
+    /// The settings of the runs.
     pub fn settings(&self) -> TableSettings {
         let usual = TableSettings::USUAL_STEP;
         let kicks = self
@@ -93,7 +93,7 @@ impl Request {
             .unwrap_or(usual.min(0.02 / fastest))
             .min(self.time);
         if self.shaking.is_some() {
-            // A whole number of steps from kick to kick.
+            // A whole number of steps between kicks.
             step = kicks / (kicks / step - 1e-9).ceil().max(1.0);
         }
         TableSettings {
@@ -111,22 +111,22 @@ impl Request {
         }
     }
 
-    /// The numbers of the runs that are made, from 0.
+    /// The indices of the runs to compute, from 0.
     pub fn made(&self) -> Vec<usize> {
         let shard = self.shard.unwrap_or(Shard::WHOLE);
         (0..self.runs).filter(|run| shard.contains(*run)).collect()
     }
 
-    /// Whether places are kept.
+    /// Whether poses are recorded.
     pub fn keeps_frames(&self) -> bool {
         self.frames.is_some()
     }
 
-    /// Where tiles start: as the file says whose name and text are given, or at random. `designs` is how
-    /// many designs they are of, 0 of a tile set.
+    /// The starting positions: from a file, given by its name and text, or at random. `designs` is
+    /// the number of designs, 0 for a tile set.
     ///
     /// # Errors
-    /// Where the file cannot be read, or there are not as many counts as kinds.
+    /// If the file is invalid, or the number of counts differs from the number of kinds.
     pub fn start(
         &self,
         (designs, crowd): (usize, &Crowd),
@@ -142,7 +142,7 @@ impl Request {
         }
         let kinds: Vec<&str> = crowd.kinds.iter().map(|kind| kind.name.as_str()).collect();
         let mut counts = self.count.clone();
-        // Two numbers are those of every design.
+        // Two numbers apply to every design.
         let each = counts.len();
         if each == 2 && designs > 0 {
             counts = counts.repeat(kinds.len() / each);
@@ -157,15 +157,15 @@ impl Request {
         }
         let all = counts.iter().copied().fold(0, usize::saturating_add);
         if !(1..=MOST_TILES).contains(&all) {
-            return Err(format!("from 1 to {MOST_TILES} tiles can be on a table"));
+            return Err(format!("a table can have 1 to {MOST_TILES} tiles"));
         }
         Ok(Start::Random(counts))
     }
 
-    /// What makes no sense together.
+    /// Checks for contradictory options.
     ///
     /// # Errors
-    /// What it is, and what to do.
+    /// A contradiction, and how to fix it.
     pub fn check(&self) -> Result<(), String> {
         if self.shaking.is_some() && self.motion.drag == 0.0 {
             return Err(
@@ -176,13 +176,13 @@ impl Request {
             return Err("--correlation needs --shaking: add it".into());
         }
         if self.made().is_empty() {
-            return Err(format!("--shard: of {} runs this part has none", self.runs));
+            return Err(format!(
+                "--shard: this part has none of the {} runs",
+                self.runs
+            ));
         }
         if self.compare && self.shaking.is_none() {
-            return Err(
-                "--compare sets what `yield` says at the kT of --shaking beside: set that, too"
-                    .into(),
-            );
+            return Err("--compare needs a kT: add --shaking".into());
         }
         Ok(())
     }
@@ -202,5 +202,5 @@ fn step(text: &str) -> Result<f64, String> {
     let found = request::positive(text)
         .ok()
         .filter(|it| *it <= LONGEST_STEP);
-    found.ok_or_else(|| format!("a step greater than 0 and at most {LONGEST_STEP} s is needed"))
+    found.ok_or_else(|| format!("a step is greater than 0 and at most {LONGEST_STEP} s"))
 }

@@ -1,4 +1,4 @@
-//! Tiles at the start, read from a table.
+//! Reads the starting positions of tiles from a CSV file.
 
 use csv::{ReaderBuilder, Trim};
 
@@ -11,20 +11,20 @@ use physics::table::{Crowd, Mover};
 /// The columns.
 const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
 
-/// What is wrong with the table, and where.
+/// What is wrong with the file, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {message}")]
 pub struct StartFileError {
-    /// Which line, from 1.
+    /// The line, from 1.
     pub line: u64,
     /// What is wrong, and how to fix it.
     pub message: String,
 }
 
-/// Reads the tiles at the start: a line each, in the order of their numbers.
+/// Reads the starting tiles, one per line; returns them in the order of their numbers.
 ///
 /// # Errors
-/// Where a line cannot be read.
+/// If a line cannot be read.
 pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
     let mut reader = ReaderBuilder::new()
         .flexible(true)
@@ -58,14 +58,14 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         let line = record.position().map_or(0, csv::Position::line);
         let entry = |column: usize| record.get(places[column]).unwrap_or_default();
         let tile: usize = entry(0).parse().map_err(|_| {
-            let message = format!("`{}` is no number of a tile, from 0 on", entry(0));
+            let message = format!("`{}` is not a tile number: count tiles from 0", entry(0));
             wrong(line, message)
         })?;
         let kind = crowd.kinds.iter().position(|kind| kind.name == entry(1));
         let kind = kind.ok_or_else(|| {
             let names: Vec<&str> = crowd.kinds.iter().map(|it| it.name.as_str()).collect();
             let message = format!(
-                "`{}` is no kind of tile; there is {}",
+                "`{}` is not a kind of tile; the kinds are {}",
                 entry(1),
                 names.join(", ")
             );
@@ -78,12 +78,15 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
             *number = read.ok_or_else(|| {
                 wrong(
                     line,
-                    format!("`{text}` under `{}` is no number", COLUMNS[k + 2]),
+                    format!(
+                        "`{text}` in the column `{}` is not a number",
+                        COLUMNS[k + 2]
+                    ),
                 )
             })?;
         }
         if let Some((_, other, _)) = found.iter().find(|it| it.0 == tile) {
-            let message = format!("tile {tile} was there on line {other} already");
+            let message = format!("tile {tile} is already on line {other}");
             return Err(wrong(line, message));
         }
         let [x, y, theta, vx, vy, omega] = numbers;
@@ -96,12 +99,12 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
     if found.is_empty() {
         return Err(wrong(
             1,
-            "there are no tiles: write a line for each".to_owned(),
+            "there are no tiles: write one line per tile".to_owned(),
         ));
     }
     found.sort_by_key(|it| it.0);
     if let Some((k, it)) = found.iter().enumerate().find(|(k, it)| it.0 != *k) {
-        let message = format!("tiles are numbered from 0 on, each once: there is no tile {k}");
+        let message = format!("tile {k} is missing: number the tiles from 0, each once");
         return Err(wrong(it.1, message));
     }
     Ok(found.into_iter().map(|it| it.2).collect())

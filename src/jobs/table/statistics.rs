@@ -1,4 +1,4 @@
-//! What runs tell together.
+//! Statistics over the runs of a table.
 
 use physics::dynamics::docking::poisson_interval;
 use physics::order::Order;
@@ -12,14 +12,14 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub struct Interval {
     /// The mean.
     pub mean: f64,
-    /// The lower end; `None` of a single run.
+    /// The lower end; `None` for a single run.
     pub low: Option<f64>,
     /// The upper end.
     pub high: Option<f64>,
 }
 
 impl Interval {
-    /// By Student's t of the runs' values.
+    /// Computed from the runs' values by Student's t.
     pub fn of(values: &[f64]) -> Self {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
@@ -37,19 +37,19 @@ impl Interval {
     }
 }
 
-/// What a table is like in the end.
+/// The state of a table at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Its kinetic energy is that of kT.
+    /// Its kinetic energy corresponds to kT.
     Thermal,
     /// It has less, or nothing drives it.
     Frozen,
-    /// It has more, or something else drives it than shaking.
+    /// It has more, or something other than shaking drives it.
     Driven,
 }
 
 impl Verdict {
-    /// What users call it.
+    /// Its name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Thermal => "thermal",
@@ -59,7 +59,8 @@ impl Verdict {
     }
 }
 
-/// The kinetic energy of a thermal table is that of kT within this share, or within that of chance.
+/// Largest relative deviation of a thermal table's kinetic energy from that of kT, unless the
+/// statistical error is larger.
 pub const THERMAL: f64 = 0.1;
 
 /// How long bonds or traps last.
@@ -69,15 +70,15 @@ pub struct Lifetime {
     pub begun: usize,
     /// How many ended.
     pub ended: usize,
-    /// All their time together (s).
+    /// Their total time (s).
     pub time: f64,
-    /// Time over ends (s), with its 95 % interval; `None` where none ended.
+    /// Total time over number of ends (s); `None` if none ended.
     pub mean: Option<f64>,
-    /// Its ends; the upper one `None` where nothing bounds it.
+    /// Its 95 % interval (s); the upper end is `None` if nothing bounds it.
     pub interval: [Option<f64>; 2],
 }
 
-/// At one moment of all runs.
+/// All runs at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     /// Since the start (s).
@@ -90,33 +91,33 @@ pub struct Moment {
     pub largest: Interval,
 }
 
-/// What runs tell together.
+/// Statistics over the runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
     /// Bonds at the end.
     pub bonds: Interval,
     /// Traps at the end.
     pub traps: Interval,
-    /// Sizes of clusters at the end with their mean count in a run.
+    /// Sizes of clusters at the end with their mean count per run.
     pub clusters: Vec<(usize, f64)>,
     /// Over time.
     pub moments: Vec<Moment>,
     /// Kinetic energy per degree of freedom over kT, of the second half of the time.
     pub kinetic_kt: Option<f64>,
-    /// What that means.
+    /// What the kinetic energy means.
     pub verdict: Verdict,
-    /// The largest of the runs' errors of energy.
+    /// The largest energy error of the runs.
     pub energy_error: f64,
     /// The shortest step of a run (s).
     pub step: f64,
     /// Runs whose steps were halved.
     pub halved: usize,
-    /// Of bonds and of traps.
+    /// Lifetimes of bonds and of traps.
     pub lifetimes: [Lifetime; 2],
 }
 
 impl Statistics {
-    /// Of some runs, at least one.
+    /// Computes the statistics of at least one run.
     pub fn of(runs: &[Run], settings: &TableSettings) -> Self {
         let at_end = |tie: Tie| {
             let count = |run: &Run| run.samples.last().map_or(0, |last| last.count(tie)) as f64;
@@ -151,9 +152,9 @@ impl Statistics {
     }
 }
 
-/// By how large a share the mean kinetic energy of thermal tiles may be off by chance, twice the
-/// standard deviation: the square of a normal velocity varies by sqrt(2) of its mean, and the second
-/// half of a run of the time T has `drag T / 2` independent ones of each degree of freedom.
+/// The statistical error of the mean kinetic energy of thermal tiles, as a share of it: twice the
+/// standard deviation, since the square of a normal velocity varies by sqrt(2) of its mean, and the
+/// second half of a run of the time T has `drag T / 2` independent ones of each degree of freedom.
 fn chance(runs: &[Run], settings: &TableSettings) -> f64 {
     let tiles: usize = runs.iter().map(|run| run.movers.len()).sum();
     let independent = (settings.drag * settings.duration / 2.0).max(1.0);
@@ -179,7 +180,8 @@ fn clusters(runs: &[Run]) -> Vec<(usize, f64)> {
     counted
 }
 
-/// All runs at the moments of the first; halved steps have the same moments to within a step.
+/// All runs at the times of the first run's samples; with halved steps the times agree to within a
+/// step.
 fn moments(runs: &[Run]) -> Vec<Moment> {
     let count = runs.iter().map(|run| run.samples.len()).min().unwrap_or(0);
     (0..count)

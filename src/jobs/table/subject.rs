@@ -1,4 +1,4 @@
-//! What is put on a table: the tiles of a design, or of a tile set.
+//! The tiles on a table: those of a design, or of a tile set.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,21 +11,21 @@ use crate::request::{Misused, of_keywords};
 use physics::observer::Silent;
 use physics::table::Crowd;
 
-/// What tiles of a set cover of their table.
+/// The share of the table covered by the tiles of a set.
 const COVERAGE: f64 = 0.3;
-/// The kT (J) that a set's words are looked at with where tiles are not shaken.
+/// The kT (J) for choosing a set's words if tiles are not shaken.
 const USUAL_KT: f64 = 5e-3;
 
-/// Where tiles come from.
+/// The origin of the tiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct About {
-    /// What the design or the set is called.
+    /// The name of the design or the set.
     pub name: String,
-    /// The designs' names, with the checksums of their files; none of a tile set.
+    /// The designs' names, with the checksums of their files; empty for a tile set.
     pub designs: Vec<(String, String)>,
     /// The model of the magnets.
     pub model: MagnetModel,
-    /// Of a tile set what is to grow: the tiles by their places.
+    /// For a tile set, the target assembly: tiles by place.
     pub pattern: Option<BTreeMap<Place, usize>>,
 }
 
@@ -33,7 +33,7 @@ impl About {
     /// The tiles of one or more designs.
     ///
     /// # Errors
-    /// As [`of_designs`], or where two designs have one name.
+    /// As [`of_designs`], or if two designs have the same name.
     pub fn of_designs(designs: &[Design]) -> Result<(Self, Crowd), String> {
         let crowd = of_designs(designs)?;
         let names: Vec<&str> = designs.iter().map(|it| it.name.as_str()).collect();
@@ -55,11 +55,11 @@ impl About {
         Ok((about, crowd))
     }
 
-    /// The tiles of a set, with the words that `tilebind assemble` finds for it, on a square table of
-    /// which they cover three tenths.
+    /// The tiles of a set, with the words that `tilebind assemble` finds for it, on a square table
+    /// with a coverage of three tenths.
     ///
     /// # Errors
-    /// Where the set cannot be read, or there are no words for it.
+    /// If the set cannot be read, or there are no words for it.
     pub fn of_set(
         file: &Path,
         request: &Request,

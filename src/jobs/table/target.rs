@@ -1,4 +1,4 @@
-//! How much of what was meant has come about.
+//! How much of the target assembly is complete.
 
 use std::collections::BTreeMap;
 
@@ -10,19 +10,19 @@ use physics::table::contacts::{Tie, cluster_of_each};
 use physics::table::run::Run;
 use physics::table::{Crowd, Mover};
 
-/// At the end of the runs.
+/// The completeness of the target at the end of the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Of designs: the share of the tiles of the scarcer kind that hold, as they are meant to, a partner
-    /// that no other of them counts. Of a tile set: the share of the pattern's tiles that the most complete
-    /// cluster has in their places.
+    /// For designs: the share of the scarcer kind's tiles that are bound to a partner of their own.
+    /// For a tile set: the share of the pattern's tiles that are in place in the most complete
+    /// cluster.
     pub share: Interval,
-    /// Of a tile set: tiles of that cluster that are in no place of the pattern.
+    /// For a tile set: tiles of that cluster that are not in a place of the pattern.
     pub defects: Option<Interval>,
 }
 
 impl Target {
-    /// Of some runs, at least one; `kinds` are the tiles'.
+    /// Evaluates at least one run; `kinds` are the kinds of the tiles.
     pub fn of(about: &About, (crowd, kinds): (&Crowd, &[usize]), runs: &[Run]) -> Self {
         let Some(pattern) = &about.pattern else {
             let share = |run: &Run| bonds(crowd, kinds, run);
@@ -48,7 +48,7 @@ impl Target {
     }
 }
 
-/// The share of the pairs of tiles that could be bound at once and are.
+/// The number of bound pairs over the largest possible number of simultaneously bound pairs.
 fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
     let Some(last) = run.samples.last() else {
         return 0.0;
@@ -75,15 +75,15 @@ fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
     bound as f64 / possible.max(1) as f64
 }
 
-/// The largest number of pairs of which no two share a tile.
+/// The size of a maximum matching: pairs of which no two share a tile.
 fn matched(pairs: &[[usize; 2]]) -> usize {
     let pairs = pairs.iter().map(|tiles| tiles.map(|tile| tile as u32));
     let graph = UnGraph::<(), ()>::from_edges(pairs.map(<(u32, u32)>::from));
     maximum_matching(&graph).len()
 }
 
-/// Of the cluster that has most of the pattern: how many of its tiles are in their places, and how
-/// many are not.
+/// For the cluster that contains most of the pattern: the number of its tiles in place, and of its
+/// others.
 fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, usize) {
     let held = run.samples.last().map_or(&[][..], |last| &last.held);
     let tiles = run.movers.len();
@@ -100,7 +100,7 @@ fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, 
     }
     let mut best = (0, 0);
     for cluster in clusters.into_values() {
-        // Within it, tiles that bonds tie to each other have places against each other.
+        // Within it, tiles connected by bonds have relative places.
         let size = cluster.len();
         let mut rest = cluster;
         while let Some(&first) = rest.first() {
@@ -119,7 +119,7 @@ fn grown(crowd: &Crowd, pattern: &BTreeMap<Place, usize>, run: &Run) -> (usize, 
     best
 }
 
-/// The step on the pattern that leads from a tile to one that it is bound to.
+/// The step on the pattern from a tile to one bound to it.
 fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
     let [a, b] = [one, other].map(|it| it.motion(crowd).configuration);
     let p = a.inverse_transform(b.position());
@@ -132,7 +132,7 @@ fn step(crowd: &Crowd, [one, other]: [&Mover; 2]) -> Place {
     }
 }
 
-/// Where tiles lie that bonds tie to one.
+/// The relative places of all tiles connected to one by bonds.
 fn placed(first: usize, bound: &[Vec<(usize, Place)>]) -> BTreeMap<usize, Place> {
     let mut places = BTreeMap::from([(first, (0, 0))]);
     let mut open = vec![first];
@@ -148,7 +148,8 @@ fn placed(first: usize, bound: &[Vec<(usize, Place)>]) -> BTreeMap<usize, Place>
     places
 }
 
-/// How many tiles, by kind and place, are in their places of a pattern, wherever it lies best.
+/// The largest number of tiles, given by kind and place, that match a pattern over all shifts of
+/// it.
 fn overlap(pattern: &BTreeMap<Place, usize>, tiles: &[(usize, Place)]) -> usize {
     let mut shifts: BTreeMap<Place, usize> = BTreeMap::new();
     for (kind, at) in tiles {
@@ -167,7 +168,7 @@ mod tests {
     fn no_partner_counts_twice() {
         assert_eq!(matched(&[]), 0);
         assert_eq!(matched(&[[0, 5], [1, 5], [2, 5]]), 1);
-        // Tile 0 has to leave its first partner to tile 1.
+        // Tile 0 must leave its first partner to tile 1.
         assert_eq!(matched(&[[0, 5], [0, 6], [1, 5]]), 2);
     }
 

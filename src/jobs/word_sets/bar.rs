@@ -1,14 +1,13 @@
-//! The magnets that words are made of.
+//! The magnets of words.
 
 use crate::design::{Design, MagnetModel};
 use physics::words::Bar;
 
-/// The magnets of a design's target face and the face's length (m), or the paper's magnets without
-/// one, which are on a face as long as it takes. A pitch (m) or a model that is given goes before
-/// the design's.
+/// The magnets of a design's target face and the face's length (m); without a design the paper's
+/// magnets, on a face as long as needed. A given pitch (m) or model overrides the design's.
 ///
 /// # Errors
-/// Where the design gives no pitch, or its magnets are none that words can be made of.
+/// If the design gives no pitch, or words cannot be made of its magnets.
 pub fn bar(
     design: Option<&Design>,
     pitch: Option<f64>,
@@ -34,7 +33,7 @@ pub fn bar(
     Ok((bar, face))
 }
 
-/// How many places apart magnets are at least, to lie side by side.
+/// Least distance of two magnets in places, so that they do not overlap.
 pub fn least_spacing(bar: &Bar) -> usize {
     (bar.size[1] / bar.pitch * (1.0 - 1e-9)).ceil() as usize
 }

@@ -1,4 +1,4 @@
-//! What is asked of the crosstalk of a set of words.
+//! The request of the crosstalk of a set of words.
 
 use clap::Args;
 
@@ -6,7 +6,7 @@ use crate::design::{MagnetModel, WordSet};
 use crate::request;
 use physics::words::crosstalk::{Crosstalk, TOLERANCE};
 
-/// The attraction of every two words over all poses, and how closely it is bounded.
+/// The options of the attraction of every two words over all poses.
 #[derive(Clone, Debug, Args)]
 pub struct CrosstalkRequest {
     /// Prove that no attraction is stronger, to within E_J [default: 1/4 of a contact]
@@ -25,7 +25,7 @@ pub struct CrosstalkRequest {
 }
 
 impl CrosstalkRequest {
-    /// The crosstalk of a set that was read with the model asked for.
+    /// The crosstalk of a set that was read with the requested model.
     pub fn crosstalk(&self, set: &WordSet) -> Crosstalk {
         let stage = set.carriers();
         let certify = self.certify.map(|tolerance| {

@@ -1,4 +1,5 @@
-//! Sets of words as files: `tilebind crosstalk` reads them, and their faces can be pasted into a design.
+//! Sets of words as files: `tilebind crosstalk` reads them, and their faces can be pasted into a
+//! design.
 
 use std::fmt::Write;
 
@@ -8,7 +9,7 @@ use physics::words::continuous::SpacedWord;
 use physics::words::set::name;
 use physics::words::{Bar, Word};
 
-/// Words whose places are a pitch apart, on faces of `side` (m).
+/// The file of words with a pitch, on faces of length `side` (m).
 pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
     let list = format!("words = [{}]\n\n", quoted.join(", "));
@@ -18,12 +19,12 @@ pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64) -> String 
     text(headline, &list, bar, side, faces)
 }
 
-/// Words with magnets anywhere along the face.
+/// The file of words with magnets anywhere along the face.
 pub fn of_spaced(headline: &str, words: &[SpacedWord], bar: &Bar, side: f64) -> String {
     let magnets = |word: &SpacedWord| {
         let letters = word.code(bar.form.stands.is_some());
         let magnets = word.magnets.iter().zip(letters.chars());
-        // No minus of nothing.
+        // Avoids -0.
         let magnets =
             magnets.map(|((at, _), pole)| format!("{{ at = {:?}, pole = \"{pole}\" }}", at + 0.0));
         format!("magnets = [{}]", magnets.collect::<Vec<_>>().join(", "))
@@ -34,7 +35,7 @@ pub fn of_spaced(headline: &str, words: &[SpacedWord], bar: &Bar, side: f64) -> 
     text(headline, "", bar, side, faces)
 }
 
-/// The text of a set: its magnets, the tiles' side (m), and what each face and its mate hold.
+/// The text of a set: its magnets, the tiles' side (m), and the entries of each face and its mate.
 fn text(
     headline: &str,
     list: &str,
@@ -42,7 +43,7 @@ fn text(
     side: f64,
     faces: impl Iterator<Item = [String; 2]>,
 ) -> String {
-    // A rounding error would make figures that nobody typed.
+    // Rounds, since rounding errors would show as spurious digits.
     let rounded = |x: f64| (x * 1e9).round() / 1e9;
     let remanence = rounded(MU0 * bar.moment / bar.form.shape.volume(bar.size));
     let mut text = format!(

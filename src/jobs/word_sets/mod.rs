@@ -1,9 +1,9 @@
-//! Sets of barcodes: what is asked, what is found, the magnets that words are made of, and sets as
-//! files.
+//! Sets of barcodes: requests, results, the magnets that words are made of, and sets as files.
 //!
-//! - [`Request`] - what is asked; [`Sought`] - what is found, with all that reproduces it;
-//! - [`Spaced`] - words with magnets anywhere along the face, searched and judged over all poses;
-//! - [`CrosstalkRequest`] - what is asked of the crosstalk of a set;
+//! - [`Request`] - the options; [`Sought`] - the result, with everything needed to reproduce it;
+//! - [`Spaced`] - words with magnets anywhere along the face, searched and evaluated over all
+//!   poses;
+//! - [`CrosstalkRequest`] - the options of the crosstalk of a set;
 //! - [`bar()`] - the magnets of a design's face; [`mod@file`] - `words.toml`, as [`crate::design::WordSet`]
 //!   reads it.
 
@@ -22,19 +22,19 @@ pub use spaced::Spaced;
 
 use physics::words::{Answer, Bar, Lags, Meeting, Question, Task, Word};
 
-/// Words that were sought, with all that reproduces them.
+/// The result of a search for words, with everything needed to reproduce it.
 pub struct Sought {
-    /// What was asked.
+    /// The request.
     pub request: Request,
-    /// The design that the magnets are of; `None` for the paper's.
+    /// The design of the magnets; `None` for the paper's.
     pub design: Option<String>,
     /// The magnets.
     pub bar: Bar,
     /// Length (m) of the design's target face, or of the paper's.
     pub face: f64,
-    /// What words are wanted.
+    /// The requirements of the words.
     pub task: Task,
-    /// The same, as it is answered.
+    /// The same, as given to the search.
     pub question: Question,
     /// The energies of the magnets.
     pub energies: Lags,
@@ -43,42 +43,43 @@ pub struct Sought {
 }
 
 impl Sought {
-    /// Side (m) of square tiles whose faces hold the words' magnets.
+    /// Side (m) of square tiles with room for the words' magnets.
     pub fn side(&self) -> f64 {
         side(&self.bar, self.task.places)
     }
 
-    /// How long (m) a face is from the first to the last place of its magnets.
+    /// Distance (m) from the first to the last place of a face's magnets.
     pub fn needed(&self) -> f64 {
         (self.task.places as f64 - 1.0) * self.bar.pitch + self.bar.size[1]
     }
 
-    /// The greatest pitch (m) with which the words fit on the face, if they do not with theirs.
+    /// The largest pitch (m) with which the words fit on the face, if they do not fit with their
+    /// own.
     pub fn pitch_that_fits(&self) -> Option<f64> {
         let places = self.task.places as f64 - 1.0;
         let pitch = (self.face - self.bar.size[1]) / places;
         (self.needed() > self.face * (1.0 + 1e-9)).then_some(pitch)
     }
 
-    /// The strongest wrong meeting of two words, with their mates, by energies.
+    /// The strongest wrong contact of two words and their mates, by energies.
     pub fn strongest(&self, u: Word, v: Word) -> Option<Meeting> {
         self.task.rules.strongest(&self.energies, u, v)
     }
 
-    /// The word of the set that a word meets most strongly where it should not, and how.
+    /// The word of the set with the strongest wrong contact with a given word, and that contact.
     pub fn worst(&self, word: Word) -> Option<Meeting> {
         let all = self.answer.words.iter();
         let all = all.filter_map(|other| self.strongest(word, *other));
         all.min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
 
-    /// Every two words, by their places in the set.
+    /// All pairs of words, by their indices in the set.
     pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let count = self.answer.words.len();
         (0..count).flat_map(move |i| (i..count).map(move |j| [i, j]))
     }
 
-    /// 1 less the share of the weakest bond of the strongest wrong meeting of every two words.
+    /// The gap of every two words: 1 - strongest wrong attraction / weakest bond of the set.
     pub fn gaps(&self) -> impl Iterator<Item = f64> {
         let set = &self.answer.words;
         let bonds = set.iter();
@@ -91,7 +92,7 @@ impl Sought {
     }
 }
 
-/// Length (m) of a face with so many places.
+/// Length (m) of a face with a number of places.
 pub fn side(bar: &Bar, places: usize) -> f64 {
     let places = places as f64;
     (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1])

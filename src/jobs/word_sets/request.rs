@@ -1,4 +1,4 @@
-//! What words are asked for.
+//! The request of a search for words.
 
 use clap::Args;
 
@@ -8,7 +8,7 @@ use crate::request::{self, Word};
 use physics::words::word::MOST_PLACES;
 use physics::words::{Bar, Constraints, Faces, Fault, Shape};
 
-/// What words are wanted, of what magnets, and how much work they are worth.
+/// The options of a search for words.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
     /// Magnets per word
@@ -130,7 +130,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// Places and magnets of a word.
+    /// Numbers of places and magnets of a word.
     pub(super) fn places(&self) -> Result<(usize, usize), String> {
         let wrong = |message: String| Err(message);
         let (places, magnets) = match (self.slots, self.magnets, self.length) {
@@ -251,7 +251,7 @@ fn range(text: &str) -> Result<[f64; 2], String> {
     ends(text, design::energy).ok_or_else(|| wrong.to_owned())
 }
 
-/// The ends of `A:B`, as Python has them `A,B`.
+/// The ends of `A:B`, in Python `A,B`.
 fn ends<T: PartialOrd>(text: &str, read: impl Fn(&str) -> Option<T>) -> Option<[T; 2]> {
     let (low, high) = text.split_once([':', ','])?;
     let [low, high] = [low, high].map(|part| read(part.trim()));

@@ -1,4 +1,4 @@
-//! The search for words that are asked for.
+//! The search for the requested words.
 
 use super::spaced::Spaced;
 use super::{Request, Sought, bar};
@@ -8,11 +8,11 @@ use physics::budget::Budget;
 use physics::words::continuous::Wanted;
 use physics::words::{Effort, Faces, Lags, PAPER_FACE, Question, Rules, Task, answer};
 
-/// Words that were found, or not.
+/// The result of a search.
 pub enum Found {
-    /// With places a pitch apart.
+    /// Words with a pitch.
     Even(Box<Sought>),
-    /// With magnets anywhere along the face.
+    /// Words with magnets anywhere along the face.
     Anywhere(Box<Spaced>),
 }
 
@@ -20,10 +20,10 @@ const UPSIDE_DOWN: &str = "--flip: upright magnets exchange their poles when the
     upside down, so every face is its own mate and no such words exist; leave it out";
 
 impl Request {
-    /// Searches the words, of the magnets of a design's target face or of the paper's.
+    /// Searches words with the magnets of a design's target face or the paper's.
     ///
     /// # Errors
-    /// Where such words cannot be.
+    /// If such words cannot exist.
     pub fn search(&self, design: Option<&Design>) -> Result<Found, Refused> {
         let (places, magnets) = self.places()?;
         let (bar, face) = bar(design, self.pitch, self.model)?;

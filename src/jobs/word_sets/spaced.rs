@@ -1,5 +1,5 @@
-//! The search for words with magnets anywhere along the face: what is found is judged over all poses
-//! as its file tells it.
+//! The search for words with magnets anywhere along the face. The result is evaluated over all
+//! poses as its file states it.
 
 use super::{Request, file};
 use crate::Refused;
@@ -10,37 +10,37 @@ use physics::words::continuous::{SpacedWord, Wanted, search};
 use physics::words::crosstalk::{Crosstalk, sampling_work};
 use physics::words::word::MOST_PLACES;
 
-/// Share of the work left for one more word.
+/// Share of the work reserved for one more word.
 const FOR_A_WORD: f64 = 0.2;
-/// Annealing looks at fewer poses than the judgement: it goes on until the gap is wider than asked
-/// for by the first of these, or else by the second.
+/// Annealing samples fewer poses than the final evaluation, so it continues until the gap exceeds
+/// the requested one by the first of these margins, or else by the second.
 const MARGINS: [f64; 2] = [0.01, 0.05];
 
-/// Positions are told to so many metres: finer than anything is placed.
+/// Resolution of stated positions (m): finer than any placement.
 const STEP: f64 = 1e-6;
 
-/// The set as its file tells it, and its crosstalk; `None` of no words.
+/// The set as stated in its file, and its crosstalk; `None` without words.
 type Judged = Option<(WordSet, Crosstalk)>;
 
-/// A set of words with magnets anywhere, and what it is worth.
+/// A set of words with magnets anywhere, and its evaluation.
 pub struct Spaced {
     /// The words; positions in whole micrometres.
     pub words: Vec<SpacedWord>,
-    /// What was asked: gap or number of words.
+    /// The request: gap or number of words.
     pub request: Request,
     /// The magnets; the pitch is the least spacing.
     pub bar: Bar,
     /// Length of a face (m).
     pub face: f64,
-    /// The set as a file, and its crosstalk; `None` of no words.
+    /// The set as a file, and its crosstalk; `None` without words.
     pub judged: Judged,
 }
 
 impl Spaced {
-    /// Searches for what is asked.
+    /// Searches the requested words.
     ///
     /// # Errors
-    /// Where such words cannot be.
+    /// If such words cannot exist.
     pub(super) fn search(
         wanted: &Wanted,
         request: &Request,
@@ -93,7 +93,7 @@ fn check(wanted: &Wanted, count: Option<usize>) -> Result<(), String> {
     })
 }
 
-/// So many words with a wide gap.
+/// A given number of words with a wide gap.
 fn of_count(
     wanted: &Wanted,
     count: usize,
@@ -106,7 +106,7 @@ fn of_count(
     Ok((words, judged))
 }
 
-/// As many words as are found with a gap over all poses.
+/// As many words as possible with a given gap over all poses.
 fn of_gap(
     wanted: &Wanted,
     gap: f64,
@@ -116,7 +116,7 @@ fn of_gap(
     let most = MOST_PLACES / (2 * wanted.magnets);
     'more: for count in 1..=most {
         for margin in MARGINS {
-            // One word is judged in any case.
+            // A single word is always evaluated.
             let judging = judging(wanted, count);
             if count > 1 && judging > effort.budget.left() {
                 break 'more;
@@ -139,7 +139,7 @@ fn of_gap(
     Ok(best)
 }
 
-/// Units of work that judging so many words takes: each and its mate has places of its own.
+/// Units of work for evaluating a number of words: each word and its mate have their own places.
 fn judging(wanted: &Wanted, count: usize) -> u64 {
     sampling_work(2 * wanted.magnets * count)
 }
@@ -148,10 +148,10 @@ fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {
     words.unwrap_or_default().iter().map(rounded).collect()
 }
 
-/// A word with its positions rounded as they are told.
+/// A word with its positions rounded to the stated resolution.
 fn rounded(word: &SpacedWord) -> SpacedWord {
     let round = |at: f64| (at / STEP).round() * STEP + 0.0;
-    // As few decimals as a text of it has.
+    // Rounds to the decimals of its text.
     let told = |at: f64| format!("{:.6}", round(at)).parse().unwrap_or(at);
     let magnets = word.magnets.iter();
     SpacedWord {
@@ -159,7 +159,7 @@ fn rounded(word: &SpacedWord) -> SpacedWord {
     }
 }
 
-/// The set as its file tells it, over all poses.
+/// Evaluates the set, as stated in its file, over all poses.
 fn judged(wanted: &Wanted, words: &[SpacedWord]) -> Result<Judged, DesignError> {
     if words.is_empty() {
         return Ok(None);

@@ -1,16 +1,16 @@
-//! Magnets of the catalogue.
+//! The nearest magnets of the catalogue.
 
 use physics::tile::grade::{Grade, NEODYMIUM};
 
-/// How far (T) from a grade's remanence magnets of that grade may be.
+/// Largest deviation (T) of a magnet's remanence from that of its grade.
 const SPREAD: f64 = 0.03;
 
-/// Grades that every shop has: N35 to N52, weakest first.
+/// Common grades: N35 to N52, weakest first.
 pub fn sold() -> &'static [Grade] {
     &NEODYMIUM[2..10]
 }
 
-/// The grade nearest to a remanence (T), and its own; `None` where none is near.
+/// The grade nearest to a remanence (T), and its remanence; `None` if none is near.
 ///
 /// ```
 /// use tilebind_jobs::workshop::grade::nearest;

@@ -1,8 +1,8 @@
-//! A design to be made: outlines with pockets for the magnets, and how to put them in.
+//! Workshop files of a design: outlines with pockets for the magnets, and the order of assembly.
 //!
-//! - [`Part`]: the lines that a cutter follows, for each tile;
-//! - [`order`]: in which order the magnets of a face go in so that none is pushed out;
-//! - [`grade`]: which magnets of the catalogue come nearest.
+//! - [`Part`]: the cutting lines of each tile;
+//! - [`order`]: the order in which the magnets of a face are inserted, so that none is pushed out;
+//! - [`grade`]: the nearest magnets of the catalogue.
 
 pub mod grade;
 pub mod order;
@@ -21,10 +21,10 @@ pub use rim::Corner;
 const DENSITY: f64 = 7500.0;
 /// Standard gravity (m/s^2).
 const GRAVITY: f64 = 9.806_65;
-/// Lengths above this are meant in millimetres (m).
+/// Lengths (m) above this were meant in millimetres.
 const LONGEST: f64 = 0.01;
 
-/// What the workshop needs to know.
+/// The options of the workshop files.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Making {
     /// Width of the cut (m), or with a unit
@@ -48,42 +48,42 @@ fn small(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What it takes to make a design.
+/// The workshop data of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Made {
-    /// What was asked.
+    /// The request.
     pub making: Making,
-    /// Kinds of magnets, and how many of each.
+    /// Kinds of magnets, and the number of each.
     pub magnets: Vec<(Magnet, usize)>,
     /// The fixed tile and the moving one.
     pub tiles: [MadeTile; 2],
 }
 
-/// What it takes to make a tile.
+/// The workshop data of a tile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MadeTile {
     /// Its lines.
     pub part: Part,
-    /// Its magnets in the order in which they go in.
+    /// Its magnets in the order of insertion.
     pub steps: Vec<Filled>,
 }
 
-/// A pocket that gets its magnet.
+/// The insertion of a magnet into its pocket.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filled {
-    /// Which pocket of the part.
+    /// The index of the pocket.
     pub pocket: usize,
-    /// The largest force (N) that pushes the magnet out on the way in; 0 where it is drawn in.
+    /// The largest force (N) that pushes the magnet out during insertion; 0 if it is drawn in.
     pub push: f64,
-    /// Whether that is more than its weight.
+    /// Whether this exceeds its weight.
     pub is_to_be_held: bool,
 }
 
 impl Made {
-    /// What it takes to make a design.
+    /// The workshop data of a design.
     ///
     /// # Errors
-    /// Where the cut is too wide for it.
+    /// If the kerf is too wide for it.
     pub fn new(design: &Design, making: &Making) -> Result<Self, PartError> {
         let (fixed, moving) = (&design.pair.fixed, &design.pair.moving);
         let mut magnets: Vec<(Magnet, usize)> = Vec::new();

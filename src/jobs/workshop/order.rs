@@ -1,30 +1,31 @@
-//! In which order magnets go into their pockets.
+//! The order in which magnets go into their pockets.
 //!
-//! A magnet is put in from above. There, moved by z out of the plane of those that are in already,
-//! it feels their field: beside a magnet that points the same way it is pushed back out, beside one
-//! that points the other way it is drawn in. (Of magnets that stand it is so, too.) The order with the least worst push is taken. The
-//! magnets are point dipoles; what is taken is the largest push on the way in.
+//! A magnet is inserted from above. At a height z above the plane of the magnets already in place
+//! it feels their field: a magnet that points the same way pushes it out, one that points the other
+//! way draws it in. (This also holds for magnets magnetised across the table.) The chosen order has
+//! the smallest largest push, taken over all heights and magnets. The magnets are modelled as point
+//! dipoles.
 
 use physics::tile::Magnet;
 use physics::units::MU0_OVER_4PI;
 
-/// Magnets of a face up to which every order is tried; of more, the next one is always the one that
-/// is pushed least.
+/// Up to this number of magnets every order is tried; with more, the next one is always the one
+/// that is pushed least.
 const ALL_ORDERS: usize = 10;
-/// Heights at which the push is taken, and the highest in lengths of a magnet.
+/// Number of heights at which the push is computed, and the largest height in lengths of a magnet.
 const HEIGHTS: usize = 60;
 const HIGHEST: f64 = 3.0;
 
-/// A magnet that goes in.
+/// The insertion of one magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Which of the magnets given.
+    /// The index of the magnet.
     pub magnet: usize,
-    /// The largest force (N) that pushes it out on the way in; 0 where it is drawn in.
+    /// The largest force (N) that pushes it out during insertion; 0 if it is drawn in.
     pub push: f64,
 }
 
-/// The order in which these magnets go in with the least worst push.
+/// The order of insertion with the smallest largest push.
 pub fn order(magnets: &[&Magnet]) -> Vec<Step> {
     let n = magnets.len();
     let push = |next: usize, placed: &dyn Fn(usize) -> bool| {
@@ -47,7 +48,8 @@ pub fn order(magnets: &[&Magnet]) -> Vec<Step> {
         }
         return steps;
     }
-    // The least worst push over all orders that fill a set of pockets, and the last one filled.
+    // The smallest largest push over all orders that fill a set of pockets, and the last one
+    // filled.
     let mut best: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); 1 << n];
     best[0] = (0.0, 0);
     for set in 0..1_usize << n {
@@ -72,7 +74,7 @@ pub fn order(magnets: &[&Magnet]) -> Vec<Step> {
     steps
 }
 
-/// The largest force (N) out of the plane on a magnet that comes down beside others.
+/// The largest force (N) out of the plane on a magnet inserted beside others.
 fn push(magnet: &Magnet, placed: &[&Magnet]) -> f64 {
     let heights =
         (1..=HEIGHTS).map(|k| HIGHEST * magnet.axis_first()[0] * k as f64 / HEIGHTS as f64);

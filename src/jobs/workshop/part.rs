@@ -1,4 +1,4 @@
-//! The lines of a tile that a cutter follows.
+//! The cutting lines of a tile.
 
 use nalgebra::Vector2;
 
@@ -8,7 +8,7 @@ use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Outline, Tile};
 
-/// A wall (m) between pocket and rim that is thinner than this does not stand.
+/// Thinnest stable wall (m) between pocket and rim.
 const THINNEST: f64 = 5e-4;
 
 /// Why a part cannot be cut.
@@ -17,44 +17,46 @@ pub enum PartError {
     /// The cutter is wider than details of the outline.
     #[error("a cut {0} m wide is wider than details of the outline: use a narrower --kerf")]
     Kerf(f64),
-    /// Nothing is left of a pocket.
+    /// A pocket vanishes.
     #[error("a cut {0} m wide leaves no pocket for the magnets: use a narrower --kerf")]
     Pocket(f64),
 }
 
-/// A tile as it is cut, in its own frame (m).
+/// The cutting lines of a tile, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Where the cutter's middle runs around the tile, counter-clockwise: arcs are arcs again, where
+    /// The cutter's centre line around the tile, counter-clockwise. Arcs are true arcs, although
     /// the tile's outline has chords.
     pub outline: Vec<Corner>,
-    /// A pocket for each magnet, in their order.
+    /// A pocket for each magnet, in order.
     pub pockets: Vec<Pocket>,
-    /// Of the tile (m).
+    /// The thickness of the tile (m).
     pub thickness: f64,
 }
 
 /// A pocket for one magnet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pocket {
-    /// `east 2`: the face, and which magnet of it, counter-clockwise from 1.
+    /// Its name, such as `east 2`: the face, and the index of its magnet, counter-clockwise from 1.
     pub name: String,
-    /// Which pole points out of the face, or up.
+    /// The pole that points out of the face, or up.
     pub pole: Pole,
-    /// Where the cutter's middle runs, counter-clockwise: two arcs about a disc that stands.
+    /// The cutter's centre line, counter-clockwise: two arcs around an upright disc.
     pub corners: Vec<Corner>,
-    /// From the magnet's middle to its north pole (m) in the tile's plane.
+    /// The vector from the magnet's centre to its north pole (m) in the tile's plane.
     pub north: Vector2<f64>,
-    /// The magnet's middle.
+    /// The magnet's centre.
     pub middle: Vector2<f64>,
-    /// How deep the pocket is milled from either side (m), so that the magnet lies midway.
+    /// Milling depth of the pocket (m), from either side, that centres the magnet in the tile's
+    /// thickness.
     pub depth: f64,
-    /// The least wall between the pocket and the tile's rim (m), below 0 where it breaks through.
+    /// The thinnest wall between the pocket and the tile's rim (m), negative if it breaks through.
     pub wall: f64,
 }
 
 impl Pocket {
-    /// What is written into it, where (m), and how high (m): both poles, or the one that is up.
+    /// The letters engraved in it, with position (m) and height (m): both poles, or the one that is
+    /// up.
     pub fn letters(&self) -> Vec<(char, Vector2<f64>, f64)> {
         let reach = (self.corners[0].point - self.middle).norm();
         match self.pole.stands() {
@@ -68,22 +70,22 @@ impl Pocket {
         }
     }
 
-    /// Whether the pocket opens through the tile's rim, or leaves a wall too thin to stand.
+    /// Whether the pocket opens through the tile's rim, or leaves too thin a wall.
     pub fn is_open(&self) -> bool {
         self.wall < THINNEST
     }
 
-    /// How much thicker its wall is to be (m).
+    /// How much its wall is too thin (m).
     pub fn wanting(&self) -> f64 {
         (THINNEST - self.wall).max(0.0)
     }
 }
 
 impl Part {
-    /// The lines for a tile.
+    /// Computes the lines of a tile.
     ///
     /// # Errors
-    /// Where the cut is too wide for the tile's details.
+    /// If the kerf is too wide for the tile's details.
     pub fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
         let mut pockets = Vec::new();
         for (i, magnet) in tile.magnets.iter().enumerate() {
@@ -99,7 +101,7 @@ impl Part {
     }
 }
 
-/// The outline half a cut outside.
+/// The outline offset outwards by half the kerf.
 fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Corner>, PartError> {
     let wide = || PartError::Kerf(kerf);
     if kerf > 0.0 {
@@ -108,7 +110,7 @@ fn outline(tile: &Tile, kerf: f64) -> Result<Vec<Corner>, PartError> {
     rim(&tile.outline, kerf / 2.0).ok_or_else(wide)
 }
 
-/// Refuses a cut that is wider than details of the outline: an edge would turn over.
+/// Rejects a kerf wider than details of the outline: an edge would be reversed.
 fn check_details(tile: &Tile, kerf: f64) -> Result<(), PartError> {
     let corners = tile.outline.vertices();
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
@@ -158,7 +160,7 @@ fn pocket(
     })
 }
 
-/// How far (m) a hole reaches beyond the rim, below 0 where it leaves a wall.
+/// How far (m) a hole extends beyond the rim, negative if it leaves a wall.
 fn reach(rim: &Outline, hole: &Magnet) -> f64 {
     match hole.is_round() {
         true => rim.signed_distance(hole.position) + hole.size[0] / 2.0,
@@ -169,7 +171,7 @@ fn reach(rim: &Outline, hole: &Magnet) -> f64 {
     }
 }
 
-/// The line around a magnet.
+/// The outline of a magnet.
 fn pocket_rim(magnet: &Magnet) -> Vec<Corner> {
     let half_turn = |side: f64| Corner {
         point: magnet.position
@@ -189,7 +191,7 @@ mod tests {
     use super::*;
     use physics::tile::magnet::{Form, Shape, Standing};
 
-    /// A wall that lies between two corners of any polygon about the disc.
+    /// A wall between two corners of any polygon around the disc.
     #[test]
     fn the_wall_beside_a_disc_that_stands_is_that_of_a_circle() {
         let turn = |k: u8| std::f64::consts::PI * (f64::from(k) / 2.0 + 1.0 / 32.0);

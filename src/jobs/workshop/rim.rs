@@ -1,4 +1,4 @@
-//! The rim of a tile as lines and arcs, drawn outwards by half a cut.
+//! The outline of a tile as lines and arcs, offset outwards by half the kerf.
 
 use std::f64::consts::TAU;
 
@@ -6,11 +6,11 @@ use nalgebra::Vector2;
 use physics::tile::Outline;
 use physics::tile::outline::cross;
 
-/// Tangents that differ by less (rad) have no corner to speak of: curves that lie side by side meet
-/// nowhere near. A corner that is taken for none is off by this share of the cut.
+/// Tangents that differ by less than this (rad) form no corner: the intersection of nearly parallel
+/// curves would be far away. Ignoring such a corner causes an error of this share of the cut.
 const SMOOTH: f64 = 1e-3;
 
-/// A corner of a closed line, and how it goes on to the next.
+/// A corner of a closed line, with the segment to the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// m.
@@ -21,8 +21,8 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// The radius (m) of the arc to the next corner, which is given, and whether it is more than half
-    /// a circle; `None` for a straight line.
+    /// The radius (m) of the arc to the given next corner, and whether it is more than half a
+    /// circle; `None` for a straight line.
     pub fn arc(&self, next: &Corner) -> Option<(f64, bool)> {
         let chord = (next.point - self.point).norm();
         let bulge = self.bulge.abs();
@@ -30,18 +30,18 @@ impl Corner {
         (bulge > 0.0).then(|| (chord * (1.0 + bulge * bulge) / (4.0 * bulge), bulge > 1.0))
     }
 
-    /// Where the way to the next corner, which is given, turns back along x or y.
+    /// The points at which the arc to the given next corner has an extremum in x or y.
     pub fn turning_points(&self, next: &Corner) -> Vec<Vector2<f64>> {
         let Some((radius, _)) = self.arc(next) else {
             return Vec::new();
         };
         let (bulge, chord) = (self.bulge, next.point - self.point);
-        // The centre lies this share of the chord to its left.
+        // The centre lies to the left of the chord by this share of it.
         let share = (1.0 - bulge * bulge) / (4.0 * bulge);
         let centre = (self.point + next.point) / 2.0 - right_of(chord) * share;
         let axes = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let points = axes.map(|axis| centre + Vector2::from(axis) * radius);
-        // On the arc are those to the chord's right if it runs counter-clockwise.
+        // Points on the arc are to the right of the chord if it runs counter-clockwise.
         let on_it = |p: &Vector2<f64>| cross(chord, p - self.point) * bulge < 0.0;
         points.into_iter().filter(on_it).collect()
     }
@@ -63,8 +63,7 @@ struct Piece {
     circle: Option<Circle>,
 }
 
-/// The rim of an outline, every point `shift` (m) outside of it; `None` where an arc is narrower than
-/// that.
+/// The rim of an outline, offset outwards by `shift` (m); `None` if an arc is narrower than that.
 pub(super) fn rim(outline: &Outline, shift: f64) -> Option<Vec<Corner>> {
     let pieces = pieces(outline);
     let n = pieces.len();
@@ -99,7 +98,7 @@ fn pieces(outline: &Outline) -> Vec<Piece> {
     let (vertices, arcs) = (outline.vertices(), outline.arcs());
     let n = vertices.len();
     let goes_on = |edge: usize| arcs[edge].is_some() && arcs[edge] == arcs[(edge + n - 1) % n];
-    // From an edge on that does not go on with the arc before it.
+    // Starts at an edge that does not continue the previous arc.
     let first = (0..n).find(|&edge| !goes_on(edge)).unwrap_or(0);
     let mut pieces = Vec::new();
     let mut edge = 0;
@@ -119,8 +118,8 @@ fn pieces(outline: &Outline) -> Vec<Piece> {
     pieces
 }
 
-/// The circle of an arc's points, if there are three or more. Where a face is drawn back, its arcs
-/// end a little off their circles, so inner points are better.
+/// The circle of an arc's points, if there are three or more. On a face that is drawn back, arcs
+/// end slightly off their circles, so inner points are better.
 fn circle(run: &[Vector2<f64>]) -> Option<Circle> {
     let inner = match run.len() {
         5.. => &run[1..run.len() - 1],
@@ -165,7 +164,7 @@ impl Piece {
         }
     }
 
-    /// The bulge of the piece between two points of it.
+    /// The bulge of the piece between two of its points.
     fn bulge(&self, start: Vector2<f64>, end: Vector2<f64>) -> f64 {
         let Some(circle) = self.circle else {
             return 0.0;
@@ -185,7 +184,7 @@ fn right_of(direction: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(direction.y, -direction.x)
 }
 
-/// Where two pieces meet that were moved outwards from where they met before.
+/// The point at which two pieces meet after they are moved outwards.
 fn meeting(before: [&Piece; 2], moved: [&Piece; 2], shift: f64) -> Vector2<f64> {
     let corner = before[1].start;
     let [a, b] = before.map(|piece| piece.direction(corner));
@@ -212,7 +211,7 @@ fn meeting(before: [&Piece; 2], moved: [&Piece; 2], shift: f64) -> Vector2<f64> 
         .unwrap_or(tangents)
 }
 
-/// Where a circle and a line through a point meet.
+/// The intersection of a circle and a line through a point.
 fn on_line(circle: Circle, point: Vector2<f64>, along: Vector2<f64>) -> Option<[Vector2<f64>; 2]> {
     let foot = point + along * (circle.centre - point).dot(&along);
     let square = circle.radius * circle.radius - (foot - circle.centre).norm_squared();
@@ -220,11 +219,11 @@ fn on_line(circle: Circle, point: Vector2<f64>, along: Vector2<f64>) -> Option<[
     (square >= 0.0).then(|| [foot - half, foot + half])
 }
 
-/// Where two circles meet.
+/// The intersection of two circles.
 fn on_circle(one: Circle, other: Circle) -> Option<[Vector2<f64>; 2]> {
     let d = other.centre - one.centre;
     let square = d.norm_squared();
-    // The line through both points lies this share of d from the first centre.
+    // The line through both intersections has this distance from the first centre, as a share of d.
     let share = (1.0 + (one.radius * one.radius - other.radius * other.radius) / square) / 2.0;
     on_line(one, one.centre + d * share, right_of(d).normalize())
 }
@@ -247,7 +246,7 @@ mod tests {
             .sum()
     }
 
-    /// A circle of four arcs, each of so many chords.
+    /// A circle of four arcs with a number of chords each.
     fn disc(radius: f64, chords: usize) -> Outline {
         let n = 4 * chords;
         let point = |k: usize| {
@@ -276,7 +275,7 @@ mod tests {
             }
         }
         assert!(rim(&disc(2.0, 3), -2.0).is_none());
-        // Half a disc from its lowest point to its highest reaches out to the right only.
+        // Half a disc from its lowest point to its highest extends only to the right.
         let half = [[0.0, -2.0], [0.0, 2.0]].map(|point| Corner {
             point: Vector2::from(point),
             bulge: 1.0,
@@ -295,7 +294,7 @@ mod tests {
 
     #[test]
     fn a_hollow_meets_straight_sides_where_both_are_shifted() {
-        // A square of side 4, a half circle of radius 1 cut out of its right side.
+        // A square of side 4 with a half circle of radius 1 cut out of its right side.
         let mut points = vec![Vector2::new(2.0, -2.0)];
         let chords = 8;
         for k in 0..=chords {
@@ -314,7 +313,8 @@ mod tests {
             (area(&drawn) - (16.0 - PI / 2.0)).abs() < 1e-12,
             "{drawn:?}"
         );
-        // Shifted by s, the circle has the radius 1 - s, and the side cuts it s off its middle.
+        // Shifted by s, the circle has the radius 1 - s, and the side cuts it at a distance s from
+        // its middle.
         let s = 0.1;
         let shifted = rim(&outline, s).unwrap();
         let (r, side) = (1.0_f64 - s, 4.0 + 2.0 * s);

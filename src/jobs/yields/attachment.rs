@@ -1,4 +1,4 @@
-//! How often shaken tiles attach: counted in docking runs.
+//! How often shaken tiles attach, counted in docking runs.
 
 use std::f64::consts::PI;
 
@@ -19,10 +19,10 @@ use physics::problem::Problem;
 
 /// Two configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 5e-3;
-/// Tiles start between the distance at which they are free and this multiple of it.
+/// Tiles start between the distance of free tiles and this multiple of it.
 const FARTHEST: f64 = 1.6;
 
-/// How attachment is found, and how tiles move meanwhile.
+/// The method for attachment rates, and the motion of tiles.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Effort {
     /// Docking runs per kT
@@ -50,7 +50,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// What it is called while it lasts.
+    /// The name of its progress stage.
     pub fn stage(&self) -> &'static str {
         match self.source {
             Source::Docking => "docking",
@@ -72,7 +72,7 @@ impl Effort {
         }
     }
 
-    /// How its rates come about.
+    /// A description of the source of its rates.
     pub fn told(&self) -> String {
         let MotionSettings {
             drag, restitution, ..
@@ -91,7 +91,7 @@ impl Effort {
     }
 }
 
-/// Where attachment rates come from.
+/// The source of attachment rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Source {
     /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag
@@ -101,31 +101,32 @@ pub enum Source {
     Overdamped,
 }
 
-/// Attachments of a pair on the design's table, by kind of state.
+/// Numbers of attachments of a pair on the design's table, by kind of state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attachments {
     /// To the bond, then to each kind of trap.
     pub counts: Vec<usize>,
-    /// How many came to rest elsewhere.
+    /// Number of runs that ended at rest elsewhere.
     pub elsewhere: usize,
-    /// Time of all runs together until attachment or their end (s).
+    /// Total time of all runs until attachment or their end (s).
     pub time: f64,
     /// The table's area (m^2).
     pub area: f64,
     /// Runs.
     pub runs: usize,
-    /// The rates of overdamped motion; `None` where attachments are counted.
+    /// The rates of overdamped motion; `None` if attachments are counted.
     pub solved: Option<Solved>,
 }
 
-/// Rates of overdamped motion among kinds of states and free tiles, as `tilebind rates` has them.
+/// Rates of overdamped motion among kinds of states and free tiles, as in `tilebind rates`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved {
-    /// From free to each kind of state (1/s) and how far the two finest meshes differ, relative.
+    /// Rates from free to each kind of state (1/s), and the relative difference of the two finest
+    /// meshes.
     pub on: Vec<[f64; 2]>,
-    /// From each kind of state to free (1/s).
+    /// Rates from each kind of state to free (1/s).
     pub off: Vec<f64>,
-    /// From kind to kind (1/s), row: from.
+    /// Rates between kinds of states (1/s); the row is the initial one.
     pub turns: DMatrix<f64>,
 }
 
@@ -139,12 +140,12 @@ impl Attachments {
         }
     }
 
-    /// The rate (1/s) at which a kind of state lets go; `None` where it was not solved.
+    /// The detachment rate (1/s) of a kind of state; `None` if it was not solved.
     pub fn off(&self, kind: usize) -> Option<f64> {
         self.solved.as_ref().map(|solved| solved.off[kind])
     }
 
-    /// The rates (1/s) among some kinds of states that do not lead through free tiles.
+    /// The rates (1/s) among some kinds of states without passing through free tiles.
     pub fn turns(&self, kinds: &[usize]) -> DMatrix<f64> {
         DMatrix::from_fn(kinds.len(), kinds.len(), |i, j| match &self.solved {
             Some(solved) => solved.turns[(kinds[i], kinds[j])],
@@ -152,7 +153,7 @@ impl Attachments {
         })
     }
 
-    /// Its 95 % interval, that of a Poisson count; of solved rates what meshes differ by.
+    /// Its 95 % interval, that of a Poisson count; for solved rates, from the difference of meshes.
     pub fn interval(&self, kind: usize) -> [f64; 2] {
         match &self.solved {
             Some(solved) => {
@@ -165,7 +166,7 @@ impl Attachments {
     }
 }
 
-/// Attachments to each kind of state, from where the question has them.
+/// Attachments to each kind of state, from the requested source.
 pub(super) fn attached(
     analysis: &Analysis,
     holds: &[&Hold],
@@ -211,7 +212,7 @@ pub fn solve(
     if !found.is_known(free, 0) {
         return Err(YieldError::Lost);
     }
-    // The places of the kinds that hold.
+    // The indices of the kinds that hold a tile.
     let mut place = 0;
     let places = basins.iter().map(|basin| {
         basin.map(|_| {
@@ -255,10 +256,10 @@ fn table(problem: &Problem) -> f64 {
     sides.product()
 }
 
-/// Counts attachments in docking runs: the moving tile starts anywhere about the fixed one, turned
-/// anyhow, at any speed up to twice the thermal one, and is shaken at `kt` (J) until it is matched or
-/// the run ends. Traps are counted where tiles are caught at the end, so that a trap which lets go
-/// within a run is counted too low; it holds little then.
+/// Counts attachments in docking runs: the moving tile starts anywhere around the fixed one, in any
+/// orientation, at any speed up to twice the thermal one, and is shaken at `kt` (J) until it is
+/// matched or the run ends. Traps are counted at the end of runs, so a trap that releases tiles
+/// within a run is underestimated; but such a trap holds few tiles.
 ///
 /// # Errors
 /// As [`docking::dock`].
@@ -298,7 +299,7 @@ pub fn count(
 
 fn tally(problem: &Problem, catalogue: &Catalogue, docking: &Docking) -> Attachments {
     let kinds: Vec<_> = catalogue.kinds().collect();
-    // The bond first, then the traps, as their holds are listed.
+    // The bond first, then the traps, in the order of their holds.
     let mut order: Vec<usize> = (0..kinds.len()).collect();
     order.order_by_key(|&k| !kinds[k].is_bond());
     let kind_of = |trap: usize| {

@@ -1,10 +1,10 @@
-//! The yield of a shaken table: from a design and a shaking to what is bound after a time.
+//! The yield of a shaken table: how many pairs are bound after a given time.
 //!
 //! Attachment rates are counted in docking runs of shaken tiles ([`attachment`]); detachment rates
 //! follow from them by detailed balance, `k_off = k_on / K`, with the constants K of
-//! [`physics::kinetics::bond`]. Both are honest as far as kT is: contact that takes energy out of a
-//! collision, which shaking does not give back, keeps no detailed balance, and drag decides how fast
-//! tiles meet. Pairs go from trap to bond through free only.
+//! [`physics::kinetics::bond`]. Both are valid only if the table has a temperature: contact that
+//! dissipates energy, which shaking does not return, violates detailed balance, and drag determines
+//! how fast tiles meet. Pairs go from trap to bond only through free.
 
 pub mod attachment;
 mod outcome;
@@ -27,12 +27,12 @@ use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::si;
 
-/// Most settings.
+/// Largest number of settings.
 const MOST_SETTINGS: usize = 20;
-/// Most tiles.
+/// Largest number of tiles.
 const MOST_TILES: usize = 10_000;
 
-/// What is asked.
+/// The options.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Question {
     /// Number of tiles on the table, half of each kind
@@ -52,7 +52,7 @@ pub struct Question {
     #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]
     pub coverage: f64,
 
-    /// Docking runs for each kT, or how else attachment is found
+    /// Docking runs for each kT, or another source of attachment rates
     #[command(flatten)]
     pub effort: Effort,
 
@@ -65,7 +65,7 @@ pub struct Question {
     pub seed: u64,
 }
 
-/// A number of tiles, half of either kind.
+/// A number of tiles, half of each kind.
 fn tiles(text: &str) -> Result<usize, String> {
     match request::count(text)? {
         count @ 2..=MOST_TILES if count % 2 == 0 => Ok(count),
@@ -75,7 +75,7 @@ fn tiles(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Why there is no answer.
+/// Why there is no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum YieldError {
     /// There are too many settings.
@@ -90,13 +90,13 @@ pub enum YieldError {
     /// The rates of overdamped motion could not be solved.
     #[error(transparent)]
     Rates(#[from] RatesError),
-    /// At this kT (J) the bond of this energy (J) holds nothing.
+    /// At this kT (J) the bond of this energy (J) holds no tile.
     #[error(
         "at kT = {} the bond of {} is less than {LEAST_DEPTH} kT deep and does not hold: choose a \
          --kt below {}", si(*.0, "J", 4), si(*.1, "J", 4), si(-.1 / LEAST_DEPTH, "J", 3)
     )]
     Hot(f64, f64),
-    /// At this kT (J) the bond's well is narrower than contact is known.
+    /// At this kT (J) the bond's well is narrower than the contact tolerance.
     #[error(
         "at kT = {} tiles move by less than {} in the bond, which is below the contact tolerance: \
          choose a larger --kt", si(*.0, "J", 4), si(NO_PLAY, "m", 2)
@@ -105,7 +105,7 @@ pub enum YieldError {
     /// The bond's basin has no volume.
     #[error("the bond has no clearance at all: shaken tiles never find it, and the yield is 0")]
     NoPlay,
-    /// The mesh has no way into the bond, and contact does not prove that there is none.
+    /// The mesh has no path into the bond, and contact does not prove that there is none.
     #[error(
         "no path into the bond was found, so attachment rates are unknown: count them in docking \
          runs (--rates docking)"
@@ -124,7 +124,7 @@ impl Unanswered for YieldError {
 }
 
 impl YieldError {
-    /// Whether another kT may have an answer.
+    /// Whether another kT may have a result.
     fn is_of_one_kt(&self) -> bool {
         match self {
             Self::Hot(..) | Self::Cold(_) => true,
@@ -134,23 +134,24 @@ impl YieldError {
     }
 }
 
-/// The answer.
+/// The result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Yields {
     /// Area (m^2) of the moving tile.
     pub tile_area: f64,
     /// The tiles and their table.
     pub crowd: Crowd,
-    /// By kT, in the order asked for.
+    /// The outcomes by kT, in the requested order.
     pub outcomes: Vec<Outcome>,
-    /// The kT (J) that have none, and why; in the order asked for.
+    /// The kT (J) without an outcome, and why; in the requested order.
     pub without: Vec<(f64, YieldError)>,
-    /// Schedules of the settings, for this many tiles at most six; `None` for one setting.
+    /// The best schedule of the settings, and the number of tiles it is for (at most six); `None`
+    /// for one setting.
     pub mixture: Option<(usize, Mixture)>,
 }
 
 impl Yields {
-    /// What was found at one of the kT (J) asked for, or why there is no answer.
+    /// The outcome at one of the requested kT (J), or why there is none.
     pub fn at(&self, kt: f64) -> Result<&Outcome, Option<&YieldError>> {
         let found = self.outcomes.iter().find(|outcome| outcome.kt == kt);
         found.ok_or_else(|| {
@@ -167,10 +168,10 @@ impl Yields {
     }
 }
 
-/// Answers a question about a design, at those kT that have an answer.
+/// Computes the yield of a design at all kT that have a result.
 ///
 /// # Errors
-/// See [`YieldError`]; what is of one kT only where no other is left.
+/// See [`YieldError`]; errors of a single kT only if no other kT has a result.
 pub fn yields(
     design: &Design,
     question: &Question,
@@ -184,7 +185,7 @@ pub fn yields(
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
     let bond = Hold::bond(problem, catalogue)?;
     let refused = |kt: f64| match () {
-        // Tiles that fast meet things a million times in a run, and nothing comes of it.
+        // Such fast tiles collide a million times in a run without any effect.
         () if !bond.holds_at(kt) => Some(YieldError::Hot(kt, bond.energy)),
         () if bond.is_too_cold(kt) => Some(YieldError::Cold(kt)),
         () => None,

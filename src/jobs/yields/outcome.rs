@@ -1,4 +1,4 @@
-//! What one setting yields: rates of the states, and the course of what is bound.
+//! The result of one setting: rates of the states, and the number of bound pairs over time.
 
 use super::Question;
 use super::attachment::Attachments;
@@ -9,15 +9,15 @@ use physics::kinetics::population::{Crowd, MOST_STATES, PairRates, Shares};
 use physics::order::Order;
 use physics::parallel;
 
-/// Numbers of tiles and coverages of the table of yields, besides those asked for.
+/// Numbers of tiles and coverages in the table of yields, besides the requested ones.
 const TILES: [usize; 6] = [2, 4, 8, 16, 32, 50];
 const COVERAGES: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.5];
 /// Points in time.
 const TIMES: usize = 40;
-/// ... over so many powers of ten before the end.
+/// ... over this many powers of ten before the end.
 const DECADES: f64 = 3.0;
-/// Most states of a crowd of the table of yields for which all probabilities are computed; those
-/// asked for may have more, [`MOST_STATES`].
+/// Largest number of states of a crowd in the table of yields for which all probabilities are
+/// computed; the requested crowd can have more, [`MOST_STATES`].
 const MOST_IN_TABLE: usize = 600;
 
 /// One kind of state at one setting.
@@ -25,25 +25,25 @@ const MOST_IN_TABLE: usize = 600;
 pub struct StateRates {
     /// `A` for the bond, `B` for the deepest trap.
     pub name: String,
-    /// Its place among all kinds of states: 0 of the bond.
+    /// Its index among all kinds of states: 0 for the bond.
     pub kind: usize,
-    /// Attachments that were counted.
+    /// Number of counted attachments.
     pub attachments: usize,
-    /// kappa (m^2/s): attachments a second for one partner a square metre.
+    /// kappa (m^2/s): attachments per second for one partner per square metre.
     pub on: f64,
     /// Its 95 % interval.
     pub on_interval: [f64; 2],
-    /// Detachments a second: by detailed balance, or as solved.
+    /// Detachments per second: by detailed balance, or solved.
     pub off: f64,
     /// The constant of association (m^2).
     pub constant: f64,
     /// Depth over kT.
     pub depth: f64,
-    /// ln K at the coverage asked for.
+    /// ln K at the requested coverage.
     pub ln_k: f64,
 }
 
-/// What one setting yields.
+/// The outcome of one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// kT (J).
@@ -52,28 +52,28 @@ pub struct Outcome {
     pub states: Vec<StateRates>,
     /// Rates of the pair.
     pub rates: PairRates,
-    /// What the rates were counted in.
+    /// The attachments from which the rates follow.
     pub attached: Attachments,
-    /// Share of all possible pairs that are in the bond at the end.
+    /// Share of all possible pairs in the bond at the end.
     pub bound: f64,
-    /// The same for the ends of the interval of the bond's attachment rate, and wider by what mean
-    /// numbers are off by.
+    /// The same for the ends of the interval of the bond's attachment rate, widened by the error of
+    /// mean numbers.
     pub interval: [f64; 2],
-    /// Whether all probabilities were computed; else mean numbers.
+    /// Whether all probabilities were computed; otherwise only mean numbers.
     pub exact: bool,
-    /// By how much the share in the bond of mean numbers differs from that of the simulation, with
-    /// twice the standard error of the latter; `None` where all probabilities were computed, and
-    /// without simulation.
+    /// The difference between the bound share by mean numbers and by simulation, including twice
+    /// the standard error of the latter; `None` if all probabilities were computed, or without
+    /// simulation.
     pub off: Option<f64>,
-    /// Share that are in traps at the end.
+    /// Share in traps at the end.
     pub trapped: f64,
-    /// Share in the bond by the equations for mean numbers; `None` where they cannot be solved.
+    /// Share in the bond by the equations of mean numbers; `None` if they cannot be solved.
     pub smooth: Option<f64>,
-    /// Share in the bond in equilibrium; `None` where the bond is never found.
+    /// Share in the bond in equilibrium; `None` if the bond is never found.
     pub equilibrium: Option<f64>,
     /// Share in the bond in the exact simulation, over all runs and pairs, with the standard error.
     pub simulated: Option<[f64; 2]>,
-    /// Mean times (s): from free to the bond, and out of the bond, of a pair on this table.
+    /// Mean times (s) of a pair on this table: from free to the bond, and out of the bond.
     pub mean_times: [f64; 2],
     /// Time (s), share in the bond, share in traps.
     pub course: Vec<[f64; 3]>,
@@ -81,7 +81,7 @@ pub struct Outcome {
     pub table: Vec<(usize, f64, f64, bool)>,
 }
 
-/// The rates of one kind of state; `None` for a trap that caught nothing, and for a state without
+/// The rates of one kind of state; `None` for a trap without attachments, and for a state without
 /// volume.
 pub(super) fn state(
     hold: &Hold,
@@ -98,7 +98,7 @@ pub(super) fn state(
     if docking.cost.is_infinite() {
         return None;
     }
-    // K for one partner a square metre: all copies count, and no coverage does.
+    // K for one partner per square metre: all copies count, and the coverage does not.
     let constant = hold.association(&docking);
     Some(StateRates {
         name: hold.name.clone(),
@@ -113,7 +113,7 @@ pub(super) fn state(
     })
 }
 
-/// What a setting of some states' rates yields.
+/// The outcome of a setting with given rates of the states.
 pub(super) fn outcome(
     kt: f64,
     states: Vec<StateRates>,
@@ -134,10 +134,10 @@ pub(super) fn outcome(
     let times: Vec<f64> = (0..TIMES)
         .map(|k| time * libm::pow(10f64, power(k)))
         .collect();
-    // Where none attached, the rate may still be above 0.
+    // Even without attachments the rate may be above 0.
     let with_bond = |on: f64| {
         let mut other = rates.clone();
-        // Detailed balance holds: whatever comes oftener goes oftener.
+        // By detailed balance, a higher attachment rate implies a higher detachment rate.
         let more = on / bond.on;
         other.on[0] = on;
         other.off[0] = match bond.on > 0.0 {
@@ -181,7 +181,7 @@ pub(super) fn outcome(
     let rows: Vec<(usize, f64)> = rows.collect();
     let table = parallel::map(0..rows.len(), |k| {
         let (tiles, coverage) = rows[k];
-        // The row that was asked for is the answer above.
+        // The requested row is the result above.
         if (tiles, coverage) == (question.tiles, question.coverage) {
             return (tiles, coverage, bound, exact);
         }
@@ -209,7 +209,7 @@ pub(super) fn outcome(
     }
 }
 
-/// A list with one more entry, ascending, without repeats.
+/// A list with one more entry, in ascending order, without duplicates.
 fn with<T: Copy + PartialOrd>(list: &[T], more: T) -> Vec<T> {
     let mut all: Vec<T> = list
         .iter()
@@ -221,7 +221,7 @@ fn with<T: Copy + PartialOrd>(list: &[T], more: T) -> Vec<T> {
     all
 }
 
-/// Shares of all possible pairs; not numbers where no solver has an answer.
+/// Shares of all possible pairs; NaN if no solver has a result.
 fn shares(rates: &PairRates, crowd: &Crowd, times: &[f64], most: usize) -> Shares {
     rates.shares(crowd, times, most).unwrap_or_else(|| Shares {
         bound: vec![f64::NAN; times.len()],

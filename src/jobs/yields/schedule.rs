@@ -1,4 +1,4 @@
-//! One shaking after another: which when.
+//! Schedules: which shaking at which time.
 
 use super::Question;
 use super::outcome::Outcome;
@@ -10,22 +10,22 @@ use physics::parallel;
 
 /// Slots of a schedule.
 const SLOTS: usize = 8;
-/// Pairs for which schedules are sought at most, and states that these may have.
+/// Largest number of pairs for which schedules are computed, and of their states.
 const PAIRS: usize = 3;
 const STATES: usize = 300;
-/// What holds nothing is left so many times as fast as the most fleeting state.
+/// States that hold nothing are left this many times as fast as the most fleeting state.
 const FLEETING: f64 = 10.0;
 
-/// The best schedule of the settings, and for how many tiles: as many as asked for, but at most six,
-/// and fewer where there are so many kinds of traps that not even these can be followed.
+/// The best schedule of the settings, and the number of tiles it is for: the requested number, but
+/// at most six, and fewer if there are too many kinds of traps.
 pub(super) fn best(
     outcomes: &[Outcome],
     holds: &[&Hold],
     question: &Question,
     tile_area: f64,
 ) -> (usize, Mixture) {
-    // The same states for all settings: a trap that catches nothing at one shaking holds there what
-    // it has caught at another one.
+    // All settings have the same states: a trap without attachments at one kT still holds tiles
+    // caught at another.
     let caught = |hold: &&&Hold| {
         outcomes
             .iter()
@@ -49,15 +49,15 @@ pub(super) fn best(
     (2 * pairs, found)
 }
 
-/// Attachment and detachment of a state at a setting, if it has caught anything there.
+/// Attachment and detachment rates of a state at a setting, if it has attachments there.
 fn rates_of(outcome: &Outcome, hold: &Hold) -> Option<[f64; 2]> {
     let states = outcome.states.iter();
     let mut own = states.filter(|state| state.name == hold.name);
     own.next().map(|state| [state.on, state.off])
 }
 
-/// The rates of all kinds of states at a setting. What has caught nothing there, but at others, lets
-/// go as detailed balance has it with their mean attachment rate.
+/// The rates of all kinds of states at a setting. A state without attachments there, but with some
+/// at other settings, detaches by detailed balance with their mean attachment rate.
 fn rates(outcomes: &[Outcome], outcome: &Outcome, kinds: &[&Hold], coverage: f64) -> PairRates {
     let known = |hold: &&Hold| rates_of(outcome, hold);
     let fastest = kinds.iter().filter_map(known).map(|rates| rates[1]);

@@ -6,10 +6,10 @@ use ordered_float::OrderedFloat;
 
 use super::Constraint;
 
-/// The point closest to `wanted` in the metric `(v - w)^T metric (v - w)` with
-/// `gradient . v >= -gap` for every constraint, and the constraints' multipliers (>= 0, zero where
-/// the constraint does not bind). `None` where the constraints contradict each other. `unit` is what
-/// vectors are large or small by, 1 of directions: a 1e-13 of it may be missing of a gap.
+/// The point closest to `wanted` in the metric `(v - w)^T metric (v - w)` with `gradient . v >=
+/// -gap` for every constraint, and the constraints' multipliers (>= 0, zero where the constraint
+/// does not bind). `None` if the constraints contradict each other. `unit` is the scale of the
+/// vectors, 1 for directions: constraints are satisfied within 1e-13 of it.
 ///
 /// A working set of binding constraints grows by the most violated one; the small problem on the
 /// working set is solved by trying its subsets of at most three.
@@ -104,7 +104,7 @@ struct SubsetSearch<'a> {
 }
 
 impl SubsetSearch<'_> {
-    /// Keeps the optimum over a subset, taken as equalities, if it is better than all before.
+    /// Keeps the optimum over a subset, taken as equalities, if it is the best so far.
     fn look_at<const M: usize>(&mut self, set: [usize; M]) {
         let Some((point, lambda)) = self.equality_optimum(&set) else {
             return;

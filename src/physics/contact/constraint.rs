@@ -1,5 +1,5 @@
-//! The local constraints of contact: which vertices press against which edges, and the motion
-//! that comes closest to a wanted one without pushing the tiles into each other.
+//! Local contact constraints: which vertices press against which edges, and the motion closest to a
+//! wanted one that does not push the tiles into each other.
 
 use nalgebra::{Vector2, Vector3};
 use ordered_float::OrderedFloat;
@@ -15,7 +15,7 @@ const COINCIDENT: f64 = 1e-7;
 /// A vertex of one tile in front of an edge of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Touch {
-    /// Which tile the edge belongs to; the vertex is the other one's.
+    /// The tile of the edge; the vertex belongs to the other one.
     pub edge_of: EdgeOf,
     /// The edge's number: it runs from the vertex of that number to the next.
     pub edge: usize,
@@ -36,11 +36,11 @@ pub enum EdgeOf {
 /// (x, y, theta).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
-    /// Which vertex stands before which edge.
+    /// The vertex and the edge.
     pub touch: Touch,
     /// Distance (m) of the vertex from the edge's line; below 0 behind it.
     pub gap: f64,
-    /// Of the gap, by x and y (1) and by theta (m/rad).
+    /// Gradient of the gap, by x and y (1) and by theta (m/rad).
     pub gradient: Vector3<f64>,
 }
 
@@ -48,7 +48,7 @@ pub struct Constraint {
 struct Meeting<'a> {
     a: &'a Outline,
     b: &'a Outline,
-    /// Where `a` lies in `b`'s frame.
+    /// The placement of `a` in `b`'s frame.
     pose: Placement,
     scale: Scale,
 }
@@ -79,7 +79,8 @@ impl Meeting<'_> {
                 let edge = edge as usize;
                 match self.facing(i, p, edge, margin) {
                     Front::Edge => found(i, edge),
-                    // Each corner is met from both of its edges; count it once, from its own.
+                    // Each corner is found from both of its edges; it counts once, for its own
+                    // edge.
                     Front::Start => corners(i, edge),
                     Front::End if !near.contains(&(((edge + 1) % n) as u32)) => {
                         corners(i, (edge + 1) % n);
@@ -108,9 +109,9 @@ impl Meeting<'_> {
         }
         let length = (end - start).norm();
         let t = (p - start).dot(&(end - start)) / length;
-        // How far the edge goes on behind the vertex, whether a convex corner is there, and which
-        // other edge. In a notch both edges are in the way of what lies between them, also where it
-        // is in front of one of them only.
+        // The distance to the edge's end, whether there is a convex corner, and the other edge
+        // there. In a notch both edges block a vertex between them, even if it is in front of only
+        // one of them.
         let next = (edge + 1) % n;
         let ends = [
             (t, b.convex_vertices()[edge], (edge + n - 1) % n),
@@ -122,8 +123,8 @@ impl Meeting<'_> {
         if ends.iter().any(is_beyond) {
             return Front::Nothing;
         }
-        // In front of an edge's very end the vertex may pass round a corner, unless its tile lies
-        // squarely against the edge.
+        // In front of an edge's end the vertex can pass around the corner, unless its tile lies
+        // flat against the edge.
         let at_corner = ends
             .iter()
             .any(|(rest, convex, _)| *rest < coincident && *convex);
@@ -164,7 +165,7 @@ impl Meeting<'_> {
     }
 }
 
-/// What a vertex is in front of.
+/// The part of an edge that a vertex is in front of.
 enum Front {
     Nothing,
     Edge,
@@ -208,7 +209,7 @@ impl Contact {
         let along = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
         let gradient = match touch.edge_of {
             EdgeOf::Fixed => along,
-            // The edge turns with the tile, under a vertex that stays: the opposite.
+            // The edge turns with the tile and the vertex is fixed: the opposite sign.
             EdgeOf::Moving => -along,
         };
         Constraint {
@@ -218,7 +219,7 @@ impl Contact {
         }
     }
 
-    /// Keeps those whose vertex is in front of the edge, no farther than `margin` (m).
+    /// Keeps the touches whose vertex is in front of the edge, at most `margin` (m) away.
     pub fn keep_faced(&self, touches: &mut Vec<Touch>, q: &Configuration, margin: f64) {
         let [on_fixed, on_moving] = self.meetings(&Placement::of(q));
         touches.retain(|touch| {
@@ -251,8 +252,8 @@ impl Contact {
     }
 
     /// The contacts with a gap of at most `margin` (m): a convex vertex of one tile in front of an
-    /// edge of the other. Of two convex corners that coincide only one edge need separate them;
-    /// the one that does so most clearly is taken.
+    /// edge of the other. Two coinciding convex corners need only one separating edge; the one that
+    /// separates them most is chosen.
     pub fn constraints(&self, q: &Configuration, margin: f64) -> Vec<Constraint> {
         let mut found = Vec::new();
         let clear = margin.next_up();

@@ -1,8 +1,9 @@
-//! How far two outlines are apart.
+//! The distance between two outlines.
 //!
-//! Outlines that do not overlap are nearest to each other at a convex corner of one of them and an
-//! edge of the other, so that their distance is the least of all such pairs. Of the trees over both,
-//! nearer branches are looked into first, and none that lies farther than what has been found.
+//! Outlines that do not overlap are closest to each other at a convex corner of one of them and an
+//! edge of the other, so their distance is the minimum over all such pairs. Nearer branches of the
+//! trees over both outlines are searched first, and branches farther than the best distance are
+//! skipped.
 
 use nalgebra::Vector2;
 
@@ -13,16 +14,17 @@ use crate::configuration::Configuration;
 use crate::tile::outline::distance_to_segment;
 
 impl Contact {
-    /// The distance (m) of the outlines, which do not overlap: exact where it lies between `least`
-    /// and `most`. Of a smaller one is told some distance below `least`, of a larger one `most`.
+    /// The distance (m) of the outlines, which do not overlap: exact if it is between `least` and
+    /// `most`. For a smaller distance the result is some value below `least`, for a larger one
+    /// `most`.
     pub fn distance(&self, q: &Configuration, [least, most]: [f64; 2]) -> f64 {
         let distance = nearest(&self.fixed, &self.moving, q, [least, most]);
         nearest(&self.moving, &self.fixed, &q.inverse(), [least, distance])
     }
 }
 
-/// The least distance (m) of a corner of `theirs`, which lies at `pose` in the frame of `ours`, from an
-/// edge of `ours`, as far as it lies below `most`.
+/// The least distance (m) of a corner of `theirs`, which lies at `pose` in the frame of `ours`,
+/// from an edge of `ours`, if it is below `most`.
 fn nearest(ours: &Shape, theirs: &Shape, pose: &Configuration, [least, most]: [f64; 2]) -> f64 {
     let (rotation, position) = (pose.rotation(), pose.position());
     let place = |p: Vector2<f64>| position + rotation * p;
@@ -39,7 +41,7 @@ fn nearest(ours: &Shape, theirs: &Shape, pose: &Configuration, [least, most]: [f
     search.best
 }
 
-/// A branch of our edges, one of their corners, and where the centre of that is.
+/// A branch of our edges, one of their corners, and the position of its centre.
 type Pair = (Branch, Branch, Vector2<f64>);
 
 struct Search<'a, P> {
@@ -51,7 +53,7 @@ struct Search<'a, P> {
 }
 
 impl<P: Fn(Vector2<f64>) -> Vector2<f64>> Search<'_, P> {
-    /// How far (m) what is below two branches is apart at least.
+    /// Least distance (m) of the contents of two branches.
     fn gap(&self, (edges, corners, centre): &Pair) -> f64 {
         (edges.centre - centre).norm() - edges.radius - corners.radius
     }

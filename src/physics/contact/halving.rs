@@ -1,4 +1,4 @@
-//! Motions halved again and again, until all of their stretches are proved free or one is met where
+//! Recursive bisection of a motion: until all its parts are proved free, or one is found at which
 //! the tiles overlap.
 
 use std::ops::Range;
@@ -8,11 +8,11 @@ use super::{Contact, Placement, separated};
 use crate::configuration::Configuration;
 use crate::tile::outline::ConvexPart;
 
-/// Motions shorter than this (m) are as good as their ends.
+/// Motions shorter than this (m) are judged by their ends.
 const SHORTEST: f64 = 1e-7;
 
-/// What is left to be proved of a motion. Who tries many motions of the same tiles lends the same to
-/// all of them, so that none has to ask for memory.
+/// The unproved parts of a motion. Callers reuse it for many motions of the same tiles, to avoid
+/// allocations.
 #[derive(Debug, Default)]
 pub struct Halves {
     stretches: Vec<Stretch>,
@@ -20,15 +20,15 @@ pub struct Halves {
     /// Pairs of convex parts, of the fixed and of the moving tile.
     open: Vec<[usize; 2]>,
     kept: Vec<[usize; 2]>,
-    /// The pair that blocked a motion last. It is the first to be looked at in the next one, which
-    /// often leads from the same place.
+    /// The pair that blocked the last motion. It is tested first in the next one, which often
+    /// starts at the same configuration.
     blocking: Option<[usize; 2]>,
 }
 
 #[derive(Clone, Debug)]
 struct Stretch {
     ends: [Placement; 2],
-    /// Those of the open pairs that are not proved to stay separated; all parts where `None`.
+    /// The open pairs that are not proved to stay separated; all parts if `None`.
     pairs: Option<Range<usize>>,
 }
 
@@ -40,7 +40,7 @@ impl Halves {
         self.kept.clear();
     }
 
-    /// What was left of stretches becomes what is looked at.
+    /// Continues with the remaining stretches.
     fn next(&mut self) {
         std::mem::swap(&mut self.stretches, &mut self.finer);
         std::mem::swap(&mut self.open, &mut self.kept);
@@ -48,7 +48,7 @@ impl Halves {
         self.kept.clear();
     }
 
-    /// Both halves of a stretch are to be looked at.
+    /// Adds both halves of a stretch.
     fn halve(&mut self, [a, b]: [Placement; 2], middle: Placement, pairs: Option<Range<usize>>) {
         for ends in [[a, middle], [middle, b]] {
             let pairs = pairs.clone();
@@ -59,34 +59,34 @@ impl Halves {
 
 impl Contact {
     /// Whether the motion from `a` to `b` (straight in x, y and theta, the shorter way round) is
-    /// free all along. Both ends are taken to be free.
+    /// free all along. Both ends are assumed to be free.
     ///
-    /// Nothing thin can be stepped over: a stretch is accepted where the line of an edge keeps every
-    /// two convex parts apart; otherwise it is halved, and the motion refused at the first
+    /// Thin obstacles cannot be missed: a stretch is accepted only if the line of an edge separates
+    /// every two convex parts; otherwise it is bisected, and the motion is rejected at the first
     /// configuration that overlaps.
     pub fn motion_is_free(&self, a: &Configuration, b: &Configuration) -> bool {
         self.motion_overlaps_at_most(a, b, self.touch())
     }
 
-    /// Whether no convex part of a tile gets deeper than `allowed` (m) into one of the other's all
-    /// along the motion, which both ends are taken to fulfil.
+    /// Whether, all along the motion, no convex part of a tile is deeper than `allowed` (m) inside
+    /// one of the other's. Both ends are assumed to satisfy this.
     pub fn motion_overlaps_at_most(
         &self,
         a: &Configuration,
         b: &Configuration,
         allowed: f64,
     ) -> bool {
-        // Of a single motion, clearances would cost more than they save.
+        // For a single motion, clearances would cost more than they save.
         let ends = [a, b].map(|end| Known::of(end, 0.0));
         self.known_motion_overlaps_at_most(ends.each_ref(), allowed, &mut Halves::default())
     }
 
-    /// A configuration with what every motion from or to it asks for.
+    /// A configuration with the data that every motion from or to it needs.
     pub fn known(&self, q: Configuration) -> Known {
         Known::of(&q, self.clearance_bound(&q))
     }
 
-    /// The same between configurations that are known; `left` is lent.
+    /// The same between known configurations; `left` is reused.
     pub fn known_motion_overlaps_at_most(
         &self,
         [a, b]: [&Known; 2],
@@ -95,18 +95,18 @@ impl Contact {
     ) -> bool {
         let step = Step::between(a, b);
         let reach = step.reach(self);
-        // What is closer to an end than its clearance is free, what is a little farther overlaps by
-        // that little, and a motion that brings no point farther than both together passes from the
-        // one's surroundings into the other's.
+        // Configurations closer to an end than its clearance are free, and those slightly farther
+        // overlap by at most the difference. So a motion that moves no point farther than both
+        // clearances together passes directly from one neighbourhood to the other.
         let around = [a, b].map(|known| known.clearance.max(0.0) + allowed.max(0.0));
         around[0] + around[1] >= reach
             || reach <= self.scaled(SHORTEST)
             || self.stretches_overlap_at_most([a.placement, b.placement], step, allowed, left)
     }
 
-    /// Halves a motion where pairs of convex parts are not proved to stay separated, again and again,
-    /// with an eye on these pairs only. All stretches of one length are looked at before any shorter
-    /// one: what blocks a motion is found soon.
+    /// Recursively bisects a motion where pairs of convex parts are not proved to stay separated,
+    /// and only tests these pairs. All stretches of one length come before shorter ones, so that
+    /// blocked motions are found early.
     fn stretches_overlap_at_most(
         &self,
         ends: [Placement; 2],
@@ -137,8 +137,8 @@ impl Contact {
         true
     }
 
-    /// Looks at pairs of parts in a stretch, of which what is not proved is left; false where one of
-    /// them overlaps half way.
+    /// Tests pairs of parts in a stretch and keeps the unproved ones; false if one of them overlaps
+    /// half way.
     fn open_pairs_stay_apart(
         &self,
         motion: &Motion,
@@ -175,7 +175,7 @@ impl Contact {
             return false;
         }
         if self.fixed().parts().len() == 1 && self.moving().parts().len() == 1 {
-            // Hulls and cores are all there is.
+            // The hulls and cores are the only parts.
             left.halve(*motion.ends, middle, None);
             return true;
         }
@@ -204,7 +204,7 @@ impl Contact {
     }
 }
 
-/// Whether two parts overlap by no more than `allowed` (m) where the moving one is placed.
+/// Whether two parts overlap by at most `allowed` (m) at a placement of the moving one.
 fn are_separated(
     (fixed, moving): (&ConvexPart, &ConvexPart),
     at: &Placement,

@@ -1,4 +1,5 @@
-//! Whether rays from the fixed tile's centre leave contact once and for good.
+//! Tests whether a tile moved out along a ray from the fixed tile's centre leaves contact once and
+//! for all.
 
 use nalgebra::Vector2;
 
@@ -7,18 +8,19 @@ use crate::tile::Outline;
 use crate::tile::outline::cross;
 
 impl Contact {
-    /// A bound from below of n . p (m) over all configurations of two tiles in contact, p the moving
-    /// tile's position and n the direction, out of the fixed tile, in which contact pushes it.
+    /// A lower bound of n . p (m) over all configurations of two tiles in contact, where p is the
+    /// moving tile's position and n the direction, out of the fixed tile, in which contact pushes
+    /// it.
     ///
-    /// Where that is positive, the positions at which the tiles overlap, at any angle, hold the
-    /// whole ray from the centre to each of them: a ray that met them once more beyond would enter
-    /// them at a contact with n . p <= 0. Then it leaves them at a distance g that is continuous in
-    /// the ray's direction and the angle, and steep at most as `|p|^2 / (n . p)`.
+    /// If it is positive, the set of positions at which the tiles overlap, at any angle, is
+    /// star-shaped about the centre: a ray that entered the set again farther out would do so at a
+    /// contact with n . p <= 0. The ray then leaves the set at a distance g that is continuous in
+    /// the ray's direction and the angle, with a slope of at most `|p|^2 / (n . p)`.
     ///
-    /// In contact a convex vertex w of one tile lies on an edge of the other, at the height h of that
-    /// edge's line above its tile's centre: `n . p = h + u . w` with u the direction into the edge,
-    /// which lies between the normals of the edges that meet in w. There `u . w` is least at one of
-    /// these normals, where it is the height of that edge's line, or opposite to w.
+    /// In contact a convex vertex w of one tile lies on an edge of the other, at the height h of
+    /// that edge's line above its tile's centre: `n . p = h + u . w` with u the direction into the
+    /// edge, which lies between the normals of the edges that meet in w. There `u . w` is smallest
+    /// at one of these normals, where it is the height of that edge's line, or opposite to w.
     pub fn least_lever(&self) -> f64 {
         let of = |own: &Outline, other: &Outline| least_height(own) + least_reach(other);
         let (fixed, moving) = (self.fixed(), self.moving());
@@ -26,7 +28,8 @@ impl Contact {
     }
 }
 
-/// How far edge i's line lies above the outline's centre (m); below 0 where its outer side holds that.
+/// The height of edge i's line above the outline's centre (m); negative if the centre is on its
+/// outer side.
 fn height(outline: &Outline, i: usize) -> f64 {
     outline.normals()[i].dot(&outline.vertices()[i])
 }
@@ -36,7 +39,8 @@ fn least_height(outline: &Outline) -> f64 {
     all.fold(f64::INFINITY, f64::min)
 }
 
-/// The least of u . w over an outline's convex vertices w, u between the normals there (m).
+/// The minimum of u . w (m) over an outline's convex vertices w and directions u between the
+/// normals there.
 fn least_reach(outline: &Outline) -> f64 {
     let (vertices, normals) = (outline.vertices(), outline.normals());
     let n = vertices.len();

@@ -1,4 +1,4 @@
-//! Moving the tile along a straight line until it is clear of the other, or touches it.
+//! Moves a tile along a straight line until it is clear of the other tile, or touches it.
 
 use nalgebra::Vector2;
 
@@ -7,16 +7,16 @@ use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::tile::outline::cross;
 
-/// So many touching translations are tried before the tile is pushed right out.
+/// Number of touching translations tried before the tile is moved out completely.
 const TRIED: usize = 4;
 
 impl Contact {
-    /// A translation t >= 0 (m) along the unit vector `direction` that takes `q` into contact and
-    /// leaves it free; 0 where it is free already.
+    /// A translation t >= 0 (m) along the unit vector `direction` that brings `q` into contact and
+    /// leaves it free; 0 if it is already free.
     ///
-    /// The outlines touch anew wherever a vertex of one meets an edge of the other. The nearest of
-    /// these translations are tried, so that pockets are found; where none of them is free, the
-    /// last one is taken, beyond which nothing is in the way.
+    /// The outlines can touch where a vertex of one meets an edge of the other. The nearest of
+    /// these translations are tried, so that pockets are found; if none of them is free, the last
+    /// one is taken, beyond which nothing is in the way.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
         if self.is_free(q) {
             return 0.0;
@@ -31,16 +31,16 @@ impl Contact {
     }
 
     /// The translation t (m) along the unit vector `direction` at which the moving tile, coming
-    /// from infinity against it, first touches the other; `None` where it passes by.
+    /// from infinity against it, first touches the other; `None` if it passes by.
     pub fn landing(&self, q: &Configuration, direction: Vector2<f64>) -> Option<f64> {
         let touching = self.touching_translations(q, direction);
         touching.into_iter().max_by(f64::total_cmp)
     }
 
     /// The intervals of translations t (m) within `range` along the unit vector `direction` that
-    /// leave `q` free, ascending. Freedom changes only where a vertex meets an edge, so that one
-    /// look between two such translations tells; where the tiles overlap deeply there, the
-    /// translations that cannot undo it are passed over.
+    /// leave `q` free, ascending. Freedom changes only where a vertex meets an edge, so one test
+    /// between two such translations suffices; if the tiles overlap deeply there, translations that
+    /// cannot undo the overlap are skipped.
     pub fn free_translations(
         &self,
         q: &Configuration,
@@ -54,10 +54,10 @@ impl Contact {
         ends.dedup_by(|a, b| *a - *b < self.touch());
         let mut free: Vec<[f64; 2]> = Vec::new();
         let mut blocked_down_to = f64::INFINITY;
-        // From far away inwards.
+        // From far away towards the other tile.
         for pair in ends.windows(2).rev() {
             let [low, high] = [pair[0], pair[1]];
-            // What is blocked in part is blocked all along.
+            // An interval blocked at one point is blocked throughout.
             if high > blocked_down_to {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Contact of two tiles: whether they overlap, how far apart they are, whether a motion is free,
-//! and the local constraints that contact puts on a motion.
+//! Contact of two tiles: overlap, distance, whether a motion is free, and the local constraints on
+//! a motion.
 //!
 //! A configuration is *free* where the interiors of the two outlines are disjoint. Flush mates
 //! touch along whole faces, so free is decided with a tolerance: an overlap no deeper than
@@ -33,9 +33,9 @@ use crate::scale::Scale;
 use crate::tile::Outline;
 use crate::tile::outline::ConvexPart;
 
-/// Overlaps up to this depth (m, told for the paper's tile; of others [`Contact::touch`]) count as
-/// touching: far above rounding (1e-15 m), far below anything that matters to an energy (1e-9 m times
-/// 100 N is 1e-7 J).
+/// Overlaps up to this depth (m, for the paper's tile; for others see [`Contact::touch`]) count as
+/// touching: far above rounding errors (1e-15 m), far below anything relevant to an energy (1e-9 m
+/// times 100 N is 1e-7 J).
 pub const TOUCH: f64 = 1e-9;
 
 /// The two outlines of a pair of tiles.
@@ -56,12 +56,12 @@ impl Contact {
         }
     }
 
-    /// How large the tiles are.
+    /// The size of the tiles.
     pub fn scale(&self) -> Scale {
         self.scale
     }
 
-    /// What a length (m) is for these tiles that is told for the paper's ([`Scale`]).
+    /// A length (m) stated for the paper's tile, scaled to these tiles ([`Scale`]).
     pub fn scaled(&self, told: f64) -> f64 {
         self.scale.length(told)
     }
@@ -81,8 +81,8 @@ impl Contact {
         &self.moving.outline
     }
 
-    /// Signed clearance (m): the distance of the two outlines where they are apart, minus the
-    /// depth of the deepest overlap of two of their convex parts where they are not.
+    /// Signed clearance (m): the distance of the two outlines if they are apart, otherwise minus
+    /// the depth of the deepest overlap of two of their convex parts.
     pub fn clearance(&self, q: &Configuration) -> f64 {
         let depth = self.overlap_depth(q);
         if depth > 0.0 {
@@ -91,8 +91,8 @@ impl Contact {
         self.distance(q, [0.0, f64::INFINITY])
     }
 
-    /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls; of no
-    /// use (but still right) where the hulls overlap.
+    /// A cheap lower bound of the clearance (m) from the outlines' circles and convex hulls;
+    /// useless (but still correct) if the hulls overlap.
     pub fn clearance_bound(&self, q: &Configuration) -> f64 {
         let circles =
             q.position().norm() - self.fixed().circumradius() - self.moving().circumradius();
@@ -112,12 +112,13 @@ impl Contact {
         self.overlaps_at_most(q, self.touch())
     }
 
-    /// Whether the outlines' circles or convex hulls say that the clearance is at least `least` (m).
+    /// Whether the outlines' circles or convex hulls prove that the clearance is at least `least`
+    /// (m).
     pub(crate) fn is_clear_by(&self, q: &Configuration, least: f64) -> bool {
         self.unless_clear_by(q, least).is_none()
     }
 
-    /// Where the moving tile is placed, unless circles or hulls say so.
+    /// The placement of the moving tile, unless circles or hulls prove it.
     fn unless_clear_by(&self, q: &Configuration, least: f64) -> Option<Placement> {
         let clear = least + self.fixed().circumradius() + self.moving().circumradius();
         if clear <= 0.0 || q.position().norm_squared() >= clear * clear {
@@ -142,9 +143,9 @@ impl Contact {
         })
     }
 
-    /// Whether the tiles overlap nowhere deeper than [`Contact::touch`] where the moving one is turned and
-    /// placed like this, and how far (m) it may be moved, not turned, with the same answer: 0 where
-    /// neither the convex hulls nor the largest parts tell.
+    /// Whether the tiles overlap nowhere deeper than [`Contact::touch`] with this rotation and
+    /// position of the moving one, and how far (m) it can be translated with the same answer: 0 if
+    /// neither the convex hulls nor the largest parts determine it.
     pub(crate) fn is_free_turned(
         &self,
         rotation: Rotation2<f64>,
@@ -162,7 +163,7 @@ impl Contact {
         (self.parts_overlap_at_most(&at, self.touch()), 0.0)
     }
 
-    /// Depth (m) of the deepest overlap of two convex parts; 0 or less where there is none.
+    /// Depth (m) of the deepest overlap of two convex parts; at most 0 if there is none.
     fn overlap_depth(&self, q: &Configuration) -> f64 {
         let mut deepest: f64 = 0.0;
         let Some(at) = self.unless_clear_by(q, 0.0) else {
@@ -176,7 +177,7 @@ impl Contact {
     }
 
     /// Whether `holds` for every two convex parts of the fixed and the moving tile whose boxes
-    /// overlap; stops at the first for which it does not.
+    /// overlap; stops at the first pair for which it does not.
     fn close_parts(
         &self,
         at: &Placement,
@@ -204,8 +205,8 @@ impl Contact {
 }
 
 /// Largest separation (m) of two convex polygons, the second one placed, over the normals of their
-/// edges: at most their distance where they are apart, minus the overlap's depth where they are not
-/// (separating axis theorem).
+/// edges: at most their distance if they are apart, minus the overlap's depth otherwise (separating
+/// axis theorem).
 pub fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement) -> f64 {
     let by_fixed = fixed.edges().map(|(point, normal)| {
         support(moving, &at.direction(normal)) + normal.dot(&(at.position - point))
@@ -217,8 +218,8 @@ pub fn separation(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement) -> f6
     by_fixed.chain(by_moving).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Whether the separation is at least `least` (m); looks no farther than the first edge that says
-/// so, and at each edge no farther than the first point that does not.
+/// Whether the separation is at least `least` (m); stops at the first edge that proves it, and at
+/// each edge at the first point that does not.
 fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64) -> bool {
     let by_fixed = |(point, normal): (&Vector2<f64>, &Vector2<f64>)| {
         let direction = at.direction(normal);
@@ -244,8 +245,8 @@ fn separated(fixed: &ConvexPart, moving: &ConvexPart, at: &Placement, least: f64
             .any(by_moving)
 }
 
-/// Where a convex part lies. What is outside it is brought into its own frame, so that the part
-/// need not be moved.
+/// The placement of a convex part. Other points are transformed into its frame, so that the part
+/// itself need not be moved.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     rotation: Rotation2<f64>,
@@ -253,7 +254,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Of a part of the moving tile, given in its frame.
+    /// The placement of a part of the moving tile, given in its frame.
     pub fn of(q: &Configuration) -> Self {
         Self {
             rotation: q.rotation(),
@@ -261,7 +262,7 @@ impl Placement {
         }
     }
 
-    /// Of a part given where it lies.
+    /// The identity, for a part given in place.
     pub fn none() -> Self {
         Self {
             rotation: Rotation2::identity(),
@@ -269,7 +270,7 @@ impl Placement {
         }
     }
 
-    /// Where what is placed here sees what it is placed in.
+    /// The inverse placement.
     fn inverse(&self) -> Self {
         let rotation = self.rotation.inverse();
         Self {
@@ -278,7 +279,7 @@ impl Placement {
         }
     }
 
-    /// Where a point of the part is.
+    /// The map of points of the part to their positions.
     fn place(&self) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
         let Self { rotation, position } = *self;
         move |p| position + rotation * p

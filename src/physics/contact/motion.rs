@@ -1,5 +1,5 @@
-//! Straight motions, and how they are proved free of overlap from their start to their end and
-//! everywhere between.
+//! Straight motions, and the proof that a motion is free of overlap at every point between its
+//! ends.
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -10,17 +10,18 @@ use crate::tile::outline::ConvexPart;
 impl Contact {
     /// Whether every pair of convex parts is proved to stay separated by the line of one of their
     /// edges all along the motion from `a` to `b` (straight in x, y and theta, the shorter way
-    /// round), with overlaps up to `allowed` (m) let pass. A negative `allowed` asks for room.
+    /// round), with overlaps up to `allowed` (m) tolerated. A negative `allowed` requires
+    /// clearance.
     ///
-    /// A point's distance from the line is a smooth function of the time t from 0 to 1, with a bound
-    /// of the magnitude of its second derivative. With s the path of the reference point and w the
-    /// turn, that is `w^2 |v|` for a vertex v of the moving part and a line of the fixed one, and
-    /// `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference point, and a line
-    /// of the moving one.
+    /// A point's distance from the line is a smooth function of the time t from 0 to 1, with a
+    /// bound of the magnitude of its second derivative. With s the path of the reference point and
+    /// w the rotation, the bound is `w^2 |v|` for a vertex v of the moving part and a line of the
+    /// fixed one, and `w^2 |p - x| + 2 w s` for a vertex x of the fixed part, p the reference
+    /// point, and a line of the moving one.
     ///
-    /// Here the distance is taken for the smaller of its two end values throughout, which proves
-    /// less than the parabola through both does: ways that are bent where this proves
-    /// nothing keep off contact there.
+    /// Here the distance is taken as the smaller of its two end values throughout, which proves
+    /// less than the parabola through both: pathways that are bent where this proves nothing keep
+    /// away from contact there.
     pub fn stays_separated(&self, a: &Configuration, b: &Configuration, allowed: f64) -> bool {
         let [a, b] = [a, b].map(|end| Known::of(end, 0.0));
         let ends = [a.placement, b.placement];
@@ -47,7 +48,7 @@ impl Contact {
         middle: &Placement,
         found: &mut impl FnMut(usize, usize) -> bool,
     ) -> bool {
-        // From half way no point gets farther than half the motion takes it.
+        // From half way, no point moves farther than in half the motion.
         let Step { path, turn, .. } = *motion.step;
         let room = (-motion.allowed).max(0.0);
         self.fixed.parts.near_pairs(
@@ -59,7 +60,7 @@ impl Contact {
     }
 }
 
-/// A configuration: where it places the moving tile, and how far (m) that is from the other at least.
+/// A configuration with the placement of the moving tile, and a lower bound of its clearance (m).
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     pub(super) placement: Placement,
@@ -77,7 +78,7 @@ impl Known {
     }
 }
 
-/// How far a motion goes.
+/// The extent of a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     /// Length of the reference point's way (m).
@@ -94,7 +95,7 @@ impl Step {
         }
     }
 
-    /// How far (m) any point of the moving tile goes at most.
+    /// Largest path (m) of any point of the moving tile.
     pub fn reach(&self, contact: &Contact) -> f64 {
         self.path + contact.moving().circumradius() * self.turn.abs()
     }
@@ -107,13 +108,13 @@ impl Step {
     }
 }
 
-/// A motion or a part of one, and what of it counts for proofs of separation.
+/// A motion or a part of one, with the data for proofs of separation.
 pub(super) struct Motion<'a> {
     pub ends: &'a [Placement; 2],
     step: &'a Step,
-    /// Depth of overlap (m) let pass.
+    /// Tolerated depth of overlap (m).
     pub allowed: f64,
-    /// Whether the smaller of the values at the ends stands for both.
+    /// Whether the smaller of the values at the ends is used for both.
     even: bool,
 }
 
@@ -136,8 +137,8 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The rotation half way: between those at the ends, the sum of which is too short to tell where
-    /// they are nearly opposite.
+    /// The rotation half way, computed without the sum of the rotations at the ends, which is
+    /// inaccurate if they are nearly opposite.
     fn half_turned(&self) -> Rotation2<f64> {
         let [a, b] = self.ends.each_ref().map(|at| &at.rotation);
         if self.step.turn.abs() > 3.0 {
@@ -231,7 +232,7 @@ fn stays_above([p, q]: [f64; 2], bend: impl Fn() -> f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Of parabolas with a second derivative that a bound allows, the steepest touches 0 where the
+    /// Of the parabolas with a second derivative within the bound, the steepest touches 0 where the
     /// bound does.
     #[test]
     fn what_stays_above_is_told_from_what_bends_below() {

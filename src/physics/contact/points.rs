@@ -1,16 +1,16 @@
-//! Where two outlines touch, or soon will: the points of contact within a margin, each with the
-//! normal that keeps the tiles apart there.
+//! The points at which two outlines touch or are closer than a margin, each with its contact
+//! normal.
 //!
-//! Outlines that touch anywhere do so at a convex corner of one of them. What it meets is
+//! Outlines that touch do so at a convex corner of one of them. This corner meets
 //!
-//! - an *edge* of the other: the corner must stay in front of the edge's line. Where the edge ends
-//!   in a notch (a concave corner), its line holds beyond the end as well, for what is in front of
-//!   both edges of a notch is outside; so a corner that slides along a chain of chords is stopped
-//!   by the next chord exactly where that begins to rise, and by no end of a chord;
-//! - or a *convex corner* of the other. Edges' lines say nothing beyond their ends there: a corner
-//!   may pass. Two such corners give one point: where each is nearest to the other, along the line
-//!   between them, otherwise along the normal of that one of their four edges that separates the
-//!   two corners most (separating axis theorem, corners cut off at twice the margin).
+//! - an *edge* of the other: the corner must stay in front of the edge's line. If the edge ends in
+//!   a notch (a concave corner), its line also holds beyond the end, since points in front of both
+//!   edges of a notch are outside; so a corner that slides along a chain of chords is stopped by
+//!   the next chord exactly where it begins to rise, and never by the end of a chord;
+//! - or a *convex corner* of the other. There the edges' lines do not hold beyond their ends: a
+//!   corner may pass. Two such corners give one point: if each is closest to the other, along the
+//!   line between them; otherwise along the normal of the one of their four edges that separates
+//!   the two corners most (separating axis theorem, with corners cut off at twice the margin).
 
 use nalgebra::Vector2;
 
@@ -20,18 +20,19 @@ use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::distance_to_segment;
 
-/// Overlaps are seen down to the margin; those above this share of it need not be asked whether
-/// they are in the tile, or behind an edge but before another one, past a sharp corner.
+/// Overlaps are detected down to the margin. Those shallower than this share of it need no test
+/// whether the corner is inside the tile, or behind one edge but in front of another, past a sharp
+/// corner.
 const SHALLOW: f64 = 0.1;
 
-/// A point of contact, or of one to come. All in the fixed tile's frame.
+/// A point of contact, or of an imminent one, in the fixed tile's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
     /// The point of the moving tile (m).
     pub on_moving: Vector2<f64>,
     /// Unit vector from the fixed tile to the moving one.
     pub normal: Vector2<f64>,
-    /// How far (m) the fixed tile's point lies behind along the normal; below 0 where the tiles
+    /// Distance (m) to the fixed tile's point behind it along the normal; negative if the tiles
     /// overlap.
     pub gap: f64,
 }
@@ -61,7 +62,7 @@ enum Obstacle {
 }
 
 impl Contact {
-    /// What lies within `distance` (m) of the other tile.
+    /// The pairs within `distance` (m) of each other.
     pub fn near(&self, q: &Configuration, distance: f64) -> NearPairs {
         let [a, b] = [self.fixed(), self.moving()].map(Outline::circumradius);
         if q.position().norm() > a + b + distance {
@@ -73,12 +74,12 @@ impl Contact {
         }
     }
 
-    /// The points where the tiles are at most `margin` (m) apart, or overlap by no more than that,
-    /// among the pairs that are given: those within one and a half margins at least.
-    /// The margin is taken to be small against the tiles' edges and what is between them.
+    /// The points where the tiles are at most `margin` (m) apart, or overlap by at most that, among
+    /// the given pairs, which must include all within one and a half margins. The margin is assumed
+    /// to be small relative to the tiles' edges and the spaces between them.
     ///
-    /// Where there is none, the tiles are farther apart than the margin; where there are some, no
-    /// less than the least gap.
+    /// If there is none, the tiles are farther apart than the margin; otherwise their distance is
+    /// at least the smallest gap.
     pub fn points(&self, q: &Configuration, margin: f64, pairs: &NearPairs) -> Vec<ContactPoint> {
         let mut found = Vec::new();
         let mut corners: Vec<[usize; 2]> = Vec::new();
@@ -236,7 +237,7 @@ fn meet(
                 }
                 faces_it &= t >= 0.0;
             } else if t < 0.0 {
-                // Beyond a notch as far as its other edge goes.
+                // Beyond a notch up to the end of its other edge.
                 let other = if k == edge { ours.before(edge) } else { next };
                 faces_it &= t >= -margin.min(ours.length(other));
             }

@@ -1,4 +1,4 @@
-//! One of two tiles, as the other meets it.
+//! The shape of one tile, as the contact queries use it.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -7,7 +7,7 @@ use super::tree::{Circle, CircleTree};
 use crate::tile::Outline;
 use crate::tile::outline::{Bounds, ConvexPart};
 
-/// One tile's outline with what is asked of it.
+/// One tile's outline with its search structures.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
     pub outline: Outline,
@@ -15,12 +15,12 @@ pub(super) struct Shape {
     pub corners: CircleTree,
     /// The vertex of each piece of `corners`.
     pub numbers: Vec<usize>,
-    /// Over the convex parts.
+    /// The tree over the convex parts.
     pub parts: CircleTree,
-    /// Around each of them.
+    /// The bounds of each convex part.
     pub bounds: Vec<Bounds>,
     pub hull: ConvexPart,
-    /// The largest convex part, most likely to be in the way.
+    /// The largest convex part, which is most likely to collide.
     pub core: ConvexPart,
 }
 

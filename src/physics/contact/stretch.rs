@@ -1,4 +1,4 @@
-//! Where along a straight line, without turning, the tiles are free: exactly.
+//! The exact intervals of a straight translation in which the tiles do not overlap.
 
 use nalgebra::Vector2;
 
@@ -11,20 +11,20 @@ use crate::tile::outline::ConvexPart;
 struct Shift {
     /// A unit vector.
     direction: Vector2<f64>,
-    /// How far it goes (m).
+    /// Its length (m).
     length: f64,
     /// Overlaps that count as touching (m).
     touch: f64,
 }
 
 impl Contact {
-    /// The intervals of t from 0 to `length` (m) in which `q` moved by t along the unit vector
-    /// `direction` is free as [`Contact::is_free`] has it, ascending.
+    /// The intervals of t from 0 to `length` (m), in ascending order, in which `q` moved by t along
+    /// the unit vector `direction` is free in the sense of [`Contact::is_free`].
     ///
-    /// Two convex polygons overlap deeper than [`Contact::touch`] where the normals of all their edges
-    /// separate them by less than minus that (separating axis theorem). What a normal separates them
-    /// by is linear in t, so that every two parts overlap in one interval of t: no thin part is
-    /// stepped over, and no narrow room between two.
+    /// Two convex polygons overlap deeper than [`Contact::touch`] if the normals of all their edges
+    /// separate them by less than minus that (separating axis theorem). The separation along a
+    /// normal is linear in t, so every two parts overlap in one interval of t: neither thin parts
+    /// nor narrow spaces are missed.
     pub fn free_stretches(
         &self,
         q: &Configuration,
@@ -94,7 +94,7 @@ impl Shift {
         (overlaps && moving.edges().all(by_moving)).then_some(within)
     }
 
-    /// What is left of the line without some intervals, ascending.
+    /// The remainder of the line without some intervals, in ascending order.
     fn without(&self, mut blocked: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         blocked.order_by(|a, b| a[0].total_cmp(&b[0]));
         let mut left = Vec::new();

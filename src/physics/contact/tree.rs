@@ -1,5 +1,5 @@
-//! A tree of circles around the pieces of an outline: which of them are near a point, or near the
-//! pieces of another outline.
+//! A bounding-circle tree over the pieces of an outline, for queries by distance from a point or
+//! from another outline.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -13,7 +13,7 @@ const LEAF: usize = 4;
 struct Node {
     centre: Vector2<f64>,
     radius: f64,
-    /// How far (m) any point in the circle is from the origin at most.
+    /// Largest distance (m) of any point in the circle from the origin.
     lever: f64,
     /// The pieces below it, as a range of `order`.
     first: usize,
@@ -27,9 +27,9 @@ struct Node {
 pub(super) struct CircleTree {
     nodes: Vec<Node>,
     order: Vec<usize>,
-    /// Of the pieces, by their numbers.
+    /// The circles of the pieces, by index.
     circles: Vec<Circle>,
-    /// How far (m) any point of a piece is from the origin at most.
+    /// Largest distance (m) of any point of a piece from the origin.
     levers: Vec<f64>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Branch {
     pub radius: f64,
 }
 
-/// What lies below a branch.
+/// The children of a branch.
 pub(super) enum Below<'a> {
     Branches([Branch; 2]),
     Pieces(&'a [usize]),
@@ -122,14 +122,14 @@ impl CircleTree {
         }
     }
 
-    /// One of a branch's pieces: the one with the lowest number.
+    /// One of a branch's pieces: the one with the lowest index.
     pub fn first(&self, branch: &Branch) -> usize {
         let node = &self.nodes[branch.node];
         let pieces = &self.order[node.first..node.end];
         pieces.iter().copied().min().unwrap_or_default()
     }
 
-    /// The least distance of a piece from a point, `distance` telling each piece's.
+    /// The smallest distance of a piece from a point; `distance` computes that of each piece.
     pub fn nearest(&self, p: Vector2<f64>, distance: &impl Fn(usize) -> f64) -> f64 {
         self.nearest_below(&self.root(), p, distance, f64::INFINITY)
     }
@@ -159,8 +159,8 @@ impl CircleTree {
         }
     }
 
-    /// Calls `found` for pieces that may come within `distance` of a point, until it says stop by
-    /// returning false; returns whether it never did.
+    /// Calls `found` for pieces that may be within `distance` of a point, until it returns false;
+    /// returns whether it never did.
     pub fn near(
         &self,
         p: Vector2<f64>,
@@ -190,8 +190,9 @@ impl CircleTree {
     }
 
     /// Calls `found` for pairs of pieces of this tree and of another, whose points are placed by
-    /// `place`, that may come as near to each other as `distance` says of how far the other's are from
-    /// its origin, until it returns false; returns whether it never did.
+    /// `place`, that may be closer than a distance, until it returns false; returns whether it
+    /// never did. `distance` gives the distance for pieces of the other tree by their largest
+    /// distance from its origin.
     pub fn near_pairs(
         &self,
         other: &Self,
@@ -217,8 +218,8 @@ struct PairSearch<'a, P, D> {
     distance: &'a D,
 }
 
-/// A branch of the placed tree: where its centre is, and how near (m) another may come to that
-/// without coming near its pieces.
+/// A branch of the placed tree: the position of its centre, and the distance (m) from it beyond
+/// which nothing is near its pieces.
 struct Placed {
     branch: Branch,
     centre: Vector2<f64>,

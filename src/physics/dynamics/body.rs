@@ -16,13 +16,13 @@ pub struct Body {
     pub centre: Vector2<f64>,
 }
 
-/// Where the moving tile is and how it moves.
+/// The configuration and velocity of the moving tile.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(from = "[f64; 6]", into = "[f64; 6]")]
 pub struct Motion {
-    /// Where it is.
+    /// The configuration.
     pub configuration: Configuration,
-    /// Velocity of the centre of mass (m/s, m/s) and turning rate (rad/s).
+    /// Velocity of the centre of mass (m/s, m/s) and angular velocity (rad/s).
     pub velocity: Vector3<f64>,
 }
 
@@ -45,14 +45,14 @@ impl From<Motion> for [f64; 6] {
 /// The centre of mass (m), the orientation (rad, not wrapped) and their rates of change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// The first (m, m, rad).
+    /// The centre of mass and the orientation (m, m, rad).
     pub place: Vector3<f64>,
-    /// The second (m/s, m/s, rad/s).
+    /// The velocities (m/s, m/s, rad/s).
     pub velocity: Vector3<f64>,
 }
 
 impl Body {
-    /// The body of a tile whose mass is spread evenly over its outline.
+    /// The body of a tile with a uniform mass distribution over its outline.
     pub fn of_tile(tile: &Tile) -> Self {
         Self {
             mass: tile.mass,
@@ -71,7 +71,7 @@ impl Body {
         Vector3::new(self.mass, self.mass, self.inertia)
     }
 
-    /// The same motion by the centre of mass.
+    /// The same motion in terms of the centre of mass.
     pub fn phase(&self, motion: &Motion) -> Phase {
         let q = &motion.configuration;
         let centre = q.transform(self.centre);
@@ -95,7 +95,7 @@ impl Body {
         Configuration::new(place.x - lever.x, place.y - lever.y, theta)
     }
 
-    /// The centre of mass as seen from the reference point, in the table's axes (m).
+    /// The vector from the reference point to the centre of mass, in the table's axes (m).
     pub fn lever(&self, theta: f64) -> Vector2<f64> {
         Configuration::new(0.0, 0.0, theta).rotation() * self.centre
     }

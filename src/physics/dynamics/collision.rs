@@ -1,27 +1,28 @@
-//! What holds the moving tile back where it touches something.
+//! Contact impulses with friction on the moving tile.
 //!
-//! With the velocity v0 that a step would be made with freely, and for each point of contact the
-//! normal n and the tangent t as rows (direction, arm x direction) about the centre of mass, there
-//! are impulses p, f with
+//! Let v0 be the velocity of a step without contact, and for each contact point let n and t be the
+//! normal and the tangent as rows (direction, arm x direction) about the centre of mass. There are
+//! impulses p, f with
 //!
 //! `v = v0 + M^-1 sum (n p + t f)`, `n.v >= l` and `p >= 0`, one of them with equality,
 //! `|f| <= mu p`, and `t.v = 0` unless `f = -+ mu p` holds against the sliding
 //!
 //! (Stewart and Trinkle 1996, Int. J. Numer. Meth. Eng. 39, 2673): the law of impulses with
-//! friction for one point, and for many at once what Anitescu and Potra (1997, Nonlinear Dynamics
-//! 14, 231) show to take energy only. The tile moves on with `l = -gap / h`, so that it ends at
-//! contact and not before; of what it then touches, its velocity is freed with `l = 0`. So a knock
-//! is over within one step, wherever in the step it falls, and nothing is remembered of steps
-//! before.
+//! friction for one point, and for many points a law that Anitescu and Potra (1997, Nonlinear
+//! Dynamics 14, 231) show never to add energy. The tile moves with `l = -gap / h`, so that it ends
+//! at contact and not before; then its velocity into the touched points is removed with `l = 0`. So
+//! a collision is complete within one step, wherever in the step it occurs, and no state of earlier
+//! steps is needed.
 //!
-//! Restitution e asks for `l = e u` where the approach was u before the step's push, which what
-//! rests does not have. Where many points or friction would let energy grow (Kane and Levinson
-//! 1985), so much less is given back that it does not. Steady forces take a little of every knock
-//! so, as it is made from the velocity before them. Elastic knocks (e = 1) must not lose that, for it
-//! adds up: there u is the approach at contact, `u^2 = u0^2 - 2 a gap` with the approach u0 at the
-//! step's start and the acceleration a along n, and of velocities, which belong to the middles of
-//! steps, that at the step's end is to be `n.v = u`. Energy is kept then, but for bounces shorter
-//! than a step.
+//! Restitution e requires `l = e u`, where u is the approach velocity before the step's
+//! acceleration, which is zero for resting contact. Where many points or friction would increase
+//! the energy (Kane and Levinson 1985), the restitution is reduced until they do not. Because u
+//! excludes the step's acceleration, steady forces take a little energy from every collision.
+//! Elastic collisions (e = 1) must not lose it, as the losses add up: there u is the approach
+//! velocity at contact, `u^2 = u0^2 - 2 a gap` with the approach velocity u0 at the step's start
+//! and the acceleration a along n, and the velocity at the step's end (velocities belong to the
+//! middles of steps) must be `n.v = u`. Then energy is conserved, except for bounces shorter than a
+//! step.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -31,13 +32,13 @@ use crate::contact::ContactPoint;
 use crate::scale::Scale;
 use crate::tile::outline::cross;
 
-/// Velocities (m/s) are found with this error, far below those of tiles of any size.
+/// Error of the computed velocities (m/s), far below the velocities of tiles of any size.
 const ERROR: f64 = 1e-10;
-/// Points are touched at gaps below this (m).
+/// Points with gaps below this (m) are in contact.
 const TOUCHED: f64 = 1e-9;
-/// What overlaps more than this (m) is pushed out by no more in a step.
+/// Largest correction (m) of overlaps per step.
 const PUSHED_OUT: f64 = 1e-6;
-/// Sweeps over the points that hold, at most; two suffice for one point.
+/// Largest number of sweeps over the active points; two suffice for one point.
 const SWEEPS: usize = 200;
 
 /// A point of contact as rows of velocities.
@@ -63,9 +64,9 @@ impl Hold {
         }
     }
 
-    /// The least velocity (m/s) along the normal in the middle of a step in which an elastic knock
-    /// falls, of the velocity in the middle of the one before: at the step's end it is the approach
-    /// at contact.
+    /// The least velocity (m/s) along the normal in the middle of a step with an elastic collision,
+    /// from the velocity in the middle of the previous step: at the step's end it equals the
+    /// approach velocity at contact.
     fn thrown_back(&self, stride: &Stride, velocity: &Vector3<f64>) -> f64 {
         let start = self.normal.dot(&stride.at_start(velocity)).min(0.0);
         let pull = -self.normal.dot(&stride.acceleration);
@@ -73,7 +74,7 @@ impl Hold {
         square.max(0.0).sqrt() + 0.5 * pull * stride.h
     }
 
-    /// The impulses along normal and tangent that a velocity asks for.
+    /// The impulses along normal and tangent required by a velocity.
     fn impulses(&self, masses: &Vector3<f64>, velocity: &Vector3<f64>, friction: f64) -> [f64; 2] {
         let Self {
             normal, tangent, ..
@@ -95,7 +96,7 @@ impl Hold {
         if rub.abs() <= friction * push {
             return [push, rub];
         }
-        // It slides against the side of the cone of friction where it would be held.
+        // It slides: the impulse lies on the side of the friction cone opposite to the sliding.
         let share = friction.copysign(rub);
         let push = lack / (nn + share * nt);
         [push, share * push]
@@ -105,31 +106,31 @@ impl Hold {
 /// A step of the leapfrog method.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stride {
-    /// What pulls (m/s^2, m/s^2, rad/s^2).
+    /// The acceleration (m/s^2, m/s^2, rad/s^2).
     pub acceleration: Vector3<f64>,
-    /// How long the step before was (s), and this one.
+    /// The duration of the previous step (s), and of this one.
     pub before: f64,
     pub h: f64,
 }
 
 impl Stride {
-    /// By how much the velocity changes from the middle of the step before to that of this one.
+    /// The change of the velocity from the middle of the previous step to the middle of this one.
     pub fn push(&self) -> Vector3<f64> {
         self.acceleration * (0.5 * (self.before + self.h))
     }
 
-    /// The velocity at the step's start, of that in the middle of the one before.
+    /// The velocity at the step's start, from that in the middle of the previous step.
     fn at_start(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
         velocity + self.acceleration * (0.5 * self.before)
     }
 
-    /// The velocity at the step's end, of that in its middle.
+    /// The velocity at the step's end, from that in its middle.
     fn at_end(&self, velocity: &Vector3<f64>) -> Vector3<f64> {
         velocity + self.acceleration * (0.5 * self.h)
     }
 }
 
-/// One step from a phase, held back at points of contact.
+/// One step from a phase, with impulses at contact points.
 pub(super) fn step(
     body: &Body,
     (settings, scale): (&MotionSettings, Scale),
@@ -179,8 +180,8 @@ pub(super) fn step(
     }
 }
 
-/// The largest share of a change, at most all of it, with which a velocity has no more than a
-/// kinetic energy (J), if it has no more without.
+/// The largest share of a change, at most 1, that keeps the kinetic energy of a velocity below a
+/// limit (J), given that it is below the limit without the change.
 fn share_within(body: &Body, velocity: &Vector3<f64>, change: &Vector3<f64>, energy: f64) -> f64 {
     let left = (energy - body.kinetic_energy(velocity)).max(0.0);
     let square = body.kinetic_energy(change);
@@ -196,8 +197,8 @@ fn share_within(body: &Body, velocity: &Vector3<f64>, change: &Vector3<f64>, ene
     }
 }
 
-/// The velocity nearest by impulses to a free one that all points allow. Only points that the
-/// others do not imply get impulses: one at a time, the one that is closed in on most.
+/// The velocity allowed by all points that is closest, by impulses, to a free velocity. Only points
+/// not implied by others get impulses: one at a time, the one with the fastest approach first.
 fn held(masses: &Vector3<f64>, free: &Vector3<f64>, holds: &[Hold], friction: f64) -> Vector3<f64> {
     let mut velocity = *free;
     let mut holding: Vec<(usize, [f64; 2])> = Vec::new();
@@ -252,7 +253,7 @@ mod tests {
             }
             assert_eq!(share_within(&body, &velocity, &change, 100.0), 1.0);
         }
-        // No energy, and none to be had.
+        // There is no kinetic energy.
         assert_eq!(share_within(&body, &Vector3::zeros(), &velocity, 0.0), 0.0);
     }
 

@@ -1,4 +1,4 @@
-//! Exits of moving tiles: how long a shaken tile takes from a start to one of two ends.
+//! Exit times of simulated tiles: how long a shaken tile takes from a start to one of two ends.
 
 use super::docking::stream;
 use super::trajectory::thermal_velocity;
@@ -7,46 +7,46 @@ use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// What is asked of moving tiles.
+/// The settings of exits of moving tiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExitRunSettings {
-    /// Where they start, with velocities drawn at kT.
+    /// The starting configuration; velocities are drawn at kT.
     pub start: Configuration,
-    /// They are bound where U (J) is lower, in whatever basin.
+    /// Tiles are bound if U (J) is lower, in any basin.
     pub basin_energy: f64,
-    /// They are free where the reference points are so far apart (m).
+    /// Tiles are free if the reference points are at least this far apart (m).
     pub free_at: f64,
-    /// How many there are.
+    /// Number of runs.
     pub runs: usize,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// Time (s) after which a run is given up.
+    /// Time (s) after which a run is abandoned.
     pub longest: f64,
 }
 
-/// What moving tiles did.
+/// The results of moving tiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitRuns {
-    /// How many got bound, and free.
+    /// Numbers of runs that ended bound, and free.
     pub ends: [usize; 2],
-    /// How many were given up.
+    /// Number of abandoned runs.
     pub given_up: usize,
-    /// Mean exit time (s) and its standard error. Those given up count with the time until then, so
-    /// that where there are any it is longer than this.
+    /// Mean exit time (s) and its standard error. Abandoned runs count with their time so far, so
+    /// the true mean is then longer.
     pub time: [f64; 2],
-    /// Mean kinetic energy over 3/2 kT: 1 where the shaking keeps its temperature; and its standard
-    /// error.
+    /// Mean kinetic energy over 3/2 kT, which is 1 if the shaking maintains its temperature; and
+    /// its standard error.
     pub warmth: [f64; 2],
 }
 
-/// Moving tiles have no temperature where their kinetic energy is below that of kT by more than this
+/// Moving tiles have no temperature if their kinetic energy is below that of kT by more than this
 /// share, ...
 const WARM: f64 = 0.1;
-/// ... and by more than so many standard errors.
+/// ... and by more than this number of standard errors.
 const SURE: f64 = 3.0;
 
 impl ExitRuns {
-    /// Whether knocks take no energy that the shaking does not give back.
+    /// Whether the shaking replaces the energy dissipated by collisions.
     pub fn has_temperature(&self) -> bool {
         let [warmth, error] = self.warmth;
         !(warmth < 1.0 - WARM && warmth < 1.0 - SURE * error)
@@ -56,7 +56,7 @@ impl ExitRuns {
 /// Runs of shaken tiles to the first of two ends.
 ///
 /// # Errors
-/// Where a setting makes no sense, or the tiles are not shaken.
+/// If a setting is invalid, or the tiles are not shaken.
 pub fn exits(
     problem: &Problem,
     body: Body,
@@ -102,7 +102,8 @@ pub fn exits(
     })
 }
 
-/// The mean of a sample and its standard error; the one is NaN of none, the other of one.
+/// The mean of a sample and its standard error; the former is NaN for an empty sample, the latter
+/// for a single value.
 pub fn mean_and_error(sample: &[f64]) -> [f64; 2] {
     let n = sample.len() as f64;
     let mean = sample.iter().sum::<f64>() / n;
@@ -110,7 +111,7 @@ pub fn mean_and_error(sample: &[f64]) -> [f64; 2] {
     [mean, (variance / n).sqrt()]
 }
 
-/// The ratio of the sums of pairs of numbers, and its standard error; that is NaN of one pair.
+/// The ratio of the sums of pairs of numbers, and its standard error, which is NaN for one pair.
 fn ratio_and_error(pairs: &[[f64; 2]]) -> [f64; 2] {
     let [above, below] = [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).sum::<f64>());
     let ratio = above / below;

@@ -1,4 +1,4 @@
-//! Motion between contacts: an embedded Runge-Kutta pair with step control.
+//! Motion between contacts: an embedded Runge-Kutta pair with step-size control.
 
 use nalgebra::Vector3;
 
@@ -52,12 +52,12 @@ pub(super) struct Trial {
     pub phase: Phase,
     /// Acceleration at its end, drag included.
     pub acceleration: Vector3<f64>,
-    /// Estimated error of the step (m): the largest of those of the place and of the velocity
-    /// times a tenth of a second, a turn counted at the radius `rho`.
+    /// Estimated error of the step (m): the largest of those of the place and of the velocity times
+    /// a tenth of a second, with rotations multiplied by the radius `rho`.
     pub error: f64,
 }
 
-/// The time (s, of the paper's tile) that turns an error of a velocity into one of a place.
+/// The time (s, for the paper's tile) that converts errors of velocity to errors of position.
 const VELOCITY_TIME: f64 = 0.1;
 
 /// One step of length `h` (s) from `phase` at time `t`, where the acceleration is given.

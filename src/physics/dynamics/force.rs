@@ -1,4 +1,4 @@
-//! What acts on the moving tile between contacts: magnets, fans and drag.
+//! The forces on the moving tile between contacts: magnets, fans and drag.
 
 use std::f64::consts::TAU;
 
@@ -46,12 +46,12 @@ impl Fan {
     }
 }
 
-/// All forces on a body but those of contact and of shaking.
+/// All forces on a body except those of contact and of shaking.
 pub(super) struct Forces<'a> {
     pub potential: &'a dyn Potential,
     pub fans: &'a [Fan],
     pub body: Body,
-    /// Drag rate c (1/s); 0 where shaking applies it.
+    /// Drag rate c (1/s); 0 if the shaking applies it.
     pub drag: f64,
 }
 

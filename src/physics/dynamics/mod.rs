@@ -1,26 +1,26 @@
-//! Tiles that really move: the moving tile as a rigid body on the air table.
+//! Rigid-body dynamics of the moving tile on the air table.
 //!
 //! With q the centre of mass and the orientation, M = diag(m, m, I) about the centre of mass and
 //! C = c M for a drag rate c (1/s),
 //!
 //! `M q'' = -C q' + Q(q, t)`,
 //!
-//! where Q holds the magnetic force and torque, minus the gradient of the
-//! [potential](crate::potential), the push of fans and the forces of contact. (Equation (5.1.3) of the paper
-//! adds a force per mass to a torque per inertia in one line; this is what it means.) Drag is
-//! stated as a rate, since a share of the velocity taken away each step would make results depend
-//! on the step.
+//! where Q contains the magnetic force and torque (minus the gradient of the
+//! [potential](crate::potential)), the forces of fans and those of contact. (Equation (5.1.3) of
+//! the paper adds a force per mass to a torque per inertia in one line; this is what it means.)
+//! Drag is stated as a rate, since removing a share of the velocity in each step would make results
+//! depend on the step.
 //!
-//! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with
-//! step control, no step being longer than the clearance allows. Within the range of contact the
-//! leapfrog method takes over, in short steps, each held back at the
-//! [points](crate::contact::ContactPoint) where corners of one tile meet edges or corners of the
-//! other, or the rim, by impulses that obey Coulomb's law.
+//! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with step
+//! control, with steps limited by the clearance. Within the range of contact the leapfrog method
+//! takes over, in short steps, each limited at the [points](crate::contact::ContactPoint) where
+//! corners of one tile meet edges or corners of the other, or the rim, by impulses that obey
+//! Coulomb's law.
 //!
-//! Measured on the paper's tile: without drag and contact, past the other tile's corner, the energy
-//! stays within 1e-5 of the bond's depth over 5 s; the bound equilibrium is the landscape's minimum
-//! within 10 um for steps in contact of 50 um to 200 um; and of 8000 starts with
-//! a drag of 0.5 per second and no rim 9.1 % (8.4 to 9.7) bind.
+//! Measured with the paper's tile: without drag and contact, past the other tile's corner, the
+//! energy is constant within 1e-5 of the bond's depth over 5 s; the bound equilibrium agrees with
+//! the landscape's minimum within 10 um for steps in contact of 50 um to 200 um; and of 8000 starts
+//! with a drag of 0.5 per second and no rim, 9.1 % (8.4 to 9.7) bind.
 
 mod body;
 pub mod check;

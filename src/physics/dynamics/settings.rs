@@ -1,23 +1,24 @@
-//! What decides a trajectory besides the tiles and the start.
+//! The settings of a trajectory, other than the tiles and the start.
 
 use super::force::Fan;
 use crate::scale::Scale;
 
-/// The air table and the numerics. The lengths and times of the numerics are told for the paper's tile
-/// and grow with the tiles ([`MotionSettings::of_size`]): speeds do not depend on the size.
+/// Settings of the air table and the numerics. The lengths and times of the numerics are stated for
+/// the paper's tile and scale with the tiles ([`MotionSettings::of_size`]); speeds do not depend on
+/// the size.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MotionSettings {
-    /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the turning
-    /// rate fall as e^(-c t). The default is the paper's coefficient 0.0005, read as kg/s, for its
-    /// tile of 100 g.
+    /// Drag rate c (1/s) of every degree of freedom: without forces, velocities and the angular
+    /// velocity decay as e^(-c t). The default is the paper's coefficient 0.0005, read as kg/s, for
+    /// its tile of 100 g.
     pub drag: f64,
-    /// Share of the approach velocity that a knock gives back.
+    /// Coefficient of restitution.
     pub restitution: f64,
-    /// Coulomb's coefficient of friction between the tiles, and of a tile and the rim.
+    /// Coulomb's coefficient of friction between the tiles, and between a tile and the rim.
     pub friction: f64,
     /// Whether the table's rim holds the tile back.
     pub walls: bool,
-    /// Fans that push the tile; none in still air.
+    /// Fans that push the tile; empty in still air.
     pub fans: Vec<Fan>,
     /// Effective energy kT (J) of a random shaking force: together with the drag it keeps the
     /// kinetic energy at kT / 2 for each degree of freedom.
@@ -30,7 +31,7 @@ pub struct MotionSettings {
     pub contact_range: f64,
     /// Longest step in contact (s).
     pub contact_step: f64,
-    /// Longest way (m) of any point of the tile in one step in contact.
+    /// Largest path (m) of any point of the tile in one step in contact.
     pub contact_travel: f64,
 }
 
@@ -52,17 +53,17 @@ impl Default for MotionSettings {
     }
 }
 
-/// A setting that makes no sense.
+/// An invalid setting.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
-    /// A number is out of its range, or no number.
+    /// A number is out of its range, or not a number.
     #[error("{name} must be {wanted}, not {value}")]
     OutOfRange {
-        /// Which setting.
+        /// The name of the setting.
         name: &'static str,
-        /// What it must be, in words.
+        /// The requirement, in words.
         wanted: &'static str,
-        /// What it is.
+        /// The value.
         value: f64,
     },
     /// Shaking with nothing to damp it.
@@ -71,7 +72,7 @@ pub enum SettingsError {
 }
 
 impl MotionSettings {
-    /// With the numerics for tiles of another size than the paper's.
+    /// The settings with the numerics scaled to tiles of another size.
     pub fn of_size(&self, scale: Scale) -> Self {
         Self {
             tolerance: scale.length(self.tolerance),
@@ -84,7 +85,7 @@ impl MotionSettings {
     }
 
     /// # Errors
-    /// Where a number is out of its range, or the tile is shaken without drag.
+    /// If a number is out of its range, or the tile is shaken without drag.
     pub fn check(&self) -> Result<(), SettingsError> {
         let not_negative = |name, value| in_range(name, "0 or more", value, value >= 0.0);
         let positive = |name, value| in_range(name, "above 0", value, value > 0.0);

@@ -1,4 +1,4 @@
-//! What a trajectory is made with and what comes of it.
+//! A simulation: the model that a trajectory is computed with, and its result.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -8,14 +8,14 @@ use super::settings::{MotionSettings, SettingsError};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// The moving tile at one moment of a trajectory.
+/// The moving tile at one time of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Snapshot {
     /// Time since the start (s).
     pub time: f64,
-    /// Where the tile is and how it moves.
+    /// The configuration and velocity of the tile.
     pub motion: Motion,
-    /// Energy of magnets and fans (J).
+    /// Potential energy of magnets and fans (J).
     pub potential: f64,
     /// Kinetic energy (J).
     pub kinetic: f64,
@@ -24,7 +24,7 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Kinetic and potential energy together (J).
+    /// Total energy (J).
     pub fn total(&self) -> f64 {
         self.potential + self.kinetic
     }
@@ -33,18 +33,18 @@ impl Snapshot {
 /// Why a trajectory ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// Its time was over.
+    /// The time is over.
     Time,
-    /// The tile rests in contact, where nothing will move it any more.
+    /// The tile rests in contact, and nothing will move it any more.
     Rest,
-    /// Whoever watched it wanted no more.
+    /// The observer stopped it.
     Watcher,
 }
 
 /// A finished trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// The last moment.
+    /// The last snapshot.
     pub last: Snapshot,
     /// Why it ended there.
     pub stop: Stop,
@@ -66,7 +66,7 @@ pub struct Simulation<'a> {
 
 impl<'a> Simulation<'a> {
     /// # Errors
-    /// Where a setting makes no sense, see [`SettingsError`].
+    /// If a setting is invalid, see [`SettingsError`].
     pub fn new(
         problem: &'a Problem,
         body: Body,
@@ -76,7 +76,7 @@ impl<'a> Simulation<'a> {
         Ok(Self::of_sound_settings(problem, body, settings.clone()))
     }
 
-    /// With settings that are known to make sense.
+    /// With settings that are known to be valid.
     pub(super) fn of_sound_settings(
         problem: &'a Problem,
         body: Body,
@@ -99,7 +99,7 @@ impl<'a> Simulation<'a> {
         self.settings.shaking.is_none() && self.settings.fans.iter().all(|fan| fan.amplitude == 0.0)
     }
 
-    /// Distance (m) to the other tile or the rim, whichever is less; a lower bound where it is
+    /// Distance (m) to the other tile or the rim, whichever is smaller; a lower bound if it is
     /// large, and within the range of contact any distance within it.
     pub(super) fn clearance(&self, phase: &Phase) -> f64 {
         /// Above this a bound is good enough (m).
@@ -117,7 +117,7 @@ impl<'a> Simulation<'a> {
         tile.min(self.rim_clearance(&q))
     }
 
-    /// Distance (m) to the rim; a lower bound where it is large, infinite where there is none.
+    /// Distance (m) to the rim; a lower bound if it is large, infinite if there is no rim.
     pub(super) fn rim_clearance(&self, q: &Configuration) -> f64 {
         let Some([x, y]) = self.rim() else {
             return f64::INFINITY;
@@ -139,21 +139,21 @@ impl<'a> Simulation<'a> {
         corners.map(move |corner| position + rotation * corner)
     }
 
-    /// By how much more than it would go freely a point of the tile may move in a step when
-    /// something is hit: energy that is spread over all motions may gather in one. With the mass m,
-    /// the moment of inertia I and the reach R of the tile, the speed `|v| + R |w|` is at least
-    /// `sqrt(2 E / m)` (as `m R^2 >= I`) and at most `sqrt(1 + m R^2 / I)` times that.
+    /// The factor by which a point of the tile can move farther in a step with a collision than in
+    /// free motion: energy that is distributed over all motions can concentrate in one. With the
+    /// mass m, the moment of inertia I and the reach R of the tile, the speed `|v| + R |w|` is at
+    /// least `sqrt(2 E / m)` (as `m R^2 >= I`) and at most `sqrt(1 + m R^2 / I)` times that.
     pub(super) fn gathering(&self) -> f64 {
         let Body { mass, inertia, .. } = self.body;
         (1.0 + mass * self.reach * self.reach / inertia).sqrt()
     }
 
-    /// Half the table's size (m) along x and y where it has a rim.
+    /// Half the table's size (m) along x and y, if it has a rim.
     pub(super) fn rim(&self) -> Option<[f64; 2]> {
         self.settings.walls.then_some(self.problem.space.half_size)
     }
 
-    /// Speed of the tile's fastest point, at most (m/s).
+    /// Upper bound of the speed of the tile's fastest point (m/s).
     pub(super) fn fastest(&self, velocity: &Vector3<f64>) -> f64 {
         velocity.xy().norm() + self.reach * velocity.z.abs()
     }
@@ -163,7 +163,7 @@ impl<'a> Simulation<'a> {
             potential: self.problem.potential(),
             fans: &self.settings.fans,
             body: self.body,
-            // Where the tile is shaken, kicks and drag come together.
+            // If the tile is shaken, kicks include the drag.
             drag: if self.settings.shaking.is_some() {
                 0.0
             } else {

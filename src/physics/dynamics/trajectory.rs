@@ -1,4 +1,4 @@
-//! One trajectory: free flight and contact in turn.
+//! One trajectory: free flight and contact steps in turn.
 
 use std::f64::consts::TAU;
 
@@ -13,18 +13,18 @@ use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
 use super::vicinity::{Ahead, Vicinity};
 
-/// A tile in contact rests when no point of it moves faster than this (m/s), which is a ten-thousandth of
-/// how fast magnets bring tiles of any size together, ...
+/// A tile in contact is at rest when no point of it moves faster than this (m/s), which is a
+/// ten-thousandth of the speed at which magnets bring tiles of any size together, ...
 const REST_SPEED: f64 = 1e-5;
 /// ... for this long (s).
 const REST_TIME: f64 = 0.02;
-/// Time between two random kicks (s), at most.
+/// Largest time between two random kicks (s).
 const KICK_INTERVAL: f64 = 5e-3;
-/// Drag takes this share of the velocity between two kicks at most. Drag acts with the kicks, so that
-/// steady motion under a force, and with it diffusion, is too fast by `x coth x` with x half of this
-/// share: by half a per cent.
+/// Largest share of the velocity that drag takes between two kicks. Drag acts with the kicks, so
+/// steady motion under a force, and therefore diffusion, is too fast by the factor `x coth x` with
+/// x half of this share: by half a per cent.
 const DRAG_A_KICK: f64 = 0.25;
-/// Free steps are at least this long (s): no force of magnets bends a path faster.
+/// Shortest free step (s): no magnetic force changes a path faster.
 const SHORTEST_STEP: f64 = 1e-7;
 /// The first free step (s).
 const FIRST_STEP: f64 = 1e-3;
@@ -37,8 +37,8 @@ impl Simulation<'_> {
         trajectory.snapshot()
     }
 
-    /// The trajectory from `start` over `duration` (s). `watch` is shown every step and ends the
-    /// trajectory by returning true; `rng` feeds the shaking.
+    /// The trajectory from `start` over `duration` (s). `watch` is called at every step and ends
+    /// the trajectory by returning true; `rng` provides the random numbers of the shaking.
     pub fn run(
         &self,
         start: &Motion,
@@ -57,7 +57,7 @@ impl Simulation<'_> {
     }
 }
 
-/// A trajectory under way.
+/// A trajectory in progress.
 struct Trajectory<'a, 'b> {
     simulation: &'b Simulation<'a>,
     forces: Forces<'b>,
@@ -65,10 +65,10 @@ struct Trajectory<'a, 'b> {
     time: f64,
     potential: f64,
     touching: bool,
-    /// What the kinetic energy gains (J) from the moment of the velocity to that of the place: in
-    /// contact the velocity belongs to the middle of the last step.
+    /// The change of the kinetic energy (J) from the time of the velocity to that of the position:
+    /// in contact the velocity belongs to the middle of the last step.
     lag: f64,
-    /// Distance (m) that no point of the tile may move before the clearance is looked at again.
+    /// Distance (m) that a point of the tile can move before the clearance must be computed again.
     room: f64,
     vicinity: Vicinity,
     free_step: f64,
@@ -202,15 +202,15 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         None
     }
 
-    /// How far (m) a point of the tile moves in a time, at most, were the acceleration steady.
+    /// Largest path (m) of a point of the tile in a time, for constant acceleration.
     fn way(&self, acceleration: &Vector3<f64>, h: f64) -> f64 {
         let simulation = self.simulation;
         h * simulation.fastest(&self.phase.velocity)
             + 0.5 * h * h * simulation.fastest(acceleration)
     }
 
-    /// How long (s) until a point of the tile may have moved by `way` (m), were the acceleration
-    /// steady.
+    /// Shortest time (s) until a point of the tile has moved by `way` (m), for constant
+    /// acceleration.
     fn time_to_travel(&self, acceleration: &Vector3<f64>, way: f64) -> f64 {
         if way.is_infinite() {
             return f64::INFINITY;
@@ -226,7 +226,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
         let settings = &simulation.settings;
         let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
         // The leapfrog's velocities belong to the middles of its steps: a step begins with the
-        // push of half the step before and half of this one.
+        // acceleration over half of the previous step and half of this one.
         let mut before = 0.0;
         let mut rested = 0.0;
         self.room = 0.0;

@@ -1,4 +1,4 @@
-//! What a tile in contact may touch in its next step.
+//! The contacts that a tile may make within its next step.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -7,22 +7,23 @@ use super::simulation::Simulation;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
 
-/// Points of contact are looked for at least this far (m): far more than tiles ever overlap.
+/// Smallest search distance (m) for contact points: far larger than any overlap.
 const LEAST_MARGIN: f64 = 1e-4;
 
-/// Pairs are looked for so many ranges of contact farther than they are needed, and so less often.
+/// Number of contact ranges by which pairs are searched farther than needed, so that they are
+/// searched less often.
 const AHEAD: f64 = 4.0;
 
-/// What lies ahead of a step.
+/// The possible contacts of a step.
 pub(super) enum Ahead {
-    /// The points that may be touched.
+    /// The points that may come into contact.
     Contact(Vec<ContactPoint>),
-    /// Nothing. No point of the tile touches anything before it has moved by this (m).
+    /// None: no point of the tile touches anything before it has moved by this distance (m).
     Room(f64),
 }
 
-/// The pairs of edges and corners within a distance (m) at a place, kept as long as the tile cannot
-/// have come to others.
+/// The pairs of edges and corners within a distance (m) of each other at a configuration, valid
+/// until the tile may have reached others.
 pub(super) struct Vicinity {
     pairs: NearPairs,
     distance: f64,
@@ -30,7 +31,7 @@ pub(super) struct Vicinity {
 }
 
 impl Vicinity {
-    /// With nothing known yet.
+    /// With no pairs yet.
     pub fn new() -> Self {
         Self {
             pairs: NearPairs::default(),
@@ -39,8 +40,8 @@ impl Vicinity {
         }
     }
 
-    /// What lies ahead of a step in which no point of the tile goes farther than `way` (m) unless
-    /// it is pushed.
+    /// The possible contacts of a step in which no point of the tile moves farther than `way` (m)
+    /// without contact.
     pub fn ahead(&mut self, simulation: &Simulation, phase: &Phase, way: f64) -> Ahead {
         let least =
             |points: &[ContactPoint], seen| points.iter().map(|p| p.gap).fold(seen, f64::min);

@@ -1,4 +1,4 @@
-//! How strongly states hold shaken tiles: what models of tile assembly call Gse and Gmc.
+//! How strongly states hold shaken tiles: the Gse and Gmc of tile assembly models.
 
 use std::cell::RefCell;
 
@@ -12,70 +12,70 @@ use crate::landscape::{Catalogue, Kind, Place};
 use crate::problem::Problem;
 use crate::roadmap::Point;
 
-/// Relative error to which partition functions are integrated.
+/// Relative tolerance of partition functions.
 pub const TOLERANCE: f64 = 2e-3;
-/// ... and that with which a window of shaking is looked for.
+/// ... and that for searching the window of kT.
 const ROUGH: f64 = 1e-2;
-/// A state less deep than this, in kT, holds nothing: what is in it and what is free is as good as
-/// the same.
+/// A state shallower than this (in kT) holds nothing: bound and free tiles are practically the
+/// same.
 pub const LEAST_DEPTH: f64 = 2.0;
-/// Depths of the bond in kT between which a window is looked for.
+/// Range of the bond's depth in kT in which the window is searched.
 const DEPTHS: [f64; 2] = [2.0, 120.0];
 
-/// Why there is no answer.
+/// Why there is no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BondError {
-    /// No state where the target faces meet.
+    /// There is no state where the target faces meet.
     #[error(
         "the tiles do not hold where the target faces meet, so there is no bond (see `tilebind \
          show`)"
     )]
     NoBond,
-    /// An energy over which there are no two tiles.
+    /// The energy is not that of two tiles.
     #[error("without tiles there is no coverage of a table")]
     NoTiles,
 }
 
-/// A table with tiles on it that is shaken.
+/// A shaken table with tiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shaking {
     /// Effective energy kT (J).
     pub kt: f64,
-    /// Share of the table that tiles cover.
+    /// Share of the table covered by tiles.
     pub coverage: f64,
 }
 
 /// A kind of state that holds tiles.
 pub struct Hold<'a> {
-    /// What people call it: `A` for the bond, `B` for the deepest trap.
+    /// Its letter: `A` for the bond, `B` for the deepest trap.
     pub name: String,
-    /// Where its first state is.
+    /// The configuration of its first state.
     pub configuration: Configuration,
     /// U there (J).
     pub energy: f64,
-    /// How many copies symmetries make of it, those by turns of the fixed tile included.
+    /// The number of its symmetric copies, including those by rotations of the fixed tile.
     pub copies: usize,
-    /// How many of them turns of the moving tile alone make.
+    /// The number of copies by rotations of the moving tile alone.
     pub moving_copies: usize,
-    /// Its basin, and what is integrated over it.
+    /// Its basin, for integrals.
     pub well: Well<'a>,
     area: f64,
 }
 
-/// What holding takes and gives at one shaking, in kT.
+/// The depth and the docking cost of a state at one kT, in kT.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Docking {
     /// Depth of the state over kT (Gse).
     pub depth: f64,
     /// The integral Z0 (m^2 rad) of `exp(-(U - Umin) / kT)` over the state's basin.
     pub volume: Estimate,
-    /// `-ln(rho Z0 s / 2 pi)` with rho tiles a square metre and s copies (Gmc); infinite where the
+    /// `-ln(rho Z0 s / 2 pi)` with rho tiles per square metre and s copies (Gmc); infinite if the
     /// basin has no volume, as between square teeth without play.
     pub cost: f64,
 }
 
 impl Docking {
-    /// ln K of `bonds` equal bonds that are closed by one docking: their depth less its cost.
+    /// ln K of `bonds` equal bonds closed by one docking: their total depth less the docking cost.
     pub fn ln_k(&self, bonds: f64) -> f64 {
         bonds * self.depth - self.cost
     }
@@ -85,7 +85,7 @@ impl<'a> Hold<'a> {
     /// The bond of a catalogue.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn bond(problem: &'a Problem, catalogue: &Catalogue) -> Result<Self, BondError> {
         problem.pair.as_ref().ok_or(BondError::NoTiles)?;
         let kind = catalogue.kinds().find(Kind::is_bond);
@@ -94,7 +94,7 @@ impl<'a> Hold<'a> {
         Ok(Self::new(problem, catalogue, &kind, name))
     }
 
-    /// A kind of states of a catalogue; its basin is flooded.
+    /// A kind of states of a catalogue; computes its basin.
     fn new(problem: &'a Problem, catalogue: &Catalogue, kind: &Kind, name: String) -> Self {
         interruption::check();
         let state = kind.first();
@@ -120,27 +120,27 @@ impl<'a> Hold<'a> {
         -self.energy >= LEAST_DEPTH * kt
     }
 
-    /// Whether it has play, but less than contact is known to at kT (J): tiles that shake so little
-    /// move by less than [`super::volume::NO_PLAY`] in it. Without play at a tenth of its depth it has
-    /// none at all.
+    /// Whether it has play, but at kT (J) less than the contact tolerance: tiles move by less than
+    /// [`super::volume::NO_PLAY`] in it. A state without play at a tenth of its depth has none at
+    /// all.
     pub fn is_too_cold(&self, kt: f64) -> bool {
         let has_play = |kt: f64| self.well.has_play(kt);
         !has_play(kt) && has_play(-self.energy / 10.0)
     }
 
-    /// What it holds with at one shaking; the integral to the relative `tolerance`.
+    /// Its strength at one kT, with the integral to the relative `tolerance`.
     pub fn docking(&self, shaking: &Shaking, tolerance: f64) -> Docking {
         let volume = self.well.volume(shaking.kt, tolerance);
         self.with(shaking, volume)
     }
 
-    /// The same with no more of its basin than lies below `level` (J).
+    /// The same with only the part of its basin below `level` (J).
     pub fn docking_below(&self, shaking: &Shaking, level: f64, tolerance: f64) -> Docking {
         let volume = self.well.volume_below(shaking.kt, level, tolerance);
         self.with(shaking, volume)
     }
 
-    /// The same with the partition function in closed form, see [`corner`]; `None` where there is
+    /// The same with the partition function in closed form, see [`corner`]; `None` if there is
     /// none.
     pub fn closed_form(&self, problem: &Problem, shaking: &Shaking) -> Option<Docking> {
         let value = corner::volume(problem, &self.configuration, shaking.kt)?;
@@ -148,9 +148,8 @@ impl<'a> Hold<'a> {
         Some(self.with(shaking, Estimate { value, error }))
     }
 
-    /// The constant K (m^2) of association of one pair: over an area S alone, it is in one of the
-    /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi`, all n copies
-    /// counted.
+    /// The association constant K (m^2) of one pair: alone on an area S, the pair is in one of the
+    /// state's copies K / S times as often as free. `K = n Z0 exp(depth) / 2 pi` with all n copies.
     pub fn association(&self, docking: &Docking) -> f64 {
         self.copies as f64 * docking.volume.value * libm::exp(docking.depth) / std::f64::consts::TAU
     }
@@ -165,17 +164,17 @@ impl<'a> Hold<'a> {
         }
     }
 
-    /// The two kT (J) at a coverage between which two bonds that are closed by one docking hold and
-    /// one alone does not: ln K of one is 0 at the first, that of two, docking paid once, at the
-    /// second. `None` where a bond of 2 to 120 kT decides nothing.
+    /// The two kT (J) at a coverage between which two bonds closed by one docking hold a tile and
+    /// one alone does not: at the first, ln K of one bond is 0; at the second, ln K of two bonds
+    /// with a single docking cost. `None` if there is no such kT for a bond of 2 to 120 kT.
     pub fn window(&self, coverage: f64) -> [Option<f64>; 2] {
         let cost = |docking: &Docking, _: f64| docking.cost;
         let known = RefCell::default();
         [1.0, 2.0].map(|bonds| self.threshold(coverage, bonds, &cost, &known))
     }
 
-    /// The kT (J) at which a pair that has an area (m^2) for itself is bound for `exp(log_odds)`
-    /// times as long as it is free; `None` where a bond of 2 to 120 kT never is.
+    /// The kT (J) at which a pair with an area (m^2) for itself is bound `exp(log_odds)` times as
+    /// long as it is free; `None` if there is no such kT for a bond of 2 to 120 kT.
     pub fn kt_of_odds(&self, log_odds: f64, area: f64) -> Option<f64> {
         let cost = |docking: &Docking, depth: f64| {
             depth + log_odds - libm::log(self.association(docking) / area)
@@ -183,8 +182,8 @@ impl<'a> Hold<'a> {
         self.threshold(1.0, 1.0, &cost, &RefCell::default())
     }
 
-    /// The kT (J) above which `bonds` depths are less than a cost that falls with kT; costs that are
-    /// known, by the logarithm of the depth in kT, are not found again.
+    /// The kT (J) above which `bonds` depths are less than a cost that decreases with kT; known
+    /// costs, by the logarithm of the depth in kT, are reused.
     fn threshold(
         &self,
         coverage: f64,
@@ -222,7 +221,7 @@ pub fn traps<'a>(problem: &'a Problem, catalogue: &Catalogue, kt: f64) -> Vec<Ho
     kinds.map(trap).collect()
 }
 
-/// The lowest energy (J) at which a known way leads out of a kind of states.
+/// The lowest energy (J) of a known path out of a kind of states.
 fn pass(catalogue: &Catalogue, kind: &Kind) -> f64 {
     let is_own = |place: Place| kind.states.iter().any(|it| place == Place::State(it.id));
     let ways = catalogue.barriers.iter();

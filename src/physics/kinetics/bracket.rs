@@ -1,13 +1,13 @@
-//! Two-sided bounds of capacities and of what follows from them: Dirichlet's principle from above,
-//! Thomson's from below, on one mesh.
+//! Two-sided bounds of capacities and of the quantities derived from them: Dirichlet's principle
+//! from above, Thomson's from below, on one mesh.
 //!
-//! A function f_h on the mesh differs from the exact one by e, and a flux J from the exact one by d,
-//! which is free of sources and so is orthogonal to every such e. Hence `J / w + grad f_h = d - e`
-//! is known cell by cell, its square is what the bounds are apart, and of two such problems
-//! `<e, e'> = <d - e, d' - e'> / 2` within half of `|d - e| |d' - e'|` (Prager and Synge 1947,
-//! doi:10.1090/qam/25902). By Galerkin's orthogonality `<e, e'>` is what is missing in a flow
-//! between two places, and in an integral of a committor, whose other problem is the mean time to
-//! any place.
+//! Let e be the error of a function f_h on the mesh and d the error of a flux J, which is free of
+//! sources and therefore orthogonal to every such e. Then `J / w + grad f_h = d - e` is known in
+//! each cell, its square is the difference of the bounds, and for two such problems `<e, e'> = <d -
+//! e, d' - e'> / 2` within half of `|d - e| |d' - e'|` (Prager and Synge 1947,
+//! doi:10.1090/qam/25902). By Galerkin orthogonality `<e, e'>` is the error of a flow between two
+//! places, and of an integral of a committor, for which the other problem is the mean time to any
+//! place.
 
 #[cfg(test)]
 mod tests;
@@ -17,29 +17,29 @@ use super::mesh::{Gap, Nodes, System, Unsolved, loads};
 use super::rim::Rims;
 use crate::parallel;
 
-/// Places on a mesh, and what is known of them.
+/// Places on a mesh with their data.
 pub(super) struct Asked<'a> {
     pub field: &'a Field<'a>,
     pub nodes: &'a Nodes,
-    /// For each corner the place that it belongs to.
+    /// For each corner the place it belongs to.
     pub pins: &'a [Option<usize>],
     /// The place that the mesh's rim belongs to.
     pub rim: usize,
-    /// Those of the places.
+    /// The rims of the places.
     pub rims: &'a Rims,
     /// Cells that carry no load.
     pub left_out: &'a [bool],
 }
 
-/// Bounds of the capacities of the first of some places, each against all others, and of what
-/// follows from them.
+/// Bounds of the capacities of places, each against all others, and of the quantities derived from
+/// them.
 ///
-/// What the integrals over cells are off by is not in them: they hold on the mesh.
+/// They exclude the errors of integrals over cells: they hold on the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Bracket {
     /// From below and from above, by places (rad).
     capacities: Vec<[f64; 2]>,
-    /// What flows between every two places (rad), as the mesh has it.
+    /// The flow between every two places (rad), on the mesh.
     flows: Vec<Vec<f64>>,
     /// The integrals of the functions on the mesh times the load.
     held: Vec<f64>,
@@ -47,16 +47,16 @@ pub(super) struct Bracket {
     gaps: Vec<Vec<f64>>,
     /// The same by cells.
     by_cells: Vec<Vec<Vec<f64>>>,
-    /// What cells add to capacities, relative, because basins are made of cells, and in all: an
-    /// estimate.
+    /// Estimated relative errors of capacities because basins consist of whole cells: by cell, and
+    /// in total.
     of_rims: Vec<(Vec<(usize, f64)>, f64)>,
 }
 
 impl Bracket {
-    /// Of so many places.
+    /// Computes the bounds for a number of places.
     ///
     /// # Errors
-    /// Where a linear system is not solved.
+    /// If a linear system cannot be solved.
     pub fn new(asked: &Asked, count: usize) -> Result<Self, Unsolved> {
         let Asked {
             field, nodes, pins, ..
@@ -97,8 +97,8 @@ impl Bracket {
             let with = |j| network.products(mesh, nodes, &gap(i), &gap(j));
             (0..=i).map(with).collect()
         });
-        // The squares as they are found otherwise, too: of the two the safer one, for of the mean time
-        // both leave out how the load differs from a tilted one within cells.
+        // The squares are also computed in another way, and the larger value is taken, since for
+        // the mean time both neglect how the load differs from a tilted one within cells.
         let square = |place: usize| match capacities.get(place) {
             Some([lower, upper]) => upper - lower,
             None => {
@@ -137,9 +137,9 @@ impl Bracket {
         })
     }
 
-    /// Bounds of the occupation and a known `rest` of it over the capacity: what is missing in
-    /// `occupation - T capacity` is `<e, e' + T e>`, and where nothing can make up for the
-    /// difference, T is none. Nearer each other than the quotients of the ends.
+    /// Bounds of T = (occupation + known `rest`) / capacity: the error of `occupation - T capacity`
+    /// is `<e, e' + T e>`, and a T for which the error cannot make up the difference is excluded.
+    /// These bounds are narrower than the quotients of the ends.
     pub fn ratio(&self, place: usize, rest: f64) -> [f64; 2] {
         let [lower, upper] = self.capacities[place];
         let (product, square) = (self.with_time(place), self.of_time());
@@ -161,8 +161,8 @@ impl Bracket {
         ]
     }
 
-    /// Bounds of what flows between two places over the occupation of the first and a known `rest`
-    /// of it: what is missing in `flow - k occupation` is `<e, e' - k e''>`, as in [`Self::ratio`].
+    /// Bounds of k = flow between two places / (occupation of the first + known `rest`): the error
+    /// of `flow - k occupation` is `<e, e' - k e''>`, as in [`Self::ratio`].
     pub fn rate(&self, from: usize, to: usize, rest: f64) -> [f64; 2] {
         let gap = self.gaps[from][from];
         let flow = self.flows[from][to] + 0.5 * self.gaps[from][to];
@@ -197,24 +197,25 @@ impl Bracket {
         self.gaps[self.held.len()][self.held.len()]
     }
 
-    /// What flows between two places (rad), midway between its bounds.
+    /// The flow between two places (rad), the middle of its bounds.
     pub fn flow(&self, i: usize, j: usize) -> f64 {
         (self.flows[i][j] + 0.5 * self.gaps[i][j]).max(0.0)
     }
 
-    /// The integral of a place's committor times the load, midway between its bounds.
+    /// The integral of a place's committor times the load, the middle of its bounds.
     pub fn occupation(&self, place: usize) -> f64 {
         (self.held[place] + 0.5 * self.with_time(place)).max(0.0)
     }
 
-    /// What refining the cells may bring to the bounds of mean exit times and, for these pairs, of
-    /// rates: how far they are apart by cells, relative.
+    /// The relative contribution of each cell to the width of the bounds of mean exit times and,
+    /// for these pairs, of rates.
     pub fn shares(&self, pairs: &[(usize, usize)]) -> Vec<f64> {
         let count = self.held.len();
         let cells = self.by_cells[0][0].len();
         let by_cells = |i: usize, j: usize| &self.by_cells[i.max(j)][i.min(j)];
         let mut shares = vec![0.0; cells];
-        // Of `|d - e| |d' - e' + factor (d'' - e'')| / 2`, relative to something of such a size.
+        // The rounding of `|d - e| |d' - e' + factor (d'' - e'')| / 2`, relative to a value of this
+        // size.
         let mut add = |place: usize, other: usize, factor: f64, third: usize, size: f64| {
             let both = |cell: usize| {
                 by_cells(other, other)[cell]
@@ -246,7 +247,7 @@ impl Bracket {
         shares
     }
 
-    /// By how much capacities are off, relative, because basins are made of cells: an estimate.
+    /// Estimated relative error of capacities because basins consist of whole cells.
     pub fn off_by_rims(&self) -> f64 {
         let sums = self.of_rims.iter().map(|(_, sum)| *sum);
         sums.fold(0.0, f64::max)

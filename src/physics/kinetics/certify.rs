@@ -1,19 +1,19 @@
-//! Meshes refined until bounds are as near each other as asked.
+//! Refines a mesh until the bounds are as close to each other as requested.
 
 use super::field::{DIVIDED, Field};
 use super::results::{Certify, MeshRates};
 use crate::potential::MagnetModel;
 use crate::problem::Problem;
 
-/// Near the goal so much more of the error is divided than should do.
+/// Additional share of the error that is refined near the goal.
 const MARGIN: f64 = 0.1;
 
-/// Why nothing is proved of blocks.
+/// Why nothing is proved for blocks.
 const BLOCKS_HAVE_NO_PROOF: &str = "for blocks nothing can be proved here: the bounds on their \
     energy in contact are too wide; use the dipole model, or leave out --prove";
 
-/// Why nothing can be proved of a pair of tiles whose magnets are modelled so, whatever their shapes;
-/// `None` where it can be tried.
+/// Why nothing can be proved for a pair of tiles with this magnet model, independent of their
+/// shapes; `None` if it can be tried.
 pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     if model == MagnetModel::Cuboid {
         return Some(BLOCKS_HAVE_NO_PROOF.to_owned());
@@ -24,25 +24,25 @@ pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
     ))
 }
 
-/// What one mesh says.
+/// The bounds of one mesh.
 pub(super) struct Step {
     /// From below and above.
     pub bounds: Vec<[f64; 2]>,
-    /// Those that should be narrow.
+    /// The indices of the bounds that must be narrow.
     pub deciding: Vec<usize>,
     /// Corners of the mesh.
     pub unknowns: usize,
-    /// What refining the cells may bring.
+    /// The contribution of each cell to the width.
     pub shares: Vec<f64>,
     /// Values between the bounds, of rates.
     pub rates: Option<MeshRates>,
 }
 
-/// Refines a mesh until bounds are as narrow as asked, or it has too many unknowns. Gives the
-/// steps of all meshes, each of whose bounds hold by themselves; none where there are no bounds.
+/// Refines a mesh until bounds are as narrow as requested, or it has too many unknowns. Returns the
+/// bounds of all meshes, which are valid independently; empty if there are no bounds.
 ///
 /// # Errors
-/// Those of a step.
+/// The errors of a step.
 pub(super) fn narrowed<E>(
     field: &mut Field,
     certify: &Certify,
@@ -56,7 +56,7 @@ pub(super) fn narrowed<E>(
         };
         let deciding = found.deciding.iter().map(|&at| found.bounds[at]);
         let distances = deciding.map(|[lower, upper]| upper / lower - 1.0);
-        // What is no number is far, too.
+        // NaN counts as far.
         let farthest = distances.fold(0.0, |far: f64, one| if one <= far { far } else { one });
         let is_done = farthest <= goal || found.unknowns > certify.unknowns;
         // Cells that are divided keep about a third of their share.

@@ -1,15 +1,15 @@
-//! Markov chains in continuous time, for rates that differ by many powers of ten.
+//! Continuous-time Markov chains whose rates differ by many powers of ten.
 //!
-//! Nothing is ever subtracted from anything close to it, so that small probabilities are as right as
-//! large ones, however stiff the chain: stationary distributions and mean first-passage times by
-//! graph elimination (Grassmann, Taksar and Heyman 1985, doi:10.1287/opre.33.5.1107), occupation
-//! over time by uniformisation (Jensen 1953) over a short time, squared as often as it takes.
+//! There is no cancellation, so small probabilities are as accurate as large ones, however stiff
+//! the chain: stationary distributions and mean first-passage times by graph elimination
+//! (Grassmann, Taksar and Heyman 1985, doi:10.1287/opre.33.5.1107), occupation over time by
+//! uniformisation (Jensen 1953) over a short time, squared as often as it takes.
 
 use nalgebra::DMatrix;
 
 use crate::matrix::product;
 
-/// Over the short time every state is left with at most this probability.
+/// Largest probability of leaving any state within the short time.
 const SHORT: f64 = 1.0 / 16.0;
 /// Terms of the series over the short time: the rest is below 1e-17.
 const TERMS: usize = 10;
@@ -17,13 +17,13 @@ const TERMS: usize = 10;
 /// States, and the rates (1/s) at which each turns into each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
-    /// Row by row: from, to; the diagonal is not looked at.
+    /// Rows: from, columns: to; the diagonal is ignored.
     rates: DMatrix<f64>,
 }
 
 impl Chain {
-    /// The chain of a square matrix of rates (1/s), row: from, column: to. Rates that are no
-    /// positive number count as none.
+    /// The chain of a square matrix of rates (1/s), row: from, column: to. Rates that are not
+    /// positive numbers count as 0.
     pub fn new(mut rates: DMatrix<f64>) -> Self {
         for rate in rates.iter_mut() {
             *rate = if rate.is_finite() { rate.max(0.0) } else { 0.0 };
@@ -84,8 +84,8 @@ impl Chain {
             .collect()
     }
 
-    /// The stationary distribution, of the states that can be reached from all others if there are
-    /// such; `None` where the chain falls apart.
+    /// The stationary distribution, over the states that can be reached from all others; `None` if
+    /// the chain is not connected.
     pub fn stationary(&self) -> Option<Vec<f64>> {
         let n = self.len();
         let mut rates = self.rates.clone();
@@ -106,12 +106,12 @@ impl Chain {
         Some(weights.into_iter().map(|weight| weight / total).collect())
     }
 
-    /// The mean time (s) from each state until one of `ends` is reached: 0 there, infinite where
-    /// none is ever reached.
+    /// The mean time (s) from each state until one of `ends` is reached: 0 there, infinite if none
+    /// is ever reached.
     pub fn mean_times(&self, ends: &[usize]) -> Vec<f64> {
         let n = self.len();
         let inner: Vec<usize> = (0..n).filter(|k| !ends.contains(k)).collect();
-        // The states left, then one for all ends.
+        // The remaining states, then one for all ends.
         let m = inner.len();
         let mut rates = DMatrix::zeros(m + 1, m + 1);
         for (a, &from) in inner.iter().enumerate() {
@@ -129,7 +129,7 @@ impl Chain {
             outs[k] = out;
             let into_k: Vec<usize> = (0..k).filter(|j| rates[(*j, k)] > 0.0).collect();
             for j in into_k {
-                // Infinite where nothing leads out of k.
+                // Infinite if nothing leads out of k.
                 waiting[j] += rates[(j, k)] / out * waiting[k];
             }
             if out > 0.0 {
@@ -157,8 +157,8 @@ impl Chain {
     }
 }
 
-/// Takes state k out: what went through it goes directly among `left`, which it leaves for at the
-/// rate `out` altogether.
+/// Eliminates state k: its transitions go directly among `left`, to which it has the total rate
+/// `out`.
 fn eliminate(
     rates: &mut DMatrix<f64>,
     k: usize,
@@ -176,7 +176,7 @@ fn eliminate(
     }
 }
 
-/// Rows scaled to add up to 1, which rounding and the end of the series miss by little.
+/// Scales rows to sum to 1, to correct rounding and truncation of the series.
 fn with_unit_rows(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
     for mut row in matrix.row_iter_mut() {
         let sum = row.sum();
@@ -227,7 +227,7 @@ mod tests {
         }
     }
 
-    /// A walk to and fro on a line: from the middle of n steps to either end it takes (n/2)^2.
+    /// A random walk on a line: from the middle of n steps to either end it takes (n/2)^2.
     #[test]
     fn mean_times_of_a_walk() {
         let n = 21;
@@ -244,7 +244,7 @@ mod tests {
         let apart = Chain::new(DMatrix::zeros(2, 2));
         assert_eq!(apart.mean_times(&[0]), [0.0, f64::INFINITY]);
         assert!(apart.stationary().is_none());
-        // From the first state half of the ways lead where nothing leads out.
+        // From the first state half of the transitions lead to a state without an exit.
         let trap = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(
             Chain::new(trap).mean_times(&[1]),

@@ -1,16 +1,16 @@
-//! Wells at hard contact in closed form.
+//! Closed forms for wells at hard contact.
 //!
-//! Where contacts hold a minimum, U rises linearly away from them and no Gaussian prefactor exists.
-//! To lowest order the free configurations are a cone `a_k . u >= 0` (a_k the gaps' gradients) times
-//! the directions along which all contacts stay closed, and `U = U0 + c . u + K s^2 / 2`. In
-//! coordinates u in which the mass matrix is the unit matrix, over a cone that is spanned by as many
-//! rays r_i as it has dimensions d,
+//! If contacts hold a minimum, U rises linearly away from it and there is no Gaussian prefactor. To
+//! lowest order the free configurations are a cone `a_k . u >= 0` (a_k are the gaps' gradients)
+//! times the directions along which all contacts stay closed, and `U = U0 + c . u + K s^2 / 2`. In
+//! coordinates u in which the mass matrix is the identity, over a cone spanned by as many rays r_i
+//! as its dimension d,
 //!
 //! `integral of exp(-c . u / kT) = kT^d |det(r_1 .. r_d)| / prod (c . r_i)`,
 //!
-//! and every other cone is a sum of such; each closed direction adds `sqrt(2 pi kT / K)`. For an
-//! edge flush on an edge, pressed by the force F and the torque T with lever arms l+ and l-, this is
-//! `(kT)^2 / F [1 / (F l+ + T) + 1 / (F l- - T)] sqrt(2 pi kT / K)`.
+//! and every other cone is a sum of such cones; each closed direction contributes `sqrt(2 pi kT /
+//! K)`. For an edge flush on an edge, pressed by the force F and the torque T with lever arms l+
+//! and l-, this is `(kT)^2 / F [1 / (F l+ + T) + 1 / (F l- - T)] sqrt(2 pi kT / K)`.
 
 use std::f64::consts::TAU;
 
@@ -24,13 +24,13 @@ use crate::problem::Problem;
 
 /// Contacts with a gap below this (m) are closed.
 const CLOSED: f64 = 1e-7;
-/// Directions are the same, and cosines zero, within this.
+/// Tolerance of equal directions and of zero cosines.
 const SAME: f64 = 1e-6;
-/// A cone of more faces is not looked at.
+/// Largest number of faces of a cone.
 const MOST_FACES: usize = 60;
 
 /// The integral (m^2 rad) of `exp(-(U - U0) / kT)` about the minimum at `q` to lowest order in kT;
-/// `None` where contact and slope do not hold the tile there to first order, or `q` is no minimum.
+/// `None` if contact and slope do not hold the tile there to first order, or `q` is no minimum.
 pub fn volume(problem: &Problem, q: &Configuration, kt: f64) -> Option<f64> {
     let minimum = stationary::minimum(problem, q)?;
     let q = minimum.point.q;
@@ -62,7 +62,7 @@ pub fn volume(problem: &Problem, q: &Configuration, kt: f64) -> Option<f64> {
     (volume.is_finite() && volume > 0.0).then_some(volume)
 }
 
-/// An orthonormal basis of what some vectors span.
+/// An orthonormal basis of the span of some vectors.
 fn span(vectors: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut basis: Vec<Vector3<f64>> = Vec::new();
     for v in vectors {
@@ -79,7 +79,7 @@ fn is_inside(walls: &[Vector3<f64>], ray: &Vector3<f64>) -> bool {
     walls.iter().all(|wall| wall.dot(ray) >= -SAME)
 }
 
-/// Adds those of a ray and its opposite that lie in the cone and are new.
+/// Adds a ray and its opposite, if they lie in the cone and are new.
 fn add_rays(rays: &mut Vec<Vector3<f64>>, walls: &[Vector3<f64>], ray: Vector3<f64>) {
     for ray in [ray, -ray] {
         let is_new = rays.iter().all(|known| (known - ray).norm() > SAME);
@@ -89,7 +89,7 @@ fn add_rays(rays: &mut Vec<Vector3<f64>>, walls: &[Vector3<f64>], ray: Vector3<f
     }
 }
 
-/// The cone of walls that span a plane, kT left out.
+/// The integral over a cone of walls that span a plane, without kT.
 fn plane_cone(
     walls: &[Vector3<f64>],
     slope: &Vector3<f64>,
@@ -110,7 +110,7 @@ fn plane_cone(
         .then(|| area / (rises[0] * rises[1]))
 }
 
-/// The cone of walls that span space, kT left out: a fan of cones of three rays.
+/// The integral over a cone of walls that span space, without kT: a fan of cones of three rays.
 fn solid_cone(walls: &[Vector3<f64>], slope: &Vector3<f64>) -> Option<f64> {
     if walls.len() > MOST_FACES {
         return None;

@@ -1,31 +1,31 @@
-//! Corridors narrower than the cells of a mesh.
+//! Free corridors that are narrower than the cells of a mesh.
 //!
-//! Where none of the lines through a cell meets anything free the cell is closed, although contact
-//! may not prove it blocked. Where nothing but such cells parts a state from free tiles they are
-//! divided, until a way shows or is excluded.
+//! If none of the integration lines through a cell meets a free configuration, the cell is closed,
+//! although contact may not prove it blocked. If only such cells separate a state from free tiles,
+//! they are divided until a path is found or excluded.
 
 use super::field::Field;
 use super::sets::{best_way, flood};
 use crate::configuration::Configuration;
 
-/// Cells of this size (m, told for the paper's tile) are not divided for it any more.
+/// Cells of this size (m, for the paper's tile) are not divided any further.
 pub const NARROW: f64 = 1e-4;
-/// So many divisions are made for one way at most.
+/// Largest number of divisions for one path.
 const MOST_DIVIDED: usize = 20_000;
 
-/// Whether the mesh has a way from a state to free tiles.
+/// Whether the mesh has a path from a state to free tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// It has one.
+    /// It has a path.
     Open,
-    /// Contact proves that there is none.
+    /// Contact proves that there is no path.
     Blocked,
-    /// None was found, and none that is narrower than 0.1 mm is excluded.
+    /// No path was found, and paths narrower than 0.1 mm are not excluded.
     Lost,
 }
 
 impl Way {
-    /// In a word.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Open => "open",
@@ -34,7 +34,7 @@ impl Way {
         }
     }
 
-    /// What is to be said of it.
+    /// Its description.
     pub fn told(self) -> String {
         match self {
             Self::Open => "a path leads to free tiles".to_owned(),
@@ -49,7 +49,7 @@ impl Way {
 }
 
 impl Field<'_> {
-    /// Sees to it that the mesh has a way from a configuration to its rim, if there is one.
+    /// Refines the mesh until it has a path from a configuration to its rim, if there is one.
     pub fn open_way(&mut self, from: &Configuration) -> Way {
         let mut divided = 0;
         let mut is_excluded = true;
@@ -69,7 +69,7 @@ impl Field<'_> {
     }
 
     /// For every two of some configurations, and last the mesh's rim, whether contact blocks every
-    /// way between them.
+    /// path between them.
     pub fn blocked(&self, places: &[Configuration]) -> Vec<Vec<bool>> {
         let mesh = &self.mesh;
         let beside = mesh.joined(&|leaf| !leaf.blocked);
@@ -89,8 +89,8 @@ impl Field<'_> {
             .collect()
     }
 
-    /// The closed cells on the way to the rim that goes through the fewest of them, by their size,
-    /// if there is a way. Some cells are too small to be asked: then nothing is excluded.
+    /// The closed cells on the path to the rim with the fewest of them, by size, if there is a
+    /// path. If some cells are too small to be tested, nothing is excluded.
     fn closed_on_way(&self, from: &Configuration, is_excluded: &mut bool) -> Option<Vec<usize>> {
         let mesh = &self.mesh;
         let is_small = |level: u8| mesh.chart.depth(level, from) < self.problem.scaled(NARROW);
@@ -99,7 +99,7 @@ impl Field<'_> {
             Some(_) => 0,
             None => mesh.leaves[id].size(),
         };
-        // Where it starts costs nothing.
+        // The start has no cost.
         let after = |length: Option<i64>, id: usize| match length {
             None => Some(Some(0)),
             Some(_) if cost(id) > 0 && is_small(mesh.leaves[id].level) => {

@@ -1,4 +1,4 @@
-//! A crowd of tiles on a table, and the rates of a pair of them.
+//! The tiles on a table, and the rates of one pair of them.
 
 use nalgebra::DMatrix;
 
@@ -7,25 +7,25 @@ use super::chain::Chain;
 /// The rates of a pair of tiles: state 0 is the bond, the others are traps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRates {
-    /// kappa: attachments a second for one tile a square metre (m^2/s).
+    /// kappa: attachments per second for one tile per square metre (m^2/s).
     pub on: Vec<f64>,
-    /// Detachments a second (1/s).
+    /// Detachments per second (1/s).
     pub off: Vec<f64>,
-    /// From state to state without coming free (1/s), row: from; 0 on the diagonal.
+    /// Rates from state to state without becoming free (1/s), row: from; 0 on the diagonal.
     pub turns: DMatrix<f64>,
 }
 
 /// A table and the tiles on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crowd {
-    /// How many tiles of the fixed and of the moving tile's kind.
+    /// Numbers of tiles of the fixed and of the moving tile's kind.
     pub tiles: [usize; 2],
     /// The table's area (m^2).
     pub area: f64,
 }
 
 impl Crowd {
-    /// So many tiles, half of either kind, of `tile_area` (m^2) that cover a share of a table.
+    /// A number of tiles, half of each kind, of `tile_area` (m^2) that cover a share of a table.
     pub fn new(tiles: usize, coverage: f64, tile_area: f64) -> Self {
         Self {
             tiles: [tiles.div_ceil(2), tiles / 2],
@@ -33,14 +33,14 @@ impl Crowd {
         }
     }
 
-    /// Most pairs that there can be.
+    /// Largest possible number of pairs.
     pub fn pairs(&self) -> usize {
         self.tiles[0].min(self.tiles[1])
     }
 }
 
 impl PairRates {
-    /// Rates without ways from state to state but through free tiles.
+    /// Rates with transitions between states only through free tiles.
     pub fn through_free(on: Vec<f64>, off: Vec<f64>) -> Self {
         let n = on.len();
         Self {

@@ -1,34 +1,34 @@
-//! How far apart a pair in equilibrium is.
+//! The distribution of the distance between a pair of tiles in equilibrium.
 
 use super::field::{DIVIDED, Field};
 use super::mesh::UNITS;
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// Meshes are refined until the shares of all distances together move by less than this, ...
+/// Meshes are refined until the total change of the shares of all distances is less than this, ...
 const SETTLED: f64 = 4e-3;
-/// ... twice in a row, or until they have so many cells.
+/// ... twice in a row, or until they have this many cells.
 const MOST_CELLS: usize = 150_000;
 
-/// The distances of the centres of a pair that is in equilibrium at one kT and no farther apart than
-/// an end.
+/// The distribution of the distance of the centres of a pair in equilibrium at one kT, up to a
+/// limit.
 ///
-/// The probability of a distance r is in proportion to `r` times the integral of e^(-U/kT) over all
-/// directions and angles that contact leaves free: with the magnets off it is `2 r / end^2` outside
-/// contact. How large the table is does not matter, as long as its rim is farther away.
+/// The probability density of a distance r is proportional to `r` times the integral of e^(-U/kT)
+/// over all directions and angles that contact leaves free: without magnets it is `2 r / end^2`
+/// outside contact. The size of the table does not matter, as long as its rim is farther away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distances {
-    /// The distances (m) between which the shares lie, ascending: one more than shares.
+    /// The ends of the bins (m), in ascending order: one more than shares.
     pub edges: Vec<f64>,
-    /// The probability of each part.
+    /// The probability of each bin.
     pub shares: Vec<f64>,
-    /// The sum of what the shares moved by with the last refinement: an estimate of their error.
+    /// The sum of the changes of the shares in the last refinement: an estimate of their error.
     pub moved: f64,
 }
 
 impl Distances {
-    /// At kT (J) out to an end (m), in about 32 parts; energies are counted from the deepest state
-    /// that is known, `bond`.
+    /// Computes the distribution at kT (J) up to a limit (m), in about 32 bins; energies are
+    /// relative to the deepest known state, `bond`.
     pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
         let ground = problem.energy(bond);
         let mut field = Field::new(problem, kt, end, ground, &[*bond]);
@@ -51,7 +51,7 @@ impl Distances {
             }
             let mut errors = vec![0.0; field.mesh.leaves.len()];
             for (id, _, element) in field.mesh.live() {
-                // What is much the same all over a cell is integrated well.
+                // Functions that vary little over a cell are integrated accurately.
                 let change = ((element.highest - element.lowest) / kt).min(1.0);
                 errors[id] = element.held() * change * change;
             }
@@ -60,7 +60,7 @@ impl Distances {
         }
     }
 
-    /// Which part a distance (m) lies in; `None` beyond the end and where tiles would overlap.
+    /// The bin of a distance (m); `None` beyond the limit and where tiles would overlap.
     pub fn part(&self, distance: f64) -> Option<usize> {
         let part = self.edges.partition_point(|edge| *edge <= distance);
         let last = self.shares.len();

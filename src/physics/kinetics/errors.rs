@@ -1,4 +1,4 @@
-//! What functions on a mesh are off by, as far as the mesh tells.
+//! Estimates of the discretisation error of functions on a mesh.
 
 use nalgebra::Vector3;
 
@@ -6,23 +6,23 @@ use super::field::Field;
 use super::mesh::{Element, Nodes, slope};
 use super::rim::Rims;
 
-/// Estimated errors of functions' energies, relative to them.
+/// Estimated relative errors of functions' energies.
 pub(super) struct Errors {
-    /// By cells, added up.
+    /// Errors by cell, summed over functions.
     pub shares: Vec<f64>,
     /// The largest of all functions, ...
     pub largest: f64,
-    /// ... and what of one is due to basins' being made of cells.
+    /// ... and its part because basins consist of whole cells.
     pub of_rims: f64,
 }
 
 impl Field<'_> {
-    /// The estimated errors of functions' energies by cells, each relative to the function's energy
-    /// and added up. Functions without energy have none.
+    /// The estimated errors of functions' energies by cell, each relative to the function's energy,
+    /// and summed. Functions without energy have no error.
     ///
-    /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient against
-    /// the continuous one that comes of averaging it at the corners; to it comes what it matters
-    /// that basins are made of cells.
+    /// The estimate is Zienkiewicz and Zhu's (1987, doi:10.1002/nme.1620240206): the gradient
+    /// against the continuous one that results from averaging it at the corners; the error because
+    /// basins consist of whole cells is added.
     pub fn errors(&self, nodes: &Nodes, rims: &Rims, functions: &[&Vec<f64>]) -> Errors {
         let mut shares = vec![0.0; self.mesh.leaves.len()];
         let (mut largest, mut of_rims) = (0.0_f64, 0.0_f64);

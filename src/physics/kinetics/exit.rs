@@ -1,4 +1,4 @@
-//! How soon a tile leaves a configuration, and where it comes first.
+//! How soon a tile leaves a configuration, and which end it reaches first.
 
 use super::bracket::{Asked, Bracket};
 use super::certify::{Step, narrowed};
@@ -13,11 +13,11 @@ use super::sets::{basin, pass, reaching};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// From a start to the first of two ends: the bond's basin and where tiles are free. All that the
-/// pair's symmetries map onto each other is one.
+/// The exit from a start to the first of two ends: the bond's basin and free tiles. Symmetric
+/// copies count as one.
 ///
 /// # Errors
-/// Where the start or an end makes no sense, and where a linear system could not be solved.
+/// If the start or an end is invalid, or a linear system cannot be solved.
 pub fn exit(
     problem: &Problem,
     bond: &Configuration,
@@ -61,7 +61,8 @@ pub fn exit(
             if let Some(&[lower, upper]) = bounds.last()
                 && !(lower..=upper).contains(&own)
             {
-                // A start that is not deep in its well may well take a time that the well does not.
+                // The exit time of a start that is not deep in its well can differ from that of the
+                // well.
                 match ends.is_deep() && upper.is_finite() {
                     true => midway = Some((lower * upper).sqrt()),
                     false => bounds.clear(),
@@ -80,8 +81,8 @@ pub fn exit(
     }
 }
 
-/// Bounds of the mean exit time times D (m^2), on ever finer meshes that begin at contact, and on
-/// the last the proved ones of the capacity.
+/// Bounds of the mean exit time times D (m^2) on increasingly fine meshes that begin at contact,
+/// and the proved bounds of the capacity on the last mesh.
 fn bounds(
     problem: &Problem,
     bond: &Configuration,
@@ -127,28 +128,28 @@ fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Resul
     Ok(())
 }
 
-/// Bounds are of a start in the well, which reaches so many kT above the pose, or as deep as it is
-/// taken to be in equilibrium.
+/// Bounds refer to a start in the well, which extends this many kT above the pose, or as far up as
+/// equilibrium is assumed.
 const NEAR: f64 = 0.5;
 
-/// Cells in which a tile is bound, and, where the start is deep in a well, those of the well.
+/// Cells in which a tile is bound, and those of the start's well, if the start is deep in it.
 struct Ends {
     bound: Vec<bool>,
     well: Option<Vec<bool>>,
-    /// The cells about the start that bounds are of.
+    /// The cells around the start to which bounds refer.
     near: Option<Vec<bool>>,
-    /// Below which energies (J) these lie: the bound, the well and the cells about the start.
+    /// The energy limits (J) of the bound cells, the well and the cells around the start.
     limits: [f64; 3],
 }
 
-/// Where the value at a corner is given: in the well, ...
+/// Places where the value at a corner is given: in the well, ...
 const WELL: usize = 0;
 /// ... where the tile is bound, ...
 const BOUND: usize = 1;
 /// ... or free.
 const FREE: usize = 2;
 
-/// Of what loads at the pass's level add up to, counted from the start's energy on.
+/// The scale of loads at the pass's level, relative to the start's energy.
 fn scale(field: &Field) -> f64 {
     libm::exp((field.level() - field.ground()) / field.kt)
 }
@@ -181,7 +182,7 @@ impl Ends {
         let top = energy + NEAR * field.kt;
         let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
         let bound = around(field, bond, limits[0]);
-        // Any well does for bounds: the wider it is, the nearer they are.
+        // Any well gives valid bounds: the wider it is, the narrower they are.
         let near = reaching(&field.mesh, &beside, &asked.start, limits[2]);
         let is_apart = |&id: &usize| !(bound[id] || field.mesh.is_outer(id));
         let is_well = near.iter().all(is_apart);
@@ -197,7 +198,7 @@ impl Ends {
         })
     }
 
-    /// Whether the start lies so deep in its well that it is as good as anywhere else there.
+    /// Whether the start is so deep in its well that all starts in the well are equivalent.
     fn is_deep(&self) -> bool {
         self.well.is_some()
     }
@@ -231,8 +232,8 @@ impl Ends {
         Rims::new(field, &limits)
     }
 
-    /// For each corner in which place its value is given. Where ends meet, which they do on coarse
-    /// meshes only, being free comes first, then being bound.
+    /// For each corner the place where its value is given. Where ends meet, which happens only on
+    /// coarse meshes, free takes precedence, then bound.
     fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Option<usize>> {
         let of = |place: usize, cells: Option<&Vec<bool>>| {
             let is_inside = |id: usize| cells.is_some_and(|cells| cells[id]);
@@ -245,9 +246,9 @@ impl Ends {
     /// The exit on a mesh, and the functions it was found from.
     ///
     /// Far below the passes the start's well is in equilibrium before anything leaves it. Then one
-    /// function tells all: the probability h to come back to the well before an end is reached.
-    /// What flows into the ends is the capacity C, and the mean exit time is the integral of
-    /// h e^(-U/kT) over D C. No small difference of large numbers is taken.
+    /// function suffices: the probability h to return to the well before an end is reached. The
+    /// flow into the ends is the capacity C, and the mean exit time is the integral of h e^(-U/kT)
+    /// over D C. There is no small difference of large numbers.
     fn solve(
         &self,
         field: &Field,
@@ -281,8 +282,8 @@ impl Ends {
         Ok((exit(time, bound / (bound + free)), vec![back]))
     }
 
-    /// A bound from below of the mean exit time times D (m^2) from the well about the start, whatever
-    /// the outlines: what the well's own cells hold over the energy of a trial committor.
+    /// A lower bound of the mean exit time times D (m^2) from the well around the start, for any
+    /// outlines: the occupation of the well's own cells over the energy of a trial committor.
     fn lower_bound(&self, field: &Field, nodes: &Nodes) -> Result<Option<f64>, Unsolved> {
         let Some(near) = &self.near else {
             return Ok(None);
@@ -295,9 +296,9 @@ impl Ends {
         Ok(Some(scale * held / field.energy(nodes, &trial)))
     }
 
-    /// Bounds of the mean exit time times D (m^2) from the well about the start, and what refining
-    /// the cells may bring to them: as in [`Self::solve`] it is an integral over a capacity,
-    /// whatever the well.
+    /// Bounds of the mean exit time times D (m^2) from the well around the start, and the
+    /// contribution of each cell to their width: as in [`Self::solve`] it is an integral over a
+    /// capacity, for any well.
     fn bounds(&self, field: &Field, nodes: &Nodes) -> Result<Option<Step>, Unsolved> {
         let Some(near) = &self.near else {
             return Ok(None);
@@ -307,7 +308,7 @@ impl Ends {
             nodes,
             pins: &self.pins(field, nodes, Some(near)),
             rim: FREE,
-            // It is the same whatever the well.
+            // It does not depend on the well.
             rims: &self.rims_with(field, None, 0.0),
             left_out: &self.bound,
         };

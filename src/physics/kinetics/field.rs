@@ -1,4 +1,4 @@
-//! A mesh at one temperature, and how it is refined.
+//! A mesh with its energies at one temperature, and its refinement.
 
 mod network;
 
@@ -16,36 +16,35 @@ use network::Costs;
 
 /// First cells from the centre to the end of the chart.
 const FIRST: f64 = 32.0;
-/// Size (m) of the cells that hold a seed at most.
+/// Largest size (m) of the cells that contain a seed.
 const SEED: f64 = 4e-3;
-/// Size (m) to which they are divided where no energy near the seed's has been met in them, ...
+/// Size (m) to which they are divided if no energy near the seed's was found in them, ...
 const LEAST_SEED: f64 = 2e-4;
-/// ... which is one that is higher by so many kT at most.
+/// ... that is, one higher by at most this many kT.
 const NEAR: f64 = 2.0;
 /// Share of the estimated error in the cells that are divided, if the goal is far.
 pub(super) const DIVIDED: f64 = 0.7;
-/// How far (in kT) below the pass a well lies in equilibrium: of the flux no more than e^-12 is left
-/// there.
+/// Depth (in kT) below the pass at which a well is in equilibrium: the flux there is at most e^-12.
 pub(super) const DEEP: f64 = 12.0;
-/// The level of the barriers is taken anew where it has moved by so many kT.
+/// The level of the barriers is updated when it has changed by this many kT.
 const MOVED: f64 = 2.0;
 
-/// A mesh with what is integrated over its cells at one temperature.
+/// A mesh with the integrals over its cells at one temperature.
 pub(super) struct Field<'a> {
     pub mesh: Octree,
     pub kt: f64,
-    /// What all is asked about.
+    /// The problem.
     pub problem: &'a Problem,
     integrator: Integrator<'a>,
     costs: Mutex<Costs>,
 }
 
-/// Functions on a mesh that has been refined since.
+/// Functions on an earlier, coarser mesh.
 pub(super) type Earlier = (Nodes, Vec<Vec<f64>>);
 
 impl<'a> Field<'a> {
-    /// Out to `radius` (m) at kT (J), with loads counted from the energy `ground` (J) on and small
-    /// cells about the `seeds`.
+    /// A mesh up to `radius` (m) at kT (J), with loads relative to the energy `ground` (J) and
+    /// small cells around the `seeds`.
     pub fn new(
         problem: &'a Problem,
         kt: f64,
@@ -62,7 +61,7 @@ impl<'a> Field<'a> {
         )
     }
 
-    /// The same on a mesh that begins at contact; `None` where the tiles' shapes do not let it.
+    /// The same on a mesh that begins at contact; `None` if the tiles' shapes do not permit it.
     pub fn fitted(
         problem: &'a Problem,
         kt: f64,
@@ -115,7 +114,7 @@ impl<'a> Field<'a> {
         field
     }
 
-    /// Integrates over the cells that are new.
+    /// Integrates over new cells.
     pub fn evaluate(&mut self) {
         let is_new = |id: &usize| {
             let leaf = &self.mesh.leaves[*id];
@@ -135,27 +134,27 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The energy (J) about which weights are kept in bounds.
+    /// The energy (J) around which weights are limited.
     pub fn level(&self) -> f64 {
         self.integrator.level
     }
 
-    /// The energy (J) below which wells lie in equilibrium.
+    /// The energy (J) below which wells are in equilibrium.
     pub fn deep(&self) -> f64 {
         self.level() - DEEP * self.kt
     }
 
-    /// The weight e^(-U/kT) at the level, as against that at the ground.
+    /// The weight e^(-U/kT) at the level, relative to that at the ground.
     pub fn weight(&self) -> f64 {
         libm::exp((self.ground() - self.level()) / self.kt)
     }
 
-    /// The energy (J) from which loads are counted.
+    /// The reference energy (J) of loads.
     pub fn ground(&self) -> f64 {
         self.integrator.ground
     }
 
-    /// Has weights kept in bounds about another energy (J), unless it is much the same.
+    /// Changes the energy (J) around which weights are limited, unless the change is small.
     pub fn set_level(&mut self, level: f64) {
         if (level - self.integrator.level).abs() > MOVED * self.kt {
             self.integrator.level = level;
@@ -167,7 +166,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// What a cell holds of the load (m^2 rad) below an energy (J).
+    /// The load (m^2 rad) of a cell below an energy (J).
     pub fn held_below(&self, id: usize, limit: f64) -> f64 {
         let leaf = &self.mesh.leaves[id];
         match &leaf.element {
@@ -179,8 +178,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Divides the cells with the largest shares of an estimated error, up to a part of it; whether
-    /// there were any.
+    /// Divides the cells with the largest shares of an estimated error, up to a part of the total;
+    /// returns whether there were any.
     pub fn refine(&mut self, shares: &[f64], part: f64) -> bool {
         let count = self.mesh.leaves.len();
         let mut order: Vec<usize> = (0..shares.len()).collect();
@@ -205,7 +204,7 @@ impl<'a> Field<'a> {
         energies.sum()
     }
 
-    /// Functions on an earlier mesh, as good as they are on this one.
+    /// Interpolates functions from an earlier mesh.
     pub fn carry_over(&self, nodes: &Nodes, (old, functions): &Earlier) -> Vec<Vec<f64>> {
         let mut carried = vec![vec![0.0; nodes.len()]; functions.len()];
         for (id, leaf, _) in self.mesh.live() {

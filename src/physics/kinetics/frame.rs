@@ -1,4 +1,4 @@
-//! Coordinates in which contact is simple: slide, tilt and gap about a state.
+//! Coordinates that make contact simple: slide, tilt and gap relative to a state.
 
 use nalgebra::Vector2;
 
@@ -12,8 +12,8 @@ use crate::tile::outline::cross;
 /// Gaps below this (m) count as touching.
 const TOUCHING: f64 = 1e-6;
 
-/// The moving tile turned by the tilt about a pivot of its own, the pivot then shifted by the slide
-/// and the gap. (x, y, theta) and (slide, gap, tilt) have the same volume element.
+/// The moving tile is rotated by the tilt about a pivot of its own, and the pivot shifted by the
+/// slide and the gap. (x, y, theta) and (slide, gap, tilt) have the same volume element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     origin: Configuration,
@@ -24,8 +24,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a minimum: the gap opens against the force with which contact is pressed, and
-    /// the pivot is the middle of where the tiles touch.
+    /// The frame of a minimum: the gap opens against the force that presses the contact, and the
+    /// pivot is the middle of the contact.
     pub fn of_minimum(problem: &Problem, point: &Point) -> Self {
         let slope = point.gradient.xy();
         let places = touching(problem, &point.q);
@@ -82,7 +82,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
-/// Where vertices touch edges, in the fixed tile's frame (m).
+/// The points where vertices touch edges, in the fixed tile's frame (m).
 fn touching(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     let Some(contact) = &problem.contact else {
         return Vec::new();

@@ -1,10 +1,10 @@
-//! Integrals over the gap alone: one line of configurations at a time.
+//! Integrals over the gap alone, along one line of configurations.
 
 use super::frame::Frame;
 use crate::interruption;
 use crate::problem::Problem;
 
-/// Abscissas and weights of Gauss' rule of seven points on [-1, 1] (Abramowitz and Stegun, table
+/// Abscissas and weights of the seven-point Gauss rule on [-1, 1] (Abramowitz and Stegun, table
 /// 25.4); the eighth energy of a batch is that at the panel's end.
 const GAUSS: [(f64, f64); 7] = [
     (-0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
@@ -15,34 +15,34 @@ const GAUSS: [(f64, f64); 7] = [
     (0.741_531_185_599_394_5, 0.279_705_391_489_276_6),
     (0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
 ];
-/// The exponent may change by this much over a panel: seven points then err by less than 1e-7.
+/// Largest change of the exponent over a panel: the error of seven points is then below 1e-7.
 const RANGE: f64 = 4.0;
-/// Panels are halved so often at most.
+/// Largest number of bisections of a panel.
 const DEEPEST: u32 = 12;
-/// Beyond this exponent a weight is nothing.
+/// Beyond this exponent a weight counts as 0.
 const NOTHING: f64 = 60.0;
-/// Halvings by which the end of the basin is found.
+/// Number of bisections for the end of the basin.
 const BISECTIONS: usize = 14;
-/// What weighs less than this share of a line is left out.
+/// Parts with less than this share of a line are omitted.
 const LEAST: f64 = 1e-7;
 /// Shortest first panel, as a share of the longest line.
 const SHORTEST: f64 = 1e-7;
-/// Gaps looked at for the lowest energy on a line, each double the one before.
+/// Number of gaps sampled for the lowest energy on a line, each twice the previous one.
 const LOOKS: usize = 14;
 
-/// What is integrated: `exp(-(U - lowest) / kT)` where U lies below `level` (J).
+/// The integrand: `exp(-(U - lowest) / kT)` where U is below `level` (J).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
     /// U at which the weight is 1 (J).
     pub lowest: f64,
-    /// Where the basin ends (J).
+    /// The upper limit of the basin (J).
     pub level: f64,
     /// kT (J).
     pub kt: f64,
 }
 
 impl Weight {
-    /// The weight of an energy (J), below the level or not.
+    /// The weight of an energy (J), ignoring the level.
     fn at(&self, energy: f64) -> f64 {
         libm::exp(-(energy - self.lowest) / self.kt)
     }
@@ -52,12 +52,12 @@ impl Weight {
 pub struct Lines<'a> {
     pub problem: &'a Problem,
     pub frame: Frame,
-    /// Largest gap that is looked at, and how far below the state's (m).
+    /// Largest gap considered, and the distance below the state's gap (m).
     pub reach: f64,
 }
 
 impl Lines<'_> {
-    /// The intervals of the gap (m) in which the tiles do not overlap, ascending.
+    /// The intervals of the gap (m) in which the tiles do not overlap, in ascending order.
     pub fn free(&self, at: [f64; 2]) -> Vec<[f64; 2]> {
         interruption::check();
         let range = [-self.reach, self.reach];
@@ -70,7 +70,7 @@ impl Lines<'_> {
         }
     }
 
-    /// The lowest energy (J) of an interval, as far as a few looks tell.
+    /// The lowest energy (J) of an interval, from a few samples.
     pub fn lowest(&self, at: [f64; 2], [start, end]: [f64; 2]) -> f64 {
         let length = end - start;
         let share = |k: usize| match k {
@@ -90,8 +90,7 @@ impl Lines<'_> {
         energies
     }
 
-    /// The integral (m) of the weight over an interval, from where the basin begins to where it
-    /// ends.
+    /// The integral (m) of the weight over the part of an interval within the basin.
     pub fn integral(&self, at: [f64; 2], [start, end]: [f64; 2], weight: &Weight) -> f64 {
         let q = self.frame.configuration(at, start);
         let (energy, gradient) = self.problem.potential().energy_and_gradient(&q);
@@ -128,7 +127,7 @@ impl Lines<'_> {
         sum
     }
 
-    /// Gauss' rule over a panel, halved where the exponent changes too much.
+    /// Gauss quadrature over a panel, bisected if the exponent changes too much.
     fn panel(&self, at: [f64; 2], [low, high]: [f64; 2], weight: &Weight, depth: u32) -> Panel {
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
         let gaps: [f64; 8] =
@@ -161,7 +160,7 @@ struct Panel {
     end: f64,
 }
 
-/// Where between two gaps (m) a line crosses the basin's end.
+/// The gap (m) between two gaps at which a line crosses the basin's end.
 fn bisected(mut low: f64, mut high: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
     let inside = is_inside(low);
     for _ in 0..BISECTIONS {

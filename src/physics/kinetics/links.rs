@@ -1,10 +1,10 @@
-//! What is known of ways between places.
+//! Which places of a mesh are known to be connected.
 
 use super::corridor::Way;
 use super::results::{RateBounds, Rates};
 
-/// What is known of ways between every two places, the last of which is `free`: from which basins a
-/// way leads there, which the mesh has no way out of, and what contact blocks.
+/// The known paths between all pairs of places, the last of which is `free`: which basins have a
+/// path there, which have none on the mesh, and which paths contact blocks.
 pub(super) fn links(ways: &[Way], closed: &[bool], blocked: &[Vec<bool>]) -> Vec<Vec<Way>> {
     let is_free = |place: usize| place == ways.len();
     let is_open = |place: usize| is_free(place) || ways[place] == Way::Open;
@@ -22,8 +22,8 @@ pub(super) fn links(ways: &[Way], closed: &[bool], blocked: &[Vec<bool>]) -> Vec
 }
 
 impl RateBounds {
-    /// The same without what is not known for want of a way, and with 0 where contact proves that
-    /// there is none.
+    /// The same without rates that are unknown because no path was found, and with 0 where contact
+    /// proves that there is none.
     pub(super) fn known(mut self, links: &[Vec<Way>]) -> Self {
         const NOTHING: [f64; 2] = [0.0, f64::INFINITY];
         for (from, links) in links.iter().enumerate() {
@@ -46,13 +46,13 @@ impl RateBounds {
 }
 
 impl Rates {
-    /// Whether anything is known of a rate: a way was found between the two places, or contact
-    /// proves that there is none.
+    /// Whether a rate is known: a path was found between the two places, or contact proves that
+    /// there is none.
     pub fn is_known(&self, from: usize, to: usize) -> bool {
         self.links[from][to] != Way::Lost
     }
 
-    /// The same of the rate out of a place, by all ways.
+    /// The same for the rate out of a place, by all paths.
     pub fn is_known_out(&self, from: usize) -> bool {
         (0..self.links.len()).all(|to| to == from || self.is_known(from, to))
     }
@@ -62,7 +62,7 @@ impl Rates {
 mod tests {
     use super::*;
 
-    /// Three basins: one with a way out, one that contact shuts in, one without a known way.
+    /// Three basins: one with a path out, one closed by contact, one without a known path.
     #[test]
     fn nothing_is_claimed_without_a_way_and_none_where_contact_blocks_all() {
         let ways = [Way::Open, Way::Blocked, Way::Lost];

@@ -1,34 +1,34 @@
-//! A committor and its reactive flux, seen from above: over (x, y), theta taken together.
+//! A committor and its reactive flux projected onto (x, y), combined over theta.
 
 use std::f64::consts::TAU;
 
 use super::field::Field;
 use super::mesh::{Nodes, slope, value};
 
-/// Points along s and phi that stand for a cell.
+/// Number of points along s and phi that represent a cell.
 const POINTS: usize = 4;
 
 /// A committor over the landscape: on squares of the plane in which the moving tile's reference
 /// point lies.
 ///
-/// E and Vanden-Eijnden, doi:10.1007/s10955-005-9003-9: the flux of tiles on their way from one end
-/// to the other is `D e^(-U/kT) grad q`.
+/// E and Vanden-Eijnden, doi:10.1007/s10955-005-9003-9: the flux of tiles from one end to the other
+/// is `D e^(-U/kT) grad q`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// The map reaches from minus this to this (m) along x and y.
+    /// Half the size of the map (m) along x and y.
     pub radius: f64,
     /// Squares along x and y.
     pub side: usize,
-    /// The mean of the committor over what is free at a square, weighted with e^(-U/kT), row by row
-    /// from the lowest x and y on, x first; not a number where nothing is.
+    /// The mean of the committor over the free configurations of a square, weighted with e^(-U/kT),
+    /// row by row from the lowest x and y, x first; NaN if nothing is free.
     pub committor: Vec<f64>,
-    /// What flows through a square along x and y, as a share of all that flows from end to end over
-    /// a metre across it (1/m).
+    /// The flux through a square along x and y per metre, as a share of the total flow from end to
+    /// end (1/m).
     pub flux: Vec<[f64; 2]>,
 }
 
 impl Map {
-    /// Of a function on a mesh, on so many squares along x and y.
+    /// Projects a function on a mesh onto a number of squares along x and y.
     pub(super) fn new(field: &Field, nodes: &Nodes, values: &[f64], side: usize) -> Self {
         let chart = &field.mesh.chart;
         let radius = chart.ray([0.0; 2]).radius(1.0);
@@ -60,7 +60,7 @@ impl Map {
         }
         let through = field.energy(nodes, values) * turns as f64;
         let square = (2.0 * radius / side as f64).powi(2);
-        // But for rounding and the solver's last step committors lie between 0 and 1.
+        // Committors are between 0 and 1, except for rounding and the solver's tolerance.
         let mean = |sum: &[f64; 4]| (sum[1] / sum[0]).clamp(0.0, 1.0);
         Self {
             radius,

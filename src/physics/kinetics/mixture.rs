@@ -1,18 +1,19 @@
-//! What a passive table can choose: one setting after another, blind to the tiles.
+//! The best schedule of a passive table, which changes its setting over time without observing the
+//! tiles.
 //!
-//! Time is cut into equal slots; each has one of some settings, and each setting is a chain over
-//! the same states. A schedule is found by changing one slot after another as long as that gains.
-//! What no schedule can exceed is the optimum of a linear program (after Klavins, Burden and Napp
-//! 2006, doi:10.15607/RSS.2006.II.002): with p_j the probabilities at the start of slot j, of which
-//! the part y_jk spends the slot in setting k with transitions P_k,
+//! Time is divided into equal slots with one of several settings each, and each setting is a chain
+//! over the same states. A schedule is improved by changing one slot after another as long as that
+//! helps. An upper bound of all schedules is the optimum of a linear program (after Klavins, Burden
+//! and Napp 2006, doi:10.15607/RSS.2006.II.002): let p_j be the probabilities at the start of slot
+//! j, of which the part y_jk spends the slot in setting k with transitions P_k:
 //!
 //! `sum_k y_jk = p_j,   p_(j+1) = sum_k y_jk P_k,   y >= 0;   greatest p_m . value`.
 //!
-//! It lets every state choose its setting, as a table that sees its tiles could; a blind one, whose
-//! shares are the same for all states, does no better. The program is solved from its end on, state by
-//! state (Bellman's dynamic programming, its dual), which is exact.
+//! It lets every state choose its setting, as a table that observes its tiles could; a passive
+//! table, whose shares are the same for all states, cannot do better. The program is solved
+//! backwards, state by state (Bellman's dynamic programming, its dual), which is exact.
 //!
-//! A design is no such setting: tiles keep their shapes and magnets. A table that has some runs with
+//! The design is not such a setting: tiles keep their shapes and magnets. Running some time with
 //! one design and some with another yields the mean of both, never more than the better one.
 
 use nalgebra::{DMatrix, RowDVector};
@@ -20,14 +21,14 @@ use nalgebra::{DMatrix, RowDVector};
 use super::chain::Chain;
 use crate::matrix::product;
 
-/// A schedule, what it yields, and what no schedule can exceed.
+/// A schedule, its value, and an upper bound of all schedules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mixture {
     /// The setting of each slot.
     pub schedule: Vec<usize>,
     /// Its mean value at the end.
     pub value: f64,
-    /// No schedule has a greater one, up to rounding.
+    /// Upper bound of the value of any schedule, up to rounding.
     pub bound: f64,
 }
 
@@ -53,7 +54,7 @@ pub fn schedule(settings: &[Chain], values: &[f64], time: f64, slots: usize) -> 
         if next.0 > best.0 { next } else { best }
     });
     let (mut schedule, mut reached) = (constant(best.1), best.0);
-    // Also two phases, which changes of single slots do not lead to.
+    // Also two phases, which changes of single slots do not reach.
     for first in 0..settings.len() {
         for last in (0..settings.len()).filter(|last| *last != first) {
             for turn in 1..slots {
@@ -86,8 +87,8 @@ pub fn schedule(settings: &[Chain], values: &[f64], time: f64, slots: usize) -> 
     }
 }
 
-/// The greatest value that any choice of settings by slot and state leads to: what a state is worth,
-/// from the last slot to the first, is the most of what any setting makes of it.
+/// The largest value of any choice of settings by slot and state: from the last slot to the first,
+/// the value of a state is the maximum over all settings.
 fn bound(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> f64 {
     let mut worth = DMatrix::from_column_slice(values.len(), 1, values);
     for _ in 0..slots {
@@ -111,8 +112,8 @@ mod tests {
         Chain::new(DMatrix::from_row_slice(3, 3, &rates))
     }
 
-    /// Strong shaking frees what is trapped but holds nothing, weak shaking holds everything: first
-    /// one, then the other is better than either, and no better than the bound.
+    /// Strong shaking frees trapped tiles but binds nothing, weak shaking holds everything: the one
+    /// followed by the other is better than either, and not better than the bound.
     #[test]
     fn two_phases_beat_one() {
         let hot = chain([1.0, 0.0], [2.0, 50.0]);
@@ -130,7 +131,7 @@ mod tests {
         assert!(both.bound <= 1.0 + 1e-9);
     }
 
-    /// Dynamic programming has the optimum of the linear program.
+    /// Dynamic programming gives the optimum of the linear program.
     #[test]
     fn the_bound_is_that_of_the_linear_program() {
         let all = [
@@ -150,11 +151,11 @@ mod tests {
         }
     }
 
-    /// Probabilities below this are left out of the linear program.
+    /// Probabilities below this are omitted from the linear program.
     const LEAST: f64 = 1e-12;
 
-    /// The optimum of the linear program itself. Probability may be lost in it, which never pays where no value
-    /// is negative, so that it starts from a program that nothing is wrong with.
+    /// The optimum of the linear program itself. The program allows loss of probability, which
+    /// never pays if no value is negative, so that it has a feasible starting point.
     fn linear_program(steps: &[DMatrix<f64>], values: &[f64], slots: usize) -> Option<f64> {
         let n = values.len();
         let mut problem = Problem::new(OptimizationDirection::Maximize);

@@ -1,74 +1,75 @@
-//! Kinetics: what shaken tiles do with a landscape: how strongly a state holds at kT, how soon and
-//! whereto it is left, and what comes out in the end.
+//! Kinetics of shaken tiles on a landscape: how strongly a state holds at kT, how soon a tile
+//! leaves it and where it goes, and the yield in the end.
 //!
-//! kT (J) is an effective energy of shaking, see [`crate::dynamics`]; nothing here says that a
+//! kT (J) is an effective energy of shaking, see [`crate::dynamics`]; this module assumes that a
 //! table has one.
 //!
 //! # The equations
-//! With the drag c (kg/s) on the tile's mass, spread evenly, and the effective energy kT (J) of its
-//! shaking, the moving tile diffuses with D = kT/c in x and y and D/rho^2 in theta, is pushed by
-//! the magnets and reflected by contact. What it does on average follows from two equations over
-//! the free configurations (Gardiner, *Handbook of Stochastic Methods*, section 5.4; E and
-//! Vanden-Eijnden, doi:10.1007/s10955-005-9003-9):
+//! With the drag c (kg/s), uniform over the tile's mass, and the effective energy kT (J) of its
+//! shaking, the moving tile diffuses with D = kT/c in x and y and D/rho^2 in theta, is driven by
+//! the magnets and reflected by contact. Averages follow from two equations over the free
+//! configurations (Gardiner, *Handbook of Stochastic Methods*, section 5.4; E and Vanden-Eijnden,
+//! doi:10.1007/s10955-005-9003-9):
 //!
-//! - mean exit time t: `div(D e^(-U/kT) grad t) = -e^(-U/kT)`, t = 0 where it ends;
+//! - mean exit time t: `div(D e^(-U/kT) grad t) = -e^(-U/kT)`, t = 0 at the ends;
 //! - committor q: `div(D e^(-U/kT) grad q) = 0`, q = 1 on one end and 0 on the others;
 //!
-//! with no flux through contact. Both are solved by finite elements on an own octree, in which the
-//! weight e^(-U/kT) is integrated over what is free of each cell: contact needs no mesh of its own,
-//! and a layer of e^(-U/kT) along it may be thinner than a cell. The energy of the computed
-//! committor is an upper bound of the capacity (Dirichlet's principle), but for the quadrature. Lower
-//! bounds come of fluxes without sources (Thomson's principle), on a second mesh whose cells begin at
-//! contact: through those that contact cuts no such flux would go. From both follow bounds of rates
-//! and of mean exit times.
+//! with no flux through contact. Both are solved by finite elements on an octree. The weight
+//! e^(-U/kT) is integrated over the free part of each cell, so the mesh need not follow contact,
+//! and a layer of e^(-U/kT) along contact can be thinner than a cell. The energy of the computed
+//! committor is an upper bound of the capacity (Dirichlet's principle), up to the quadrature. Lower
+//! bounds come from fluxes without sources (Thomson's principle), on a second mesh whose cells
+//! begin at contact, since no such flux could pass through cells cut by contact. Both together give
+//! bounds of rates and of mean exit times.
 //!
 //! # Lifetimes and drag
-//! How often a state holds depends on kT alone, how long it holds depends on the drag as well. In
+//! How often a state is occupied depends only on kT; how long it lasts also depends on the drag. In
 //! overdamped motion (`tilebind rates`, and `tilebind yield --rates overdamped`) every time is
-//! proportional to the drag: 100 /s makes every lifetime twice that of 50 /s. With little drag tiles have
-//! inertia, cross barriers in flight and come back over them: `tilebind yield` counts attachments in docking
-//! runs at 0.005 /s unless told otherwise, and lifetimes of its states are shorter by orders of magnitude
-//! than those of overdamped motion at [`OVERDAMPED`]. Neither is wrong; a table has one drag, and both
-//! commands take it (`--drag`). Lifetimes are also those of a *set*: `rates` counts a pair as bound until it
-//! is free or in another state, wherever between them it is (committors share that out); docking runs have
-//! detachment by detailed balance from the bond's basin alone. At a depth of 15 kT or more the two sets
-//! hold the same; below 10 kT what is called bound decides. `yield --rates overdamped` takes all rates
-//! as `rates` solves them, those from state to state included, so that the same question has one answer.
+//! proportional to the drag: lifetimes at 100 /s are twice those at 50 /s. With little drag tiles
+//! have inertia, cross barriers in flight and return over them: by default `tilebind yield` counts
+//! attachments in docking runs at 0.005 /s, and lifetimes of its states are shorter by orders of
+//! magnitude than those of overdamped motion at [`OVERDAMPED`]. Neither is wrong; a table has one
+//! drag, and both commands accept it (`--drag`). Lifetimes also refer to a *set*: `rates` counts a
+//! pair as bound until it is free or in another state, including the region between them (which
+//! committors divide); for docking runs, detachment follows by detailed balance from the bond's
+//! basin alone. At a depth of 15 kT or more the two sets have the same occupation; below 10 kT the
+//! definition of bound matters. `yield --rates overdamped` takes all rates from `rates`, including
+//! those from state to state, so that both commands agree.
 //!
 //! # What is proved
-//! Two kinds of bounds. Those of mean exit times and of rates between places hold *on the mesh*: that
-//! a trial function bounds a capacity from above and a flux from below is a theorem, and what the
-//! flux loses on its way to rounding and to the solver's last step is subtracted. Two things are not
-//! in them. The integrals of e^(-U/kT) and e^(U/kT) over cells come of Gauss' rule; within cells e^(-U/kT) is
-//! taken to fall along s as between its ends and to be tilted along phi and theta, where the flux of
-//! the mean exit time has it for its source. And a basin is
-//! made of the cells whose mean of U lies below its limit; by Hadamard's formula, what that shifts
-//! capacities by is estimated, stated with each mesh, and makes the mesh be refined there.
-//! The capacity of the well about an exit's start against its ends, or of each basin against the
-//! others and free tiles, and how often tiles set out from it for them, are *proved* where that is
-//! asked for: `proof` has integrals and sets enclosed by the energies' bounds over cells
-//! ([`crate::potential::CellBounds`]), see [`Capacity`]. That takes convex outlines of few corners
-//! about their centres of mass. The mean exit time counts what lies between well and ends as well,
-//! by the probability to come back from there, of which no more is proved than that it is at most 1:
-//! its proved bounds ([`Capacity::mean_exit`]) are near each other only where next to nothing lies
-//! there.
-//! A mesh begins at contact where every ray from the centre leaves that once and for good
-//! ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots whose sides lean, sine
-//! and triangle teeth, arcs. Dovetails hook in and square teeth have walls along the way out: there
-//! bounds come from one side only, Dirichlet's.
+//! There are two kinds of bounds. The bounds of mean exit times and of rates between places hold
+//! *on the mesh*: it is a theorem that a trial function bounds a capacity from above and a flux
+//! from below, and losses of the flux by rounding and the solver's tolerance are subtracted. They
+//! exclude two errors. First, the integrals of e^(-U/kT) and e^(U/kT) over cells are computed by
+//! Gauss quadrature; where e^(-U/kT) is the source of the flux of the mean exit time, it is
+//! approximated within cells as decaying along s between its end values and as tilted along phi and
+//! theta. Second, a basin consists of the cells whose mean of U is below its limit; the resulting
+//! error of capacities is estimated by Hadamard's formula, stated for each mesh, and the mesh is
+//! refined accordingly. The capacity of the well around an exit's start against its ends, or of
+//! each basin against the others and free tiles, and the rates at which tiles leave it for them,
+//! are *proved* on request: `proof` encloses integrals and sets by the energies' bounds over cells
+//! ([`crate::potential::CellBounds`]), see [`Capacity`]. This requires outlines that are convex
+//! about their centres of mass and have few corners. The mean exit time also includes the region
+//! between well and ends, by the probability to return from there, of which only the upper bound 1
+//! is proved: its proved bounds ([`Capacity::mean_exit`]) are narrow only if nearly nothing is
+//! there. A mesh begins at contact if every ray from the centre leaves contact once and for all
+//! ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots with draft, sine and
+//! triangle teeth, arcs. Dovetails interlock and square teeth have walls along the way out: there
+//! only one-sided bounds, Dirichlet's, are available.
 //!
 //! # What a mesh may miss
-//! Corridors between contacts that are narrower than cells. Where no way out of a state shows, cells
-//! that contact does not prove blocked are divided down to [`NARROW`], until a way shows or is
-//! excluded; which of the two stands beside the result ([`Way`]). Where a way shows, a second and
-//! narrower one of a lower barrier may still be missed.
+//! Corridors between contacts that are narrower than cells. If no path out of a state is found,
+//! cells that contact does not prove blocked are divided down to [`NARROW`], until a path is found
+//! or excluded; the result states which ([`Way`]). If a path is found, a second, narrower one with
+//! a lower barrier may still be missed.
 //!
 //! # Lengths
-//! Lengths times s, with magnets of the same remanence: moments grow by s^3, energies by s^3, forces
-//! by s^2, torques by s^3. At kT s^3 a landscape is the same but for its size, wells' integrals and
-//! mean exit times times D grow by s^2, and docking costs at the same coverage not at all (exact, and
-//! tested). That the force between two given magnets falls with the fourth power of their distance is
-//! another statement: there the magnets stay what they are.
+//! If all lengths are scaled by s, with magnets of the same remanence, moments scale as s^3,
+//! energies as s^3, forces as s^2 and torques as s^3. At kT s^3 a landscape is the same except for
+//! its size; wells' integrals and mean exit times times D scale as s^2, and docking costs at the
+//! same coverage do not change (exact, and tested). That the force between two given magnets
+//! decreases with the fourth power of their distance is a different statement, for unchanged
+//! magnets.
 
 pub mod bond;
 mod bracket;
@@ -109,5 +110,5 @@ pub use results::Certify;
 pub use volume::Estimate;
 pub use well::Well;
 
-/// Drag rate (1/s) from which on tiles move as if they had no inertia, as far as means over times tell.
+/// Drag rate (1/s) above which the inertia of tiles has no effect on mean times.
 pub const OVERDAMPED: f64 = 50.0;

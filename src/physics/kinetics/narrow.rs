@@ -1,27 +1,27 @@
-//! Wells between contacts, narrower than the cells of a mesh.
+//! Wells between contacts that are narrower than the cells of a mesh.
 //!
-//! A tab in its slot moves by tenths of a millimetre. What such a well holds is told by few of the
-//! lines through a cell, if any meets it. So the cells that hold most of it are divided until what
-//! they hold changes no more.
+//! A tab in its slot moves by tenths of a millimetre. Few or no integration lines through a cell
+//! meet such a well. So the cells with most of its occupation are divided until the integral
+//! converges.
 
 use super::field::Field;
 use super::mesh::Leaf;
 use super::sets::reaching;
 use crate::configuration::Configuration;
 
-/// How far (in kT) above a state its well is looked at.
+/// Height (in kT) above a state up to which its well is considered.
 const DEEP: f64 = 3.0;
-/// Cells that hold more than this share of it are divided ...
+/// Cells with more than this share of it are divided ...
 const SHARE: f64 = 1e-3;
 /// ... until it changes by less than this share, ...
 const CHANGE: f64 = 3e-3;
-/// ... so often at most.
+/// ... at most this often.
 const ROUNDS: usize = 8;
-/// What is left of a change of an integral when its cell is divided once more.
+/// Ratio of successive changes of an integral when its cell is divided.
 const LEFT: f64 = 0.5;
 
 impl Field<'_> {
-    /// Divides the cells about a state's well until what they hold is settled.
+    /// Divides the cells around a state's well until their integrals converge.
     pub(super) fn settle(&mut self, state: &Configuration) {
         let limit = self.problem.energy(state) + DEEP * self.kt;
         for _ in 0..ROUNDS {
@@ -53,7 +53,7 @@ impl Field<'_> {
         }
     }
 
-    /// Divides cells, and sees by how much that changes what they hold.
+    /// Divides cells, and records the change of their integrals.
     pub(super) fn divide(&mut self, cells: &[usize]) {
         let weight = |leaf: &Leaf| leaf.element.as_ref().map_or(0.0, |it| it.weight);
         let known: Vec<f64> = self.mesh.leaves.iter().map(weight).collect();

@@ -1,12 +1,13 @@
-//! The chain over the numbers of pairs in all kinds of states: sparse, for stiff rates.
+//! The Markov chain over the numbers of pairs in each kind of state: sparse, for stiff rates.
 //!
-//! A state of a crowd is (n_0, n_1, ...): so many pairs in the bond and in each kind of trap, H of
-//! them in all. Attachment raises one number, detachment lowers one, and a pair that turns from state
-//! to state does both, so that a state has few neighbours. Probabilities p follow p' = Q^T p with the generator Q (1/s).
+//! A state of a crowd is (n_0, n_1, ...): the numbers of pairs in the bond and in each kind of
+//! trap; there are H states in all. Attachment increases one number, detachment decreases one, and
+//! a pair that changes its state does both, so a state has few neighbours. Probabilities p follow
+//! p' = Q^T p with the generator Q (1/s).
 //!
 //! Implicit Euler steps solve `(1 - h Q^T) x = p` by restarted GMRES (Saad and Schultz 1986,
-//! doi:10.1137/0907058), preconditioned by a sweep of Gauss and Seidel from many pairs to few
-//! (detachments, which are the fast ones, exactly) and back. As the inverse has no column whose sum
+//! doi:10.1137/0907058), preconditioned by a Gauss-Seidel sweep from many pairs to few (which
+//! treats detachments, the fast transitions, exactly) and back. As no column sum of the inverse
 //! exceeds 1, the sum of the absolute residuals bounds that of the errors.
 
 use nalgebra::DMatrix;
@@ -23,7 +24,7 @@ const RESIDUAL: f64 = 1e-12;
 /// Error allowed in the probabilities at each step, sum of absolute values.
 const TOLERANCE: f64 = 1e-9;
 
-/// All numbers of pairs that a crowd can have, and the rates among them.
+/// All states of a crowd, and the rates among them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers {
     /// Kinds of states.
@@ -32,13 +33,14 @@ pub struct Numbers {
     pairs: Vec<u32>,
     /// Where the entries of each state begin in `into`.
     begins: Vec<usize>,
-    /// From which state, and at which rate (1/s); ascending.
+    /// Source states and rates (1/s), in ascending order.
     into: Vec<(usize, f64)>,
     /// The rate (1/s) at which each state is left.
     out: Vec<f64>,
 }
 
-/// How many states a crowd of so many pairs has with so many kinds, `None` for astronomical ones.
+/// The number of states of a crowd with the given numbers of pairs and kinds; `None` if it is
+/// astronomical.
 pub fn count(kinds: usize, pairs: usize) -> Option<usize> {
     (1..=pairs).try_fold(1usize, |count, k| {
         count.checked_mul(kinds + k).map(|count| count / k)
@@ -46,7 +48,7 @@ pub fn count(kinds: usize, pairs: usize) -> Option<usize> {
 }
 
 impl Numbers {
-    /// Those of a crowd with the rates of a pair.
+    /// The chain of a crowd with the rates of a pair.
     pub fn new(rates: &PairRates, crowd: &Crowd) -> Self {
         let (kinds, most) = (rates.on.len(), crowd.pairs());
         let mut states: Vec<Vec<u32>> = vec![vec![]];
@@ -117,7 +119,7 @@ impl Numbers {
         self.out.len()
     }
 
-    /// Whether there are none; there is always that in which all tiles are free, the first one.
+    /// Whether there are no states; the first, in which all tiles are free, always exists.
     pub fn is_empty(&self) -> bool {
         self.out.is_empty()
     }
@@ -127,7 +129,7 @@ impl Numbers {
         &self.pairs[state * self.kinds..][..self.kinds]
     }
 
-    /// From which states one is entered, and at which rates (1/s).
+    /// The source states of a state, and their rates (1/s).
     pub fn into(&self, state: usize) -> &[(usize, f64)] {
         &self.into[self.begins[state]..self.begins[state + 1]]
     }
@@ -143,8 +145,8 @@ impl Numbers {
         Chain::new(rates)
     }
 
-    /// The probabilities of all states at ascending `times` (s), from all tiles free on; `None`
-    /// where the solver fails.
+    /// The probabilities of all states at ascending `times` (s), starting with all tiles free;
+    /// `None` if the solver fails.
     pub fn course(&self, times: &[f64]) -> Option<Course> {
         let mut start = vec![0.0; self.len()];
         start[0] = 1.0;
@@ -201,7 +203,7 @@ impl Numbers {
         let mut x = p.to_vec();
         for _ in 0..RESTARTS {
             let (residual, sum) = self.residual(p, &x, h);
-            // What rounding leaves.
+            // Rounding errors.
             let flow: f64 = x.iter().zip(&self.out).map(|(x, out)| x.abs() * out).sum();
             if sum <= RESIDUAL + 16.0 * f64::EPSILON * h * flow {
                 return Some(x);
@@ -214,7 +216,8 @@ impl Numbers {
         None
     }
 
-    /// What, once swept, lessens a residual as much as [`VECTORS`] vectors can.
+    /// The correction, before the sweep, that reduces a residual as much as [`VECTORS`] vectors
+    /// can.
     fn gmres(&self, residual: Vec<f64>, h: f64) -> Vec<f64> {
         let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let dot = |v: &[f64], w: &[f64]| v.iter().zip(w).map(|(x, y)| x * y).sum::<f64>();
@@ -250,7 +253,7 @@ impl Numbers {
             turns.push([c, s]);
             right.push(-s * right[k]);
             right[k] *= c;
-            // In the norm of squares, which is no larger than the sum of absolute values.
+            // In the Euclidean norm, which is at most the sum of absolute values.
             if right[k + 1].abs() * (self.len() as f64).sqrt() <= 0.1 * RESIDUAL || rest == 0.0 {
                 break;
             }
@@ -273,7 +276,7 @@ impl Numbers {
 mod tests {
     use super::*;
 
-    /// The same as the dense chain, squared from short times: another method altogether.
+    /// The same as the dense chain, squared from short times: an independent method.
     #[test]
     fn sparse_and_dense_chains_agree() {
         let mut rates = PairRates::through_free(vec![0.02, 0.03, 0.004], vec![1e-7, 25.0, 3e-3]);

@@ -1,4 +1,4 @@
-//! Basins and `free` on a mesh, and the rates between them that the mesh says.
+//! Basins and `free` on a mesh, and the rates between them computed from the mesh.
 
 use super::bracket::{Asked, Bracket};
 use super::certify::Step;
@@ -8,21 +8,22 @@ use super::results::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, pass, reaching};
 
-/// Rates that make up this share of all that leaves a basin are bounded as closely as it is asked.
+/// Rates that are at least this share of the total rate out of a basin are bounded to the requested
+/// accuracy.
 const MATTERS: f64 = 0.1;
 
-/// Which cell belongs to which basin.
+/// The assignment of cells to basins.
 pub(super) struct Places {
     of: Vec<Option<usize>>,
-    /// Below which energies (J) the basins lie.
+    /// The energy limits (J) of the basins.
     limits: Vec<f64>,
-    /// For each basin the cells that it reaches into.
+    /// For each basin the cells that it extends into.
     reached: Vec<Vec<usize>>,
-    /// Which basins the mesh has no way out of.
+    /// Which basins have no path out on the mesh.
     pub closed: Vec<bool>,
-    /// How many places there are, `free` among them.
+    /// The number of places, including `free`.
     pub count: usize,
-    /// Cells that two basins reach into, with the limit (J) of the later one.
+    /// Cells shared by two basins, with the limit (J) of the later one.
     pub shared: Vec<(usize, f64)>,
 }
 
@@ -75,7 +76,7 @@ impl Places {
         Ok(places)
     }
 
-    /// Whether a place is a basin that the mesh has no way out of.
+    /// Whether a place is a basin without a path out on the mesh.
     fn is_closed(&self, place: usize) -> bool {
         self.closed.get(place) == Some(&true)
     }
@@ -86,7 +87,7 @@ impl Places {
         Rims::new(field, &self.of.iter().map(limit).collect::<Vec<_>>())
     }
 
-    /// For each corner the place in which its value is given.
+    /// For each corner the place where its value is given.
     fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
         nodes.pins(&field.mesh, self.count - 1, |id| self.of[id])
     }
@@ -116,7 +117,7 @@ impl Places {
         committors.push((0..nodes.len()).map(rest).collect());
         let copies = field.mesh.chart.copies as f64;
         let occupied = |place: usize| -> f64 {
-            // What is another place's in cells at its rim is not counted.
+            // The part of cells at its rim that belongs to another place is not counted.
             let is_others = |of: &Option<usize>| of.is_some_and(|of| of != place);
             let others: Vec<bool> = self.of.iter().map(is_others).collect();
             let loads = loads(&field.mesh, nodes, &others);
@@ -125,7 +126,7 @@ impl Places {
             copies * sum + if place == last { beyond } else { 0.0 }
         };
         let occupations: Vec<f64> = (0..self.count).map(occupied).collect();
-        // As symmetric as they are without rounding.
+        // Symmetrised, to remove rounding errors.
         let flow = |i: usize, j: usize| match (i == last, j == last) {
             _ if i == j || self.is_closed(i) || self.is_closed(j) => 0.0,
             (true, _) => flows[j][i],
@@ -146,29 +147,30 @@ impl Places {
         Ok((found, committors))
     }
 
-    /// A table of what there is from each place (row) to each other.
+    /// A table of a quantity from each place (row) to each other.
     fn every_two<T>(&self, of: impl Fn(usize, usize) -> T) -> Vec<Vec<T>> {
         let places = 0..self.count;
         let row = |from: usize| places.clone().map(|to| of(from, to)).collect();
         places.clone().map(row).collect()
     }
 
-    /// What each place holds itself (m^2 rad): a basin below its limit, wherever committors are 1.
+    /// The occupation of each place itself (m^2 rad): of a basin below its limit, where committors
+    /// are 1.
     pub fn inside(&self, field: &Field, settings: &RateSettings, beyond: f64) -> Vec<f64> {
         let beside = field.mesh.neighbours();
         let copies = field.mesh.chart.copies as f64;
         let held = |basin: &Basin| -> f64 {
             let reached = reaching(&field.mesh, &beside, &basin.at, basin.below);
             let parts = reached.iter().map(|&id| field.held_below(id, basin.below));
-            // Of nothing the sum is a negative nothing.
+            // The sum of nothing is -0.
             copies * parts.sum::<f64>() + 0.0
         };
         let inside = settings.basins.iter().map(held);
         inside.chain([beyond]).collect()
     }
 
-    /// The probability that the first place, the bond, is reached before `free`, where the others are
-    /// places like any.
+    /// The probability that the first place, the bond, is reached before `free`, with the other
+    /// places treated like any configuration.
     pub fn committor(&self, field: &Field, nodes: &Nodes) -> Result<Vec<f64>, Unsolved> {
         let mut pins = self.pins(field, nodes);
         for pin in &mut pins {
@@ -177,10 +179,10 @@ impl Places {
         System::new(&field.mesh, nodes, &pins).committor(0, None)
     }
 
-    /// Bounds from above of the rates out of each place, then of those from each place to each other,
-    /// divided by D (1/m^2), for any outline: trial committors may reach through contact, fluxes may
-    /// not. A place is occupied for no less than what the cells that it reaches into hold below its
-    /// limit: all but their volume times the weight there.
+    /// Upper bounds of the rates out of each place, then of those from each place to each other,
+    /// divided by D (1/m^2), for any outline: trial committors can extend through contact, fluxes
+    /// cannot. The occupation of a place is at least that of its cells below its limit: all except
+    /// their volume times the weight there.
     pub fn upper_bounds(
         &self,
         field: &Field,
@@ -190,7 +192,7 @@ impl Places {
     ) -> RateBounds {
         let copies = field.mesh.chart.copies as f64;
         let scale = copies * field.weight();
-        // Of what nothing leaves nothing is left but rounding, of either sign.
+        // Where nothing leaves, only rounding errors of either sign remain.
         let capacity = |place: usize| match self.is_closed(place) {
             true => 0.0,
             false => field.energy(nodes, &committors[place]).max(0.0),
@@ -205,7 +207,7 @@ impl Places {
                 let element = field.mesh.leaves[id].element.as_ref();
                 element.map_or(0.0, |it| (it.held() - rim * it.free).max(0.0))
             };
-            // Where that is nothing, bounds are infinite.
+            // If that is zero, bounds are infinite.
             let own = self.reached[place].iter().map(below);
             (copies * own.sum::<f64>()).max(f64::MIN_POSITIVE)
         };
@@ -218,8 +220,8 @@ impl Places {
     }
 
     /// Bounds of the rates out of each place, then of those from each place to each other, divided
-    /// by D (1/m^2), and what refining the cells may bring to them. `beyond` is the occupation of
-    /// the table outside the mesh.
+    /// by D (1/m^2), and the contribution of each cell to their width. `beyond` is the occupation
+    /// of the table outside the mesh.
     pub fn bounds(&self, field: &Field, nodes: &Nodes, beyond: f64) -> Result<Step, Unsolved> {
         let asked = Asked {
             field,
@@ -255,7 +257,7 @@ impl Places {
             .collect();
         let mut shares = bracket.shares(&pairs);
         if !self.shared.is_empty() {
-            // Basins that the mesh does not tell apart.
+            // Basins that the mesh does not distinguish.
             bounds[0] = [0.0, f64::INFINITY];
             for &(cell, _) in &self.shared {
                 shares[cell] = f64::MAX.sqrt();

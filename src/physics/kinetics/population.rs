@@ -1,23 +1,24 @@
-//! Many tiles on a table: how many of them are bound, and how many caught, after a time.
+//! Many tiles on a table: how many are bound and how many are trapped after a given time.
 //!
-//! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds one
-//! partner at most (pairs are the product; no larger assembly is looked at), every tile of the one
-//! kind meets every free one of the other equally often (a well stirred table), and a pair goes from
-//! state to state by constant rates. With a and b free tiles of the two kinds, n_i pairs in state i
-//! and a table of the area S,
+//! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds at most
+//! one partner (pairs are the product; larger assemblies are not considered), every free tile of
+//! one kind meets every free tile of the other equally often (a well stirred table), and a pair
+//! changes its state at constant rates. With a and b free tiles of the two kinds, n_i pairs in
+//! state i and a table of area S,
 //!
 //! `a + b -> i at kappa_i a b / S,   i -> a + b at k_i n_i,   i -> j at k_ij n_i.`
 //!
-//! Three views of the same:
+//! There are three methods:
 //!
-//! - the forward equation of Kolmogorov for the probabilities of all numbers of pairs in the bond and
-//!   in *each* kind of trap ([`Numbers`]), up to [`MOST_STATES`] of them. Traps of unlike lifetimes
-//!   must not be taken together: one that lets go at once and one that never does hold, as a single
-//!   trap with their mean rates, neither few pairs for long nor many for a moment;
-//! - beyond, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413, whose
-//!   difference equations these are in the limit of short steps): `dn_i/dt = kappa_i a b / S - k_i
-//!   n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their means. They take `<ab>` for `<a><b>`, which is off by the variance of the
-//!   number of free tiles: by parts of 1/N, and most where tiles are few;
+//! - Kolmogorov's forward equation for the probabilities of all numbers of pairs in the bond and in
+//!   *each* kind of trap ([`Numbers`]), up to [`MOST_STATES`] of them. Traps with different
+//!   lifetimes must not be merged: one that releases at once and one that never does would become a
+//!   single trap with mean rates, which represents neither;
+//! - beyond that, mean numbers (Hosokawa, Shimoyama and Miura 1994, doi:10.1162/artl.1994.1.413,
+//!   whose difference equations these are in the limit of short steps):
+//!   `dn_i/dt = kappa_i a b / S - k_i n_i + sum over j of (k_ji n_j - k_ij n_i)` with a and b their
+//!   means. They approximate `<ab>` by `<a><b>`, an error of the variance of the number of free
+//!   tiles: of relative order 1/N, and largest for few tiles;
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
 use nalgebra::DMatrix;
@@ -30,10 +31,10 @@ use crate::interruption;
 
 pub use super::crowd::{Crowd, PairRates};
 
-/// Most states of a crowd for which all probabilities are computed: ten tiles with ten kinds of
-/// states, or six with twenty-six.
+/// Largest number of states of a crowd for which all probabilities are computed: ten tiles with ten
+/// kinds of states, or six with twenty-six.
 pub const MOST_STATES: usize = 4000;
-/// Error of the mean numbers that is allowed a step, a pair.
+/// Allowed error of the mean numbers per step and pair.
 const TOLERANCE: f64 = 1e-8;
 /// Most events of a simulation.
 const MOST_EVENTS: usize = 20_000_000;
@@ -47,19 +48,19 @@ pub struct Shares {
     pub trapped: Vec<f64>,
     /// The error of either, of the steps in time.
     pub error: f64,
-    /// Whether they follow from all probabilities; those of mean numbers have another error besides,
-    /// which simulations tell.
+    /// Whether they follow from all probabilities; those from mean numbers have an additional
+    /// error, which simulations estimate.
     pub exact: bool,
 }
 
 impl PairRates {
-    /// The share of all possible pairs that are in the bond in equilibrium; `None` where the bond is
-    /// never found or left.
+    /// The share of all possible pairs in the bond in equilibrium; `None` if the bond is never
+    /// reached or left.
     ///
-    /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, numbers of pairs have the
-    /// weights `A! B! / ((A - H)! (B - H)!) prod z_i^n_i / n_i!` (detailed balance); of T trapped pairs
-    /// the sum over kinds is that of one kind with the sum of their z. Rates from state to state keep
-    /// that balance and change nothing of it.
+    /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, the numbers of pairs have
+    /// the weights `A! B! / ((A - H)! (B - H)!) prod z_i^n_i / n_i!` (detailed balance); for T
+    /// trapped pairs the sum over kinds equals that of one kind with the sum of their z. Rates from
+    /// state to state satisfy the same balance and do not change it.
     pub fn equilibrium(&self, crowd: &Crowd) -> Option<f64> {
         let each = self.on.iter().zip(&self.off);
         let z: Vec<f64> = each.map(|(on, off)| on / off / crowd.area).collect();
@@ -91,7 +92,7 @@ impl PairRates {
     }
 
     /// Mean numbers of pairs in the bond and in each kind of trap at ascending `times` (s), of the
-    /// equations for mean numbers; `None` where they cannot be solved.
+    /// equations for mean numbers; `None` if they cannot be solved.
     pub fn mean_numbers(&self, crowd: &Crowd, times: &[f64]) -> Option<stiff::Course> {
         // The linearly implicit step (1 - h J) dn = h f.
         let kinds = self.on.len();
@@ -128,7 +129,7 @@ impl PairRates {
     }
 
     /// Mean shares of all possible pairs at ascending `times` (s) by the forward equation for all
-    /// kinds of states; `None` where a crowd has more than `most` states, and where it cannot be
+    /// kinds of states; `None` if a crowd has more than `most` states, and where it cannot be
     /// solved.
     pub fn forward_equation(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
         let count = numbers::count(self.on.len(), crowd.pairs());
@@ -151,8 +152,8 @@ impl PairRates {
         })
     }
 
-    /// The same by the forward equation where a crowd has at most `most` states, and of mean numbers
-    /// beyond; `None` where neither can be solved.
+    /// The same by the forward equation if a crowd has at most `most` states, and by mean numbers
+    /// otherwise; `None` if neither can be solved.
     pub fn shares(&self, crowd: &Crowd, times: &[f64], most: usize) -> Option<Shares> {
         self.forward_equation(crowd, times, most).or_else(|| {
             let course = self.mean_numbers(crowd, times)?;
@@ -168,7 +169,7 @@ impl PairRates {
         })
     }
 
-    /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` where
+    /// Numbers of pairs in each state at `time` (s) in one run of the exact simulation; `None` if
     /// it has too many events.
     pub fn simulate(&self, crowd: &Crowd, time: f64, rng: &mut ChaCha8Rng) -> Option<Vec<usize>> {
         let n = self.on.len();
@@ -192,7 +193,7 @@ impl PairRates {
             }
             let all: f64 = rates.iter().sum();
             now += -libm::log(1.0 - rng.random::<f64>()) / all;
-            // Never, where nothing can happen.
+            // Never, if no event is possible.
             if now.is_nan() || now >= time {
                 return Some(numbers);
             }
@@ -256,9 +257,9 @@ mod tests {
         assert!((found.trapped[0] - trapped).abs() < 1e-7, "{found:?}");
     }
 
-    /// Every view of the same crowd within its stated error of every other one: the forward equation,
-    /// the simulation, mean numbers (whose error the simulation tells), schedules of one setting, the
-    /// greatest value of any schedule.
+    /// All methods agree within their stated errors: the forward equation, the simulation, mean
+    /// numbers (whose error the simulation estimates), schedules of one setting, the largest value
+    /// of any schedule.
     #[test]
     fn all_views_agree_within_their_errors() {
         let slower = PairRates {
@@ -319,8 +320,8 @@ mod tests {
         }
     }
 
-    /// Traps of unlike lifetimes are no single trap with their mean lifetime: what that would say is
-    /// off by more than a third.
+    /// Traps with different lifetimes are not equivalent to a single trap with their mean lifetime,
+    /// which would be wrong by more than a third.
     #[test]
     fn unlike_traps_are_not_one() {
         let rates = PairRates::through_free(vec![0.008, 0.03, 0.02], vec![2e-6, 20.0, 1e-5]);
@@ -350,7 +351,7 @@ mod tests {
         assert!(many < 0.01 && many < 0.2 * few, "{few} {many}");
     }
 
-    /// In the long run numbers are those of the law of mass action, for one pair and for several.
+    /// In the long run the numbers follow the law of mass action, for one pair and for several.
     #[test]
     fn equilibrium_is_that_of_the_constants() {
         let rates = PairRates::through_free(vec![0.02, 0.03, 0.01], vec![2e-3, 0.2, 0.01]);

@@ -18,7 +18,7 @@ use crate::problem::Problem;
 /// The rates between basins and `free`.
 ///
 /// # Errors
-/// Where the places are not apart from each other, and where a linear system could not be solved.
+/// If the places are not separate, or a linear system cannot be solved.
 pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesError> {
     let RateSettings { kt, free_at, .. } = *settings;
     let area = problem.space.half_size.map(|half| 2.0 * half);
@@ -49,7 +49,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             .filter_map(|(h, closed)| (!closed).then_some(h))
             .collect();
         let errors = field.errors(&nodes, &places.rims(&field), &left);
-        // Where nothing is left that flows, no error of it is known.
+        // If no flow remains, its error is unknown.
         let error = match left.is_empty() {
             true => f64::INFINITY,
             false => errors.largest,
@@ -79,8 +79,8 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
             let found = bounded(problem, settings, [ground, beyond])?;
             let (between, bounds, proved) = found.unwrap_or_default();
-            // Values lie between their bounds; of two that do the better known ones are taken: those
-            // midway are off by half of what the bounds are apart at most.
+            // Values lie between their bounds. The more accurate of two sets is taken: the error of
+            // the middle of bounds is at most half their width.
             let is_better = |between: &MeshRates| {
                 let holds = bounds
                     .as_ref()
@@ -117,11 +117,11 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// What a mesh with bounds says, these, and what is proved on it.
+/// The rates of a mesh with bounds, the bounds, and the proofs on it.
 type Certified = (Option<MeshRates>, Option<RateBounds>, Vec<Option<Leaving>>);
 
-/// What the finest of meshes that begin at contact says, and its bounds, if there are any. Energies
-/// are counted from `ground` (J), and `beyond` is the occupation of the table outside the mesh.
+/// The results of the finest mesh that begins at contact, and its bounds, if any. Energies are
+/// relative to `ground` (J), and `beyond` is the occupation of the table outside the mesh.
 fn bounded(
     problem: &Problem,
     settings: &RateSettings,
@@ -149,8 +149,8 @@ fn bounded(
     }))
 }
 
-/// What can be proved of how each basin is left, where that is asked for. Basins reach as high as on
-/// the mesh where they are reached, and below their limits where they are left.
+/// Proved bounds of leaving each basin, if requested. A basin that is reached extends as high as on
+/// the mesh, one that is left is below its limit.
 fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
     let Some(asked) = settings.certify.and_then(|certify| certify.proof()) else {
         return Vec::new();
@@ -182,19 +182,19 @@ fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
         .collect()
 }
 
-/// How often tiles leave a bond for good: rates of overdamped motion, divided by D (1/m^2) unless it is
-/// said otherwise. With C what flows from the bond to free tiles and h the committor:
+/// The rates at which tiles leave a bond for good in overdamped motion, divided by D (1/m^2) unless
+/// stated otherwise. With C the flow from the bond to free tiles and h the committor:
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loosening {
-    /// C / Z(h), over the time until tiles are free.
+    /// C / Z(h), relative to the time until tiles are free.
     pub rate: f64,
-    /// What bounds that from below and above.
+    /// Its lower and upper bound.
     pub bounds: [f64; 2],
-    /// C / Z(well), over the time in the well alone.
+    /// C / Z(well), relative to the time in the well alone.
     ///
-    /// Over the time until the well is last left it is C / Z(h^2), between the two, for the way from
-    /// there to `free` takes Z(h (1 - h)) / C (transition path theory; E and Vanden-Eijnden,
-    /// doi:10.1007/s10955-005-9003-9).
+    /// Relative to the time until the well is last left the rate is C / Z(h^2), between the two,
+    /// since the path from there to `free` takes Z(h (1 - h)) / C (transition path theory; E and
+    /// Vanden-Eijnden, doi:10.1007/s10955-005-9003-9).
     pub in_well: f64,
 }
 

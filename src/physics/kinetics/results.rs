@@ -1,4 +1,4 @@
-//! What is asked of overdamped motion, and what is found: exits from a pose, rates between basins.
+//! Requests and results of overdamped motion: exits from a pose, rates between basins.
 
 use super::corridor::Way;
 use super::map::Map;
@@ -8,26 +8,26 @@ use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
 
-/// How near each other bounds are asked to be.
+/// The requested accuracy of bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certify {
-    /// Their distance as a share of the lower one.
+    /// Their width as a share of the lower one.
     pub distance: f64,
-    /// Unknowns up to which meshes are refined for it.
+    /// Largest number of unknowns of meshes.
     pub unknowns: usize,
-    /// Pieces of cells, at most, in which integrals are enclosed to prove bounds; 0 for no proof.
+    /// Largest number of pieces of cells for enclosing integrals; 0 for no proof.
     pub pieces: usize,
 }
 
-/// Where bounds are to be proved they are no farther apart on the mesh: fluxes are laid in the same
-/// way all over it then, and cost more.
+/// Largest width of bounds on the mesh if they are to be proved: fluxes then have the same
+/// distribution over the whole mesh, and cost more.
 const TO_PROVE: f64 = 0.5;
 
-/// Share of the distance asked for that integrals' enclosures may take.
+/// Share of the requested width for the enclosures of integrals.
 const OF_INTEGRALS: f64 = 0.5;
 
 impl Default for Certify {
-    /// As near as it comes within seconds.
+    /// As narrow as possible within seconds.
     fn default() -> Self {
         Self {
             distance: 0.1,
@@ -38,7 +38,7 @@ impl Default for Certify {
 }
 
 impl Certify {
-    /// The same for an exit, which asks for fewer functions.
+    /// The same for an exit, which needs fewer functions.
     pub fn of_exit() -> Self {
         Self {
             unknowns: 80_000,
@@ -46,7 +46,7 @@ impl Certify {
         }
     }
 
-    /// So near, if that can be had at all.
+    /// The given width, if possible.
     pub fn to(distance: f64) -> Self {
         Self {
             distance,
@@ -55,7 +55,7 @@ impl Certify {
         }
     }
 
-    /// The same, with what can be proved.
+    /// The same, with proofs.
     pub fn proved(self) -> Self {
         Self {
             pieces: 800_000,
@@ -63,7 +63,7 @@ impl Certify {
         }
     }
 
-    /// How near each other bounds are to be on a mesh.
+    /// The requested width of bounds on a mesh.
     pub(super) fn on_mesh(&self) -> f64 {
         match self.pieces {
             0 => self.distance,
@@ -71,7 +71,7 @@ impl Certify {
         }
     }
 
-    /// How closely integrals are to be enclosed, if bounds are to be proved.
+    /// The requested accuracy of enclosed integrals, if bounds are to be proved.
     pub(super) fn proof(&self) -> Option<Closeness> {
         (self.pieces > 0).then_some(Closeness {
             apart: OF_INTEGRALS * self.distance,
@@ -80,8 +80,8 @@ impl Certify {
     }
 }
 
-/// A basin: where U is below a limit, joined to a configuration by such configurations; with its
-/// copies under the pair's symmetries.
+/// A basin: the configurations with U below a limit that are connected to a given one; with its
+/// symmetric copies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Basin {
     /// One of its configurations.
@@ -91,10 +91,10 @@ pub struct Basin {
 }
 
 impl Basin {
-    /// Part of the way up to its lowest barrier to which the basin of a state reaches; or to free
-    /// tiles, where that is lower.
+    /// Height of a state's basin, as a share of its lowest barrier, or of that to free tiles if it
+    /// is lower.
     const PART: f64 = 0.5;
-    /// Barriers of traps with rates are at least so many kT high.
+    /// Least barrier (in kT) of traps with rates.
     const LEAST_BARRIER: f64 = 2.0;
 
     /// The basin of a state of this energy (J), `height` (J) below its lowest way out.
@@ -103,13 +103,13 @@ impl Basin {
         Self { at, below }
     }
 
-    /// Whether a trap whose lowest way out is so high (J) has rates at kT (J).
+    /// Whether a trap with this lowest barrier (J) has rates at kT (J).
     pub fn holds(height: f64, kt: f64) -> bool {
         height >= Self::LEAST_BARRIER * kt
     }
 }
 
-/// What is asked.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSettings {
     /// Effective energy of shaking (J).
@@ -118,22 +118,21 @@ pub struct RateSettings {
     pub basins: Vec<Basin>,
     /// The tile is free where the reference points are so far apart (m).
     pub free_at: f64,
-    /// Estimated relative error of the committors' energies at which the mesh is fine enough.
+    /// Estimated relative error of the committors' energies at which refinement stops.
     pub tolerance: f64,
     /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
     /// mesh's or more.
     pub unknowns: usize,
-    /// Relative distance that is asked for of the bounds of the rates out of the basins, and of those
-    /// between two places that make up a tenth of what leaves the first or more; without it none are
-    /// found.
+    /// Requested relative width of the bounds of the rates out of the basins, and of rates between
+    /// two places that are at least a tenth of the rate out of the first; `None` for no bounds.
     pub certify: Option<Certify>,
-    /// Squares along x and y of a map of the committor from `free` to the first basin, if one is
-    /// asked for.
+    /// Number of squares along x and y of a map of the committor from `free` to the first basin, if
+    /// requested.
     pub map: Option<usize>,
 }
 
 impl RateSettings {
-    /// Of kT (J) and the places; the mesh as fine as it is worth.
+    /// Settings for kT (J) and the places, with the default mesh.
     pub fn new(kt: f64, basins: Vec<Basin>, free_at: f64) -> Self {
         Self {
             kt,
@@ -150,68 +149,68 @@ impl RateSettings {
 /// Rates between places: the basins in their order, and last `free`.
 ///
 /// For each place the committor h(i), 1 there and 0 at the others, gives the occupation Z(i), the
-/// integral of h(i) e^(-U/kT), and what flows from it into each other place, C(i, j) = C(j, i).
-/// Then k(i, j) = D C(i, j) / Z(i): rates between sets that are left much more slowly than they come
-/// to equilibrium, with k(i, j) Z(i) = k(j, i) Z(j) whatever the mesh.
+/// integral of h(i) e^(-U/kT), and the flow from it into each other place, C(i, j) = C(j, i). Then
+/// k(i, j) = D C(i, j) / Z(i): rates between sets that equilibrate much faster than they are left,
+/// with k(i, j) Z(i) = k(j, i) Z(j) on any mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshRates {
     /// From place i (row) to place j, divided by D (1/m^2); 0 on the diagonal.
     pub rates: Vec<Vec<f64>>,
-    /// Each place's share of all time, its copies and, for `free`, the whole table included. What
-    /// lies between places is shared out by their committors. These depend on the metric of motion,
-    /// which is not the same for twins by exchange of the tiles: it is about the moving one's centre.
+    /// Each place's share of all time, including its copies and, for `free`, the whole table. The
+    /// region between places is divided by their committors. These depend on the metric of motion,
+    /// which differs for twins under exchange of the tiles: it refers to the moving tile's centre.
     pub occupation: Vec<f64>,
     /// Each place's integral (m^2 rad) of its committor times `exp(-(U - U0) / kT)`, U0 the lowest
     /// energy of the basins' configurations; its copies included.
     pub volumes: Vec<f64>,
     /// Unknowns of the mesh.
     pub unknowns: usize,
-    /// Estimated relative error of the committors' energies; on a mesh with bounds how far those of
-    /// the rates out of the basins are apart.
+    /// Estimated relative error of the committors' energies; on a mesh with bounds the relative
+    /// width of those of the rates out of the basins.
     pub error: f64,
-    /// What of it is due to the basins being made of whole cells, and on a mesh with bounds what
-    /// comes to it.
+    /// The part of it because basins consist of whole cells; on a mesh with bounds an additional
+    /// error.
     pub of_rims: f64,
 }
 
 /// The rates on ever finer meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
-    /// What the meshes say, each finer than the last; but where bounds are nearer each other than
-    /// that is known, the last is the mesh that they hold on, which begins at contact.
+    /// The results of the meshes, each finer than the previous one; but if bounds are narrower than
+    /// the error of these, the last is the mesh of the bounds, which begins at contact.
     pub meshes: Vec<MeshRates>,
     /// Whether the last is that one.
     pub is_between_bounds: bool,
-    /// Bounds, if they are asked for.
+    /// Bounds, if requested.
     pub bounds: Option<RateBounds>,
-    /// The map asked for, from the last mesh without bounds.
+    /// The requested map, from the last mesh without bounds.
     pub map: Option<Map>,
     /// The share of all time that each place is occupied itself: U below the basin's limit, or
-    /// centres farther apart than where tiles are free. Unlike [`MeshRates::occupation`] it leaves
-    /// out what lies between the places; it does not depend on how tiles move.
+    /// centres farther apart than where tiles are free. Unlike [`MeshRates::occupation`] it
+    /// excludes the region between the places, and it does not depend on how tiles move.
     pub inside: Vec<f64>,
-    /// For each basin whether a way leads out of it to free tiles.
+    /// For each basin whether a path leads from it to free tiles.
     pub ways: Vec<Way>,
-    /// From each place (row) to each other what is known of ways between them.
+    /// For each place (row) and each other place, the known paths between them.
     pub links: Vec<Vec<Way>>,
-    /// For each basin what is proved of it, if that was asked for and can be had.
+    /// For each basin the proved bounds, if requested and possible.
     pub proved: Vec<Option<Leaving>>,
 }
 
 impl Rates {
-    /// What the finest mesh says.
+    /// The results of the finest mesh.
     pub fn finest(&self) -> &MeshRates {
         self.meshes.last().expect("there is a mesh")
     }
 
-    /// Estimated relative error of what flows between places, on the finest mesh without bounds.
+    /// Estimated relative error of the flows between places, on the finest mesh without bounds.
     pub fn error(&self) -> f64 {
         let of_bounds = usize::from(self.is_between_bounds);
         let meshes = &self.meshes[..self.meshes.len() - of_bounds];
         meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
     }
 
-    /// By how much a rate differs on the two finest meshes, relative. An estimate of the error, no
+    /// The relative difference of a rate on the two finest meshes: an estimate of the error, not a
     /// bound.
     pub fn spread(&self, from: usize, to: usize) -> f64 {
         let [.., before, last] = &self.meshes[..] else {
@@ -236,7 +235,7 @@ pub enum RatesError {
          ends before; choose another --free-at"
     )]
     NoFree(f64),
-    /// At this kT (J) the deepest basin is so many kT deep.
+    /// At this kT (J) the deepest basin is this deep (kT).
     #[error(
         "at kT = {} the deepest state is {:.0} kT deep, and no tile ever leaves it; rates are \
          computed up to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
@@ -247,35 +246,36 @@ pub enum RatesError {
     Unsolved(#[from] Unsolved),
 }
 
-/// Wells deeper than this, in kT, have no rates: weights that far apart are lost to rounding in sums
-/// over a mesh, and the times are many powers of ten of any table's life.
+/// Wells deeper than this (in kT) have no rates: weights that differ by so much are lost to
+/// rounding in sums over a mesh, and the times exceed any experiment by many powers of ten.
 pub(super) const DEEPEST: f64 = 300.0;
 
-/// Meshes at least: from the last two the error is told.
+/// Least number of meshes: the last two give the error estimate.
 pub(super) const MESHES: usize = 3;
 
-/// Unknowns at which meshes are fine enough: what is asked, or half as many again as the first has.
+/// Number of unknowns at which refinement stops: the requested number, or half as many again as the
+/// first mesh.
 pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
 }
 
-/// What is proved of how a basin is left for any other or free tiles.
+/// Proved bounds of leaving a basin for any other or free tiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaving {
     /// Its capacity against the others and free tiles.
     pub capacity: Capacity,
-    /// Where the others' proofs say that this basin is reached: it lies below this (J).
+    /// Energy limit (J) of this basin in the other basins' proofs.
     pub end_below: f64,
 }
 
-/// Bounds of rates, from below and above, divided by D (1/m^2). They hold but for what the integrals
-/// over cells are off by. Where rays may leave contact more than once, those from below are 0: fluxes
-/// that contact lets through are laid along rays, see [`crate::contact::Contact::least_lever`].
+/// Bounds of rates, from below and above, divided by D (1/m^2). They exclude the errors of
+/// integrals over cells. If rays may leave contact more than once, lower bounds are 0, since the
+/// fluxes are constructed along rays, see [`crate::contact::Contact::least_lever`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateBounds {
     /// Out of each place.
     pub leaving: Vec<[f64; 2]>,
-    /// From place i (row) to place j; of no meaning on the diagonal.
+    /// From place i (row) to place j; undefined on the diagonal.
     pub rates: Vec<Vec<[f64; 2]>>,
 }
 
@@ -291,7 +291,7 @@ impl RateBounds {
         })
     }
 
-    /// The same, where they say nothing from above with what others say, which hold as well.
+    /// The same, with missing upper bounds taken from others, which are also valid.
     pub(super) fn or_below(mut self, others: &Self) -> Self {
         let lower = |own: &mut [f64; 2], other: &[f64; 2]| {
             if !own[1].is_finite() {
@@ -307,34 +307,34 @@ impl RateBounds {
         self
     }
 
-    /// Whether there are bounds from above only.
+    /// Whether there are only upper bounds.
     pub fn are_one_sided(&self) -> bool {
         self.leaving.iter().all(|[lower, _]| *lower == 0.0)
     }
 }
 
-/// What is asked.
+/// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitSettings {
     /// Effective energy of shaking (J).
     pub kt: f64,
-    /// Where the tile starts.
+    /// The starting configuration.
     pub start: Configuration,
     /// The tile is bound where U (J) is lower, in the basin of the bond.
     pub basin_energy: f64,
     /// The tile is free where the reference points are so far apart (m).
     pub free_at: f64,
-    /// Estimated relative error of the solution's energy at which the mesh is fine enough.
+    /// Estimated relative error of the solution's energy at which refinement stops.
     pub tolerance: f64,
     /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
     /// mesh's or more.
     pub unknowns: usize,
-    /// Relative distance of the bounds of the mean exit time that is asked for; without it none are found.
+    /// Requested relative width of the bounds of the mean exit time; `None` for no bounds.
     pub certify: Option<Certify>,
 }
 
 impl ExitSettings {
-    /// Of a start, kT (J) and the ends; the mesh as fine as it is worth.
+    /// Settings for a start, kT (J) and the ends, with the default mesh.
     pub fn new(kt: f64, start: Configuration, basin_energy: f64, free_at: f64) -> Self {
         Self {
             kt,
@@ -348,12 +348,12 @@ impl ExitSettings {
     }
 }
 
-/// Half the bond's energy (J), below which a tile is bound where nothing else is asked.
+/// Half the bond's energy (J), the default limit below which a tile is bound.
 pub fn half_bond(problem: &Problem, bound: &Configuration) -> f64 {
     0.5 * problem.energy(bound)
 }
 
-/// What one mesh says.
+/// The result of one mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshExit {
     /// Mean exit time times D (m^2).
@@ -364,28 +364,27 @@ pub struct MeshExit {
     pub unknowns: usize,
     /// Estimated relative error of the solution's energy.
     pub error: f64,
-    /// What of it is due to the bond's basin being made of whole cells.
+    /// The part of it because the bond's basin consists of whole cells.
     pub of_rims: f64,
 }
 
 /// The exit from a configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exit {
-    /// What the meshes say, each finer than the last.
+    /// The results of the meshes, each finer than the previous one.
     pub meshes: Vec<MeshExit>,
-    /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: of a
-    /// tile that starts in the well about the start, where it is last left. They hold but for what
-    /// the integrals over cells are off by. None where the start lies in no well; from below only,
-    /// the upper ones infinite, where rays may leave contact more than once.
+    /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: for a
+    /// tile that starts in the well around the start, at its last exit. They exclude the errors of
+    /// integrals over cells. Empty if the start is not in a well; upper bounds are infinite if rays
+    /// may leave contact more than once.
     pub bounds: Vec<[f64; 2]>,
-    /// What lies midway between the bounds, if the finest mesh's mean exit time does not lie between
-    /// them: far below the passes cells that do not begin at contact may be too coarse for what the
-    /// well holds.
+    /// The middle of the bounds, if the finest mesh's mean exit time is not between them: far below
+    /// the passes, cells that do not begin at contact may be too coarse for the well's occupation.
     pub midway: Option<f64>,
-    /// Proved bounds of the capacity of the well about the start, half way up to the pass, against
-    /// the ends, where they are asked for and can be had.
+    /// Proved bounds of the capacity of the well around the start, half way up to the pass, against
+    /// the ends, if requested and possible.
     pub proved: Option<Capacity>,
-    /// Whether a way leads from the start to free tiles.
+    /// Whether a path leads from the start to free tiles.
     pub way: Way,
 }
 
@@ -395,7 +394,7 @@ impl Exit {
         self.midway.unwrap_or(self.finest().time)
     }
 
-    /// What the finest mesh says.
+    /// The results of the finest mesh.
     pub fn finest(&self) -> MeshExit {
         *self.meshes.last().expect("there is a mesh")
     }
@@ -405,8 +404,8 @@ impl Exit {
         self.bounds.last().copied()
     }
 
-    /// By how much the two finest meshes differ: in the mean exit time, relative, and in the
-    /// probability. An estimate of the error, no bound.
+    /// The difference of the two finest meshes: relative for the mean exit time, and for the
+    /// probability. An estimate of the error, not a bound.
     pub fn spread(&self) -> [f64; 2] {
         let [.., before, last] = self.meshes[..] else {
             return [f64::INFINITY; 2];
@@ -451,18 +450,18 @@ pub enum ExitError {
          choose a lower --basin-energy", si(*.0, "J", 4)
     )]
     Open(f64),
-    /// The mesh has no way from the start to an end.
+    /// The mesh has no path from the start to an end.
     #[error(
         "no path leads from the start to the bond or to free tiles; {}", .0.told()
     )]
     Closed(Way),
-    /// At this kT (J) the start lies so many kT deep.
+    /// At this kT (J) the start is this deep (kT).
     #[error(
         "at kT = {} the start is {:.0} kT deep, and no tile ever leaves it; exits are computed up \
          to {DEEPEST} kT: choose a larger --kt", si(*.0, "J", 4), .1
     )]
     Cold(f64, f64),
-    /// The mean exit time is no number any more.
+    /// The mean exit time overflows.
     #[error("at kT = {} no tile ever leaves: choose a larger --kt", si(*.0, "J", 4))]
     Never(f64),
     /// A linear system could not be solved.

@@ -1,9 +1,10 @@
-//! What it matters that basins are made of whole cells.
+//! The error made by building basins from whole cells.
 //!
-//! A basin is where U is below a limit; on the mesh it is made of the cells whose mean is. By
-//! Hadamard's formula the capacity changes by `w |grad q|^2` for every volume by which a basin's rim
-//! moves outwards, which is the energy of the function in the cells beside it: so the rim of the
-//! cells is held against where U, taken as straight between the cells' middles, meets the limit.
+//! A basin is the region where U is below a limit; on the mesh it consists of the cells whose mean
+//! is below it. By Hadamard's formula the capacity changes by `w |grad q|^2` per volume by which a
+//! basin's rim moves outwards, which is the energy of the function in the cells beside it. So the
+//! rim of the cells is compared with the surface where U, interpolated linearly between the cells'
+//! middles, meets the limit.
 
 use super::field::Field;
 use super::mesh::{Element, Nodes};
@@ -12,7 +13,7 @@ use super::mesh::{Element, Nodes};
 struct Step {
     inner: usize,
     outer: usize,
-    /// How far the basin reaches beyond the side between them, in sizes of the outer cell.
+    /// How far the basin extends beyond the side between them, in sizes of the outer cell.
     reach: f64,
 }
 
@@ -24,7 +25,7 @@ pub(super) struct Rims {
 }
 
 impl Rims {
-    /// Of basins given by the limit (J) of each of their cells.
+    /// The rims of basins given by the limit (J) of each of their cells.
     pub fn new(field: &Field, limits: &[Option<f64>]) -> Self {
         let mesh = &field.mesh;
         let mut sides = vec![0; mesh.leaves.len()];
@@ -47,8 +48,8 @@ impl Rims {
         Self { steps, sides }
     }
 
-    /// What cells add to the error of a function's energy, relative to it, and how much that is: the
-    /// sum as it stands and, for what is left to chance, the root of the sum of squares.
+    /// The contributions of cells to the relative error of a function's energy, and the total: the
+    /// systematic sum plus, for the random part, the root of the sum of squares.
     pub fn errors(&self, field: &Field, nodes: &Nodes, values: &[f64]) -> (Vec<(usize, f64)>, f64) {
         let energy = field.energy(nodes, values).max(f64::MIN_POSITIVE);
         let element = |id: usize| field.mesh.leaves[id].element.as_ref();

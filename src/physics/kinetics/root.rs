@@ -1,10 +1,10 @@
-//! Where a bond's depth pays for what docking costs.
+//! The temperature at which a bond's depth equals the cost of docking.
 
-/// How near a root is found: of the function, and of where it is looked for.
+/// Tolerances of a root: of the function, and of its argument.
 const CLOSE: [f64; 2] = [3e-3, 5e-4];
 
-/// The upper root of `bonds exp(x) - cost(x)` for a cost that is nearly straight: that of a line
-/// through the last two costs, again and again. `None` where that leads nowhere.
+/// The upper root of `bonds exp(x) - cost(x)` for a nearly linear cost, by iterating with the line
+/// through the last two costs. `None` if this does not converge.
 pub(super) fn straight_root(
     bonds: f64,
     cost: &dyn Fn(f64) -> f64,
@@ -39,8 +39,8 @@ pub(super) fn straight_root(
     None
 }
 
-/// The upper of the roots of a function that grows from there on, by bisection and secants
-/// (Illinois); `None` where there is none between the ends.
+/// The upper root of a function that increases beyond it, by bisection and secants (Illinois);
+/// `None` if there is none between the ends.
 pub(super) fn root(f: impl Fn(f64) -> f64, [least, most]: [f64; 2]) -> Option<f64> {
     let (mut high, mut low) = (most, most);
     let mut above = f(high);

@@ -1,4 +1,4 @@
-//! Sets of cells: basins, and the ways between them.
+//! Sets of cells: basins, and the connections between them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,8 +11,8 @@ use crate::configuration::Configuration;
 /// For each cell those that share a face with it.
 pub(super) type Beside = [Vec<u32>];
 
-/// Cells joined to some by cells that a set takes in; for each cell whether it is one of them. Where
-/// that starts counts in any case.
+/// Flood fill from some cells over the cells accepted by a set; for each cell whether it belongs.
+/// The starting cells always belong.
 pub(super) fn flood(beside: &Beside, from: Vec<usize>, is_in: &dyn Fn(usize) -> bool) -> Vec<bool> {
     let mut inside = vec![false; beside.len()];
     for &id in &from {
@@ -55,8 +55,8 @@ pub(super) fn reaching(
     (0..found.len()).filter(|&id| found[id]).collect()
 }
 
-/// The highest energy (J) on the best way from a configuration to some cells, by the lowest energy in
-/// each cell; `None` where there is no way.
+/// The highest energy (J) on the best path from a configuration to some cells, by the lowest energy
+/// in each cell; `None` if there is no path.
 pub(super) fn pass(
     mesh: &Octree,
     beside: &Beside,
@@ -77,9 +77,9 @@ pub(super) fn pass(
     Some(height.0)
 }
 
-/// What the cheapest way from some cells to others costs, and its cells from the last to the first.
-/// `after` tells what a way costs that goes on into a cell, which is no less than before; `none` is
-/// what it costs to be nowhere yet.
+/// The cost of the cheapest path from some cells to others, and its cells from the last to the
+/// first. `after` gives the cost of a path extended into a cell, which must not be lower than
+/// before; `none` is the cost of the empty path.
 pub(super) fn best_way<C: Ord + Copy>(
     beside: &Beside,
     none: C,

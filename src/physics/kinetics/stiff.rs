@@ -1,32 +1,32 @@
-//! Courses in time of equations whose rates differ by many powers of ten.
+//! Time integration of stiff equations, whose rates differ by many powers of ten.
 //!
-//! Implicit Euler steps, extrapolated to ever smaller ones (Deuflhard 1985, doi:10.1137/1027140;
-//! Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.9): what is faster
-//! than a step is damped away, and the order rises until the last two results agree. Steps grow with
-//! time, so that a course over ten powers of ten takes some hundred of them.
+//! Implicit Euler steps, extrapolated to vanishing step size (Deuflhard 1985, doi:10.1137/1027140;
+//! Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.9): components
+//! faster than a step are damped, and the order increases until the last two results agree. Steps
+//! grow with time, so that a solution over ten powers of ten takes about a hundred of them.
 
 use crate::interruption;
 
-/// Most columns of the table of extrapolation: so many times the step is divided anew.
+/// Largest number of columns of the table of extrapolation, each with a finer division of the step.
 const COLUMNS: usize = 6;
-/// Columns after which steps stay as long as they are; after fewer they grow.
+/// Number of columns at which steps keep their size; with fewer they grow.
 const USUAL: usize = 4;
-/// Most attempts at steps.
+/// Largest number of attempted steps.
 const MOST_STEPS: usize = 4000;
 
-/// Values at the times asked for.
+/// Values at the requested times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// One row a time.
     pub values: Vec<Vec<f64>>,
-    /// The errors of all steps, added up: how far the last two extrapolations of each differ, as
-    /// sums of absolute differences.
+    /// The sum of the errors of all steps: the differences of the last two extrapolations of each,
+    /// as sums of absolute values.
     pub error: f64,
 }
 
 /// The course of values from `start` on at ascending `times` (s). `euler` makes one (linearly)
-/// implicit Euler step of a length (s), or tells that it cannot. `first` (s) is the first step tried;
-/// an error of `tolerance` is allowed a step. `None` where steps fail or become too many.
+/// implicit Euler step of a length (s), or tells that it cannot. `first` (s) is the first step
+/// tried; an error of `tolerance` is allowed a step. `None` if steps fail or become too many.
 pub fn integrate(
     start: Vec<f64>,
     times: &[f64],
@@ -54,7 +54,7 @@ pub fn integrate(
                         USUAL => 1.2,
                         _ => 0.8,
                     };
-                    // A step cut short by the end says nothing against longer ones.
+                    // A step shortened by the end does not limit later ones.
                     step = match last {
                         true => step.max(length * factor),
                         false => length * factor,
@@ -68,7 +68,7 @@ pub fn integrate(
     Some(Course { values, error })
 }
 
-/// A step, by how much its last two extrapolations differ, and how many columns that took.
+/// A step, with the difference of its last two extrapolations and the number of columns.
 fn extrapolated(
     x: &[f64],
     length: f64,

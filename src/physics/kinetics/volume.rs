@@ -1,5 +1,5 @@
-//! Partition functions of states: the integral of Boltzmann's factor over a basin, true contact
-//! included.
+//! Partition functions of states: the integral of the Boltzmann factor over a basin, with exact
+//! contact.
 
 use ordered_float::OrderedFloat;
 
@@ -16,10 +16,9 @@ const GAUSS: [(f64, f64); 5] = [
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
-/// A line whose weight has fallen to this share of the minimum's is the measure of how far the well
-/// spreads.
+/// The extent of the well is measured at lines whose weight is this share of the minimum's.
 const FALLEN: f64 = 0.2;
-/// A slide (m) or tilt (rad) that is no play: contact is not known better.
+/// A slide (m) or tilt (rad) that counts as no play: the contact tolerance.
 pub const NO_PLAY: f64 = 1e-8;
 /// Most rectangles.
 const MOST: usize = 4_000;
@@ -29,12 +28,12 @@ const MOST: usize = 4_000;
 pub struct Estimate {
     /// The number.
     pub value: f64,
-    /// By how much it may be off, as the finer and the coarser rule differ.
+    /// Its estimated error, from the difference of the finer and the coarser rule.
     pub error: f64,
 }
 
 impl Estimate {
-    /// The error as a share of the number; 0 of nothing.
+    /// The relative error; 0 for the number 0.
     pub fn relative_error(&self) -> f64 {
         match self.value == 0.0 {
             true => 0.0,
@@ -77,8 +76,8 @@ struct Integral<'a> {
     weight: Weight,
 }
 
-/// From 0 to an end of the slide or the tilt, spread so that what is near the minimum takes as much
-/// room as what is far: `x = end sinh(u range) / sinh(range)`.
+/// A map from [0, 1] to the slide or the tilt that gives regions near the minimum as much room as
+/// distant ones: `x = end sinh(u range) / sinh(range)`.
 #[derive(Clone, Copy, Debug)]
 struct Spread {
     end: f64,
@@ -100,7 +99,7 @@ struct Rectangle {
     spreads: [Spread; 2],
     sides: [[f64; 2]; 2],
     value: f64,
-    /// How far the sum of the four parts was from the whole, shared among them.
+    /// The difference between the sum of the four parts and the whole, divided among them.
     error: f64,
 }
 
@@ -143,7 +142,7 @@ impl Integral<'_> {
         }
     }
 
-    /// To either side along slide and tilt; `None` where the minimum has no play along one of them.
+    /// To either side along slide and tilt; `None` if the minimum has no play along one of them.
     fn spreads(&self) -> Option<[[Spread; 2]; 2]> {
         let peak = self.line([0.0, 0.0]);
         let spread = |axis: usize, end: f64| {
@@ -202,7 +201,8 @@ impl Integral<'_> {
     }
 }
 
-/// How many of the worst, which come last, make up most of the error; all of which nothing is known.
+/// The number of the worst rectangles, at the end of the list, that make up most of the error;
+/// includes all without an error estimate.
 fn worst(leaves: &[Rectangle], error: f64) -> usize {
     let mut rest = 0.9 * error;
     let chosen = leaves.iter().rev().take_while(|leaf| {

@@ -1,9 +1,9 @@
-//! Wells of states: a basin, which is all configurations that can be reached from it without rising above a
+//! The well of a state: all configurations that can be reached from it without rising above a given
 //! level.
 //!
-//! The flood goes over a grid of slides and tilts about the state; on each line along which the gap
-//! opens it follows the intervals that are free. What lies between the nodes is taken to belong to
-//! the basin where it lies below the level and a node next to it does.
+//! The flood covers a grid of slides and tilts around the state; on each line along which the gap
+//! opens it follows the free intervals. Configurations between the nodes count as part of the basin
+//! if they are below the level and an adjacent node belongs to the basin.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -15,12 +15,12 @@ use crate::roadmap::Point;
 
 /// Spacing of the grid's nodes, as a share of the moving tile's circumradius.
 const SPACING: f64 = 1.0 / 128.0;
-/// The level is lowered by this share of the depth each time the flood has run over a saddle that
-/// lies between two nodes.
+/// The level is lowered by these shares of the depth, each time the flood has crossed a saddle
+/// between two nodes.
 const MARGINS: [f64; 6] = [0.002, 0.005, 0.01, 0.02, 0.05, 0.1];
-/// Most nodes of a flood; a basin that has more is cut there.
+/// Largest number of nodes of a flood; larger basins are truncated.
 const MOST_NODES: usize = 150_000;
-/// A basin ends at the latest where this share of its depth is left.
+/// Highest level of a basin, as a remaining share of its depth.
 const LEFT: f64 = 0.01;
 
 type Node = (i32, i32);
@@ -39,9 +39,9 @@ pub struct Well<'a> {
 }
 
 impl<'a> Well<'a> {
-    /// Floods the basin of a minimum up to the lowest pass (J) that leads out of it (infinite where none
-    /// is known), less a small margin so that the grid does not run over it, or to a hundredth of the
-    /// minimum's depth. Other minima, `others`, are never flooded: where one is, the level is lowered.
+    /// Floods the basin of a minimum up to its lowest pass (J) (infinite if none is known), less a
+    /// small margin so that the grid does not cross it, or up to a hundredth of the minimum's
+    /// depth. Other minima, `others`, are never flooded: if one is, the level is lowered.
     pub fn new(problem: &'a Problem, minimum: &Point, pass: f64, others: &[Configuration]) -> Self {
         let frame = Frame::of_minimum(problem, minimum);
         let contact = problem.contact.as_ref();
@@ -96,8 +96,8 @@ impl<'a> Well<'a> {
         }
     }
 
-    /// Takes in what of a node's line is below the level and next to intervals of a neighbour;
-    /// whether that is new.
+    /// Adds the part of a node's line that is below the level and next to intervals of a neighbour;
+    /// returns whether that is new.
     fn reaches(&mut self, from: &[[f64; 2]], node: Node) -> bool {
         let at = self.at(node);
         let known = self.nodes.get(&node);

@@ -7,11 +7,11 @@ use crate::configuration::{Configuration, wrap_angle};
 use crate::problem::Problem;
 use crate::tile::{Face, Pair};
 
-/// Two slices in front of the target face, the moving tile's target face turned towards it.
+/// Two slices in front of the target face, with the moving tile's target face towards it.
 ///
-/// The moving tile is turned by the tilt about the middle of its target face, shifted by the slide
-/// along the fixed tile's target face, and brought up along that face's normal until it touches;
-/// the gap is then opened along the normal.
+/// The moving tile is rotated by the tilt about the middle of its target face, shifted by the slide
+/// along the fixed tile's target face, and moved along that face's normal until it touches; the gap
+/// is then opened along the normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ApproachSlices {
     /// Tilt (rad) along x, gap (m) along y, at slide 0.
@@ -78,7 +78,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The distance (m) along the normal from the bound position at which the moving tile with this
-    /// tilt and slide, coming from far away, first touches; `None` where it passes by.
+    /// tilt and slide, coming from far away, first touches; `None` if it passes by.
     pub fn landing(&self, problem: &Problem, tilt: f64, slide: f64) -> Option<f64> {
         let level = self.configuration(tilt, slide, 0.0);
         let contact = problem.contact.as_ref()?;
@@ -86,7 +86,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The configuration with this tilt and slide in which the moving tile, coming from far away,
-    /// first touches, `gap` (m) drawn back; `None` where it passes by.
+    /// first touches, `gap` (m) drawn back; `None` if it passes by.
     pub fn before_contact(
         &self,
         problem: &Problem,

@@ -1,4 +1,5 @@
-//! An energy over the free configurations of a space, bounded over cells, and the work that takes.
+//! An energy over the free configurations of a space with its bounds over cells, and the work they
+//! cost.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -11,7 +12,7 @@ use crate::potential::CellBounds;
 use crate::potential::bounds::Enclosure;
 use crate::scale::Scale;
 
-/// Units of work that a cell takes, each edge that it may touch, and each cut in a bound.
+/// Units of work per cell, per edge that it may touch, and per cut in a bound.
 const A_CELL: u64 = 100;
 const AN_EDGE: u64 = 15;
 const A_CUT: u64 = 10;
@@ -22,9 +23,9 @@ pub(super) struct Bounded<'a> {
     /// The same over cells.
     pub cells: Option<ContactCells>,
     pub space: &'a ConfigurationSpace,
-    /// How far (m) a turn by one radian moves the tile's farthest point.
+    /// Path (m) of the tile's farthest point per radian of rotation.
     pub lever: f64,
-    /// Units of work that were done and not yet paid for.
+    /// Units of work not yet charged.
     unpaid: AtomicU64,
 }
 
@@ -55,8 +56,8 @@ impl<'a> Bounded<'a> {
         self.bounds.enclose(cell)
     }
 
-    /// What contact says about a cell, `None` where it is blocked. With that the work is counted for
-    /// bounds over what it leaves.
+    /// The contact conditions of a cell, `None` if it is blocked. Also counts the work for bounds
+    /// over the rest.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let found = match &self.cells {
             Some(cells) => cells.classify(cell),
@@ -76,8 +77,8 @@ impl<'a> Bounded<'a> {
         self.unpaid.fetch_add(units, Ordering::Relaxed);
     }
 
-    /// Has a budget pay for what was done since this was last asked for: where no thread is at work on
-    /// it, so that it is the same on any number of them.
+    /// Charges the work since the last call to a budget. Called while no thread works on it, so
+    /// that it is the same on any number of threads.
     pub fn pay(&self, budget: &mut Budget) {
         budget.spend(self.unpaid.swap(0, Ordering::Relaxed));
     }

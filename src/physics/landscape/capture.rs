@@ -1,4 +1,4 @@
-//! Capture: into which states overdamped motion takes tiles that start far apart.
+//! Capture: which states overdamped motion reaches from starts far apart.
 
 use std::f64::consts::PI;
 
@@ -14,13 +14,13 @@ use crate::problem::Problem;
 /// side, any orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FarStarts {
-    /// How many are drawn.
+    /// Number of starts.
     pub count: usize,
-    /// Of their random numbers.
+    /// The seed of their random numbers.
     pub seed: u64,
 }
 
-/// Inner and outer radius (m) of the ring of far starts; equal where the table leaves no room.
+/// Inner and outer radius (m) of the ring of far starts; equal if the table leaves no room.
 pub fn ring(problem: &Problem) -> [f64; 2] {
     let [x, y] = problem.space.half_size;
     let inner = 1.02 * problem.space.free_distance;
@@ -40,9 +40,9 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
     Configuration::new(radius * x, radius * y, theta)
 }
 
-/// Where each far start comes to rest by overdamped motion (mass metric, sliding along contact);
-/// `None` where it leaves the table. Rest need not be in a minimum that could be verified: where
-/// corners of both tiles meet, the last check may fail a micrometre from one.
+/// The end of each far start by overdamped motion (mass metric, sliding along contact); `None` if
+/// it leaves the table. The end need not be a verified minimum: where corners of both tiles meet,
+/// the last check may fail a micrometre from one.
 pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Option<Configuration>> {
     let all = (0..starts.count).map(|number| start(problem, starts, number));
     let rest = |outcome: Outcome| match outcome {

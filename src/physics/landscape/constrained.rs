@@ -11,27 +11,26 @@ use crate::roadmap::knot::{Knot, inner_extremes};
 /// Overlap (m) that is left in place when a configuration is pushed out of contact.
 const RESIDUAL: f64 = 1e-12;
 
-/// Contacts are looked for this far (m) beyond what a step needs.
+/// Additional search distance (m) for contacts beyond what a step needs.
 const MARGIN: f64 = 1e-6;
 
-/// Contacts are closed to this gap (m) if rounding lets them, to the second in any case.
+/// Target gap (m) of closed contacts if rounding permits, and largest gap in any case.
 const CLOSED: [f64; 2] = [1e-13, 1e-10];
 
 /// At rest where contact leaves less than this fraction of the force.
 const EQUILIBRIUM: f64 = 1e-9;
 
-/// A step must lower the energy by this fraction of what the slope at its start promises. Half is
-/// what a step to the lowest point along a parabola fulfils: longer ones, that would swing from
-/// side to side of a valley, are refused.
+/// A step must lower the energy by this fraction of the prediction from the slope at its start. A
+/// step to the lowest point of a parabola achieves one half; longer steps, which would oscillate
+/// across a valley, are rejected.
 const FULFILLED: f64 = 0.5;
 
-/// Rise of a step on its way down, as a fraction of its fall, that is put down to the cubic by which
-/// it is judged.
+/// Tolerated rise of a step on its way down, as a fraction of its descent, attributed to the cubic
+/// approximation.
 const RISE: f64 = 0.01;
 
-/// Overlap (m) let pass along a step between two free configurations. A straight step along a
-/// surface that the tiles turn on cuts some 0.03 mm into it; a wall thinner than this has no place
-/// on a tile.
+/// Tolerated overlap (m) along a step between two free configurations. A straight step along a
+/// curved contact surface cuts about 0.03 mm into it; tiles have no walls thinner than this.
 const GRAZE: f64 = 1e-4;
 
 /// Length of a step in the mass metric (m).
@@ -48,8 +47,8 @@ pub fn constraints(problem: &Problem, q: &Configuration, margin: f64) -> Vec<Con
 }
 
 /// The force at a point, `-M^-1 grad U`, brought as close as contact allows (Gauss' principle of
-/// least constraint), with the contacts and their multipliers. In units of the free force's length:
-/// what the force is does not depend on how large it is.
+/// least constraint), with the contacts and their multipliers. In units of the free force's length,
+/// so that it is independent of its size.
 pub(super) struct Projected {
     free: Vector3<f64>,
     held: Vector3<f64>,
@@ -59,7 +58,8 @@ pub(super) struct Projected {
 }
 
 impl Projected {
-    /// With the contacts `touching`, closed or all but closed. `None` where there is no force.
+    /// With the contacts `touching`, which are closed or nearly closed. `None` if there is no
+    /// force.
     pub fn new(point: &Point, metric: Matrix3<f64>, mut touching: Vec<Constraint>) -> Option<Self> {
         let free = -(metric.try_inverse()? * point.gradient);
         let size = length(&free, &metric);
@@ -107,14 +107,14 @@ impl Projected {
         }
     }
 
-    /// The part of the force that contact does not hold.
+    /// The part of the force that contact does not balance.
     fn share(&self) -> f64 {
         length(&self.held, &self.metric)
     }
 }
 
-/// The fraction of the force at a point that contact does not hold: 0 in equilibrium on contact, 1
-/// without contact.
+/// The fraction of the force at a point that contact does not balance: 0 in equilibrium at contact,
+/// 1 without contact.
 pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
     // Without contact a vanishing force is an equilibrium, however small its scale.
     Projected::at(problem, point)
@@ -122,33 +122,34 @@ pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
         .map_or(0.0, |projected| projected.share())
 }
 
-/// The force that contact takes counts as this many times what it leaves at most: more would tell no
-/// more about which contacts a step presses on.
+/// Limit of the balanced force, in units of the remaining one: more would not change which contacts
+/// a step presses on.
 const HELD: f64 = 10.0;
 
-/// Where motion heads at a point.
+/// The direction of motion at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
     /// The motion's direction, of length 1 in the mass metric.
     pub direction: Vector3<f64>,
-    /// The part of the force that contact takes, in units of what it leaves, but ten times that at most.
+    /// The part of the force balanced by contact, in units of the remaining one, at most ten times
+    /// that.
     pub held: Vector3<f64>,
     /// The contacts pressed on.
     pub pressed: Vec<Touch>,
 }
 
-/// Where the overdamped motion heads at a point. `None` in equilibrium.
+/// The direction of the overdamped motion at a point. `None` in equilibrium.
 pub fn downhill(problem: &Problem, point: &Point) -> Option<Heading> {
     let projected = Projected::at(problem, point)?;
     let share = projected.share();
     (share > EQUILIBRIUM).then(|| projected.heading(share))
 }
 
-/// One step of `size` (m, mass metric) from a point where motion heads this way, sliding along contact.
-/// `None` where no such step leads to a free configuration of lower energy.
+/// One step of `size` (m, mass metric) from a point in this direction, sliding along contact.
+/// `None` if no such step leads to a free configuration of lower energy.
 ///
-/// Contacts that are pressed on stay closed, though the surface may curve away from the straight
-/// step; contacts in the way shorten the step or turn it aside.
+/// Pressed contacts stay closed, although the surface may curve away from the straight step;
+/// contacts in the way shorten or deflect the step.
 pub fn step_along(problem: &Problem, point: &Point, heading: &Heading, size: f64) -> Option<Point> {
     let wanted = heading.direction * size;
     let margin = reach(problem, &wanted) + problem.scaled(MARGIN);
@@ -163,8 +164,9 @@ pub fn step_along(problem: &Problem, point: &Point, heading: &Heading, size: f64
     (is_lower && !leads_over_a_ridge(point, &next)).then_some(next)
 }
 
-/// A step of `size` (m, mass metric) among contacts within a margin (m), straight, and where it ends with
-/// those that it presses on kept closed; `None` where it does not lead to a free configuration by a free motion.
+/// A straight step of `size` (m, mass metric) among contacts within a margin (m), and its end with
+/// pressed contacts kept closed; `None` if it does not lead to a free configuration by a free
+/// motion.
 fn slid(
     problem: &Problem,
     point: &Point,
@@ -182,7 +184,7 @@ fn slid(
         (straight, multipliers) = pushed(size / longer)?;
     }
     let moved = point.q.moved(straight);
-    // A vertex that has slid past the end of its edge presses no longer.
+    // A vertex that has slid past the end of its edge no longer presses.
     let contact = problem.contact.as_ref()?;
     let pressed = near.iter().zip(&multipliers).filter(|(_, m)| **m > 0.0);
     let mut still: Vec<Touch> = pressed.map(|(constraint, _)| constraint.touch).collect();
@@ -195,8 +197,8 @@ fn slid(
     is_free.then_some((straight, settled))
 }
 
-/// Whether the energy along a step, as energies and slopes at its ends tell of it by the cubic
-/// through them, rises on the way to a lower end: motion that never climbs does not get there.
+/// Whether the energy along a step, by the cubic through energies and slopes at its ends, rises on
+/// the way to a lower end: motion that never climbs does not get there.
 fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
     let step = from.q.step_to(&to.q);
     let fall = from.energy - to.energy;
@@ -218,8 +220,8 @@ fn leads_over_a_ridge(from: &Point, to: &Point) -> bool {
     })
 }
 
-/// The configuration near `q` at which the given contacts are closed; `None` where there is none
-/// or the contacts depend on each other.
+/// The configuration near `q` at which the given contacts are closed; `None` if there is none or
+/// the contacts depend on each other.
 pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<Configuration> {
     let Some(contact) = &problem.contact else {
         return Some(*q);
@@ -236,7 +238,7 @@ pub fn close(problem: &Problem, touches: &[Touch], q: &Configuration) -> Option<
             [a] => push_that_closes(&[a], &inverse)?,
             [a, b] => push_that_closes(&[a, b], &inverse)?,
             [a, b, c] => push_that_closes(&[a, b, c], &inverse)?,
-            // Of a motion's three coordinates no more than three contacts are independent.
+            // With three coordinates, at most three contacts are independent.
             _ => return None,
         };
         q = q.moved(inverse * push);
@@ -259,7 +261,7 @@ fn push_that_closes<const M: usize>(
     Some((0..M).map(|a| rows[a].gradient * amounts[a]).sum())
 }
 
-/// How far (m) a step moves any point of the moving tile at most.
+/// Largest path (m) of any point of the moving tile in a step.
 pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
     let radius = problem
         .contact
@@ -268,8 +270,8 @@ pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
     step.xy().norm() + radius * step.z.abs()
 }
 
-/// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` where
-/// none is found or the table ends.
+/// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` if none
+/// is found or the table ends.
 pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configuration> {
     if problem.is_clear(q) {
         return Some(*q);

@@ -1,4 +1,4 @@
-//! How an overdamped motion goes on turning, told by how it turned so far.
+//! Predicts how an overdamped motion continues to turn from how it has turned so far.
 
 use arrayvec::ArrayVec;
 use nalgebra::Vector3;
@@ -7,7 +7,7 @@ use super::constrained::{Heading, length};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// Headings that a motion is extrapolated from, the one at the place it has come to included.
+/// Number of headings that a motion is extrapolated from, including the one at its current place.
 const HEADINGS: usize = 3;
 
 /// The headings of a motion at places that it left while the contacts pressed on were the same, the
@@ -15,21 +15,21 @@ const HEADINGS: usize = 3;
 #[derive(Debug, Default)]
 pub(super) struct Past(ArrayVec<(Heading, f64), { HEADINGS - 1 }>);
 
-/// A step foretold.
+/// A predicted step.
 pub(super) struct Foretold {
-    /// What the step is to follow from its start to its end.
+    /// The heading that the step follows from start to end.
     pub heading: Heading,
     /// The direction that the motion would have at the step's end.
     at_end: Vector3<f64>,
-    /// The step ends so much of its length beside the motion for each unit that the direction at its end
-    /// is off.
+    /// Lateral error of the step's end, as a fraction of its length, per unit error of the
+    /// direction at its end.
     share: f64,
-    /// The power of its length with which a step strays.
+    /// The order of the lateral error in the step's length.
     pub order: i32,
 }
 
 impl Past {
-    /// Nothing is known.
+    /// Forgets all headings.
     pub fn forget(&mut self) {
         self.0.clear();
     }
@@ -44,19 +44,19 @@ impl Past {
         self.0.insert(0, (heading, size));
     }
 
-    /// Whether the contacts pressed on still are the same.
+    /// Whether the pressed contacts are still the same.
     fn goes_on(&self, heading: &Heading) -> bool {
         let last = self.0.first();
         last.is_some_and(|(last, _)| last.pressed == heading.pressed)
     }
 
     /// A step of this size (m) on from a place with this heading: the method of Adams and Bashforth
-    /// for steps of any lengths, of third order where so much is known (Hairer, Norsett and Wanner,
-    /// *Solving Ordinary Differential Equations I*, section III.5).
+    /// with variable step lengths, of third order once enough headings are known (Hairer, Norsett
+    /// and Wanner, *Solving Ordinary Differential Equations I*, section III.5).
     ///
-    /// The direction is extrapolated by the polynomial through those known (Newton's differences). What
-    /// the direction found at the end differs by from the polynomial there makes one of a degree more
-    /// of it, which tells how far the step strays.
+    /// The direction is extrapolated by the polynomial through the known ones (Newton's
+    /// differences). The difference between the direction found at the end and the polynomial there
+    /// gives the term of the next degree, and with it the lateral error of the step.
     pub fn foretell(&self, along: &Heading, size: f64) -> Foretold {
         let past = if self.goes_on(along) {
             &self.0[..]
@@ -95,8 +95,8 @@ impl Past {
 }
 
 impl Foretold {
-    /// How far (m, mass metric) a step of this size from a place ends beside the motion that has this
-    /// heading at the end.
+    /// Distance (m, mass metric) between the end of a step of this size and the motion that has
+    /// this heading there.
     pub fn strays(&self, problem: &Problem, from: &Configuration, to: &Heading, size: f64) -> f64 {
         let metric = problem.mass_metric(from.theta);
         let error = (to.direction - self.at_end) * self.share;
@@ -117,8 +117,8 @@ mod tests {
         }
     }
 
-    /// Directions that change as polynomials of the way are followed exactly up to the degree that the
-    /// known ones determine; of one degree more, the error is told.
+    /// Directions that are polynomials of the arc length are followed exactly up to the degree that
+    /// the known ones determine; for one degree more, the error is predicted.
     #[test]
     fn polynomials_are_followed_and_the_next_degree_is_told() {
         let places = [-0.7, -0.3, 0.0];

@@ -4,15 +4,15 @@ use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// Values on a grid, row by row from the lowest y; `None` where no free configuration belongs to
-/// the grid point.
+/// Values on a grid, row by row from the lowest y; `None` if no free configuration belongs to the
+/// grid point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<T> {
     /// Abscissas (m, or rad where the grid says so), ascending.
     pub x: Vec<f64>,
     /// Ordinates (m), ascending.
     pub y: Vec<f64>,
-    /// One value a grid point.
+    /// One value per grid point.
     pub values: Vec<Option<T>>,
 }
 
@@ -40,8 +40,8 @@ pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Samples of so many rows of a grid, one after the other, each of so many columns; `configuration` tells
-/// the free one at a row and a column.
+/// Samples of a grid with the given numbers of rows and columns, row by row; `configuration` gives
+/// the free configuration at a row and a column.
 pub(super) fn sampled(
     problem: &Problem,
     [rows, columns]: [usize; 2],
@@ -58,7 +58,7 @@ pub(super) fn sampled(
     })
 }
 
-/// Configurations with their energies, asked for together.
+/// Configurations with their energies, evaluated together.
 pub(super) fn with_energies(problem: &Problem, free: &[Configuration]) -> Vec<Sample> {
     let mut energies = vec![0.0; free.len()];
     problem.potential().energies(free, &mut energies);

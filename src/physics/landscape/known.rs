@@ -1,6 +1,6 @@
-//! What is known of where motions end: in minima that were verified, and where motions did that slid
-//! along the same stretches. On these contact leaves the tiles one way only, so that every motion that
-//! comes there goes on as the known one did.
+//! Known ends of motions: verified minima, and earlier motions along the same stretches of contact.
+//! On these, contact allows only one direction, so every motion that arrives there continues as the
+//! earlier one did.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,7 +13,8 @@ use crate::problem::Problem;
 
 /// A minimum this close (m, metric of the space) to a verified one is the same, found again.
 const SAME: f64 = 1e-7;
-/// How far (m, metric of the space) a configuration may lie outside a stretch and count as within.
+/// How far (m, metric of the space) a configuration may lie outside a stretch and still count as on
+/// it.
 const ROUNDING: f64 = 1e-9;
 
 /// Where a descent ended.
@@ -23,8 +24,8 @@ pub enum Outcome {
     Minimum(Box<Stationary>),
     /// The tiles are far apart.
     Free,
-    /// No step goes down from here, but no minimum could be verified: the accuracy of the energy is
-    /// exhausted, or corners of both tiles meet.
+    /// No step leads downhill from here, but no minimum could be verified: the accuracy of the
+    /// energy is exhausted, or corners of both tiles meet.
     Stuck(Configuration),
 }
 
@@ -38,8 +39,8 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// The step between two configurations, if two contacts leave it no choice. Contacts pressed on
-    /// at once do not depend on each other: of three coordinates they leave one.
+    /// The step between two configurations, if two contacts leave it no choice. Contacts pressed at
+    /// the same time are independent, so two of them leave one of three coordinates free.
     pub fn between(ends: [Configuration; 2], [from, to]: [Option<&Heading>; 2]) -> Option<Self> {
         let [from, to] = [two(from?)?, two(to?)?];
         (from == to).then_some(Self {
@@ -68,14 +69,14 @@ fn two(heading: &Heading) -> Option<[Touch; 2]> {
     Some(pressed)
 }
 
-/// What is known of where motions end.
+/// Known ends of motions.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
-    /// Minima around which all is known to lie higher: a motion that ends in one of them need not
-    /// look around again.
+    /// Minima whose surroundings are known to lie higher: a motion that ends in one of them need
+    /// not probe again.
     minima: Vec<Configuration>,
-    /// Stretches of motions, and where these ended: one that comes on one of them need not be followed
-    /// any farther.
+    /// Stretches of motions, and where these ended: a motion that reaches a stretch need not be
+    /// followed further.
     slides: HashMap<[Touch; 2], Vec<(Stretch, Arc<Outcome>)>>,
 }
 
@@ -88,7 +89,7 @@ impl Known {
         }
     }
 
-    /// Adds the stretches of a motion that ended so.
+    /// Adds the stretches of a motion with this outcome.
     pub(super) fn add(&mut self, stretches: Vec<Stretch>, outcome: &Outcome) {
         let outcome = Arc::new(outcome.clone());
         for stretch in stretches {

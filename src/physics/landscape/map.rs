@@ -1,4 +1,4 @@
-//! The lowest energy over theta at each (x, y).
+//! The map of the lowest energy over theta at each (x, y).
 //!
 //! Every number is the energy of a free configuration, so that no map shows an energy that only
 //! overlapping tiles could have. Grids are computed row by row in parallel and gathered in order:
@@ -18,9 +18,9 @@ pub struct Window {
     pub origin: Vector2<f64>,
     /// Direction of the grid's x axis in the fixed tile's frame (rad).
     pub angle: f64,
-    /// Least x and y on the grid (m).
+    /// Lowest x and y on the grid (m).
     pub low: [f64; 2],
-    /// Greatest x and y on the grid (m).
+    /// Highest x and y on the grid (m).
     pub high: [f64; 2],
     /// Grid points along x and along y, at least two.
     pub samples: [usize; 2],
@@ -41,7 +41,7 @@ impl Window {
 /// The lowest energy over theta at each (x, y) of a window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyMap {
-    /// What the map shows.
+    /// The window of the map.
     pub window: Window,
     /// The sample of lowest energy at each grid point.
     pub lowest: Grid<Sample>,
@@ -87,12 +87,12 @@ impl EnergyMap {
     }
 }
 
-/// How many rows of points beside the blocked region are looked at again.
+/// Number of rows of points beside the blocked region that are examined again.
 const NARROW: usize = 3;
 /// Halvings of the way between a free and a blocked point in search of the border.
 const HALVINGS: usize = 4;
 
-/// What is free at each point of a grid.
+/// The free orientations at each point of a grid.
 struct Field<'a> {
     search: Search<'a>,
     window: &'a Window,
@@ -108,7 +108,7 @@ impl Field<'_> {
             .place(self.x[index % columns], self.y[index / columns])
     }
 
-    /// The points beside a point, itself among them; `corners` tells whether diagonally too.
+    /// A point and its neighbours, with `corners` also the diagonal ones.
     fn beside(&self, index: usize, corners: bool) -> impl Iterator<Item = usize> + '_ {
         let (columns, rows) = (self.x.len(), self.y.len());
         let (column, row) = (index % columns, index / columns);
@@ -120,8 +120,8 @@ impl Field<'_> {
         })
     }
 
-    /// Looks again at blocked points beside free ones, with the orientations that are free there:
-    /// a range of free orientations narrower than a step is missed by the sampled ones.
+    /// Examines blocked points beside free ones again, with the orientations that are free there:
+    /// the samples miss ranges of free orientations narrower than their step.
     fn find_narrow_ranges(&mut self) {
         for _ in 0..NARROW {
             let more: Vec<_> = parallel::flat_map(0..self.found.len(), |index| {
@@ -159,7 +159,7 @@ impl Field<'_> {
         })
     }
 
-    /// How much of the way from a free point to a blocked one is free.
+    /// The free fraction of the segment from a free point to a blocked one.
     fn free_share(&self, free: usize, blocked: usize) -> f64 {
         let Some(found) = self.found[free] else {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Which faces touch and which magnets meet in a configuration.
+//! The faces that touch and the magnets that face each other in a configuration.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;

@@ -16,39 +16,40 @@ use crate::roadmap::Point;
 
 /// Longest step of a descent (m, mass metric).
 const LONGEST_STEP: f64 = 5e-3;
-/// The same where it matters which way it goes: how it will turn is foreseen.
+/// The same if the path matters: its turns are predicted.
 const LONGEST_FORESEEN: f64 = 1e-2;
-/// Where it matters which way a motion goes, a step may end this far (m, mass metric) beside it, as the
-/// direction at its end tells. With a tenth of it shares of captures are the same; with a tenfold, a
-/// seventh of all far starts goes the wrong way around a tab.
+/// If the path of a motion matters, a step may end this far (m, mass metric) beside it, as
+/// estimated from the direction at its end. With a tenth of this value capture shares are the same;
+/// with ten times as much, a seventh of all far starts pass a tab on the wrong side.
 const ASIDE: f64 = 1e-6;
-/// But steps no longer than this (m) may: where contact begins or ends the direction jumps.
+/// Steps up to this length (m) are exempt, because the direction jumps where contact begins or
+/// ends.
 const SHORT: f64 = TRY_NEWTON;
 /// A descent whose steps are shorter than this (m) has arrived.
 const SHORTEST_STEP: f64 = 1e-9;
 /// Newton's method is tried once steps are shorter than this (m).
 const TRY_NEWTON: f64 = 2e-4;
-/// Motions that are followed before any is known to come on another's way.
+/// Number of motions that are followed before any can merge with an earlier one.
 const FIRST: usize = 32;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
-/// A configuration is clearly lower than another if its energy is by this fraction.
+/// A configuration is clearly lower than another if its energy is lower by this fraction.
 const CLEARLY: f64 = 1e-9;
 
-/// A descent: its way, start and end included, and where it ended.
+/// A descent: its path, including start and end, and its outcome.
 #[derive(Clone, Debug)]
 pub struct Descent {
-    /// Where it went, from start to end, or to where it is known where motions go on to.
+    /// The path from start to end, or to where it merges with a known motion.
     pub way: Vec<Point>,
-    /// The steps of it on which contact left no choice; an image is given none.
+    /// Its steps with only one direction allowed by contact; empty for an image.
     pub stretches: Vec<Stretch>,
     /// Where it ended.
     pub outcome: Outcome,
 }
 
 impl Descent {
-    /// What a symmetry makes of it.
+    /// Its image under a symmetry.
     pub fn image(&self, symmetry: &Symmetry) -> Self {
         let outcome = match &self.outcome {
             Outcome::Minimum(found) => Outcome::Minimum(Box::new(found.image(symmetry))),
@@ -63,33 +64,33 @@ impl Descent {
     }
 }
 
-/// Down from `start` roughly by overdamped motion, `v = -M^-1 grad U`, sliding along contact, until a
-/// minimum or far apart: where ways part, it may take the other one.
+/// Descends from `start` roughly by overdamped motion, `v = -M^-1 grad U`, sliding along contact,
+/// to a minimum or far apart. Near a watershed it may end on the other side.
 pub fn descend(problem: &Problem, start: &Configuration) -> Descent {
     descend_among(problem, start, &Known::default())
 }
 
-/// The same where something is known.
+/// The same, given known ends of motions.
 pub fn descend_among(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
     follow(problem, start, known, f64::INFINITY, |q| {
         problem.space.is_far(q)
     })
 }
 
-/// Overdamped motion from `start`, far apart or not, until a minimum or over the table's rim, where
-/// something is known.
+/// Overdamped motion from `start`, far apart or not, to a minimum or over the table's rim, given
+/// known ends of motions.
 pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Descent {
     follow(problem, start, known, problem.scaled(ASIDE), |q| {
         !problem.space.contains(q)
     })
 }
 
-/// Where overdamped motions from several starts lead; how they slid there is known from now on. The same
-/// on any number of threads.
+/// Where overdamped motions from several starts end; their slides are added to the known ones. The
+/// same on any number of threads.
 pub fn learn(problem: &Problem, starts: &[Configuration], known: &mut Known) -> Vec<Outcome> {
     let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
     while outcomes.len() < starts.len() {
-        // As many again as there were, which may come on the slides of those.
+        // Double the number each time: later motions may merge with the slides of earlier ones.
         let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
         let new = &starts[outcomes.len()..next];
         let descents = parallel::map(new, |q| approach(problem, q, known));
@@ -101,7 +102,8 @@ pub fn learn(problem: &Problem, starts: &[Configuration], known: &mut Known) -> 
     outcomes
 }
 
-/// Follows the motion to where it comes to rest or is free; a step may end so far `aside` of it (m).
+/// Follows the motion until it comes to rest or is free; a step may end up to `aside` (m) beside
+/// it.
 fn follow(
     problem: &Problem,
     start: &Configuration,
@@ -162,7 +164,7 @@ fn trace(
                     let ends = [along.as_ref(), after.as_ref()];
                     stretches.extend(Stretch::between([here.q, next.q], ends));
                     motion = after;
-                    // Steps of first order are the longer ones in a steep valley.
+                    // In a steep valley, first-order steps are longer.
                     if let Some(along) = along
                         && aside.is_finite()
                     {
@@ -180,17 +182,17 @@ fn trace(
             }
         }
         if size < newton_below {
-            // Ever finer, so that a failing attempt costs little.
+            // Increasingly fine, so that a failing attempt costs little.
             newton_below = size / 64.0;
             if let Some(found) = verified_minimum(problem, way, known) {
                 return Outcome::Minimum(Box::new(found));
             }
-            // The way may go on from elsewhere.
+            // The path may continue from elsewhere.
             motion = None;
             past.forget();
         }
         if size < problem.scaled(SHORTEST_STEP) {
-            // At rest, but on no minimum: on a ridge, if anywhere lower is to be found near by.
+            // At rest, but not at a minimum: on a ridge, if a lower configuration is found nearby.
             match lower_neighbour(problem, &here) {
                 Some(lower) => way.push(lower),
                 None => return Outcome::Stuck(here.q),
@@ -204,8 +206,8 @@ fn trace(
     Outcome::Stuck(way.last().expect("a way has a start").q)
 }
 
-/// The minimum at the end of a way, if Newton's method finds one close by and no free
-/// configuration around it lies lower. Where one does, the way goes on from there.
+/// The minimum at the end of a path, if Newton's method finds one close by and no free
+/// configuration around it lies lower; otherwise the path continues from the lower one.
 fn verified_minimum(problem: &Problem, way: &mut Vec<Point>, known: &Known) -> Option<Stationary> {
     let here = *way.last()?;
     let found = stationary::minimum(problem, &here.q)?;

@@ -1,4 +1,4 @@
-//! What is asked of an energy landscape: its minima, barriers and pathways.
+//! The energy landscape: its minima, barriers and pathways.
 
 pub mod approach;
 pub mod barrier_bounds;

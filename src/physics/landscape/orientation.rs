@@ -1,4 +1,4 @@
-//! The search for the lowest energy over theta at a place.
+//! The search for the lowest energy over theta at a given position.
 
 use ordered_float::OrderedFloat;
 use std::f64::consts::TAU;
@@ -26,17 +26,17 @@ pub struct Search<'a> {
     period: f64,
     /// Ascending, in [0, period).
     thetas: Vec<f64>,
-    /// By them.
+    /// The rotations by these angles.
     rotations: Vec<Rotation2<f64>>,
     /// Largest step between two orientations (rad).
     step: f64,
-    /// Free in any orientation where the reference points are at least this far apart (m).
+    /// All orientations are free if the reference points are at least this far apart (m).
     outer: f64,
-    /// Blocked in every orientation where they are closer than this (m).
+    /// All orientations are blocked if they are closer than this (m).
     inner: f64,
 }
 
-/// What is free at a place.
+/// The free orientations found at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// The lowest sample.
@@ -53,8 +53,8 @@ impl<'a> Search<'a> {
         let pair = problem.pair.as_deref();
         let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);
         let count = (orientations as f64 * period / TAU).ceil() as usize;
-        // Discs inside the tiles, about their reference points, overlap. With a reference point
-        // outside its tile nothing is known.
+        // Discs inside the tiles, about their reference points, overlap. This says nothing if a
+        // reference point lies outside its tile.
         let depth = |outline: &Outline| -outline.signed_distance(Vector2::zeros());
         let inner = pair.map_or(0.0, |pair| {
             let (a, b) = (depth(&pair.fixed.outline), depth(&pair.moving.outline));
@@ -82,8 +82,8 @@ impl<'a> Search<'a> {
         thetas.iter().any(|&theta| self.is_free(&at(place, theta)))
     }
 
-    /// What is free at each place, as far as the sampled orientations tell; soonest told where each
-    /// place is near the one before.
+    /// The free orientations among the sampled ones at each place; fastest if each place is near
+    /// the previous one.
     pub fn find(&self, places: &[Vector2<f64>]) -> Vec<Option<Found>> {
         let mut known = Known::default();
         let free = places
@@ -99,7 +99,7 @@ impl<'a> Search<'a> {
             .collect()
     }
 
-    /// What is free at a place in the range about the first of `guesses` (rad) that is.
+    /// The free range around the first free one of `guesses` (rad) at a place.
     pub fn find_near(&self, place: Vector2<f64>, guesses: &[f64]) -> Option<Found> {
         let free = |theta: &f64| self.is_free(&at(place, *theta));
         let guess = *guesses.iter().find(|theta| free(theta))?;
@@ -124,7 +124,7 @@ impl<'a> Search<'a> {
         distance >= self.outer || (distance >= self.inner && self.problem.is_clear(q))
     }
 
-    /// The lowest of the candidates at each place, and of what a search about it finds.
+    /// The lowest of the candidates at each place, improved by a local search.
     fn lowest(&self, candidates: Vec<Vec<Configuration>>) -> Vec<Option<Sample>> {
         let mut best = vec![None; candidates.len()];
         self.take_lower(&mut best, &candidates);
@@ -136,7 +136,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Replaces each sample by the lowest of its candidates where that is lower.
+    /// Replaces each sample by the lowest of its candidates if that is lower.
     fn take_lower(&self, best: &mut [Option<Sample>], candidates: &[Vec<Configuration>]) {
         let all = with_energies(self.problem, &candidates.concat());
         let mut rest = all.as_slice();
@@ -151,7 +151,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A sample's configuration turned to either side, where that is free.
+    /// A sample's configuration turned to either side, if that is free.
     fn turned(&self, sample: Option<&Sample>, turn: f64) -> Vec<Configuration> {
         let Some(sample) = sample else {
             return Vec::new();
@@ -194,7 +194,8 @@ impl<'a> Search<'a> {
         (candidates.collect(), middle)
     }
 
-    /// The ranges of free orientations between blocked ones; `free` tells of each sampled one.
+    /// The ranges of free orientations between blocked ones; `free` has one value per sampled
+    /// orientation.
     fn free_ranges(&self, place: Vector2<f64>, free: &[bool]) -> Vec<FreeRange> {
         let count = self.thetas.len();
         let Some(start) = free.iter().position(|free| !free) else {
@@ -230,7 +231,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What is known of the sampled orientations from the place that was looked at last.
+/// The state of the sampled orientations at the previous place.
 #[derive(Default)]
 struct Known {
     place: Vector2<f64>,
@@ -239,7 +240,7 @@ struct Known {
 }
 
 impl Known {
-    /// Which orientations are free at a place; only those are looked at that may have changed.
+    /// Which orientations are free at a place; only those that may have changed are checked.
     fn free_at(
         &mut self,
         place: Vector2<f64>,

@@ -1,4 +1,4 @@
-//! What is found out about a landscape: states, barriers and pathways, as plain values.
+//! The results of a landscape as plain values: states, barriers and pathways.
 
 use ordered_float::OrderedFloat;
 use serde::{Deserialize, Serialize};
@@ -8,10 +8,10 @@ use crate::configuration::Configuration;
 use crate::potential::Unbounded;
 use crate::roadmap::knot;
 
-/// States whose energies differ by less than this share are as deep as each other.
+/// States whose energies differ by less than this fraction count as equally deep.
 pub const SAME_ENERGY: f64 = 1e-6;
 
-/// Whether a state is the wanted bond.
+/// Whether a state is the intended bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StateKind {
     /// The two target faces coincide.
@@ -23,9 +23,9 @@ pub enum StateKind {
 /// A proportion found by sampling, with its 95 % Wilson interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proportion {
-    /// How many were counted.
+    /// Number of successes.
     pub count: usize,
-    /// Of how many.
+    /// Number of trials.
     pub of: usize,
     /// Lower end of the interval, 0 to 1.
     pub low: f64,
@@ -53,13 +53,13 @@ impl Proportion {
         Self {
             count,
             of,
-            // Exactly the ends of [0, 1] there, which rounding would miss.
+            // Sets the ends of [0, 1] exactly, which rounding would miss.
             low: if count == 0 { 0.0 } else { centre - half },
             high: if count == of { 1.0 } else { centre + half },
         }
     }
 
-    /// `count / of`; 0 of none.
+    /// `count / of`; 0 if `of` is 0.
     pub fn share(&self) -> f64 {
         if self.of == 0 {
             0.0
@@ -72,7 +72,7 @@ impl Proportion {
 /// Shares of the far starts that end in no reported state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uncaptured {
-    /// Those that come to rest, in something too shallow to be reported.
+    /// Those that come to rest in a minimum too shallow to be reported.
     pub at_rest: Proportion,
     /// Those that leave the table.
     pub gone: Proportion,
@@ -90,7 +90,7 @@ impl Uncaptured {
 pub struct State {
     /// Its place in the list of states.
     pub id: usize,
-    /// The wanted bond, or a trap.
+    /// The intended bond, or a trap.
     pub kind: StateKind,
     /// Where the minimum is.
     pub configuration: Configuration,
@@ -105,18 +105,18 @@ pub struct State {
     pub attracting: usize,
     /// The pairs among them that repel.
     pub repelling: usize,
-    /// Energy (J) of uniformly magnetised blocks in this configuration, where `energy` is that of
-    /// point dipoles.
+    /// Energy (J) of uniformly magnetised blocks in this configuration, if `energy` is for point
+    /// dipoles.
     pub block_energy: Option<f64>,
     /// Share of far starts that overdamped motion takes into this state.
     pub capture: Option<Proportion>,
-    /// Of the first state of a kind: the lowest pass (J) to another one as low, a mirror twin or a
-    /// copy, where it is lower than that to `free` or to a clearly lower one.
+    /// For the first state of a kind: the lowest pass (J) to an equally deep state, a mirror twin
+    /// or a copy, if it is lower than the pass to `free` or to a clearly lower state.
     pub sideways: Option<f64>,
 }
 
 impl State {
-    /// How much higher (J) point dipoles' energy is than that of the blocks they stand for.
+    /// Energy of the point dipoles minus the energy of the blocks they represent (J).
     pub fn dipole_error(&self) -> Option<f64> {
         self.block_energy.map(|blocks| self.energy - blocks)
     }
@@ -145,8 +145,8 @@ pub struct PathwayPoint {
 }
 
 /// A continuous free motion: from point to point it is straight in x, y and theta (the shorter way
-/// round), proved free to half a micrometre, and rises nowhere above its highest point. The points are so close
-/// that U between two of them is as good as linear.
+/// round), proved free to half a micrometre, and nowhere exceeds its highest point. The points are
+/// close enough for U to be nearly linear between them.
 pub type Pathway = Vec<PathwayPoint>;
 
 /// Mechanical work against the energy along a pathway, forwards and backwards (J): the sums of its
@@ -155,21 +155,21 @@ pub fn work(pathway: &Pathway) -> [f64; 2] {
     knot::work(pathway.iter().map(|point| point.energy))
 }
 
-/// What is proved of the highest energy on the best way between two places.
+/// Proved bounds of the highest energy on the best path between two places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SaddleBounds {
-    /// Every free path reaches at least this energy (J); `None` where nothing is proved.
+    /// Every free path reaches this energy (J); `None` if nothing is proved.
     #[serde(rename = "lower_J")]
     pub lower: Option<f64>,
-    /// A free path is known that nowhere exceeds this energy (J).
+    /// A known free path nowhere exceeds this energy (J).
     #[serde(rename = "upper_J")]
     pub upper: Option<f64>,
-    /// Proved that there is no free path at all.
+    /// Whether it is proved that there is no free path.
     pub caged: bool,
 }
 
 impl SaddleBounds {
-    /// Takes over what other bounds of the same energy know better.
+    /// Tightens the bounds by other bounds of the same energy.
     pub fn tighten(&mut self, other: Self) {
         let better = |a: Option<f64>, b: Option<f64>, better: fn(f64, f64) -> f64| {
             a.zip(b).map(|(a, b)| better(a, b)).or(a).or(b)
@@ -179,8 +179,8 @@ impl SaddleBounds {
         self.caged |= other.caged;
     }
 
-    /// What every free path is proved to reach at least (J): minus infinity where nothing is
-    /// proved, infinity where there is no path.
+    /// The proved lower bound (J): minus infinity if nothing is proved, infinity if there is no
+    /// path.
     pub fn least(&self) -> f64 {
         if self.caged {
             return f64::INFINITY;
@@ -188,7 +188,7 @@ impl SaddleBounds {
         self.lower.unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// Width (J): zero where there is proved to be no path, infinite where a bound is missing.
+    /// Width (J): zero if it is proved that there is no path, infinite if a bound is missing.
     pub fn width(&self) -> f64 {
         match self.both() {
             _ if self.caged => 0.0,
@@ -197,12 +197,12 @@ impl SaddleBounds {
         }
     }
 
-    /// Both bounds (J), where both are known.
+    /// Both bounds (J), if both are known.
     pub fn both(&self) -> Option<(f64, f64)> {
         self.lower.zip(self.upper)
     }
 
-    /// The bounds of the climb from an energy (J): never negative, as no barrier is.
+    /// The bounds of the climb from an energy (J), never negative.
     pub fn above(&self, energy: f64) -> Self {
         let above = |saddle: f64| (saddle - energy).max(0.0);
         Self {
@@ -216,30 +216,30 @@ impl SaddleBounds {
 /// Why barriers have no certified bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Uncertified {
-    /// None was asked for.
+    /// No bounds were requested.
     #[error("no proof was requested")]
     Unasked,
-    /// It took more.
+    /// The effort was spent before.
     #[error("{} before the first bounds", .0.describe())]
     Ended(Ended),
-    /// None can be.
+    /// The energy has no bounds over cells.
     #[error(transparent)]
     Unbounded(#[from] Unbounded),
 }
 
-/// The barrier between two places: the least possible highest energy of a free path.
+/// The barrier between two places: the lowest maximum energy over all free paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Barrier {
     /// Where it starts.
     pub from: Place,
     /// Where it ends.
     pub to: Place,
-    /// Highest energy on the best pathway found (J): an upper bound of the minimax energy.
-    /// Infinite where no pathway is known.
+    /// Highest energy on the best pathway found (J): an upper bound of the minimax energy. Infinite
+    /// if no pathway is known.
     pub saddle_energy: f64,
-    /// Where that is; the start where no pathway is known.
+    /// The configuration of the saddle; the start if no pathway is known.
     pub saddle: Configuration,
-    /// What is proved of the saddle's energy.
+    /// Proved bounds of the saddle's energy.
     pub bounds: SaddleBounds,
     /// Energy (J) of the start; 0 for `Free`.
     pub from_energy: f64,
@@ -247,12 +247,12 @@ pub struct Barrier {
     pub to_energy: f64,
     /// Lowest and highest saddle energy (J) over repeated runs with other seeds.
     pub spread: Option<(f64, f64)>,
-    /// From end to end; empty where none is known.
+    /// The pathway from end to end; empty if none is known.
     pub pathway: Pathway,
 }
 
 impl Barrier {
-    /// A barrier over which no way is known. Each end is a place with its energy (J).
+    /// A barrier without a known pathway. Each end is a place with its energy (J).
     pub fn without_a_way(from: (Place, f64), start: Configuration, to: (Place, f64)) -> Self {
         Self {
             from: from.0,
@@ -277,24 +277,25 @@ impl Barrier {
         self.saddle_energy - self.from_energy
     }
 
-    /// Saddle minus the energy of the end (J); 0 where the way into `Free` never rises above the
+    /// Saddle minus the energy of the end (J); 0 if the path into `Free` never rises above the
     /// energy of tiles far apart.
     pub fn reverse(&self) -> f64 {
         (self.saddle_energy - self.to_energy).max(0.0)
     }
 
-    /// Work against the energy along the pathway (J), from start to end and back; `None` where no
-    /// way is known.
+    /// Work against the energy along the pathway (J), from start to end and back; `None` if no
+    /// pathway is known.
     pub fn work(&self) -> Option<[f64; 2]> {
         self.has_way().then(|| work(&self.pathway))
     }
 
-    /// Length (m) of the pathway in the metric of the space; `None` where no way is known.
+    /// Length (m) of the pathway in the metric of the space; `None` if no pathway is known.
     pub fn length(&self) -> Option<f64> {
         self.pathway.last().map(|last| last.s)
     }
 
-    /// Takes a pathway between the same ends over, with its highest point.
+    /// Replaces the pathway by another one between the same ends, and the saddle by its highest
+    /// point.
     pub fn lead_along(&mut self, pathway: Pathway) {
         if let Some(highest) = highest_point(&pathway).copied() {
             self.saddle_energy = highest.energy;
@@ -303,7 +304,7 @@ impl Barrier {
         }
     }
 
-    /// The same where it is lower than the pathway known.
+    /// The same, if it is lower than the known pathway.
     pub fn lead_lower(&mut self, pathway: Pathway) {
         let is_lower = |highest: &PathwayPoint| highest.energy < self.saddle_energy;
         if highest_point(&pathway).is_some_and(is_lower) {
@@ -319,14 +320,14 @@ pub fn highest_point(pathway: &Pathway) -> Option<&PathwayPoint> {
         .max_by_key(|point| OrderedFloat(point.energy))
 }
 
-/// A pathway by another cost than the highest energy.
+/// A pathway that minimises a cost other than the highest energy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Alternative {
     /// Where it starts.
     pub from: Place,
     /// Where it ends.
     pub to: Place,
-    /// What it is the cheapest by.
+    /// The cost that it minimises.
     pub by: PathwayCost,
     /// The cost: J of work, or -ln of the probability.
     pub cost: f64,
@@ -334,7 +335,7 @@ pub struct Alternative {
     pub pathway: Pathway,
 }
 
-/// What a pathway is the cheapest by.
+/// The cost that a pathway minimises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PathwayCost {
     /// Work against the energy (J).

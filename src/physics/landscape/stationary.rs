@@ -1,10 +1,10 @@
-//! Stationary points of the energy on the contact surface, to full accuracy: minima and
-//! transition states by Newton's method on the surface on which the pressing contacts stay closed.
+//! Stationary points of the energy on the contact surface, to full accuracy: minima and transition
+//! states, by Newton's method on the surface on which the pressing contacts stay closed.
 //!
-//! With contacts `g_k(q) = 0` held closed, U is stationary where `grad U = sum_k l_k grad g_k`.
-//! A multiplier `l_k >= 0` presses the contact; a negative one would open it. The reduced Hessian
-//! is taken from second differences of U along the surface, so that the surface's own curvature is
-//! in it.
+//! With contacts `g_k(q) = 0` held closed, U is stationary where `grad U = sum_k l_k grad g_k`. A
+//! multiplier `l_k >= 0` presses the contact; a negative one would open it. The reduced Hessian is
+//! computed from second differences of U along the surface, and so includes the surface's own
+//! curvature.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ordered_float::OrderedFloat;
@@ -16,8 +16,8 @@ use crate::order::Order;
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::Point;
 
-/// Step of the second differences (m, mass metric): errors of the Hessian of 1e-4 for magnets a
-/// centimetre apart, and rounding far below that.
+/// Step of the second differences (m, mass metric): the relative error of the Hessian is 1e-4 for
+/// magnets a centimetre apart, with rounding far below that.
 const DIFFERENCE: f64 = 1e-4;
 /// Longest Newton step (m, mass metric).
 const LONGEST: f64 = 4e-3;
@@ -25,11 +25,11 @@ const LONGEST: f64 = 4e-3;
 const CONVERGED: f64 = 1e-10;
 /// Contacts with a gap below this (m) are closed.
 const CLOSED: f64 = 1e-8;
-/// Contacts are looked for this far (m) beyond what a step needs, and those that a step would overlap by
-/// more than the other (m) end it.
+/// Contacts are searched for this far (m) beyond the step; an overlap of more than `CLOSED` with
+/// one of them ends the step.
 const MARGIN: f64 = 1e-6;
 const CLOSING: f64 = 1e-11;
-/// Modes of less than this share of the greatest curvature count as curved by that much.
+/// Modes with less than this fraction of the greatest curvature are given that curvature.
 const FLATTEST: f64 = 1e-12;
 const MOST_STEPS: usize = 80;
 /// A minimum farther from the start than this (m, metric of the space) is another one.
@@ -53,7 +53,7 @@ impl Stationary {
         self.modes.iter().filter(|mode| mode.0 < 0.0).count()
     }
 
-    /// What a symmetry of the problem makes of it.
+    /// Its image under a symmetry of the problem.
     pub fn image(&self, symmetry: &Symmetry) -> Self {
         Self {
             point: self.point.image(symmetry),
@@ -66,14 +66,13 @@ impl Stationary {
     }
 }
 
-/// The minimum near `q`, if Newton's method finds one without leaving what is near.
+/// The minimum near `q`, if Newton's method finds one without leaving the neighbourhood.
 pub fn minimum(problem: &Problem, q: &Configuration) -> Option<Stationary> {
     search(problem, q, None, problem.scaled(NEAR))
         .filter(|found| found.index() == 0 && is_at_rest(problem, &found.point))
 }
 
-/// The transition state near `q`: uphill along the mode that resembles `along` most, downhill in
-/// the others.
+/// The transition state near `q`: uphill along the mode closest to `along`, downhill in the others.
 pub fn transition_state(
     problem: &Problem,
     q: &Configuration,
@@ -83,8 +82,8 @@ pub fn transition_state(
         .filter(|found| found.index() == 1 && is_at_rest(problem, &found.point))
 }
 
-/// Whether contact, as it really is at a point, holds the force there. Newton's method may have
-/// kept a contact closed from which the tile can slip off round a corner.
+/// Whether the contacts actually closed at a point balance the force there. Newton's method may
+/// have kept a contact closed from which the tile can slip off round a corner.
 fn is_at_rest(problem: &Problem, point: &Point) -> bool {
     constrained::unbalanced(problem, point) <= UNBALANCED
 }
@@ -121,8 +120,8 @@ fn search(
         if size <= problem.scaled(CONVERGED) {
             return Some(Stationary { point, modes });
         }
-        // Steps that overshoot make the slope grow: shorten them, until they are shorter than the
-        // differences from which they come; then they lead nowhere.
+        // Steps that overshoot increase the slope. They are shortened, and abandoned once they are
+        // shorter than the differences they are computed from.
         longest = if slope_size > last_slope {
             longest / 2.0
         } else {
@@ -150,7 +149,7 @@ fn search(
     None
 }
 
-/// The mode most alike to a direction, by the cosine in the mass metric.
+/// The mode closest to a direction, by the cosine in the mass metric.
 fn most_alike(
     problem: &Problem,
     point: &Point,
@@ -170,7 +169,7 @@ struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// The contacts that the energy presses on at a point.
+    /// The surface of the contacts that the energy presses on at a point.
     fn pressing(problem: &'a Problem, point: &Point) -> Self {
         let metric = problem.mass_metric(point.q.theta);
         let touching = constrained::constraints(problem, &point.q, problem.scaled(CLOSED));
@@ -196,7 +195,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Opens the contact that is pulled on most, if any; whether one was opened. A contact that is
-    /// opened time and again is left closed.
+    /// opened repeatedly is left closed.
     fn release(&mut self, point: &Point) -> bool {
         if self.closed.is_empty() || self.releases > 8 {
             return false;
@@ -253,7 +252,7 @@ impl<'a> Surface<'a> {
         constrained::close(self.problem, &self.closed, q)
     }
 
-    /// Goes along a step on the surface, up to the first contact that closes on the way.
+    /// Takes a step on the surface, up to the first contact that closes on the way.
     fn advance(
         &self,
         q: &Configuration,
@@ -324,7 +323,7 @@ impl<'a> Surface<'a> {
             .into_iter()
             .map(|step| self.retract(&point.q.moved(step)))
             .collect();
-        // Asked for together: they share the vectors of the potential's batches.
+        // Evaluated together, to share the vectors of the potential's batches.
         let mut energies = self.problem.energies(&places?).into_iter();
         let mut next = || energies.next().unwrap_or(f64::NAN);
         let mut hessian = DMatrix::zeros(n, n);
@@ -351,8 +350,8 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// What of `v` is left after taking off its parts along `basis`, of length 1 in the metric;
-/// `None` where less than the fraction `least` is left.
+/// The component of `v` orthogonal to `basis`, normalised in the metric; `None` if less than the
+/// fraction `least` remains.
 fn orthonormal(
     v: Vector3<f64>,
     basis: &[Vector3<f64>],

@@ -18,13 +18,13 @@ use crate::tile::symmetry::rotations;
 pub struct Volume {
     /// Values of the coordinates (m, rad), the slowest first.
     pub axes: [Vec<f64>; 3],
-    /// U (J), the last coordinate running fastest; `None` where no free configuration belongs to
-    /// the grid point.
+    /// U (J), the last coordinate running fastest; `None` if no free configuration belongs to the
+    /// grid point.
     pub energies: Vec<Option<f64>>,
 }
 
 impl Volume {
-    /// Samples row after row; `configuration` tells the free one at a grid point.
+    /// Samples row by row; `configuration` gives the free configuration at a grid point.
     fn sample(
         problem: &Problem,
         axes: [Vec<f64>; 3],
@@ -42,7 +42,7 @@ impl Volume {
 
 /// U(theta, y, x) for `|x|` and `|y|` up to `reach` (m), at `samples` places along the longer of
 /// the two. Theta runs over the angle after which the moving tile repeats, in even steps from minus
-/// half that angle on, `orientations` of them to a full turn or a few more.
+/// half that angle, with `orientations` of them or a few more per full turn.
 pub fn around(problem: &Problem, reach: [f64; 2], orientations: usize, samples: usize) -> Volume {
     let pair = problem.pair.as_deref();
     let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);
@@ -72,8 +72,8 @@ pub struct InFront {
     /// U(gap, tilt, slide): see [`super::approach::ApproachSlices`].
     pub volume: Volume,
     /// For each tilt and slide, the distance (m) along the target face's normal from the bound
-    /// position at which the moving tile, coming from far away, first touches; `None` where it
-    /// passes by.
+    /// position at which the moving tile, coming from far away, first touches; `None` if it passes
+    /// by.
     pub landing: Vec<Option<f64>>,
 }
 

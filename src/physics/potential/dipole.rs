@@ -1,4 +1,4 @@
-//! Point dipoles: the plain scalar formula, the reference for everything faster.
+//! Point dipoles: the plain scalar formula, which is the reference for all faster ones.
 //!
 //! Two dipoles in the plane, with moments of magnitude `m1`, `m2` (A m^2) and directions `a`, `b`
 //! (rad), `r` (m) apart, where `phi` is the direction from the first to the second:
@@ -10,12 +10,12 @@
 //! Source: Jackson, *Classical Electrodynamics* (3rd ed.), equations (5.56) and (5.72), restricted
 //! to the plane. Equation (5.1.2) of Majumder and Reif, *Barcoded Magnetic Tiles for Programmable
 //! Assemblies*, is the same energy. Their formula for the moment of a bar magnet is not used: it
-//! has the unit of a flux (Wb), not of a moment. The right one for a block of volume V and
-//! remanence Br is `m = Br V / mu0`, and for a long bar of pole-face field B0, half length l and
-//! pole radius r it is `m = 2 B0 a sqrt(l^2 + r^2) / mu0` with the pole area a.
+//! has the unit of a flux (Wb), not of a moment. The correct moment of a block of volume V and
+//! remanence Br is `m = Br V / mu0`, and that of a long bar of pole-face field B0, half length l
+//! and pole radius r is `m = 2 B0 a sqrt(l^2 + r^2) / mu0` with the pole area a.
 //!
-//! Edges: U falls as `r^-3` and tends to 0 at infinity; at r = 0 it is infinite in magnitude, and
-//! here taken as plus infinity. `|U| <= 2 K / r^3`, attained by dipoles in line.
+//! Special cases: U decreases as `r^-3`; at r = 0 it is infinite in magnitude, and plus infinity is
+//! returned. `|U| <= 2 K / r^3`, attained by dipoles in line.
 
 use nalgebra::Vector2;
 
@@ -25,7 +25,7 @@ use crate::units::MU0_OVER_4PI;
 /// A point dipole in its tile's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dipole {
-    /// Where it is (m).
+    /// Its position (m).
     pub position: Vector2<f64>,
     /// Its moment (A m^2).
     pub moment: Vector2<f64>,

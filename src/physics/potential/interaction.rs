@@ -1,22 +1,24 @@
-//! Which energy acts between two tiles: the one place where it is chosen.
+//! The only place where the energy between two tiles is chosen.
 //!
-//! An [`Interaction`] is what a design says of the physics; [`Interaction::between`] makes of it an
-//! [`Energy`]: the potential with its feature length, and its bounds over cells, or why there are
-//! none. Everything above asks a [`Problem`](crate::problem::Problem) and knows no model.
+//! An [`Interaction`] is the physics as given in a design. [`Interaction::between`] turns it into
+//! an [`Energy`]: the potential with its feature length, and its bounds over cells, or the reason
+//! why there are none. All other modules use a [`Problem`](crate::problem::Problem) and do not
+//! depend on the model.
 //!
 //! # Adding physics
-//! Another force between tiles (say, capillary attraction of faces coded by wetting) takes:
+//! To add another force between tiles (for example capillary attraction of faces coded by wetting),
+//! add:
 //!
-//! 1. a module of its own here with its `Potential` (energy, gradient, bounds of derivatives,
-//!    feature length), and one with its `CellBounds`, or none;
+//! 1. a new module here with its `Potential` (energy, gradient, bounds of derivatives, feature
+//!    length), and one with its `CellBounds`, or none;
 //! 2. `potential/mod.rs`: the module's name and a line of the table of models;
-//! 3. this file: what a design says of it, as a field of [`Interaction`], and its arm in
-//!    [`Interaction::between`]; a sum of two energies is a `Potential` of its own, whose
-//!    enclosures are the sums of theirs;
-//! 4. `tile/mod.rs`: what a face carries beside its magnets;
-//! 5. `problem/symmetry.rs`: which turns of a tile onto itself keep it;
-//! 6. `landscape/meeting.rs`: what is reported of faces that meet;
-//! 7. `report/json/mod.rs`: how the model is named in results;
+//! 3. this file: its description in a design, as a field of [`Interaction`], and its branch in
+//!    [`Interaction::between`]; a sum of two energies is a `Potential` of its own, whose enclosures
+//!    are the sums of theirs;
+//! 4. `tile/mod.rs`: the features of a face other than magnets;
+//! 5. `problem/symmetry.rs`: the turns of a tile onto itself that preserve it;
+//! 6. `landscape/meeting.rs`: the report on faces in contact;
+//! 7. `report/json/mod.rs`: the model's name in results;
 //!
 //! and its keys in the design reader. Roadmap, landscape, certificates, dynamics and pictures stay
 //! as they are.
@@ -30,7 +32,7 @@ use super::{
 };
 use crate::tile::{Magnet, Tile};
 
-/// What acts between two tiles.
+/// The interaction between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interaction {
     /// How magnets are modelled.
@@ -44,18 +46,18 @@ pub struct Interaction {
     Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
 )]
 pub enum Unbounded {
-    /// Discs, and magnets that stand.
+    /// Discs and upright magnets.
     #[error("bounds over cells are not available for discs and upright magnets")]
     Bodies,
     /// The nearest-face rule, see [`super::shielding`].
     #[error("the energy is discontinuous where the nearest-face rule changes faces")]
     NearestFace,
-    /// An energy that came without bounds.
+    /// A caller's energy without bounds.
     #[error("bounds over cells are not available for this energy")]
     Unknown,
 }
 
-/// An energy and what is proved of it.
+/// An energy and its proved bounds.
 pub struct Energy {
     /// U and its derivatives.
     pub potential: Box<dyn Potential + Send>,
@@ -63,8 +65,7 @@ pub struct Energy {
     pub bounds: Result<LazyBounds, Unbounded>,
 }
 
-/// Bounds over cells, made when they are first asked for: those of blocks take longer than many
-/// energies.
+/// Bounds over cells, built on first use: for blocks this takes longer than many energies.
 pub type LazyBounds = LazyLock<BoxedBounds, Box<dyn FnOnce() -> BoxedBounds + Send>>;
 
 /// Bounds over cells of any energy.

@@ -2,9 +2,9 @@
 
 use nalgebra::{Vector2, Vector3};
 
-/// The least lever (m): magnets at the reference point itself are not moved by a turn, but their
-/// energy changes, so that a turn must count as some displacement. Any length is right, of tiles of any
-/// size; one that is far off costs steps.
+/// The smallest lever (m): magnets at the reference point are not moved by a turn, but their energy
+/// changes, so a turn must count as some displacement. Any length is valid for tiles of any size;
+/// an unsuitable one costs steps.
 const LEAST: f64 = 1e-3;
 
 /// The largest distance (m) of the moving tile's magnets, or of their corners, from its reference

@@ -1,4 +1,4 @@
-//! How magnets are modelled.
+//! The models of the magnets.
 
 use crate::tile::magnet::Form;
 use crate::tile::{Magnet, Pair};
@@ -8,17 +8,17 @@ use crate::tile::{Magnet, Pair};
 pub enum MagnetModel {
     /// Point dipoles at the blocks' centres.
     Dipole,
-    /// Uniformly magnetised blocks and discs: what magnets are, and what is taken where nothing is said.
+    /// Uniformly magnetised blocks and discs: the default.
     #[default]
     Cuboid,
 }
 
 impl MagnetModel {
-    /// What design files call each model.
+    /// The name of each model in design files.
     pub const NAMES: [(&'static str, Self); 2] =
         [("dipole", Self::Dipole), ("cuboid", Self::Cuboid)];
 
-    /// What a reader calls a pair's magnets of this model: `dipoles`, `blocks`, `discs`.
+    /// The plural for a pair's magnets in this model: `dipoles`, `blocks`, `discs`.
     pub fn plural(self, pair: &Pair) -> &'static str {
         match self {
             Self::Dipole => "dipoles",
@@ -26,8 +26,8 @@ impl MagnetModel {
         }
     }
 
-    /// Whether magnets have to be taken for [`super::BodyPotential`]'s bodies: blocks that lie have formulas of
-    /// their own, and so have dipoles that do.
+    /// Whether magnets need [`super::BodyPotential`]: blocks and dipoles that lie flat have their
+    /// own formulas.
     pub fn is_of_bodies(self, magnets: &[Magnet]) -> bool {
         magnets.iter().any(|magnet| match self {
             Self::Dipole => magnet.form.stands.is_some(),
@@ -35,7 +35,7 @@ impl MagnetModel {
         })
     }
 
-    /// What design files call this model.
+    /// The name of this model in design files.
     pub fn name(self) -> &'static str {
         let own = Self::NAMES.iter().find(|(_, model)| *model == self);
         own.expect("all are named").0

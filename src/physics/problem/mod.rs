@@ -1,5 +1,4 @@
-//! What is asked about: a space of configurations, the energy on it, and the contact that blocks
-//! part of it.
+//! A problem: a space of configurations, the energy on it, and the contact that blocks part of it.
 
 mod rivals;
 mod symmetry;
@@ -27,21 +26,20 @@ pub use symmetry::Symmetry;
 /// wait for each other.
 const COUNTERS: usize = 64;
 
-/// Fewer configurations are asked for one by one; the bits are the same.
+/// Fewer configurations are evaluated individually; the bits are the same.
 const WORTH_A_BATCH: usize = 5;
 
 #[repr(align(128))]
 #[derive(Default)]
 struct Counter(AtomicU64);
 
-/// An energy landscape over free configurations. Made once, it travels with what is found out
-/// about it.
+/// An energy landscape over free configurations.
 pub struct Problem {
-    /// Where the moving tile may be.
+    /// The space of configurations of the moving tile.
     pub space: ConfigurationSpace,
     /// The two tiles; `None` for analytic landscapes.
     pub pair: Option<Arc<Pair>>,
-    /// `None` where nothing blocks a configuration (analytic landscapes).
+    /// `None` if nothing blocks a configuration (analytic landscapes).
     pub contact: Option<Contact>,
     /// Maps of configurations that change neither energy nor clearance, the identity first.
     pub symmetries: Vec<Symmetry>,
@@ -62,8 +60,7 @@ impl Problem {
         }
     }
 
-    /// The same energy where two tiles must not overlap, whatever it comes from: no symmetry is
-    /// taken for granted.
+    /// The same energy with the contact of two tiles. No symmetry of the energy is assumed.
     pub fn with_tiles(self, pair: Arc<Pair>) -> Self {
         Self {
             contact: Some(Contact::new(&pair.fixed.outline, &pair.moving.outline)),
@@ -73,7 +70,7 @@ impl Problem {
         }
     }
 
-    /// An energy landscape in which nothing blocks the way, and of which no bounds are known.
+    /// An energy landscape without contact and without bounds.
     pub fn without_contact(
         space: ConfigurationSpace,
         potential: Box<dyn Potential + Send>,
@@ -110,8 +107,8 @@ impl Problem {
             .map_or([&[], &[]], |pair| [&pair.fixed.faces, &pair.moving.faces])
     }
 
-    /// Where minima may be expected: the bound configuration, and every pair of faces set flush
-    /// against each other, pushed out into contact where their shapes overlap. None for analytic
+    /// Configurations near which minima are expected: the bound one, and every pair of faces flush
+    /// against each other, pushed out into contact if their shapes overlap. None for analytic
     /// landscapes.
     pub fn flush_meetings(&self) -> &[Configuration] {
         self.flush_meetings.get_or_init(|| {
@@ -132,8 +129,8 @@ impl Problem {
         })
     }
 
-    /// The configurations in which the outlines, magnets aside, lie on each other along the greatest
-    /// lengths, at most so many. None for analytic landscapes.
+    /// The configurations in which the outlines, regardless of magnets, touch along the greatest
+    /// lengths, at most this many. None for analytic landscapes.
     pub fn matches(&self, most: usize) -> Vec<Configuration> {
         let found = self.contact.iter().flat_map(|it| matches(it, most));
         found.map(|it| it.pose).collect()
@@ -146,8 +143,8 @@ impl Problem {
         self.pair.as_ref().is_some_and(has_none)
     }
 
-    /// Depth (J) that energies are measured by: that of the bound configuration, or of the deepest
-    /// of the flush meetings of two faces where the bound one does not attract.
+    /// The depth (J) by which energies are measured: that of the bound configuration or, if this
+    /// does not attract, of the deepest flush contact of two faces.
     pub fn depth(&self) -> f64 {
         *self.depth.get_or_init(|| {
             let depths = self.flush_meetings().iter().map(|q| self.energy(q).abs());
@@ -155,22 +152,23 @@ impl Problem {
         })
     }
 
-    /// How large the tiles are.
+    /// The size of the tiles.
     pub fn scale(&self) -> Scale {
         self.contact.as_ref().map_or(Scale::NONE, Contact::scale)
     }
 
-    /// What a length (m) is for these tiles that is told for the paper's ([`Scale`]).
+    /// A length (m) given for the paper's tiles, scaled to these ([`Scale`]).
     pub fn scaled(&self, told: f64) -> f64 {
         self.scale().length(told)
     }
 
-    /// Whether an energy takes so long, of very many magnets, that as few as possible are to be asked.
+    /// Whether an energy takes so long, because of very many magnets, that as few as possible are
+    /// to be computed.
     pub fn is_dear(&self) -> bool {
         self.potential().is_dear()
     }
 
-    /// How far (m) the moving tile has to go in a direction until the tiles do not overlap.
+    /// How far (m) the moving tile must move in a direction until the tiles do not overlap.
     pub fn lift(&self, q: &Configuration, direction: Vector2<f64>) -> f64 {
         self.contact
             .as_ref()
@@ -180,7 +178,7 @@ impl Problem {
     /// The energy's bounds over cells.
     ///
     /// # Errors
-    /// Where no such bounds are known.
+    /// If no such bounds are known.
     pub fn bounds(&self) -> Result<&dyn CellBounds, Unbounded> {
         match &self.energy.bounds {
             Ok(bounds) => Ok(bounds.as_ref()),
@@ -188,7 +186,7 @@ impl Problem {
         }
     }
 
-    /// The energy by itself, uncounted.
+    /// The potential, whose evaluations are not counted.
     pub fn potential(&self) -> &dyn Potential {
         self.energy.potential.as_ref()
     }
@@ -217,7 +215,7 @@ impl Problem {
         self.energy.potential.energy_and_gradient(q)
     }
 
-    /// The same of many configurations; `out` has the length of `qs`.
+    /// The same for many configurations; `out` has the length of `qs`.
     pub fn energies_and_gradients(&self, qs: &[Configuration], out: &mut [(f64, Vector3<f64>)]) {
         self.count(qs.len() as u64);
         if qs.len() >= WORTH_A_BATCH {
@@ -258,7 +256,7 @@ impl Problem {
             .is_none_or(|contact| contact.is_free(q))
     }
 
-    /// Signed clearance (m); infinite where there is no contact to speak of.
+    /// Signed clearance (m); infinite for a landscape without contact.
     pub fn clearance(&self, q: &Configuration) -> f64 {
         self.contact
             .as_ref()
@@ -279,21 +277,21 @@ impl Problem {
             .map_or(f64::INFINITY, |contact| contact.clearance_bound(q))
     }
 
-    /// Whether a cheap test says that the tiles are at least `least` (m) apart.
+    /// Whether a cheap test shows that the tiles are at least `least` (m) apart.
     pub(crate) fn has_room(&self, q: &Configuration, least: f64) -> bool {
         self.contact
             .as_ref()
             .is_none_or(|contact| contact.is_clear_by(q, least))
     }
 
-    /// Those of some pairs of configurations, given by their numbers, between which the straight motion
-    /// is free, in the order given.
+    /// The pairs of configurations, given by their indices, between which the straight motion is
+    /// free, in the given order.
     pub fn free_motions(
         &self,
         configurations: &[Configuration],
         pairs: &[(u32, u32)],
     ) -> Vec<(u32, u32)> {
-        // Of every configuration once, not of every pair.
+        // Once for each configuration, not for each pair.
         let known = parallel::map(configurations, |q| self.known(q));
         let end = |end: u32| &known[end as usize];
         let is_free = self.free_among(pairs.len(), |pair| [end(pairs[pair].0), end(pairs[pair].1)]);
@@ -301,14 +299,14 @@ impl Problem {
         free.map(|(pair, _)| *pair).collect()
     }
 
-    /// Whether each of so many motions is free, `ends` telling what is known of where it begins and
-    /// ends.
+    /// Whether each of this many motions is free; `ends` gives the known contact data of its start
+    /// and end.
     pub fn free_among<'a>(
         &self,
         count: usize,
         ends: impl Fn(usize) -> [&'a Option<Known>; 2] + Sync,
     ) -> Vec<bool> {
-        /// Motions that lend each other their memory.
+        /// Number of motions that share working memory.
         const TOGETHER: usize = 64;
         parallel::flat_map(0..count.div_ceil(TOGETHER), |part| {
             let mut left = Halves::default();
@@ -318,13 +316,14 @@ impl Problem {
         })
     }
 
-    /// What every motion from or to a configuration asks of contact; `None` where there is none.
+    /// The contact data of a configuration, used by every motion from or to it; `None` without
+    /// contact.
     pub fn known(&self, q: &Configuration) -> Option<Known> {
         self.contact.as_ref().map(|contact| contact.known(*q))
     }
 
-    /// Whether the straight motion between two free configurations is free, of which that is known;
-    /// `left` is lent.
+    /// Whether the straight motion between two free configurations is free, given their contact
+    /// data; `left` is working memory.
     pub fn known_motion_is_free(&self, [a, b]: [&Option<Known>; 2], left: &mut Halves) -> bool {
         interruption::check();
         let (Some(contact), Some(a), Some(b)) = (&self.contact, a, b) else {

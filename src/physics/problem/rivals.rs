@@ -1,10 +1,10 @@
-//! Faces that bind beside those that are meant to.
+//! Faces that bind besides the intended ones.
 
 use super::Problem;
 use crate::configuration::Configuration;
 use crate::tile::face_to_face;
 
-/// Two faces bind as strongly as the target where they reach this share of its energy.
+/// Two faces count as binding as strongly as the target from this fraction of its energy on.
 const AS_STRONG: f64 = 0.95;
 /// Configurations closer than this (m, metric of the space) are the same meeting.
 const SAME: f64 = 1e-6;
@@ -14,17 +14,17 @@ const SAME: f64 = 1e-6;
 pub struct Meeting {
     /// Which face of the fixed tile, which of the moving one.
     pub faces: (usize, usize),
-    /// Where the moving tile then is.
+    /// The configuration of the moving tile.
     pub configuration: Configuration,
     /// U there (J).
     pub energy: f64,
 }
 
 impl Problem {
-    /// The pairs of faces that bind as strongly as the target although they are not meant to: flush
-    /// against each other, pushed out into contact where their shapes overlap, they have 0.95 of
-    /// the bond's energy or more. What a symmetry makes of the target is no other pair. Slid and
-    /// tilted meetings are not looked at.
+    /// The pairs of faces that unintentionally bind as strongly as the target: flush against each
+    /// other, pushed out into contact if their shapes overlap, they have at least 0.95 of the
+    /// bond's energy. Images of the target under a symmetry are not included. Slid and tilted
+    /// contacts are not considered.
     pub fn rivals(&self) -> Vec<Meeting> {
         let Some(pair) = &self.pair else {
             return Vec::new();

@@ -46,7 +46,7 @@ impl Symmetry {
         )
     }
 
-    /// What becomes of a direction in (x, y, theta), of a step or of a gradient: the turn of the fixed
+    /// The image of a direction in (x, y, theta), of a step or of a gradient: a turn of the fixed
     /// tile's plane.
     pub fn turned(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         Rotation3::from_axis_angle(&Vector3::z_axis(), self.fixed) * direction

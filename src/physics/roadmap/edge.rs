@@ -1,4 +1,4 @@
-//! Motions between milestones and what they cost.
+//! Motions between milestones and their costs.
 
 use ordered_float::OrderedFloat;
 
@@ -10,10 +10,10 @@ use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// What a motion costs, read off one energy profile.
+/// The costs of a motion, from one energy profile.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCosts {
-    /// Highest energy on the way, both ends included (J).
+    /// Highest energy along it, both ends included (J).
     pub peak: f64,
     /// Where it is reached, as a fraction of the motion.
     pub peak_at: f64,
@@ -26,7 +26,7 @@ pub struct EdgeCosts {
 }
 
 impl EdgeCosts {
-    /// Of a motion that is not free: more than any that is.
+    /// The costs of a motion that is not free: higher than any others.
     pub const BLOCKED: Self = Self {
         peak: f64::INFINITY,
         peak_at: 0.0,
@@ -43,7 +43,7 @@ pub struct Edge {
     pub from: u32,
     /// The milestone it reaches.
     pub to: u32,
-    /// Of the motion from the one to the other, and back.
+    /// The costs of the motion in both directions.
     pub costs: EdgeCosts,
 }
 
@@ -58,9 +58,9 @@ pub struct EdgeSettings {
     pub probability_step: f64,
 }
 
-/// Edges that are collected together.
+/// Number of edges that are collected together.
 const TOGETHER: usize = 1 << 20;
-/// Motions whose energies are asked for together.
+/// Number of motions whose energies are evaluated together.
 pub(crate) const SIDE_BY_SIDE: usize = 64;
 
 /// The free motions among candidate pairs of milestones, with their costs, in the order given.
@@ -79,7 +79,7 @@ pub fn edges(
         some.iter().zip(costs).map(edge).collect()
     };
     let mut edges = Vec::with_capacity(free.len());
-    // In parts, as collecting in parallel takes twice the memory.
+    // In parts, because collecting in parallel takes twice the memory.
     for part in free.chunks(TOGETHER) {
         let part: Vec<&[(u32, u32)]> = part.chunks(SIDE_BY_SIDE).collect();
         edges.append(&mut parallel::flat_map(&part, |some| of_some(some)));
@@ -87,7 +87,7 @@ pub fn edges(
     edges
 }
 
-/// Those of some pairs of milestones between which the straight motion is free.
+/// The pairs of milestones between which the straight motion is free.
 pub fn free_motions(
     problem: &Problem,
     milestones: &[Point],
@@ -97,7 +97,7 @@ pub fn free_motions(
     problem.free_motions(&configurations, pairs)
 }
 
-/// The costs of some straight motions, their energies asked together.
+/// The costs of some straight motions, whose energies are evaluated together.
 pub(crate) fn costs_side_by_side(
     problem: &Problem,
     ends: &[[&Point; 2]],
@@ -131,8 +131,8 @@ fn costs_of_profile(
     }
 }
 
-/// The costs of a way given by energies (J) at points so close that the energy between two of them
-/// is as good as linear, and the lengths (m) between them.
+/// The costs of a path given by energies (J) at points close enough for the energy between two of
+/// them to be nearly linear, and the lengths (m) between them.
 pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSettings) -> EdgeCosts {
     if let [only] = energies {
         return EdgeCosts {
@@ -167,17 +167,17 @@ pub fn costs_of_energies(energies: &[f64], lengths: &[f64], settings: &EdgeSetti
     }
 }
 
-/// Steps of a motion at which transition probabilities are taken.
+/// Number of steps of a motion for transition probabilities.
 fn steps(length: f64, settings: &EdgeSettings) -> usize {
     (length / settings.probability_step).ceil().max(1.0) as usize
 }
 
-/// -ln of the probability of going along a profile, forwards and backwards, from its energies (J)
-/// at evenly spaced points: at each inner point of a fine subdivision the motion goes on to the
-/// next point (energy difference D+) rather than back to the last one (D-) with probability
-/// `e^(-D+/kT) / (e^(-D+/kT) + e^(-D-/kT))`; the first step is weighed against staying (D- = 0).
-/// Source: Singh, Latombe and Brutlag, *A motion planning approach to flexible ligand binding*
-/// (ISMB 1999), section "Edge weights". Both ends count.
+/// -ln of the probability of following a profile, forwards and backwards, from its energies (J) at
+/// evenly spaced points: at each inner point of a fine subdivision the motion goes on to the next
+/// point (energy difference D+) rather than back to the last one (D-) with probability `e^(-D+/kT)
+/// / (e^(-D+/kT) + e^(-D-/kT))`; the first step is weighed against staying (D- = 0). Source: Singh,
+/// Latombe and Brutlag, *A motion planning approach to flexible ligand binding* (ISMB 1999),
+/// section "Edge weights". Both ends count.
 fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings) -> [f64; 2] {
     let kt = settings.thermal_energy;
     let mut energies = energies;
@@ -186,8 +186,8 @@ fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings)
     };
     let (mut last, mut here) = (first, second);
     // -ln of e^-f / (e^-f + e^-b) is ln(1 + e^(f - b)), with f - b the difference of the next and
-    // the last energy over kT; the other way round it is that less the difference. The differences
-    // add up to those at the ends.
+    // the last energy over kT; in the other direction it is that minus the difference. The
+    // differences add up to those at the ends.
     let mut inner = Softplus::default();
     for next in energies {
         inner.add((next - last) / kt);
@@ -206,13 +206,13 @@ fn improbabilities(energies: impl Iterator<Item = f64>, settings: &EdgeSettings)
     ]
 }
 
-/// What -ln of the transition probabilities along a way of at least this length (m) amounts to at
-/// least, if it leads up by `climb` (J) from end to end.
+/// A lower bound of -ln of the transition probabilities along a path of at least this length (m)
+/// that leads up by `climb` (J) from end to end.
 ///
-/// Of its n steps every other one and, where n is odd, the first tell the whole climb D apart: the
-/// arguments of their m >= n / 2 terms `ln(1 + e^x)` add up to D / kT, the other terms are not
-/// negative. The function is convex, so that those m amount to `m ln(1 + e^(D / (m kT)))` at least
-/// (Jensen), which grows with m.
+/// Every other one of its n steps and, if n is odd, the first, together make up the whole climb D:
+/// the arguments of their m >= n / 2 terms `ln(1 + e^x)` add up to D / kT, and the other terms are
+/// not negative. The function is convex, so the sum of those m terms is at least `m ln(1 + e^(D /
+/// (m kT)))` (Jensen), which grows with m.
 pub(crate) fn improbability_at_least(length: f64, climb: f64, settings: &EdgeSettings) -> f64 {
     let terms = length / (2.0 * settings.probability_step);
     let x = climb / settings.thermal_energy;
@@ -240,7 +240,7 @@ impl Default for Softplus {
 }
 
 impl Softplus {
-    /// From here on `ln(1 + e^x)` is x to an error below 1e-15.
+    /// Beyond this, `ln(1 + e^x)` is x to within 1e-15.
     const LARGE: f64 = 35.0;
 
     fn add(&mut self, x: f64) {
@@ -266,7 +266,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Over ways of few and of many steps, level, steep and rugged.
+    /// Over paths of few and of many steps: level, steep and rugged.
     #[test]
     fn no_way_is_more_probable_than_is_said() {
         let settings = EdgeSettings {

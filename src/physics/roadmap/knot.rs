@@ -1,4 +1,5 @@
-//! Points of a motion where the energy and its slope are known, and the cubic between two of them.
+//! Points of a motion at which the energy and its slope are known, and the cubic between two of
+//! them.
 
 /// A point of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +33,7 @@ pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
     let q = 3.0 * climb - 2.0 * first - last;
     let r = first;
     let root = (q * q - p * r).sqrt();
-    // Of the two forms of each root the one in which nothing cancels.
+    // The form of each root without cancellation.
     let sum = -(q + root.copysign(q));
     let (mut low, mut high) = (sum / p, r / sum);
     if low > high {
@@ -52,8 +53,8 @@ pub(crate) fn inner_extremes(a: &Knot, b: &Knot) -> impl Iterator<Item = Knot> {
         })
 }
 
-/// Mechanical work against energies (J) that come one after the other, forwards and backwards (J): the
-/// sums of all climbs and of all falls.
+/// Mechanical work against a sequence of energies (J), forwards and backwards (J): the sums of all
+/// climbs and of all falls.
 pub fn work(energies: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     let mut work = [0.0; 2];
     for (here, next) in energies.clone().zip(energies.skip(1)) {

@@ -3,17 +3,18 @@
 //! Configurations are proposed from a mixture and accepted by their energy. The mixture, for tiles:
 //!
 //! - one part in four: uniform over the table and over theta;
-//! - three parts in four: around contact. A face of each tile is chosen and the two are set
-//!   against each other, slid by up to where they just lose sight of each other, tilted by an
-//!   angle drawn log-uniformly from 1 mrad to 1 rad of either sign (one in three: any
-//!   orientation at all); then the tile is pushed out along the face's normal into contact and,
-//!   in half of the cases, on by a gap drawn log-uniformly from 10 µm to 0.1 m.
+//! - three parts in four: around contact. A face of each tile is chosen and the two are set against
+//!   each other, slid at most until they no longer overlap, tilted by an angle drawn log-uniformly
+//!   from 1 mrad to 1 rad of either sign (one in three: any orientation at all); then the tile is
+//!   pushed out along the face's normal into contact and, in half of the cases, farther by a gap
+//!   drawn log-uniformly from 10 µm to 0.1 m.
 //!
 //! Scales are log-uniform because the energy of magnets is a power law: every decade of gap and
-//! tilt down to contact matters alike. Without faces (analytic landscapes) all are uniform.
+//! tilt down to contact is equally important. Without faces (analytic landscapes) all proposals are
+//! uniform.
 //!
-//! Each milestone has a random stream of its own (ChaCha8, stream = index), so that the result does
-//! not depend on the number of threads.
+//! Each milestone has its own random stream (ChaCha8, stream = index), so the result does not
+//! depend on the number of threads.
 
 use std::f64::consts::PI;
 
@@ -27,21 +28,21 @@ use crate::parallel;
 use crate::problem::Problem;
 use crate::tile::face_to_face;
 
-/// By which rule a proposed milestone is accepted.
+/// The rule for accepting a proposed milestone.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Acceptance {
     /// The linear rule: with probability 1 below `lowest` (J), 0 above `highest` (J), and
     /// `(highest - U) / (highest - lowest)` between. Source: Singh, Latombe and Brutlag, *A motion
     /// planning approach to flexible ligand binding* (ISMB 1999), "Generation of milestones".
     Linear {
-        /// All below this energy (J) are taken.
+        /// All proposals below this energy (J) are accepted.
         lowest: f64,
-        /// None above this energy (J) is taken.
+        /// No proposal above this energy (J) is accepted.
         highest: f64,
     },
     /// With probability `min(1, exp(-U / energy))`, `energy` (J) > 0.
     Boltzmann {
-        /// The energy (J) at which a share of 1/e is taken.
+        /// The energy (J) at which the fraction 1/e is accepted.
         energy: f64,
     },
 }
@@ -61,15 +62,15 @@ impl Acceptance {
 /// How milestones are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MilestoneSettings {
-    /// How many are drawn.
+    /// Number of milestones to draw.
     pub count: usize,
-    /// Which proposals are taken.
+    /// The rule for accepting proposals.
     pub acceptance: Acceptance,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// A proposal is given up after this many rejections; the milestone is then left out.
+/// A milestone is left out after this many rejected proposals.
 const MOST_PROPOSALS: usize = 10_000;
 
 /// Draws the milestones, in the order of their random streams.

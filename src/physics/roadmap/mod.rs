@@ -19,30 +19,30 @@ use crate::problem::Problem;
 /// Milestones and the free motions between neighbours.
 #[derive(Clone, Debug, Default)]
 pub struct Roadmap {
-    /// By their numbers.
+    /// The milestones, by index.
     pub milestones: Vec<Point>,
-    /// Between milestones, by their numbers in `milestones`.
+    /// The edges between milestones, by their indices in `milestones`.
     pub edges: Vec<Edge>,
-    /// Pairs of neighbours of whose motions nothing is known yet.
+    /// Pairs of neighbours whose motions have not been checked yet.
     pub untried: Vec<(u32, u32)>,
 }
 
-/// All that decides a roadmap.
+/// The settings of a roadmap.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RoadmapSettings {
     /// How milestones are drawn.
     pub milestones: MilestoneSettings,
     /// Nearest neighbours to which each milestone is joined.
     pub neighbours: usize,
-    /// How motions are judged.
+    /// How motions are weighed.
     pub edges: EdgeSettings,
 }
 
-/// Memory (bytes) that a roadmap takes, with the network that is asked for barriers: 56 + 152 bytes
-/// a milestone and 8 + 88 a pair of neighbours. Of a milestone and one of its nearest neighbours about
-/// every other one is such a pair, as most are neighbours of each other.
+/// Memory (bytes) of a roadmap with its transition network: 56 + 152 bytes per milestone and 8 + 88
+/// per pair of neighbours. There are about half as many pairs as milestones times neighbours,
+/// because most are neighbours of each other.
 ///
-/// Neighbours are by the PRM* rule where `None`.
+/// `None` for the number of neighbours means the PRM* rule.
 pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
     let neighbours = neighbours.unwrap_or_else(|| neighbour::neighbours_per_milestone(milestones));
     let neighbours = neighbours.min(milestones.saturating_sub(1));
@@ -50,9 +50,9 @@ pub fn memory(milestones: usize, neighbours: Option<usize>) -> f64 {
 }
 
 impl Roadmap {
-    /// Draws the milestones and joins each to its nearest ones. Whether the motions are free and what
-    /// they cost is left to be found out by who needs it ([`crate::landscape::transition_network`]): of
-    /// most, nobody ever asks. `watch` is told of each stage.
+    /// Draws the milestones and joins each to its nearest ones. Whether the motions are free and
+    /// what they cost is computed on demand ([`crate::landscape::transition_network`]), because
+    /// most are never needed. `watch` receives each stage.
     pub fn untried(
         problem: &Problem,
         settings: &RoadmapSettings,

@@ -1,4 +1,5 @@
-//! Pairs of neighbouring milestones, by k-d tree in the metric of the configuration space.
+//! Pairs of neighbouring milestones, found with a k-d tree in the metric of the configuration
+//! space.
 
 use std::f64::consts::{E, PI, TAU};
 use std::num::NonZeroUsize;
@@ -20,15 +21,15 @@ pub fn neighbours_per_milestone(n: usize) -> usize {
 /// Finds the milestones closest to a configuration.
 ///
 /// The metric `d^2 = dx^2 + dy^2 + rho^2 dtheta^2` is Euclidean in (x, y, rho theta); theta's
-/// period is taken care of by asking again one turn away where the seam is closer than the
-/// farthest neighbour found.
+/// period is handled by a second query one turn away if the seam is closer than the farthest
+/// neighbour found.
 pub struct NeighbourSearch<'a> {
     tree: ImmutableKdTree<f64, 3>,
     space: &'a ConfigurationSpace,
 }
 
 impl<'a> NeighbourSearch<'a> {
-    /// Over milestones, which are numbered as they come.
+    /// The search over milestones, indexed in the given order.
     pub fn new(milestones: &[Point], space: &'a ConfigurationSpace) -> Self {
         let points: Vec<[f64; 3]> = milestones
             .iter()

@@ -1,4 +1,4 @@
-//! The energy along a straight motion, sampled as finely as its curvature demands.
+//! The energy along a straight motion, sampled as densely as its curvature requires.
 
 use nalgebra::Vector3;
 use ordered_float::OrderedFloat;
@@ -24,28 +24,28 @@ const DEEPEST: u32 = 16;
 impl Profile {
     /// Samples the straight motion from `a` to `b`.
     ///
-    /// A stretch of duration h is accepted when one of two bounds says that it is known within the
+    /// A stretch of duration h is accepted if one of two bounds shows that it is known within the
     /// tolerance, given the values and slopes at its ends:
     ///
-    /// * the cubic through them is off by at most `h^4 / 384` times the largest fourth derivative
-    ///   (the error of Hermite's interpolation; Davis, *Interpolation and Approximation*, theorem
-    ///   3.5.1), or by `h^3 / 96` times the largest third one (the integral of Peano's kernel,
-    ///   theorem 3.7.1), or
-    /// * where no bound of the fourth one is known, `U(t) <= U_a + s_a t + B t^2 / 2` with
-    ///   B a bound of the second derivative, and the same from the other end, exceed the larger end
-    ///   by no more.
+    /// * the error of the cubic through them is at most `h^4 / 384` times the largest fourth
+    ///   derivative (the error of Hermite's interpolation; Davis, *Interpolation and
+    ///   Approximation*, theorem 3.5.1), or `h^3 / 96` times the largest third one (the integral of
+    ///   Peano's kernel, theorem 3.7.1), or
+    /// * if no bound of the fourth derivative is known, `U(t) <= U_a + s_a t + B t^2 / 2` with B a
+    ///   bound of the second derivative, and the same from the other end, exceed the larger end by
+    ///   no more.
     ///
-    /// Blocks in contact have no bound of the one and only a very wide one of the other. There a
-    /// stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is accepted
-    /// where the cubic foretells the energy in its middle. That is a check, no proof; proved bounds
-    /// of barriers come from the certificate.
+    /// Blocks in contact have no bound of the former and only a very loose one of the latter. There
+    /// a stretch shorter than [`Potential::feature_length`](crate::potential::Potential) is
+    /// accepted if the cubic predicts the energy at its midpoint. That is a check, not a proof;
+    /// proved bounds of barriers come from the certificate.
     pub fn new(problem: &Problem, a: &Point, b: &Point, tolerance: &ProfileTolerance) -> Self {
         let mut one = Self::of_many(problem, &[[a, b]], tolerance);
         one.pop().expect("one profile for one motion")
     }
 
-    /// Samples many motions at once, so that the energies asked for share the vectors of the
-    /// potential's batches; each is sampled as it would be alone.
+    /// Samples many motions together, so that their energies share the vectors of the potential's
+    /// batches; each is sampled as it would be alone.
     pub fn of_many(
         problem: &Problem,
         pairs: &[[&Point; 2]],
@@ -107,7 +107,7 @@ impl Profile {
             .collect()
     }
 
-    /// From the settled stretches of one motion, in order.
+    /// The profile of the accepted stretches of one motion, in order.
     fn of_stretches<'a>(stretches: impl IntoIterator<Item = &'a [Knot; 2]>) -> Self {
         let mut knots = Vec::with_capacity(16);
         for [a, b] in stretches {

@@ -1,4 +1,5 @@
-//! A motion along which the energy is followed, and when a stretch of it is known well enough.
+//! A motion along which the energy is followed, and the criterion for sampling a part of it densely
+//! enough.
 
 use nalgebra::Vector3;
 
@@ -19,7 +20,7 @@ pub struct ProfileTolerance {
 /// A stretch of one of many motions.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
-    /// Of the motion.
+    /// The index of the motion.
     pub number: usize,
     pub ends: [Knot; 2],
     /// Bounds that hold on a stretch around this one.
@@ -37,7 +38,7 @@ pub(super) struct Bends {
 }
 
 impl Bends {
-    /// Nothing is known.
+    /// No bounds.
     pub const NONE: Self = Self {
         third: f64::INFINITY,
         fourth: f64::INFINITY,
@@ -47,7 +48,8 @@ impl Bends {
         self.third == f64::INFINITY && self.fourth == f64::INFINITY
     }
 
-    /// How far (J) the cubic through the ends of a stretch of this displacement (m) may be off.
+    /// A bound (J) of the error of the cubic through the ends of a stretch of this displacement
+    /// (m).
     pub fn error(&self, displacement: f64) -> f64 {
         let [third, fourth] = [(self.third, 3, 96.0), (self.fourth, 4, 384.0)]
             .map(|(bound, power, share)| bound * displacement.powi(power) / share);
@@ -106,16 +108,16 @@ impl<'a> Motion<'a> {
         self.tolerance.absolute + self.tolerance.relative * highest.abs()
     }
 
-    /// Whether a stretch shorter than the energy's own features has in its middle what the cubic
-    /// through its ends says.
+    /// Whether the cubic through the ends of a stretch shorter than the energy's features predicts
+    /// the energy at its midpoint.
     pub fn is_foreseen(&self, a: &Knot, middle: &Knot, b: &Knot) -> bool {
         let length = self.displacement * (b.t - a.t);
         length <= self.problem.potential().feature_length()
             && (cubic(a, b, middle.t) - middle.energy).abs() <= self.allowed(a, b)
     }
 
-    /// Whether a stretch is known within the tolerance; narrows the bounds of its derivatives where
-    /// that is worth while.
+    /// Whether a stretch is known within the tolerance; tightens the bounds of its derivatives if
+    /// this is worthwhile.
     pub fn is_settled(&self, [a, b]: &[Knot; 2], bends: &mut Bends) -> bool {
         let allowed = self.allowed(a, b);
         let duration = b.t - a.t;
@@ -132,7 +134,7 @@ impl<'a> Motion<'a> {
         if bends.fourth.is_finite() {
             return bends.error(displacement) <= allowed;
         }
-        // Where the middle can be asked it tells more, and sooner.
+        // If the midpoint can be used, it decides more often, and sooner.
         if potential.feature_length() > 0.0 {
             return false;
         }
@@ -199,7 +201,8 @@ mod tests {
         }
     }
 
-    /// The functions that Hermite's cubic misses by most, |t|^3 and t^4, miss it by what is said.
+    /// The functions with the largest error of Hermite's cubic, |t|^3 and t^4, have the stated
+    /// error.
     #[test]
     fn the_cubic_is_off_by_its_error_at_most() {
         for (power, bends) in [

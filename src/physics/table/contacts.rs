@@ -1,4 +1,4 @@
-//! Bonds, traps and clusters of a moment.
+//! Bonds, traps and clusters at one instant.
 
 use super::crowd::Crowd;
 use super::mover::Mover;
@@ -6,23 +6,22 @@ use super::pair::{Two, configuration, relative};
 use super::union::{join, root};
 use crate::tile::outline::cross;
 
-/// Tiles with a clearance below this (m, told for the paper's tile) touch, as far as being held is
-/// concerned.
+/// Tiles with a clearance below this (m, for the paper's tile) count as touching.
 pub const HELD_WITHIN: f64 = 2e-3;
 
-/// How two tiles hold each other.
+/// The kind of a stable contact.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
 pub enum Tie {
-    /// As they are meant to.
+    /// The intended contact.
     Bond,
-    /// In any other way.
+    /// Any other stable contact.
     Trap,
 }
 
 impl Tie {
-    /// What users call it.
+    /// Its name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bond => "bond",
@@ -31,20 +30,20 @@ impl Tie {
     }
 }
 
-/// Two tiles that hold each other.
+/// A stable contact of two tiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// Their numbers, the lesser first.
     pub tiles: [usize; 2],
-    /// How they do.
+    /// The kind of contact.
     pub tie: Tie,
     /// Their energy (J).
     pub energy: f64,
 }
 
-/// All tiles that hold each other, in order. Bonds are told by the magnets of the faces that are
-/// meant to bind. A trap is any other pair in touch whose energy, with the kinetic energy
-/// of the tiles against each other, is below 0.
+/// All stable contacts, in order. Bonds are recognised by the magnets of the target faces. A trap
+/// is any other pair in contact whose energy, including the kinetic energy of their relative
+/// motion, is below 0.
 pub fn held(crowd: &Crowd, movers: &[Mover], near: impl Iterator<Item = Two>) -> Vec<Held> {
     let mut found: Vec<Held> = near.filter_map(|two| tie(crowd, movers, two)).collect();
     found.sort_by_key(|held| held.tiles);
@@ -79,9 +78,10 @@ fn tie(crowd: &Crowd, movers: &[Mover], two: Two) -> Option<Held> {
     })
 }
 
-/// Kinetic energy (J) of two tiles about their common centre, but for that of turning together:
-/// `m v^2 / 2 + (I w^2 + J z^2) / 2 - L^2 / (2 (m r^2 + I + J))`, m the reduced mass, r and v the
-/// distance of the centres and its change, w and z the turning rates and L the angular momentum.
+/// Kinetic energy (J) of two tiles about their common centre of mass, without that of their common
+/// rotation: `m v^2 / 2 + (I w^2 + J z^2) / 2 - L^2 / (2 (m r^2 + I + J))`, m the reduced mass, r
+/// and v the distance of the centres and its change, w and z the turning rates and L the angular
+/// momentum.
 fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
     let [first, second] = tiles;
     let [a, b] = tiles.map(|it| crowd.kinds[it.kind].body);
@@ -95,7 +95,7 @@ fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
     (whole - 0.5 * turn * turn / together).max(0.0)
 }
 
-/// The cluster of tiles that hold each other that each tile is in, by the first of its tiles.
+/// The cluster of connected tiles that each tile belongs to, named by the first of its tiles.
 pub fn cluster_of_each(tiles: usize, held: &[Held]) -> Vec<usize> {
     let mut roots: Vec<usize> = (0..tiles).collect();
     for held in held {
@@ -104,7 +104,7 @@ pub fn cluster_of_each(tiles: usize, held: &[Held]) -> Vec<usize> {
     (0..tiles).map(|k| root(&mut roots, k)).collect()
 }
 
-/// The sizes of all clusters of tiles that hold each other, single tiles among them, falling.
+/// The sizes of all clusters of connected tiles, including single tiles, in descending order.
 pub fn clusters(tiles: usize, held: &[Held]) -> Vec<usize> {
     let mut sizes = vec![0; tiles];
     for cluster in cluster_of_each(tiles, held) {

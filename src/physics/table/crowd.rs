@@ -1,4 +1,4 @@
-//! Kinds of tiles, and what acts between every two of them.
+//! The kinds of tiles on a table, and the interaction of every two of them.
 
 use nalgebra::Vector2;
 
@@ -12,7 +12,7 @@ use crate::tile::Tile;
 
 /// A kind of tiles.
 pub struct Kind {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its outline and magnets.
     pub tile: Tile,
@@ -23,7 +23,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// A kind of its name.
+    /// A kind with this name.
     pub fn new(name: impl Into<String>, tile: Tile) -> Self {
         let body = Body::of_tile(&tile);
         let corners = tile.outline.vertices().iter();
@@ -37,25 +37,25 @@ impl Kind {
     }
 }
 
-/// Where the energy of two tiles ends: it counts in full up to the distance `from` of the reference
-/// points and not at all from `to` on; between them it is multiplied by
-/// `1 - 10 s^3 + 15 s^4 - 6 s^5`, s from 0 to 1.
+/// The cut-off of two tiles' energy: the energy is complete up to the distance `from` of the
+/// reference points and zero from `to` on; between them it is multiplied by `1 - 10 s^3 + 15 s^4 -
+/// 6 s^5`, s from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutoff {
-    /// Up to here (m) nothing is left out.
+    /// Below this distance (m) the energy is complete.
     pub from: f64,
-    /// From here on (m) everything is.
+    /// From this distance (m) on the energy is zero.
     pub to: f64,
-    /// The largest energy (J) left out of a pair, of the poses looked at: [`BEARINGS`] directions by as
-    /// many orientations, at `from`.
+    /// The largest pair energy (J) that is cut off, over the sampled poses: [`BEARINGS`] directions
+    /// times as many orientations, at `from`.
     pub left_out: f64,
 }
 
-/// Directions and orientations in which energies are looked at for the cut-off.
+/// Number of directions and of orientations sampled for the cut-off.
 pub const BEARINGS: usize = 18;
 
 impl Cutoff {
-    /// The least distance from which on the energy stays below a tolerance (J).
+    /// The smallest distance beyond which the energy stays below a tolerance (J).
     fn new(potential: &dyn Potential, touching: f64, tolerance: f64) -> Self {
         let largest = |r: f64| {
             let turn = std::f64::consts::TAU / BEARINGS as f64;
@@ -110,25 +110,25 @@ impl Cutoff {
     }
 }
 
-/// What acts between two kinds: the first stands where a pair's fixed tile does.
+/// The interaction of two kinds: the first takes the place of a pair's fixed tile.
 pub struct Couple {
     /// Their outlines.
     pub contact: Contact,
     /// U(x, y, theta).
     pub potential: Box<dyn Potential + Send>,
-    /// When they are bound as they are meant to be; none for kinds that are not.
+    /// The criteria of their bonds; empty for kinds that do not bond.
     pub bonds: Vec<MatchRule>,
-    /// Where the energy ends.
+    /// The cut-off of the energy.
     pub cutoff: Cutoff,
-    /// Outlines nearer than this (m) are near.
+    /// Outlines closer than this (m) count as near.
     pub near: f64,
 }
 
-/// Kinds of tiles on a table.
+/// The kinds of tiles on a table, with their interactions.
 pub struct Crowd {
     /// The kinds.
     pub kinds: Vec<Kind>,
-    /// Of the kinds i <= j, number `j (j + 1) / 2 + i`.
+    /// The couple of the kinds i <= j has the index `j (j + 1) / 2 + i`.
     couples: Vec<Couple>,
     /// Half the table's size along x and y (m).
     pub half_size: [f64; 2],
@@ -137,20 +137,20 @@ pub struct Crowd {
 /// Why tiles cannot be simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CrowdError {
-    /// Shields by the nearest-face rule.
+    /// Shields follow the nearest-face rule.
     #[error(
-        "with [shield] rule = \"nearest-face\" energies jump and forces know nothing of it: use the \
+        "with [shield] rule = \"nearest-face\" energies jump and forces are not their gradients: use the \
          smooth rule"
     )]
     NearestFace,
 }
 
 impl Crowd {
-    /// Kinds on a table. `interaction` tells what acts between two of them, `bonds` when they are bound.
-    /// Energies below `tolerance` (J) are cut off.
+    /// Creates the kinds on a table. `interaction` gives the interaction of two kinds, `bonds` the
+    /// criteria of their bonds. Energies below `tolerance` (J) are cut off.
     ///
     /// # Errors
-    /// Where forces do not belong to energies.
+    /// If the forces are not the gradients of energies.
     pub fn new(
         kinds: Vec<Kind>,
         half_size: [f64; 2],
@@ -186,7 +186,7 @@ impl Crowd {
         })
     }
 
-    /// What acts between two kinds, and whether the second of them is the couple's first.
+    /// The interaction of two kinds, and whether the couple's first kind is the second argument.
     pub fn couple(&self, i: usize, j: usize) -> (&Couple, bool) {
         let (low, high) = (i.min(j), i.max(j));
         (&self.couples[high * (high + 1) / 2 + low], i > j)
@@ -197,20 +197,20 @@ impl Crowd {
         &self.couples
     }
 
-    /// The farthest that any energy reaches (m).
+    /// The largest cut-off distance of all couples (m).
     pub fn range(&self) -> f64 {
         let reach = |couple: &Couple| couple.cutoff.to.max(couple.radii() + couple.near);
         self.couples.iter().map(reach).fold(0.0, f64::max)
     }
 
-    /// The table's corners as a size (m^2).
+    /// The table's area (m^2).
     pub fn area(&self) -> f64 {
         4.0 * self.half_size[0] * self.half_size[1]
     }
 }
 
 impl Couple {
-    /// The distance (m) of the reference points from which on no point of the tiles can touch.
+    /// The distance (m) of the reference points beyond which the tiles cannot touch.
     pub fn radii(&self) -> f64 {
         self.contact.fixed().circumradius() + self.contact.moving().circumradius()
     }

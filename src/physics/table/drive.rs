@@ -1,4 +1,4 @@
-//! What pushes tiles from outside: shaking, fans, the table's own motion; and drag.
+//! External driving: shaking, fans and the table's own motion; and drag.
 
 use std::f64::consts::TAU;
 
@@ -9,12 +9,12 @@ use rand_chacha::ChaCha8Rng;
 use super::mover::Mover;
 use super::settings::TableSettings;
 
-/// A tile under way.
+/// A tile in motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Rider {
-    /// Where it is and how it moves.
+    /// Its position and velocity.
     pub mover: Mover,
-    /// Its share of kinetic energy that is still to be put right (J).
+    /// The correction of its kinetic energy that is still outstanding (J).
     pub debt: f64,
 }
 
@@ -30,8 +30,9 @@ impl<'a> Drive<'a> {
     }
 
     /// Drag over a time h (s), and with it the kick of shaking: an Ornstein-Uhlenbeck step of the
-    /// velocity, exact, `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit variance, for each
-    /// degree of freedom with its mass or moment of inertia. The work done, and what is lost to drag (J).
+    /// velocity, exact, `v <- v e^(-c h) + sqrt(kT/m (1 - e^(-2 c h))) xi` with xi of unit
+    /// variance, for each degree of freedom with its mass or moment of inertia. Returns the work
+    /// done and the energy lost to drag (J).
     pub fn damp(
         &self,
         velocity: &mut Vector3<f64>,
@@ -57,13 +58,14 @@ impl<'a> Drive<'a> {
         [work, before - slowed]
     }
 
-    /// What fans and the table's motion give a tile at a place (m) and a time (s), as an acceleration.
+    /// The acceleration of a tile by fans and by the table's motion, at a position (m) and a time
+    /// (s).
     pub fn push(&self, mass: f64, place: Vector2<f64>, time: f64) -> Vector2<f64> {
         let fans = self.settings.fans.iter();
         let force: Vector2<f64> = fans.map(|fan| fan.energy_and_force(place, time).1).sum();
         let mut acceleration = force / mass;
         if let Some(orbital) = self.settings.orbital {
-            // The table is at A (cos, sin), and its acceleration against that.
+            // The table is at A (cos, sin); its acceleration has the opposite direction.
             let rate = TAU * orbital.frequency;
             let phase = rate * time;
             acceleration += Vector2::new(libm::cos(phase), libm::sin(phase))

@@ -1,53 +1,56 @@
-//! What holds tiles back where they touch each other or the rim.
+//! Contact impulses where tiles touch each other or the rim.
 //!
-//! With the velocities v0 that tiles would have freely and for each point of contact the normal n and the
-//! tangent t as rows over the velocities of both tiles, there are impulses p, f with
+//! Let v0 be the velocities that the tiles would have without contact, and for each contact point
+//! let n and t be the normal and the tangent as rows over the velocities of both tiles. Then there
+//! are impulses p, f with
 //!
 //! `v = v0 + M^-1 sum (n p + t f)`, `n.v >= l` and `p >= 0`, one of them with equality,
 //! `|f| <= mu p`, and `t.v = 0` unless `f = -+ mu p` holds against the sliding
 //!
-//! (Stewart and Trinkle 1996, Int. J. Numer. Meth. Eng. 39, 2673; Anitescu and Potra 1997, Nonlinear
-//! Dynamics 14, 231). They are found by sweeps over the points, each solved by itself, that start from
-//! the impulses of the solution before; between sweeps all go on in a direction conjugate to those before
-//! (Silcowitz-Hansen, Niebe and Erleben 2010, The Visual Computer 26, 893), without which clusters take
-//! thousands of sweeps. Impulses act on both tiles at one place, equal and opposite.
+//! (Stewart and Trinkle 1996, Int. J. Numer. Meth. Eng. 39, 2673; Anitescu and Potra 1997,
+//! Nonlinear Dynamics 14, 231). They are found by sweeps that solve one point after the other,
+//! starting from the impulses of the previous solution. Between sweeps the impulses move along a
+//! direction conjugate to the earlier ones (Silcowitz-Hansen, Niebe and Erleben 2010, The Visual
+//! Computer 26, 893); without this, clusters take thousands of sweeps. The impulses on two tiles
+//! act at the same point and are equal and opposite.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::union::{join, root};
 use crate::tile::outline::cross;
 
-/// Sweeps end with one that changes no velocity (m/s) by more than this, a ten thousandth of what a kick of
-/// the shaking usually gives. Some ten times as much may be wrong then: over the usual step that moves a
-/// tile by 25 nm.
+/// Sweeps end when one changes no velocity (m/s) by more than this, which is 1/10,000 of a typical kick
+/// of the shaking. The remaining error can be about ten times as large: over a usual step it moves a tile
+/// by 25 nm.
 pub const ERROR: f64 = 1e-6;
-/// Sweeps over the points, at most.
+/// Largest number of sweeps.
 const SWEEPS: usize = 1000;
-/// The last so many are plain ones, which always go on towards the solution.
+/// This many sweeps at the end are plain ones, which always converge towards the solution.
 const PLAIN: usize = 500;
 
 /// A point of contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Hold {
-    /// The tile behind the normal, none for the rim, and the tile before it.
+    /// The tile behind the normal, `None` for the rim, and the tile in front of it.
     pub tiles: [Option<usize>; 2],
-    /// Where it is (m).
+    /// Its position (m).
     pub point: Vector2<f64>,
     /// Unit vector from the first to the second.
     pub axis: Vector2<f64>,
-    /// How far apart they are there (m).
+    /// Their distance there (m).
     pub gap: f64,
     /// Least velocity (m/s) along the normal.
     pub least: f64,
     /// Impulses along normal and tangent (N s), for a tile's mass in kg.
     pub impulses: [f64; 2],
-    /// The pair of tiles that it is of, by its number; none for the rim.
+    /// The index of its pair of tiles; `None` for the rim.
     pub pair: Option<usize>,
     rows: [[Vector3<f64>; 2]; 2],
 }
 
 impl Hold {
-    /// Between two tiles, or the rim and one; `centres` are the centres of mass of all tiles.
+    /// A point between two tiles, or between the rim and a tile; `centres` are the centres of mass
+    /// of all tiles.
     pub fn new(
         tiles: [Option<usize>; 2],
         point: Vector2<f64>,
@@ -69,7 +72,7 @@ impl Hold {
         hold
     }
 
-    /// The same at another point.
+    /// Moves it to another point.
     pub fn place(&mut self, point: Vector2<f64>, centres: impl Fn(usize) -> Vector2<f64>) {
         self.point = point;
         let n = self.axis;
@@ -97,7 +100,7 @@ impl Hold {
     }
 }
 
-/// How a point answers to impulses.
+/// The response of a point to impulses.
 struct Response {
     nn: f64,
     nt: f64,
@@ -107,7 +110,8 @@ struct Response {
 }
 
 impl Response {
-    /// The impulses along normal and tangent that velocities without them ask for.
+    /// The impulses along normal and tangent that the contact law requires, from the velocities
+    /// without them.
     fn impulses(&self, lack: f64, slip: f64, friction: f64) -> [f64; 2] {
         if lack <= 0.0 {
             return [0.0; 2];
@@ -121,11 +125,12 @@ impl Response {
         if push >= 0.0 && rub.abs() <= friction * push {
             return [push, rub];
         }
-        // It slides against the side of the cone of friction where it would be held.
+        // It slides: the impulse lies on the side of the friction cone opposite to the sliding.
         let share = friction.copysign(rub);
         let answer = nn + share * nt;
         if answer <= 1e-3 * nn {
-            // Friction would press without end there (Painleve's paradox): the normal alone holds.
+            // Friction would grow without limit here (Painleve's paradox): only the normal impulse
+            // acts.
             return [lack / nn, 0.0];
         }
         let push = lack / answer;
@@ -133,22 +138,22 @@ impl Response {
     }
 }
 
-/// A point as it is solved for, in velocities times the root of the mass (or inertia): a unit impulse then
-/// adds to them what the point's row is.
+/// A contact point with the data of the solver, for velocities multiplied by the root of the mass (or
+/// inertia): a unit impulse then changes them by the point's row.
 struct Point {
     tiles: [usize; 2],
     rows: [[Vector3<f64>; 2]; 2],
     response: Response,
     least: f64,
     impulses: [f64; 2],
-    /// The impulses before a sweep.
+    /// The impulses before the last sweep.
     before: [f64; 2],
-    /// Where all sweeps before went.
+    /// The direction of all earlier sweeps.
     direction: [f64; 2],
 }
 
 impl Point {
-    /// Of a hold between two tiles of a cluster, whose masses have these roots, inverse.
+    /// The point of a hold between two tiles of a cluster; `roots` are the inverse roots of the masses.
     fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>]) -> Self {
         let scaled =
             |row: [Vector3<f64>; 2]| [0, 1].map(|k| row[k].component_mul(&roots[tiles[k]]));
@@ -181,7 +186,7 @@ impl Point {
         }
     }
 
-    /// Gives the point what it asks for.
+    /// Solves for the impulses of this point.
     fn solve(&mut self, velocities: &mut [Vector3<f64>], friction: f64) {
         self.before = self.impulses;
         let [a, b] = self.tiles.map(|tile| velocities[tile]);
@@ -198,8 +203,8 @@ impl Point {
         self.impulses = asked;
     }
 
-    /// After a sweep: goes on by a share of the direction of all sweeps before, within the cone of friction,
-    /// and makes the next direction.
+    /// After a sweep: moves by a share of the direction of all earlier sweeps, within the friction cone,
+    /// and computes the next direction.
     fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>], friction: f64) {
         let now = self.impulses;
         let [push, rub] = [0, 1].map(|row| now[row] + self.direction[row] * share);
@@ -212,8 +217,8 @@ impl Point {
     }
 }
 
-/// Changes velocities by the impulses that all points ask for, which are kept in the holds; the search
-/// begins with those that are there.
+/// Changes the velocities by the impulses of all points. The impulses are stored in the holds; the
+/// solver starts from the stored ones.
 pub fn hold_back(
     inverse: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
@@ -236,7 +241,7 @@ pub fn hold_back(
             }
         }
         let points = cluster.iter().map(|k| {
-            // The rim's part of a row is zero, whichever tile it is taken to be of.
+            // The rim's part of a row is zero, so it can be assigned to any tile.
             let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
             let second = second.or(first).unwrap_or(0);
             (&holds[*k], [first.unwrap_or(second), second])
@@ -258,7 +263,7 @@ pub fn hold_back(
     }
 }
 
-/// The points that are tied to each other by tiles, by their numbers.
+/// The clusters of points that share tiles, by index.
 fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
     let mut roots: Vec<usize> = (0..tiles).collect();
     for hold in holds {
@@ -282,7 +287,8 @@ fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
     found
 }
 
-/// Solves for all points of a cluster, whose masses have these roots, inverse; in so many sweeps.
+/// Solves for all points of a cluster whose masses have these inverse roots; returns the number of
+/// sweeps.
 fn solve(
     roots: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
@@ -299,7 +305,8 @@ fn solve(
         for point in points.iter_mut() {
             point.solve(velocities, friction);
         }
-        // Points that ask for all but the same may go on correcting each other: what counts is the sweep.
+        // Nearly redundant points may keep correcting each other, so the change over a whole sweep
+        // counts.
         let changes = velocities.iter().zip(&before).zip(roots);
         let [mut size, mut fastest] = [0.0; 2];
         for ((now, before), root) in changes {
@@ -330,8 +337,8 @@ pub fn kinetic(masses: &[Vector3<f64>], velocities: &[Vector3<f64>]) -> f64 {
         .sum::<f64>()
 }
 
-/// The largest share of a change, at most all of it, with which velocities have no more than a
-/// kinetic energy (J), if they have no more without.
+/// The largest share of a change, at most 1, that keeps the kinetic energy of the velocities below
+/// a limit (J), given that it is below the limit without the change.
 pub fn share_within(
     masses: &[Vector3<f64>],
     velocities: &[Vector3<f64>],
@@ -393,7 +400,7 @@ mod tests {
             let mut all = 0;
             for _ in 0..20 {
                 let (inverse, mut holds) = block();
-                // Every tile flies towards the middle, and somewhere besides.
+                // Every tile flies towards the middle, plus a random velocity.
                 let velocities = (0..inverse.len()).map(|tile| {
                     let mut even = || rng.random::<f64>() - 0.5;
                     let [x, y] = [tile % COUNT, tile / COUNT].map(|k| 2.0 - k as f64);
@@ -421,7 +428,7 @@ mod tests {
                         hold.rate(&now)
                     );
                 }
-                // From the impulses of the solution it is found at once.
+                // Starting from the impulses of the solution, the solver converges at once.
                 let again = solve(&roots, &mut scaled.clone(), &mut points, friction);
                 assert!(again <= sweeps, "{again} {sweeps}");
             }

@@ -1,20 +1,22 @@
-//! Tiles that are near each other or the rim, through one step of the table.
+//! One time step of tiles that are near each other or the rim.
 //!
 //! # Steps
-//! Velocity Verlet, with the forces of the other tiles and the drives held as they are. A step is short
-//! enough for the forces of pairs that move against each other to change little: `h <= 0.05 sqrt(l / a)`, l half
-//! the shortest side of a magnet and a the acceleration that the pair gives itself; four times as long where
-//! tiles touch and hardly bounce. Tiles in contact move no more than 0.1 mm. All this is in proportion to the
-//! step of the table. (Tiles that hardly move need no short steps.)
+//! Velocity Verlet, with constant forces of the drives and of tiles outside the island. A step is
+//! short enough that the forces of pairs in relative motion change little: `h <= 0.05 sqrt(l / a)`,
+//! with l half the shortest side of a magnet and a the acceleration of the pair by its own force;
+//! it is four times as long where tiles touch and hardly bounce. Tiles in contact move no more than
+//! 0.1 mm per step. All these limits scale with the step of the table. (Tiles that hardly move need
+//! no short steps.)
 //!
 //! # Knocks
-//! The gap of a point goes as `g + u t + a t^2 / 2`. Where it closes with a velocity u1 that gives back so much
-//! that the tiles fly on for longer than the shortest step, and not slowly, the step ends there, and the
-//! impulse acts on the velocities of that very moment: no energy is lost or gained but by it. Other contacts hold all along a step: tiles
-//! are moved to end at contact and not beyond, and of what they touch their velocities are freed. From shorter
-//! flights they come back with the velocity of the parabola, so that elastic contact keeps its
-//! energy there too. Where many points or friction would let energy grow (Kane and Levinson 1985), so
-//! much less is given back that it does not.
+//! The gap of a point changes as `g + u t + a t^2 / 2`. If it closes with a velocity u1 that makes
+//! the tiles bounce for longer than the shortest step, and not slowly, the step ends at that time,
+//! and the impulse acts on the velocities of that time: energy changes only by the impulse. Other
+//! contacts last for the whole step: the tiles end at contact and not beyond it, and their
+//! velocities into the contact are removed. After shorter bounces tiles return with the velocity of
+//! the parabola, so that elastic contact conserves energy there too. Where many points or friction
+//! would increase the energy (Kane and Levinson 1985), the restitution is reduced until they do
+//! not.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -27,48 +29,48 @@ use super::settings::TableSettings;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
 
-/// Points are touched at gaps below this (m), about as far as [`hold_back`] may be off in a step.
+/// Points with gaps below this (m) are in contact: about the error of [`hold_back`] in a step.
 const TOUCHED: f64 = 2e-8;
-/// Outlines are kept apart by this (m). The force of two blocks turns round where their pole faces pass
-/// through each other, so that tiles must not overlap by the least; an energy is off by a force times
-/// this.
+/// Outlines are kept apart by this (m). The force of two blocks changes sign where their pole faces
+/// pass through each other, so tiles must not overlap at all; this changes an energy by the force
+/// times this distance.
 pub const SKIN: f64 = 1e-7;
-/// What overlaps is pushed out by no more in a step (m).
+/// Overlapping tiles are pushed apart by at most this per step (m).
 const PUSHED_OUT: f64 = 1e-6;
-/// Points of contact are looked for at least this far (m).
+/// Smallest distance (m) within which contact points are searched for.
 const LEAST_MARGIN: f64 = 1e-4;
-/// Where nothing is near, this far (m).
+/// The same where nothing is near (m).
 const SEEN: f64 = 3e-3;
-/// Longest way of a tile in contact in a usual step (m).
+/// Largest travel of a tile in contact within a usual step (m).
 const TRAVEL: f64 = 1e-4;
-/// Of the time in which forces change, a usual step's share.
+/// A usual step as a share of the time in which forces change.
 const SHARE: f64 = 0.05;
 /// Tiles slower than this (m/s) need no short steps.
 const SLOW: f64 = 2e-3;
-/// Tiles that touch and give back less than that go on together for longer.
+/// Touching tiles with a restitution below this take longer steps.
 const SHARE_TOGETHER: f64 = 0.2;
-/// A longest step has so many shortest.
+/// Ratio of the longest to the shortest step.
 const SHORTEST: f64 = 16.0;
-/// Bounces slower than this (m/s) are none.
+/// Bounces slower than this (m/s) are ignored.
 const LEAST_BOUNCE: f64 = 2e-4;
 /// Points of contact closer than this (m) to one of the step before are the same.
 const SAME: f64 = 1e-3;
-/// The pairs of edges and corners that may touch are looked for so much farther (m) than they are
+/// The pairs of edges and corners that may touch are searched for this much farther (m) than
 /// needed, and so less often.
 const AHEAD: f64 = 4e-3;
 
-/// Two tiles that are near each other, with what is known of their contact.
+/// Two tiles that are near each other, with the state of their contact.
 #[derive(Debug)]
 pub struct NearPair {
     pub two: Two,
     edges: NearPairs,
-    /// How far (m) `edges` see, from `at`.
+    /// The distance (m) from `at` that `edges` cover.
     seen: f64,
     at: Configuration,
     /// The tiles are apart by at least this (m) at `room_at`.
     room: f64,
     room_at: Configuration,
-    /// Points that were touched last, in the frame of the first tile, and what held them (N).
+    /// The last contact points, in the frame of the first tile, and their forces (N).
     held: Vec<(Vector2<f64>, [f64; 2])>,
 }
 
@@ -85,7 +87,7 @@ impl NearPair {
         }
     }
 
-    /// The forces (N) that held a point last, of the first tile's frame.
+    /// The last forces (N) at a point, in the first tile's frame.
     fn force(&self, at: &Vector2<f64>) -> [f64; 2] {
         let same = |it: &&(Vector2<f64>, _)| (it.0 - at).norm_squared() < SAME * SAME;
         self.held.iter().find(same).map_or([0.0; 2], |it| it.1)
@@ -126,16 +128,16 @@ impl NearPair {
     }
 }
 
-/// What happened in a step.
+/// The outcome of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Happened {
     /// Kinetic energy lost in contact (J).
     pub contact_loss: f64,
-    /// Steps that were made.
+    /// Number of steps.
     pub steps: usize,
 }
 
-/// Tiles that are tied together by being near.
+/// A group of tiles connected by being near each other.
 pub struct Island<'a> {
     pub crowd: &'a Crowd,
     pub settings: &'a TableSettings,
@@ -143,28 +145,28 @@ pub struct Island<'a> {
     pub feature: f64,
     /// The tiles.
     pub riders: Vec<Rider>,
-    /// What other tiles, fans and the table's motion give them (m/s^2, m/s^2, rad/s^2).
+    /// Their accelerations by other tiles, fans and the table's motion (m/s^2, m/s^2, rad/s^2).
     pub steady: Vec<Vector3<f64>>,
-    /// Pairs, by numbers of this island's tiles.
+    /// Pairs, by indices of this island's tiles.
     pub pairs: Vec<(Two, &'a mut NearPair)>,
-    /// What happened to them.
+    /// The outcome for them.
     pub happened: Happened,
 }
 
-/// What is at hand at a moment.
+/// Accelerations and energies at one time.
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
-    /// Of each pair, by which it pulls its tiles against each other (m/s^2).
+    /// The relative acceleration of each pair by its own force (m/s^2).
     pulls: Vec<f64>,
-    /// Of the pairs (J).
+    /// The potential energy of the pairs (J).
     potential: f64,
-    /// Kinetic energy that is still to be put right (J).
+    /// The correction of kinetic energy that is still outstanding (J).
     debt: f64,
 }
 
 impl Island<'_> {
-    /// Goes on for a step of the table.
+    /// Advances by one step of the table.
     pub fn advance(&mut self) {
         let masses: Vec<_> = self
             .riders
@@ -197,7 +199,7 @@ impl Island<'_> {
         self.happened = happened;
     }
 
-    /// Goes on for a time (s) with steady forces from outside.
+    /// Advances by a time (s) with constant external forces.
     fn go_on(
         &mut self,
         state: &mut State,
@@ -219,8 +221,8 @@ impl Island<'_> {
         }
     }
 
-    /// All accelerations, that of the fastest points of each pair by its own force (m/s^2), and the energy
-    /// of the pairs (J).
+    /// All accelerations, those of the fastest points of each pair by its own force (m/s^2), and
+    /// the energy of the pairs (J).
     fn accelerations(&self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, Vec<f64>, f64) {
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
@@ -245,13 +247,13 @@ impl Island<'_> {
         TRAVEL * self.settings.fineness()
     }
 
-    /// Speed or acceleration of a tile's fastest point, at most.
+    /// An upper bound of the speed or acceleration of a tile's fastest point.
     fn fastest(&self, tile: usize, of: &Vector3<f64>) -> f64 {
         let reach = self.crowd.kinds[self.riders[tile].mover.kind].reach;
         of.xy().norm() + reach * of.z.abs()
     }
 
-    /// The same of the second tile of a pair as the first one sees it, with which it turns.
+    /// The same for the second tile of a pair, relative to the first one in its rotating frame.
     fn relative(&self, two: Two, of: &[Vector3<f64>]) -> f64 {
         let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
         let between = (second.place - first.place).xy();
@@ -261,7 +263,7 @@ impl Island<'_> {
         (b.xy() - a.xy() - carried).norm() + reach * (b.z - a.z).abs()
     }
 
-    /// The longest step (s) in which the forces of pairs change little that move against each other.
+    /// The longest step (s) in which the forces of pairs in relative motion change little.
     fn longest_step(&self, state: &State) -> f64 {
         let limit = |(two, near): &(Two, &mut NearPair), pull: f64| {
             let speed = self.relative(*two, &state.velocities);
@@ -277,7 +279,7 @@ impl Island<'_> {
         self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
-    /// How long (s) until what touches has gone as far as it may in contact.
+    /// The time (s) until touching tiles have moved as far as contact allows in a step.
     fn time_to_travel(&self, state: &State, holds: &[Hold]) -> f64 {
         let speed = |hold: &Hold| match hold.tiles {
             [Some(first), Some(second)] => self.relative(Two { first, second }, &state.velocities),
@@ -288,7 +290,7 @@ impl Island<'_> {
         self.travel() / fastest.max(f64::MIN_POSITIVE)
     }
 
-    /// The points that may be touched in a step of at most this length (s).
+    /// The points that may come into contact in a step of at most this length (s).
     fn points(&mut self, state: &State, h: f64) -> Vec<Hold> {
         let way = |speed: f64, growth: f64| h * (speed + 0.5 * h * growth);
         let ways = self.pairs.iter().map(|(two, _)| {
@@ -337,7 +339,7 @@ impl Island<'_> {
         holds
     }
 
-    /// The time (s) of the first knock that the step is to end at, or a longest one.
+    /// The time (s) of the first collision at which the step must end, or the longest step.
     fn until_knock(&self, state: &State, holds: &[Hold], longest: f64) -> f64 {
         let shortest = longest / SHORTEST;
         let mut first = longest;
@@ -347,7 +349,7 @@ impl Island<'_> {
             let Some((time, speed)) = closes(hold.gap, u, a) else {
                 continue;
             };
-            // Slow bounces, and those that end within the shortest step, are left to `step`.
+            // Slow bounces, and those that end within the shortest step, are handled by `step`.
             let back = self.settings.restitution * speed;
             let is_resolved = back > SLOW.max(0.5 * shortest * -a);
             if time < first && is_resolved {
@@ -357,7 +359,7 @@ impl Island<'_> {
         first.max(shortest).min(longest)
     }
 
-    /// A step (s); the energy lost in contact (J).
+    /// Makes a step (s); returns the energy lost in contact (J).
     fn step(
         &mut self,
         state: &mut State,
@@ -378,7 +380,7 @@ impl Island<'_> {
             hold.impulses = hold.impulses.map(|force| force * 0.5 * h);
         }
         hold_back(inverse, &mut way, &mut holds, friction);
-        // The velocities with which what is touched is come back to; held all along the step or not.
+        // The return velocities at touched points, whether contact lasts for the whole step or not.
         let mut touched: Vec<(Hold, Option<f64>)> = Vec::new();
         let mut held: Vec<Hold> = Vec::new();
         for mut hold in holds {
@@ -442,7 +444,7 @@ impl Island<'_> {
         let mut approaches = Vec::with_capacity(touched.len());
         let mut holds: Vec<Hold> = Vec::with_capacity(touched.len());
         for (mut hold, back) in touched {
-            // The point goes with the tile before it.
+            // The point moves with the tile in front of it.
             let carried = hold.tiles[1].map_or(Vector2::zeros(), |tile| {
                 let arm = hold.point - (riders[tile].mover.place.xy() - way[tile].xy() * h);
                 (way[tile].xy() + Vector2::new(-arm.y, arm.x) * way[tile].z) * h
@@ -472,8 +474,9 @@ impl Island<'_> {
     }
 }
 
-/// Changes velocities along the forces of the pairs, by less than a step (s) did, so that the
-/// kinetic energy is what the potential says (J); what cannot be put right now is next time.
+/// Corrects the velocities along the forces of the pairs, by less than a step (s) changed them, so
+/// that the kinetic energy (J) matches the change of the potential; what cannot be corrected now is
+/// carried over.
 fn put_right(
     state: &mut State,
     velocities: &mut [Vector3<f64>],
@@ -494,7 +497,7 @@ fn put_right(
     let along: f64 = each
         .map(|((mass, v), a)| mass.component_mul(v).dot(a))
         .sum();
-    // The root nearest to 0 of `along x + square x^2 / 2 = wanted`.
+    // The root closest to 0 of `along x + square x^2 / 2 = wanted`.
     let root = (along * along + 2.0 * square * wanted).max(0.0).sqrt();
     let x = 2.0 * wanted / (along + root.copysign(along));
     let most = 0.5 * h;
@@ -509,7 +512,8 @@ fn put_right(
     state.debt = energy + state.debt - kinetic(masses, velocities);
 }
 
-/// When a gap (m) closes that goes as `gap + u t + a t^2 / 2`, and with which velocity (m/s).
+/// The time at which a gap (m) that changes as `gap + u t + a t^2 / 2` closes, and its velocity
+/// then (m/s).
 fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
     let gap = gap.max(0.0);
     let square = u * u - 2.0 * a * gap;
@@ -524,7 +528,7 @@ fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
     Some((time, speed))
 }
 
-/// The corners of a tile within a margin (m) of the rim: where, the rim's normal, and the gap.
+/// The corners of a tile within a margin (m) of the rim: position, the rim's normal, and the gap.
 pub fn at_rim(
     crowd: &Crowd,
     mover: &Mover,
@@ -551,7 +555,7 @@ pub fn at_rim(
     }
 }
 
-/// How far (m) a tile is from the rim, at least.
+/// A lower bound of a tile's distance (m) from the rim.
 pub fn rim_room(crowd: &Crowd, mover: &Mover) -> f64 {
     let [x, y] = crowd.half_size;
     let p = mover.place.xy();

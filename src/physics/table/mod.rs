@@ -1,43 +1,43 @@
-//! Many tiles on the table at once: magnets, contact with friction, air drag, shaking and fans.
+//! Many rigid tiles on one table: magnets, contact with friction, air drag, shaking and fans.
 //!
 //! With q the centre of mass and the orientation of a tile and M = diag(m, m, I) about that centre,
 //!
 //! `M q'' = Q(q, t) - c M q' + R(t)`,
 //!
-//! where Q are the forces of the magnets of all other tiles, of fans, of the table's own motion and of
-//! contact, c the drag rate (1/s), and R the shaking.
+//! where Q contains the forces of the magnets of all other tiles, of fans, of the table's own
+//! motion and of contact, c is the drag rate (1/s), and R the shaking.
 //!
 //! # Steps
-//! A step of the table (`stepper`) sorts the pairs of tiles into those whose outlines are near each
-//! other and the rest. Near pairs tie tiles together to islands (`island`), of which each goes through the step in as
-//! many shorter ones as its forces and contacts need: velocity Verlet, whose steps end where a corner meets an
-//! edge. Knocks are impulses that obey Coulomb's law (`hold`). The forces of the other pairs, of fans
-//! and of shaking are held for one step, as they are in its middle. Each force acts on both tiles of a
-//! pair, so that momentum is kept to rounding.
+//! A step of the table (`stepper`) separates the pairs of tiles whose outlines are near each other
+//! from the rest. Near pairs connect tiles to islands (`island`). Each island divides the step into
+//! as many shorter ones as its forces and contacts need: velocity Verlet, whose steps end when a
+//! corner meets an edge. Collisions are impulses that obey Coulomb's law (`hold`). The forces of
+//! the other pairs, of fans and of shaking are constant over a step, with their values in its
+//! middle. Each force acts on both tiles of a pair, so that momentum is conserved up to rounding.
 //!
 //! # Shaking
-//! Random kicks at fixed times, each of which with the drag since the last is an exact
-//! Ornstein-Uhlenbeck step of the velocities. Between them tiles move by mechanics alone, so that
-//! elastic contact without friction has the temperature kT whatever the time between kicks and the step
-//! are. Kicks that came with every step would overcome friction the sooner the shorter the step is
-//! (their sum over a time grows like its root, what friction takes like the time itself): it is the time
-//! between kicks that decides, and it is stated. (Noise with a memory, and drag with the same memory, has
-//! the temperature, too, but hardly reaches tiles that bounce within a bond, which is much faster: after
-//! 400 s they had a third of it.)
+//! Random kicks at fixed times. Each kick, together with the drag since the last one, is an exact
+//! Ornstein-Uhlenbeck step of the velocities. Between kicks tiles move by mechanics alone, so
+//! elastic contact without friction has the temperature kT for any time between kicks and any step.
+//! If kicks came with every step, they would overcome friction more easily the shorter the step is
+//! (the sum of kicks over a time grows like its square root, the effect of friction like the time
+//! itself). Therefore the time between kicks is a setting of its own. (Noise with a memory, and
+//! drag with the same memory, also has the temperature kT, but hardly reaches tiles that bounce
+//! within a bond, which is much faster: after 400 s they had a third of it.)
 //!
 //! # Cut-off
-//! A pair's energy is multiplied by a factor that falls smoothly from 1 to 0 between two distances of the
-//! reference points, so that energy is conserved; what is left out so is stated
+//! A pair's energy is multiplied by a factor that falls smoothly from 1 to 0 between two distances
+//! of the reference points, so that energy is conserved; the energy cut off is reported
 //! ([`crowd::Cutoff`]).
 //!
 //! # Why contact is not left to a game engine
-//! Measured with rapier2d-f64 0.36.1: a square tile of 0.43 m and 0.1 kg, pressed onto a fixed edge by
-//! 30 N, as a bond does, and let go 0.1 mm above it with 3 mJ, elastic and without friction. At steps of
-//! 0.5 ms to 20 us and contact frequencies of 1 and 4 kHz (damping ratio 1) it has lost all 3 mJ after
-//! 0.1 s and lies 9.5 um or 0.6 um within the edge. Its restitution is
-//! that of single knocks, while bound tiles bounce some hundred times a second. So bound
-//! tiles of an elastic table would freeze. Here the same tiles lose some 2 to 6 % of 3 mJ in
-//! 5 s at the usual step.
+//! Measured with rapier2d-f64 0.36.1: a square tile of 0.43 m and 0.1 kg is pressed onto a fixed
+//! edge by 30 N, as in a bond, and released 0.1 mm above it with 3 mJ, elastic and without
+//! friction. At steps of 0.5 ms to 20 us and contact frequencies of 1 and 4 kHz (damping ratio 1)
+//! it has lost all 3 mJ after 0.1 s and lies 9.5 um or 0.6 um inside the edge. Its restitution is
+//! right for single collisions, but bound tiles bounce some hundred times a second. So bound tiles
+//! on an elastic table would freeze. Here the same tiles lose about 2 to 6 % of 3 mJ in 5 s at the
+//! usual step.
 
 pub mod contacts;
 pub mod crowd;

@@ -1,4 +1,4 @@
-//! A tile that moves.
+//! A moving tile.
 
 use nalgebra::Vector3;
 
@@ -8,16 +8,16 @@ use crate::dynamics::Motion;
 /// A tile on the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mover {
-    /// The number of its kind.
+    /// The index of its kind.
     pub kind: usize,
-    /// Its centre of mass (m) and how it is turned (rad, not wrapped).
+    /// Its centre of mass (m) and orientation (rad, not wrapped).
     pub place: Vector3<f64>,
-    /// How these change (m/s, m/s, rad/s).
+    /// Its velocity and angular velocity (m/s, m/s, rad/s).
     pub velocity: Vector3<f64>,
 }
 
 impl Mover {
-    /// Of a tile whose reference point is given, and the velocity of its centre of mass.
+    /// A tile from the configuration of its reference point and the velocity of its centre of mass.
     pub fn new(crowd: &Crowd, kind: usize, motion: &Motion) -> Self {
         let phase = crowd.kinds[kind].body.phase(motion);
         Self {
@@ -27,7 +27,7 @@ impl Mover {
         }
     }
 
-    /// Where the reference point is, and how the tile moves.
+    /// The configuration of the reference point, and the velocity.
     pub fn motion(&self, crowd: &Crowd) -> Motion {
         Motion {
             configuration: crowd.kinds[self.kind].body.configuration(&self.place),
@@ -35,7 +35,7 @@ impl Mover {
         }
     }
 
-    /// How far (m) it reaches beyond the rim; below 0 where it does not.
+    /// How far (m) it extends beyond the rim; negative if it does not.
     pub(super) fn beyond(&self, crowd: &Crowd) -> f64 {
         let kind = &crowd.kinds[self.kind];
         let q = kind.body.configuration(&self.place);

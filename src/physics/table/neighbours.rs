@@ -1,8 +1,9 @@
-//! Which tiles are within reach of each other: a list that holds until one has moved too far.
+//! Neighbour lists: tiles within reach of each other, valid until a tile has moved too far.
 
 use nalgebra::Vector2;
 
-/// Pairs of points within a distance, kept until any point has moved by half of what was added to it.
+/// Pairs of points within a distance plus a margin, valid until a point has moved by half the
+/// margin.
 #[derive(Default)]
 pub struct Neighbours {
     /// Pairs i < j, in order.
@@ -12,7 +13,7 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Pairs of points that are within `range` (m), and some that are a little farther apart.
+    /// All pairs of points within `range` (m), and some that are slightly farther apart.
     pub fn within(&mut self, range: f64, places: &[Vector2<f64>]) -> &[[usize; 2]] {
         let moved = |(now, then): (&Vector2<f64>, &Vector2<f64>)| (now - then).norm_squared();
         let farthest = places.iter().zip(&self.places).map(moved);
@@ -26,7 +27,7 @@ impl Neighbours {
     }
 }
 
-/// All pairs of points within a range (m), by cells of its size.
+/// All pairs of points within a range (m), found with a grid of cells of this size.
 fn pairs(range: f64, places: &[Vector2<f64>]) -> Vec<[usize; 2]> {
     let low = places
         .iter()
@@ -34,7 +35,7 @@ fn pairs(range: f64, places: &[Vector2<f64>]) -> Vec<[usize; 2]> {
     let high = places
         .iter()
         .fold(Vector2::repeat(f64::NEG_INFINITY), |high, p| high.sup(p));
-    // No more cells than points along either side.
+    // Along each side at most as many cells as points.
     let most = places.len() as f64;
     let count = |extent: f64| (extent / range).floor().clamp(1.0, most.max(1.0));
     let counts = (high - low).map(count);

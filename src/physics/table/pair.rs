@@ -1,4 +1,4 @@
-//! Two tiles as one sees the other, and what acts between them.
+//! Two tiles in the frame of one of them, and the interaction between them.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -7,14 +7,14 @@ use super::mover::Mover;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::outline::cross;
 
-/// Two tiles by their numbers, in the order of the couple of their kinds.
+/// The indices of two tiles, in the order of the couple of their kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Two {
     pub first: usize,
     pub second: usize,
 }
 
-/// Where the reference point of a tile is, and how it is turned.
+/// The configuration of a tile's reference point.
 pub fn configuration(crowd: &Crowd, mover: &Mover) -> Configuration {
     crowd.kinds[mover.kind].body.configuration(&mover.place)
 }
@@ -26,7 +26,7 @@ pub fn relative(first: &Configuration, second: &Configuration) -> Configuration 
 }
 
 impl Two {
-    /// Of two tiles of some kinds.
+    /// Creates it from two tiles and their kinds.
     pub fn of(kinds: [usize; 2], [i, j]: [usize; 2]) -> Self {
         match kinds[0] <= kinds[1] {
             true => Self {
@@ -41,7 +41,8 @@ impl Two {
     }
 }
 
-/// The energy (J) of two tiles of a couple, and what pulls at each about its centre of mass (N, N, N m).
+/// The energy (J) of two tiles of a couple, and the force and torque on each about its centre of
+/// mass (N, N, N m).
 pub fn pull(
     crowd: &Crowd,
     couple: &Couple,
@@ -51,7 +52,7 @@ pub fn pull(
     let (energy, force, torque) = couple.pull(&relative(&a, &b));
     let force: Vector2<f64> = a.rotation() * force;
     let about = |mover: &Mover, q: &Configuration| q.position() - mover.place.xy();
-    // The forces are equal and opposite, and so is their torque about any one point.
+    // The forces are equal and opposite, and so are their torques about any one point.
     let of_second = torque + cross(about(second, &b), force);
     let of_first = -torque - cross(b.position() - first.place.xy(), force);
     let pulls = [

@@ -1,4 +1,4 @@
-//! Runs of a table: what is seen of them, and whether energy is accounted for.
+//! Runs of a table: their observations, and the energy balance.
 
 use std::collections::BTreeMap;
 
@@ -12,37 +12,38 @@ use super::settings::TableSettings;
 use super::start::{StartError, at_random, check};
 use super::stepper::{Account, BlowUp, Stepper};
 
-/// Energy that is not accounted for may be this share of the largest term; else the step is halved.
+/// Largest allowed share of missing energy, relative to the largest term of the balance; beyond it
+/// the step is halved.
 pub const ACCOUNTED: f64 = 0.01;
-/// So often is it halved at most.
+/// The step is halved at most this often.
 const HALVINGS: usize = 4;
 
-/// The table at one moment.
+/// The table at one time.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// Since the start (s).
     pub time: f64,
     /// Kinetic energy (J).
     pub kinetic: f64,
-    /// Energy of magnets (J).
+    /// Magnetic energy (J).
     pub potential: f64,
-    /// What became of the rest.
+    /// The other terms of the energy balance.
     pub account: Account,
     /// Bonds and traps.
     pub held: Vec<Held>,
-    /// Sizes of clusters, falling.
+    /// Sizes of clusters, in descending order.
     pub clusters: Vec<usize>,
-    /// The tiles, where they are kept.
+    /// The tiles, if they are recorded.
     pub movers: Option<Vec<Mover>>,
 }
 
 impl Sample {
-    /// How many pairs are held in a way.
+    /// The number of bonds or traps.
     pub fn count(&self, tie: Tie) -> usize {
         self.held.iter().filter(|held| held.tie == tie).count()
     }
 
-    /// Energy (J) that was there or came in and is not accounted for since the start.
+    /// The energy (J) that is missing from the balance since the start.
     fn missing(&self, start: &Self) -> f64 {
         self.kinetic + self.potential - self.account.work
             + self.account.contact_loss
@@ -51,7 +52,7 @@ impl Sample {
             - start.potential
     }
 
-    /// The largest of all energies in the account (J).
+    /// The largest term of the energy balance (J).
     fn largest(&self) -> f64 {
         let Account {
             work,
@@ -70,19 +71,19 @@ impl Sample {
 pub struct Run {
     /// Its number, from 0.
     pub index: usize,
-    /// The table from time to time, first and last moment among them.
+    /// The table at regular times, including the first and the last.
     pub samples: Vec<Sample>,
     /// The tiles at the end.
     pub movers: Vec<Mover>,
     /// Mean kinetic energy per degree of freedom (J) over the second half of the time.
     pub kinetic: f64,
-    /// The largest energy not accounted for over the largest term.
+    /// The largest missing energy over the largest term.
     pub energy_error: f64,
-    /// The step (s) that was made in the end.
+    /// The step (s) after any halving.
     pub step: f64,
-    /// Steps of the table and of islands.
+    /// Numbers of steps of the table and of islands.
     pub steps: [u64; 2],
-    /// How long bonds and traps lasted that ended, and those that had not.
+    /// The lifetimes of bonds and traps, ended or not.
     pub lives: Vec<Life>,
 }
 
@@ -91,30 +92,30 @@ pub struct Run {
 pub struct Life {
     /// The tiles.
     pub tiles: [usize; 2],
-    /// What held them.
+    /// The kind of contact.
     pub tie: Tie,
-    /// From when (s).
+    /// The time it formed (s).
     pub from: f64,
-    /// Until when (s); `None` where it lasted to the end.
+    /// The time it ended (s); `None` if it lasted to the end of the run.
     pub to: Option<f64>,
 }
 
-/// Where tiles start.
+/// The starting positions of the tiles.
 #[derive(Clone, Debug)]
 pub enum Start {
-    /// So many of each kind at random places.
+    /// Numbers of tiles of each kind, at random positions.
     Random(Vec<usize>),
-    /// As they are.
+    /// Given tiles.
     Given(Vec<Mover>),
 }
 
 /// Why a run failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// It could not begin.
+    /// The run could not start.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// It went too fast.
+    /// A tile became too fast.
     #[error(transparent)]
     BlowUp(#[from] BlowUp),
 }
@@ -126,10 +127,10 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
     rng
 }
 
-/// One run. `frames` keeps the tiles in every sample.
+/// Simulates one run. `frames` records the tiles in every sample.
 ///
 /// # Errors
-/// Where it cannot begin, or steps are too long by far.
+/// If the run cannot start, or the steps are far too long.
 pub fn run(
     crowd: &Crowd,
     settings: &TableSettings,
@@ -219,7 +220,7 @@ fn sample(crowd: &Crowd, stepper: &mut Stepper, frames: bool) -> Sample {
     }
 }
 
-/// Begins and ends lives as a sample says; `open` are the numbers of those that last.
+/// Updates the lifetimes with a sample; `open` are the indices of those that have not ended.
 fn follow(lives: &mut Vec<Life>, open: &mut BTreeMap<([usize; 2], Tie), usize>, sample: &Sample) {
     let mut last = std::mem::take(open);
     for held in &sample.held {

@@ -1,26 +1,27 @@
-//! What decides a run besides tiles and starts.
+//! The settings of a run, other than tiles and starts.
 
 use crate::dynamics::Fan;
 
-/// The table itself moves in a circle, as orbital shakers do; tiles and rim are seen from it.
+/// Circular motion of the table, as of an orbital shaker; tiles and rim are described in the
+/// table's frame.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Orbital {
     /// Radius A of the circle (m).
     pub amplitude: f64,
-    /// Rounds f per second (Hz).
+    /// Revolutions f per second (Hz).
     pub frequency: f64,
 }
 
-/// The table, the drives and the numerics.
+/// Settings of the table, the drives and the numerics.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TableSettings {
-    /// How long a run lasts (s).
+    /// Duration of a run (s).
     pub duration: f64,
     /// Drag rate c (1/s) of every degree of freedom.
     pub drag: f64,
-    /// Coulomb's coefficient of friction between tiles, and of a tile and the rim.
+    /// Coulomb's coefficient of friction between tiles, and between a tile and the rim.
     pub friction: f64,
-    /// Share of the approach velocity that a knock gives back.
+    /// Coefficient of restitution.
     pub restitution: f64,
     /// Effective energy kT (J) of shaking.
     pub shaking: Option<f64>,
@@ -30,20 +31,20 @@ pub struct TableSettings {
     pub orbital: Option<Orbital>,
     /// Fans that push tiles.
     pub fans: Vec<Fan>,
-    /// Longest step (s). Steps in contact are shorter, by as much as forces and speeds ask for, and
-    /// in proportion to this.
+    /// Longest step (s). Steps in contact are shorter, as forces and speeds require, and scale with
+    /// this.
     pub step: f64,
-    /// Time between two looks at the table (s).
+    /// Time between two samples (s).
     pub sampling: f64,
     /// Whether the table has a rim.
     pub walls: bool,
 }
 
 impl TableSettings {
-    /// The default longest step (s), for which the limits of steps in contact are made.
+    /// The default longest step (s), for which the limits of steps in contact are stated.
     pub const USUAL_STEP: f64 = 2.5e-3;
 
-    /// Steps between two kicks; drag alone acts at each.
+    /// Number of steps between two kicks; 1 without shaking, as drag then acts at every step.
     pub(super) fn steps_between_kicks(&self) -> usize {
         match self.shaking {
             Some(_) => (self.kicks / self.step).round().max(1.0) as usize,
@@ -51,7 +52,7 @@ impl TableSettings {
         }
     }
 
-    /// By how much shorter all steps are than usual.
+    /// The factor by which all steps are shorter than usual.
     pub(super) fn fineness(&self) -> f64 {
         self.step / Self::USUAL_STEP
     }

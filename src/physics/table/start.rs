@@ -1,4 +1,4 @@
-//! Where tiles are when a run begins.
+//! The positions and velocities of the tiles when a run begins.
 
 use std::f64::consts::TAU;
 
@@ -13,70 +13,72 @@ use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::TOUCH;
 use crate::dynamics::{Motion, thermal_velocity};
 
-/// Tiles placed at random are at least so far from each other and from the rim, as a share of the
-/// smallest one's circumradius.
+/// Smallest distance of randomly placed tiles from each other and from the rim, as a share of the
+/// smallest circumradius.
 const ROOM: f64 = 1.0 / 150.0;
-/// Places tried for a tile, before the others are moved about.
+/// Positions tried for a tile before the others are moved.
 const TRIES: usize = 2_000;
-/// How often they are, and how many steps each makes every time, of up to this share of its
-/// circumradius, and as many radians.
+/// How often the others are moved; and how many steps each makes every time, of up to this share of
+/// its circumradius and of a radian.
 const SHUFFLES: usize = 500;
 const WANDERED: usize = 5;
 const STRIDE: f64 = 0.3;
 
-/// Most squares along a side of the table by which tiles are looked up.
+/// Largest number of squares along a side of the table for looking up tiles.
 const MOST_SQUARES: f64 = 1e3;
 
-/// A tile's kind and where it is.
+/// A tile's kind and configuration.
 type Place = (usize, Configuration);
 
-/// Why a run cannot begin.
+/// Why a run cannot start.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
-    /// Their area alone is too large.
-    #[error("{tiles} tiles of {area:.3} m2 together do not fit on a table of {table:.3} m2")]
+    /// The total area of the tiles is too large.
+    #[error(
+        "{tiles} tiles with a total area of {area:.3} m2 do not fit on a table of {table:.3} m2"
+    )]
     TooMany {
-        /// How many.
+        /// Number of tiles.
         tiles: usize,
-        /// What they cover (m^2).
+        /// Their area (m^2).
         area: f64,
-        /// The table (m^2).
+        /// Area of the table (m^2).
         table: f64,
     },
     /// No place was found.
     #[error(
-        "no free place was found for tile {tile} of {tiles}, wherever the others went: tiles at random places \
-         block each other before a table is full; here they would cover {share:.2} of it"
+        "no free place was found for tile {tile} of {tiles}: tiles at random places block each other before \
+         the table is full; these cover {share:.2} of it"
     )]
     NoRoom {
         /// Its number, from 0.
         tile: usize,
-        /// Of how many.
+        /// Number of tiles.
         tiles: usize,
         /// Coverage of all tiles.
         share: f64,
     },
-    /// Two of the tiles given.
+    /// Two of the given tiles overlap.
     #[error("tiles {first} and {second} overlap by {depth:.3e} m")]
     Overlap {
         /// Its number, from 0.
         first: usize,
         /// The other's.
         second: usize,
-        /// How deep (m).
+        /// Depth of the overlap (m).
         depth: f64,
     },
-    /// One of the tiles given.
+    /// One of the given tiles extends beyond the rim.
     #[error("tile {tile} reaches {beyond:.3e} m beyond the rim")]
     BeyondRim {
         /// Its number, from 0.
         tile: usize,
-        /// How far (m).
+        /// Distance beyond the rim (m).
         beyond: f64,
     },
 }
 
-/// The clearance (m) of two tiles, or any number above `enough` where it is more.
+/// The clearance (m) of two tiles, or any number above `enough` if it is larger.
 fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) -> f64 {
     let (couple, swapped) = crowd.couple(a.0, b.0);
     let [first, second] = if swapped { [&b, &a] } else { [&a, &b] };
@@ -92,11 +94,12 @@ fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) ->
     couple.contact.clearance(&q)
 }
 
-/// So many tiles of each kind, at places and in orientations drawn evenly from those where they are
-/// free of the tiles before; at rest, or where kT (J) is given with velocities of that temperature.
+/// Places a number of tiles of each kind at random: positions and orientations are uniformly
+/// distributed over those that do not overlap the earlier tiles. They are at rest, or have
+/// velocities of the temperature kT (J) if it is given.
 ///
 /// # Errors
-/// Where there is no room.
+/// If there is no room.
 pub fn at_random(
     crowd: &Crowd,
     counts: &[usize],
@@ -112,7 +115,7 @@ pub fn at_random(
     if area > table {
         return Err(StartError::TooMany { tiles, area, table });
     }
-    // One of each kind in turn, so that no kind has the best places.
+    // One of each kind in turn, so that no kind is preferred.
     let most = counts.iter().copied().max().unwrap_or(0);
     let turns = (0..most).flat_map(|turn| (0..counts.len()).map(move |kind| (turn, kind)));
     let mut placed = Placed::new(crowd);
@@ -122,7 +125,7 @@ pub fn at_random(
             if let Some(q) = free_place(&placed, kind, rng) {
                 break q;
             }
-            // Those that are there block each other's gaps: they make room by wandering.
+            // The tiles already placed block each other's gaps: random moves make room.
             if rounds.next().is_none() {
                 return Err(StartError::NoRoom {
                     tile: placed.tiles.len(),
@@ -150,15 +153,15 @@ pub fn at_random(
     Ok(placed.into_iter().map(mover).collect())
 }
 
-/// Tiles that have a place, and by squares of the table who is where.
+/// The placed tiles, with a grid of squares to look them up.
 struct Placed<'a> {
     crowd: &'a Crowd,
     tiles: Vec<Place>,
-    /// How far apart they are at least (m).
+    /// Their smallest distance (m).
     room: f64,
-    /// Squares along x and y, at least as wide as tiles reach to each other.
+    /// Numbers of squares along x and y; a square is at least as wide as the range of contact.
     squares: [usize; 2],
-    /// The tiles whose reference points lie in each.
+    /// The tiles whose reference points lie in each square.
     there: Vec<Vec<usize>>,
 }
 
@@ -179,7 +182,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// The square along x and y that a point lies in.
+    /// The indices along x and y of the square that contains a point.
     fn square(&self, q: &Configuration) -> [usize; 2] {
         [0, 1].map(|axis| {
             let (half, count) = (self.crowd.half_size[axis], self.squares[axis]);
@@ -206,7 +209,7 @@ impl<'a> Placed<'a> {
         self.tiles[tile].1 = to;
     }
 
-    /// Whether a tile would be on the table there and clear of all others but one.
+    /// Whether a tile would be on the table and clear of all others, except one.
     fn is_free(&self, (kind, q): Place, but: Option<usize>) -> bool {
         let motion = Motion {
             configuration: q,
@@ -237,8 +240,8 @@ fn free_place(placed: &Placed, kind: usize, rng: &mut ChaCha8Rng) -> Option<Conf
     })
 }
 
-/// Moves each tile in turn a little at random, where that leaves it free: all that is kept of where it was
-/// is that tiles do not overlap.
+/// Moves each tile in turn by a small random step if it stays free. The distribution of
+/// non-overlapping positions stays uniform.
 fn shuffle(placed: &mut Placed, rng: &mut ChaCha8Rng) {
     for _ in 0..WANDERED {
         for tile in 0..placed.tiles.len() {
@@ -257,10 +260,10 @@ fn shuffle(placed: &mut Placed, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Whether tiles are free of each other and on the table.
+/// Checks that tiles do not overlap and are on the table.
 ///
 /// # Errors
-/// Where they are not.
+/// If they are not.
 pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartError> {
     let place = |mover: &Mover| {
         let q = super::pair::configuration(crowd, mover);

@@ -1,4 +1,4 @@
-//! All tiles through one step after another, and the account of energy.
+//! Advances all tiles step by step, and keeps the energy balance.
 
 use nalgebra::{Vector2, Vector3};
 use rand_chacha::ChaCha8Rng;
@@ -13,17 +13,17 @@ use super::settings::TableSettings;
 use super::union::{join, root};
 use crate::parallel;
 
-/// A thread takes so many islands at once.
+/// Islands per task of a thread.
 const TOGETHER: usize = 8;
-/// And so many pairs that are not near.
+/// Distant pairs per task of a thread.
 const FAR_TOGETHER: usize = 64;
-/// Tiles go no farther in a step than this share of what counts as near.
+/// Largest travel of a tile in a step, as a share of the distance that counts as near.
 const SHARE_OF_NEAR: f64 = 0.25;
 
-/// What became of energy since the start (J).
+/// The energy balance since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account {
-    /// Work of shaking, fans and the table's motion.
+    /// Work by shaking, fans and the table's motion.
     pub work: f64,
     /// Lost in contact.
     pub contact_loss: f64,
@@ -31,7 +31,7 @@ pub struct Account {
     pub drag_loss: f64,
 }
 
-/// A run under way.
+/// A run in progress.
 pub struct Stepper<'a> {
     crowd: &'a Crowd,
     settings: &'a TableSettings,
@@ -41,7 +41,7 @@ pub struct Stepper<'a> {
     random: Vec<ChaCha8Rng>,
     /// Since the start (s).
     pub time: f64,
-    /// What became of energy.
+    /// The energy balance.
     pub account: Account,
     /// Steps of islands so far.
     pub short_steps: u64,
@@ -52,25 +52,25 @@ pub struct Stepper<'a> {
     least_near: f64,
 }
 
-/// Tiles went too fast for the steps.
+/// A tile became too fast for the step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "at {time:.6} s tile {tile} moves at {speed:.3e} m/s, too fast for steps of {step:.3e} s: the motion \
-     blows up; make the step shorter"
+     is unstable; shorten the step"
 )]
 pub struct BlowUp {
-    /// When (s).
+    /// The time (s).
     pub time: f64,
-    /// Which tile.
+    /// The tile's index.
     pub tile: usize,
-    /// How fast (m/s).
+    /// Its speed (m/s).
     pub speed: f64,
     /// The step (s).
     pub step: f64,
 }
 
 impl<'a> Stepper<'a> {
-    /// Tiles at the start; `random` are the random numbers of each tile.
+    /// Starts with the given tiles; `random` are the random number generators of each tile.
     pub fn new(
         crowd: &'a Crowd,
         settings: &'a TableSettings,
@@ -118,7 +118,7 @@ impl<'a> Stepper<'a> {
         self.riders.iter().map(|it| it.mover).collect()
     }
 
-    /// Kinetic energy that is still to be put right (J).
+    /// The correction of kinetic energy that is still outstanding (J).
     pub fn debt(&self) -> f64 {
         self.riders.iter().map(|it| it.debt).sum()
     }
@@ -130,7 +130,7 @@ impl<'a> Stepper<'a> {
             .sum()
     }
 
-    /// Energy of all magnets (J).
+    /// Magnetic energy of all pairs (J).
     pub fn potential(&mut self) -> f64 {
         let places = self.references(0.0);
         let positions: Vec<_> = places.iter().map(|q| q.position()).collect();
@@ -145,7 +145,7 @@ impl<'a> Stepper<'a> {
         pairs.iter().map(energy).sum()
     }
 
-    /// The configurations of all tiles, a time (s) from now as they move.
+    /// The configurations of all tiles, extrapolated by a time (s) with their velocities.
     fn references(&self, ahead: f64) -> Vec<crate::Configuration> {
         let ahead = |rider: &Rider| {
             let mover = rider.mover;
@@ -163,10 +163,10 @@ impl<'a> Stepper<'a> {
         self.near.iter().map(|near| near.two)
     }
 
-    /// One step.
+    /// Makes one step.
     ///
     /// # Errors
-    /// Where a tile is too fast for it.
+    /// If a tile is too fast for the step.
     pub fn step(&mut self) -> Result<(), BlowUp> {
         let h = self.settings.step;
         self.check_speeds()?;
@@ -233,7 +233,7 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// Finds the near pairs, and adds what the others give to the accelerations.
+    /// Finds the near pairs, and adds the accelerations by the other pairs.
     fn sort_pairs(
         &mut self,
         middle: &[Vector3<f64>],
@@ -289,7 +289,7 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Moves every island by itself.
+    /// Advances every island independently.
     fn move_all(&mut self, steady: &[Vector3<f64>]) -> Happened {
         let n = self.riders.len();
         let mut roots: Vec<usize> = (0..n).collect();
@@ -352,7 +352,7 @@ impl<'a> Stepper<'a> {
         all
     }
 
-    /// Moves a tile that meets nothing.
+    /// Advances a tile that meets nothing.
     fn glide(&mut self, tile: usize, a: &Vector3<f64>) {
         let h = self.settings.step;
         let mover = &mut self.riders[tile].mover;
@@ -360,7 +360,7 @@ impl<'a> Stepper<'a> {
         mover.velocity += a * h;
     }
 
-    /// Whether a tile cannot come to the rim in a step.
+    /// Whether a tile cannot reach the rim within a step.
     fn is_off_the_rim(&self, tile: usize, steady: &Vector3<f64>) -> bool {
         if !self.settings.walls {
             return true;

@@ -1,12 +1,12 @@
-//! From faces and their profiles to a tile's outline.
+//! Builds a tile's outline from its faces and their profiles.
 //!
-//! The profiles are strung together corner by corner. Where a profile runs back along its
-//! neighbour from their corner (square teeth that cut in right at the end of a square's face), the
-//! strip without area is taken away. Then every face is drawn back by its `fit`: each edge of the
-//! face moves inwards along its normal, and neighbouring edges are lengthened or shortened until
-//! they meet again (mitre joins), also across the corners to faces that stay where they are. So
-//! each drawn-back edge is `fit` away from where it was, and a mate drawn back by `fit` leaves a
-//! gap of exactly that width.
+//! The profiles are strung together corner by corner. If a profile runs back along its neighbour
+//! from their corner (square teeth that cut in at the very end of a square's face), the strip
+//! without area is removed. Then every face is drawn back by its `fit`: each edge of the face moves
+//! inwards along its normal, and neighbouring edges are lengthened or shortened until they meet
+//! again (mitre joins), also across the corners to faces that stay where they are. So each
+//! drawn-back edge is `fit` away from where it was, and a mate drawn back by `fit` leaves a gap of
+//! exactly that width.
 
 use nalgebra::Vector2;
 
@@ -14,7 +14,7 @@ use super::Face;
 use super::outline::cross;
 use super::profile::{Arcs, Polyline};
 
-/// Points closer to each other than this share of the tile's size are one point.
+/// Points closer to each other than this fraction of the tile's size are one point.
 const SAME_POINT: f64 = 1e-12;
 
 /// Edges whose directions differ by no more than this (rad) have no corner to mitre.
@@ -38,11 +38,11 @@ pub struct Ring {
     pub points: Vec<Vector2<f64>>,
     /// The face of the edge from point i to point i + 1.
     pub faces: Vec<usize>,
-    /// The arc that this edge is a chord of, by a number of its own; `None` for a straight line.
+    /// The index of the arc that this edge is a chord of; `None` for a straight line.
     pub arcs: Vec<Option<usize>>,
 }
 
-/// The drawn-back line of a face vanishes or turns over somewhere: the face's number.
+/// The drawn-back line of a face vanishes or reverses somewhere: the face's index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("face {0} cannot be drawn back so far")]
 pub struct FitTooLarge(pub usize);
@@ -50,7 +50,7 @@ pub struct FitTooLarge(pub usize);
 /// The closed polygon of a tile's faces, each with its line.
 ///
 /// # Errors
-/// Where an edge would vanish or turn over when its face is drawn back.
+/// If an edge would vanish or reverse when its face is drawn back.
 pub fn assemble(faces: &[Face], lines: &[FaceLine]) -> Result<Ring, FitTooLarge> {
     let scale = faces
         .iter()
@@ -92,7 +92,7 @@ impl Ring {
         self.points[(i + 1) % self.len()] - self.points[i]
     }
 
-    /// Merges repeated points and takes away strips without area between two faces.
+    /// Merges repeated points and removes strips without area between two faces.
     fn clean(&mut self, tolerance: f64) {
         let mut i = 0;
         while i < self.len() && self.len() > 2 {
@@ -104,7 +104,7 @@ impl Ring {
                 self.arcs[i] = self.arcs[(i + 1) % n];
                 self.remove((i + 1) % n);
             } else if self.faces[before] != self.faces[i] && self.folds_back(before, i) {
-                // The longer of the two edges is left over, its far part.
+                // The far part of the longer edge remains.
                 if self.edge(before).norm() <= self.edge(i).norm() {
                     self.faces[before] = self.faces[i];
                     self.arcs[before] = self.arcs[i];
@@ -196,7 +196,7 @@ pub fn face_edges(ring: &Ring, face: &Face, number: usize) -> Vec<[[f64; 2]; 2]>
 }
 
 /// The height (m) of a face's outermost surface at s, over its edges as [`face_edges`] gives them;
-/// at a step, the height of the lower side. `None` where the face has no surface.
+/// at a step, the height of the lower side. `None` if the face has no surface.
 pub fn surface_height(edges: &[[[f64; 2]; 2]], s: f64) -> Option<f64> {
     let one_sided = |inside: &dyn Fn(f64, f64) -> bool| {
         edges

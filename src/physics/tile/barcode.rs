@@ -1,20 +1,20 @@
 //! Barcodes: which pole of each magnet of a face points outwards.
 //!
 //! A code is read counter-clockwise along its face: `N` north pole out (the moment along the
-//! outward normal), `S` south pole out, `U` and `D` north pole up and down of a magnet that stands,
-//! `.` no magnet. Character k of n sits at
-//! `s = (k - (n - 1) / 2) * pitch` from the middle of the face.
+//! outward normal), `S` south pole out, `U` and `D` an upright magnet with its north pole up and
+//! down, `.` no magnet. Character k of n sits at `s = (k - (n - 1) / 2) * pitch` from the middle of
+//! the face.
 //!
 //! Two faces that touch run against each other, so the mate of a code is its reverse with N and S
-//! exchanged, and U and D: `NNNS` binds `NSSS`. The same rule holds for magnets in any place and at any angle:
-//! the mate of a magnet at s, turned by `axis` from the normal, sits at -s, has the other pole out
-//! and is turned by `-axis`. Head to tail across the gap, the two moments (along the normal and
-//! along the face) are those of a magnet and its image in a soft-iron wall, so that each pair
-//! attracts at every angle.
+//! exchanged, and U and D: `NNNS` binds `NSSS`. The same rule holds for magnets at any place and
+//! angle: the mate of a magnet at s, turned by `axis` from the normal, sits at -s, has the other
+//! pole out and is turned by `-axis`. Head to tail across the gap, the two moments (along the
+//! normal and along the face) are those of a magnet and its image in a soft-iron wall, so that each
+//! pair attracts at every angle.
 
 use std::fmt::{self, Write};
 
-/// The pole of a magnet that points outwards, or of one that stands where its north pole is.
+/// The pole of a magnet that points outwards or, for an upright magnet, the side of its north pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pole {
     /// The moment along the outward normal.
@@ -28,7 +28,7 @@ pub enum Pole {
 }
 
 impl Pole {
-    /// North or up of a positive sign, south or down of a negative one; none of 0.
+    /// North or up for a positive sign, south or down for a negative one; `None` for 0.
     pub fn of(sign: i32, stands: bool) -> Option<Self> {
         match (sign.signum(), stands) {
             (0, _) => None,
@@ -49,12 +49,12 @@ impl Pole {
         }
     }
 
-    /// Whether a magnet of this pole stands, and does not lie.
+    /// Whether a magnet with this pole is upright.
     pub fn stands(self) -> bool {
         matches!(self, Self::Up | Self::Down)
     }
 
-    /// The character that stands for it in a code.
+    /// Its character in a code.
     pub fn letter(self) -> char {
         match self {
             Self::North => 'N',
@@ -71,19 +71,19 @@ impl Pole {
     }
 }
 
-/// The poles along a face, counter-clockwise; `None` where there is no magnet.
+/// The poles along a face, counter-clockwise; `None` if there is no magnet.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Barcode(Vec<Option<Pole>>);
 
-/// A character that stands for no pole.
+/// A character that is not a pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "'{character}' is not a pole; a code consists of N and S, or of U and D, and . (no magnet)"
 )]
 pub struct BarcodeError {
-    /// Which character, counted from 0.
+    /// The position of the character, counted from 0.
     pub index: usize,
-    /// What stands there.
+    /// The character.
     pub character: char,
 }
 
@@ -91,7 +91,7 @@ impl Barcode {
     /// Reads a code such as `NN.S`.
     ///
     /// # Errors
-    /// At the first character that is none of `N`, `S`, `U`, `D` and `.`.
+    /// The first character other than `N`, `S`, `U`, `D` and `.`.
     pub fn parse(code: &str) -> Result<Self, BarcodeError> {
         code.chars()
             .enumerate()

@@ -3,14 +3,14 @@
 //! The split is exact: it runs along diagonals from vertex to vertex, so that no vertex is moved
 //! and no notch is filled in. The diagonals are those of the triangulation of least total length
 //! (dynamic programming over the polygon's chains: G. T. Klincsek, *Minimal triangulations of
-//! polygonal domains*, 1980), of which all are dropped again that separate nothing but convex
-//! neighbours (Hertel and Mehlhorn's rule), the longest first. A tooth is then cut off at its
-//! foot; ear clipping would leave long slivers that reach right across the tile, and every test
-//! for overlap would have to look at most of them.
+//! polygonal domains*, 1980), without those that separate only convex neighbours (Hertel and
+//! Mehlhorn's rule), dropped longest first. A tooth is then cut off at its foot; ear clipping would
+//! leave long slivers across the whole tile, and every test for overlap would have to check most of
+//! them.
 //!
-//! Time goes as the cube of the vertices, so that polygons with very many are halved first: every
-//! triangulation has a diagonal with at least a third of the vertices on either side (B. Chazelle,
-//! *A theorem on polygon cutting with applications*, 1982).
+//! The time is proportional to the cube of the number of vertices, so polygons with very many are
+//! halved first: every triangulation has a diagonal with at least a third of the vertices on either
+//! side (B. Chazelle, *A theorem on polygon cutting with applications*, 1982).
 
 use crate::order::Order;
 use std::cmp::Reverse;
@@ -27,9 +27,9 @@ const STRAIGHT: f64 = 1e-12;
 /// Polygons with more vertices than this are halved first.
 const LARGE: usize = 600;
 
-/// Lists of vertex numbers, each a convex polygon running the way the whole one does
-/// (counter-clockwise), or none where the vertices form no simple polygon. Takes time as the square
-/// of the number of vertices, where these are very many and do not lie convex.
+/// Lists of vertex indices, each a convex polygon in the orientation of the whole
+/// (counter-clockwise); empty if the vertices do not form a simple polygon. For very many vertices
+/// that are not convex, the time is proportional to the square of their number.
 pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>> {
     if is_convex(vertices) {
         return Some(vec![(0..vertices.len()).collect()]);
@@ -61,8 +61,8 @@ pub(super) fn convex_parts(vertices: &[Vector2<f64>]) -> Option<Vec<Vec<usize>>>
     Some(parts)
 }
 
-/// Whether the closed way over the vertices turns back at none of them, left or not at all at
-/// each, and once around in all.
+/// Whether the closed path over the vertices never reverses, turns left or not at all at each, and
+/// goes around once.
 fn is_convex(vertices: &[Vector2<f64>]) -> bool {
     let n = vertices.len();
     let angle = |k: usize| {
@@ -78,8 +78,7 @@ fn is_convex(vertices: &[Vector2<f64>]) -> bool {
         && angles.sum::<f64>() < 3.0 * PI
 }
 
-/// A diagonal with about as many vertices on either side, the shortest of those that part them
-/// alike.
+/// A diagonal with about as many vertices on either side, the shortest among equally balanced ones.
 fn halving_diagonal(vertices: &[Vector2<f64>]) -> Option<(usize, usize)> {
     let n = vertices.len();
     let length = |&(i, j): &(usize, usize)| OrderedFloat((vertices[i] - vertices[j]).norm());
@@ -90,7 +89,7 @@ fn halving_diagonal(vertices: &[Vector2<f64>]) -> Option<(usize, usize)> {
     })
 }
 
-/// Merges the two parts on either side of a diagonal where their union is convex.
+/// Merges the two parts on either side of a diagonal if their union is convex.
 fn merge(parts: &mut Vec<Vec<usize>>, vertices: &[Vector2<f64>], i: usize, j: usize) {
     let Some((a, left)) = part_starting_with(parts, j, i) else {
         return;
@@ -146,7 +145,8 @@ impl Triangulation {
                 let closing = (vertices[j] - vertices[i]).norm();
                 let mut least = f64::INFINITY;
                 for k in i + 1..j {
-                    // Of the chain from k to j, kept both ways round: read along a row.
+                    // For the chain from k to j, stored in both orders so that it is read along a
+                    // row.
                     let total = cost[i * n + k] + cost[j * n + k] + closing;
                     if total < least && turn(vertices[i], vertices[k], vertices[j]) > STRAIGHT {
                         least = total;
@@ -183,7 +183,7 @@ impl Triangulation {
     }
 }
 
-/// Sine of the angle by which a way from a over b to c turns left at b.
+/// Sine of the angle by which the path from a over b to c turns left at b.
 fn turn(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>) -> f64 {
     let (u, v) = (b - a, c - b);
     cross(u, v) / (u.norm() * v.norm())
@@ -206,8 +206,8 @@ fn is_diagonal(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
         })
 }
 
-/// Whether the way from vertex i towards vertex j starts into the polygon, along neither of the
-/// edges at i.
+/// Whether the segment from vertex i towards vertex j starts into the polygon, not along an edge at
+/// i.
 fn starts_inside(vertices: &[Vector2<f64>], i: usize, j: usize) -> bool {
     let n = vertices.len();
     let (before, at, after) = (
@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn polygons_of_very_many_vertices_are_halved() {
-        // Slots into which no straight way leads far, and teeth; 48 times as long without halves.
+        // Slots that no straight line enters far, and teeth; 48 times as slow without halving.
         let slots: Vec<_> = (0..1000)
             .map(|k| f64::from(k) / 1000.0)
             .flat_map(|s| {

@@ -1,4 +1,4 @@
-//! Which edges of an outline are near a point, by a uniform grid over the outline.
+//! Finds the edges of an outline near a point, with a uniform grid.
 
 use nalgebra::Vector2;
 

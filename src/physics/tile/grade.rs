@@ -1,23 +1,23 @@
-//! Grades under which magnets are sold, and the remanence that stands for each.
+//! Grades of magnets as sold, and the remanence of each.
 //!
-//! A grade is a maker's promise of an energy product; the remanence (T) that goes with it has a
-//! range, in which single magnets lie. The figure taken is the range's middle, rounded to 0.01 T.
+//! A grade guarantees an energy product; the corresponding remanence (T) has a range. The value
+//! used is the middle of the range, rounded to 0.01 T.
 //!
-//! Sources: of neodymium, tables of Shanghai Magnet, Jofov and Brisingi, which agree to 0.02 T (N42:
-//! 1.28 to 1.32 T); of ferrite, the Chinese standard SJ/T 10410 as Ao Magnet prints it; of samarium
-//! cobalt, Horizon Magnets. What stands behind the number (N42M, N42SH) says up to which
-//! temperature a magnet keeps its strength, not how strong it is.
+//! Sources: for neodymium, tables of Shanghai Magnet, Jofov and Brisingi, which agree to 0.02 T
+//! (N42: 1.28 to 1.32 T); for ferrite, the Chinese standard SJ/T 10410 as printed by Ao Magnet; for
+//! samarium cobalt, Horizon Magnets. The letters after the number (N42M, N42SH) give the
+//! temperature up to which a magnet keeps its strength, not the strength.
 
 /// A grade and its remanence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grade {
-    /// What sellers call it: `N42`.
+    /// Its trade name: `N42`.
     pub name: &'static str,
-    /// Least, usual and largest remanence (T).
+    /// Lowest, usual and highest remanence (T).
     pub remanence: [f64; 3],
 }
 
-/// Letters behind a grade of neodymium or samarium cobalt for the temperature that it stands.
+/// Letters after a grade of neodymium or samarium cobalt for its maximum temperature.
 const SUFFIXES: [&str; 9] = ["M", "H", "SH", "UH", "EH", "AH", "TH", "VH", "T"];
 
 const fn grade(name: &'static str, least: f64, usual: f64, most: f64) -> Grade {
@@ -82,8 +82,8 @@ const SAMARIUM: [Grade; 11] = [
 ];
 
 impl Grade {
-    /// The grade that a seller's name means: in letters of either case, with or without a space or a
-    /// hyphen, the letters for temperature and the `N` in front left out or not.
+    /// The grade with this trade name: in upper or lower case, with or without a space or a hyphen,
+    /// the letters for temperature and the leading `N`.
     ///
     /// ```
     /// use tilebind_physics::tile::grade::Grade;
@@ -124,8 +124,8 @@ impl Grade {
         all.find(known).copied()
     }
 
-    /// How far the energy of two such magnets may lie from that of the usual remanence, as factors:
-    /// it goes with the square.
+    /// The range of the energy of two such magnets, as factors of the energy at the usual
+    /// remanence: it is proportional to the square of the remanence.
     pub fn energy_range(&self) -> [f64; 2] {
         let [least, usual, most] = self.remanence;
         [least, most].map(|limit| (limit / usual) * (limit / usual))

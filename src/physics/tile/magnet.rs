@@ -6,17 +6,18 @@ use super::barcode::Pole;
 use crate::configuration::wrap_angle;
 use crate::units::MU0;
 
-/// What a magnet is, and how it is put into its tile.
+/// The shape of a magnet, and how it is mounted in its tile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Form {
     /// Its shape.
     pub shape: Shape,
-    /// Where its north pole is, if its axis stands on the tile's plane and does not lie in it.
+    /// The side of its north pole, if its axis is normal to the tile's plane; `None` if it lies in
+    /// it.
     pub stands: Option<Standing>,
 }
 
 impl Form {
-    /// With the other pole up, where it stands.
+    /// The same with the other pole up, if it is upright.
     pub fn reversed(self) -> Self {
         Self {
             stands: self.stands.map(Standing::opposite),
@@ -46,7 +47,7 @@ impl Shape {
     }
 }
 
-/// Which pole of a standing magnet is up.
+/// The upper pole of an upright magnet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The north pole.
@@ -73,30 +74,31 @@ impl Standing {
     }
 }
 
-/// Chords that a round outline has: they leave the circle by 1/200 of its radius.
+/// Number of chords of a round outline: they deviate from the circle by 1/200 of its radius.
 const CHORDS: usize = 32;
 
 /// A magnet fixed in a tile, in the tile's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Magnet {
-    /// Its middle (m).
+    /// Its centre (m).
     pub position: Vector2<f64>,
-    /// Direction of the magnetic moment (rad, counter-clockwise from the tile's x axis); of one that
-    /// stands, the direction of the first of its sizes.
+    /// Direction of the magnetic moment (rad, counter-clockwise from the tile's x axis); for an
+    /// upright magnet, the direction of the first of its sizes.
     pub angle: f64,
     /// Magnitude of the magnetic moment (A m^2), positive.
     pub moment: f64,
-    /// Its size (m): along the angle, across it in the tile's plane, and through the tile's thickness. Of a
-    /// disc two are its diameter, and the one along its axis its height.
+    /// Its size (m): along the angle, across it in the tile's plane, and through the tile's
+    /// thickness. For a disc, two of them are its diameter, and the one along its axis is its
+    /// height.
     pub size: [f64; 3],
-    /// What it is, and how it is put in.
+    /// Its shape, and how it is mounted.
     pub form: Form,
     /// The face that carries it.
     pub face: usize,
 }
 
 impl Magnet {
-    /// The moment as a vector in the tiles' plane (A m^2), in which that of a standing magnet has none.
+    /// The moment as a vector in the tiles' plane (A m^2), zero for an upright magnet.
     pub fn moment_vector(&self) -> Vector2<f64> {
         let lying = if self.form.stands.is_some() {
             0.0
@@ -106,7 +108,7 @@ impl Magnet {
         Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * lying
     }
 
-    /// Which pole is turned outwards, or up, given the outward normal of the magnet's face.
+    /// The outward or upper pole, given the outward normal of the magnet's face.
     pub fn pole(&self, outwards: Vector2<f64>) -> Pole {
         match self.form.stands {
             Some(Standing::Up) => Pole::Up,
@@ -125,21 +127,21 @@ impl Magnet {
         }
     }
 
-    /// Whether both are the same to a shop, whatever they are for.
+    /// Whether both are the same product.
     pub fn is_sold_as(&self, other: &Self) -> bool {
         self.form.shape == other.form.shape
             && self.axis_first() == other.axis_first()
             && (self.moment - other.moment).abs() <= 1e-12 * self.moment
     }
 
-    /// Whether it covers a circle of the tiles' plane: a disc that stands.
+    /// Whether it covers a circle of the tiles' plane: an upright disc.
     pub fn is_round(&self) -> bool {
         self.form.shape == Shape::Disc && self.form.stands.is_some()
     }
 
-    /// What it covers of the tiles' plane (m), counter-clockwise; of a disc that stands a polygon whose
-    /// corners lie on its rim: straight towards the face and along it, where neighbours are, it is exact, in
-    /// between up to 0.5 % of the radius too small.
+    /// The area that it covers in the tiles' plane (m), counter-clockwise; for an upright disc a
+    /// polygon with its corners on the rim: exact towards the face and along it, where neighbours
+    /// are, and in between up to 0.5 % of the radius too small.
     pub fn outline(&self) -> Vec<Vector2<f64>> {
         if !self.is_round() {
             return self.corners().to_vec();
@@ -166,7 +168,8 @@ impl Magnet {
         MU0 * self.moment / self.form.shape.volume(self.size)
     }
 
-    /// The four corners of the magnet, or of the square about a disc that stands, in the tile's plane (m), counter-clockwise.
+    /// The four corners of the magnet, or of the square around an upright disc, in the tile's plane
+    /// (m), counter-clockwise.
     pub fn corners(&self) -> [Vector2<f64>; 4] {
         let axis =
             Vector2::new(libm::cos(self.angle), libm::sin(self.angle)) * (self.size[0] / 2.0);

@@ -18,11 +18,11 @@ pub use pair::{Pair, face_to_face};
 
 use nalgebra::Vector2;
 
-/// A face of a tile: the straight base line between two corners of the tile. A profile may
-/// replace the base line in the outline; the face's frame (s along it, h outwards) stays.
+/// A face of a tile: the straight base line between two corners of the tile. A profile may replace
+/// the base line in the outline; the face's frame (s along it, h outwards) is unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
-    /// What the design file calls it: `east`, or its number.
+    /// Its name in the design file: `east`, or its number.
     pub name: String,
     /// First corner, counter-clockwise (m).
     pub start: Vector2<f64>,
@@ -47,12 +47,12 @@ impl Face {
         Vector2::new(t.y, -t.x)
     }
 
-    /// Middle of the base line (m).
+    /// Midpoint of the base line (m).
     pub fn middle(&self) -> Vector2<f64> {
         (self.start + self.end) / 2.0
     }
 
-    /// The point at `s` along the face from its middle and `h` outwards (m), in the tile's frame.
+    /// The point at `s` along the face from its midpoint and `h` outwards (m), in the tile's frame.
     pub fn point(&self, s: f64, h: f64) -> Vector2<f64> {
         self.middle() + self.tangent() * s + self.normal() * h
     }
@@ -74,8 +74,8 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// Moment of inertia (kg m^2) about the centre of mass, the mass spread evenly over the
-    /// outline's area.
+    /// Moment of inertia (kg m^2) about the centre of mass, with the mass distributed evenly over
+    /// the outline's area.
     pub fn inertia(&self) -> f64 {
         self.mass * self.outline.second_moment_about_centroid() / self.outline.area()
     }

@@ -1,4 +1,4 @@
-//! Two tiles and how they are meant to meet.
+//! Two tiles and their intended contact.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use super::magnet::Shape;
 use super::{Face, Tile};
 use crate::configuration::{Configuration, wrap_angle};
 
-/// Two tiles and how they are meant to bind.
+/// Two tiles and their intended bond.
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// The tile at the table's centre, unrotated.
@@ -22,7 +22,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// What the magnets of both tiles are: blocks, discs or both.
+    /// A word for the magnets of both tiles: blocks, discs or both.
     pub fn bodies(&self) -> &'static str {
         let magnets = self.fixed.magnets.iter().chain(&self.moving.magnets);
         let [discs, blocks] = [Shape::Disc, Shape::Block]
@@ -39,8 +39,8 @@ impl Pair {
         &self.fixed.faces[self.target.0]
     }
 
-    /// The distance of the reference points (m) from which on the tiles are free of each other in
-    /// any orientation: that of their circles about the reference points.
+    /// The distance of the reference points (m) beyond which the tiles cannot touch in any
+    /// orientation: the sum of their circumradii about the reference points.
     pub fn free_distance(&self) -> f64 {
         self.fixed.outline.circumradius() + self.moving.outline.circumradius()
     }

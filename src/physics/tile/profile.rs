@@ -5,36 +5,37 @@
 //! depth < 0 cuts in.
 //!
 //! An outline is a polygon, so a curve (arc, sine) is drawn as chords between points *on* the
-//! curve, close enough that no chord is farther from it than [`CHORD_SHARE`] of the profile's depth,
-//! nor of an arc's radius than [`CHORD_SHARE_OF_RADIUS`]: a shape has the same chords at every size.
-//! This polygon *is* the outline: contact, areas and clearances are exact for it. The [`complement`]
-//! is taken point by point, so a mate's polygon coincides with its partner's in the bound
-//! configuration, whatever the chords leave of the curve.
+//! curve, close enough that no chord is farther from it than [`CHORD_SHARE`] of the profile's
+//! depth, nor of an arc's radius than [`CHORD_SHARE_OF_RADIUS`]: a shape has the same chords at
+//! every size. This polygon *is* the outline: contact, areas and clearances are exact for it. The
+//! [`complement`] is taken point by point, so a mate's polygon coincides with its partner's in the
+//! bound configuration, however well the chords follow the curve.
 
 use std::f64::consts::PI;
 
-/// Largest distance of a chord from the curve that it stands for, as a share of the profile's depth:
-/// 0.2 mm of a bulge of 20 mm, about what is cut or printed to, and few enough points for contact to
-/// stay cheap (it takes the twelvefold time with ten times as many).
+/// Largest distance of a chord from its curve, as a fraction of the profile's depth: 0.2 mm for a
+/// bulge of 20 mm, about the accuracy of cutting or printing, with few enough points for contact to
+/// stay cheap (ten times as many take twelve times as long).
 pub const CHORD_SHARE: f64 = 0.01;
 
-/// The same as a share of an arc's radius, which is what counts where an arc is a half circle or more:
-/// chords turn by 10 degrees at most.
+/// The same as a fraction of an arc's radius, which decides for half circles and more: chords turn
+/// by at most 10 degrees.
 pub const CHORD_SHARE_OF_RADIUS: f64 = 0.0038;
 
-/// Chords of a quarter of a sine wave: they leave it by `1 - cos(pi / 16)`, 0.0193 of the amplitude at
-/// most, and so by [`CHORD_SHARE`] of the depth, twice the amplitude.
+/// Chords of a quarter of a sine wave: they deviate from it by at most `1 - cos(pi / 16)` = 0.0193
+/// of the amplitude, which is [`CHORD_SHARE`] of the depth (twice the amplitude).
 const CHORDS_PER_QUARTER_WAVE: i64 = 4;
 
-/// A profile no deeper than this share of its width is flat. What is shallower comes of rounding, as in
-/// -0.01 + 0.01, and the circle through an arc of 1e-15 m would be wider than the solar system.
+/// A profile no deeper than this fraction of its width is flat. Shallower ones result from
+/// rounding, as in -0.01 + 0.01, and the circle through an arc of 1e-15 m would be wider than the
+/// solar system.
 pub const SHALLOWEST: f64 = 2e-6;
 
 /// A polyline in a face's frame: points (s, h), m.
 pub type Polyline = Vec<[f64; 2]>;
 
-/// Which points of a polyline lie on arcs of circles: the first and the last of each arc, in their
-/// order. The polygon is the outline; who cuts it may follow the arcs.
+/// Which points of a polyline lie on arcs of circles: the first and the last of each arc, in order.
+/// The polygon is the outline; the arcs are for cutting it.
 pub type Arcs = Vec<[usize; 2]>;
 
 /// The waveform of [`Profile::Teeth`], odd in its phase.
@@ -53,8 +54,8 @@ pub enum Waveform {
 pub enum Profile {
     /// The base line itself.
     Flat,
-    /// A trapezoid, `width` wide at its base, its sides leaning inwards by `draft` (a dovetail
-    /// where negative), its middle at s = `offset`.
+    /// A trapezoid, `width` wide at its base, with sides that lean inwards by `draft` (a dovetail
+    /// if negative), centred at s = `offset`.
     Tab {
         /// Width at the base line (m).
         width: f64,
@@ -73,11 +74,11 @@ pub enum Profile {
         count: u32,
         /// Height (m) from valley to crest.
         depth: f64,
-        /// Length (m) over which the teeth spread, about the face's middle.
+        /// Length (m) of the teeth, centred on the face.
         span: f64,
     },
-    /// A segment of a circle over a chord of `width`, `depth` high in its middle at s = `offset`;
-    /// more than half a circle where `depth` exceeds `width / 2`.
+    /// A segment of a circle over a chord of `width`, `depth` high at its middle, s = `offset`;
+    /// more than half a circle if `depth` exceeds `width / 2`.
     Arc {
         /// Length of the chord on the base line (m).
         width: f64,
@@ -99,7 +100,7 @@ pub enum ProfileError {
     /// (rad).
     #[error("the tab's sides meet before they reach its depth")]
     SidesMeet {
-        /// The draft (rad) at which the sides meet at the very depth.
+        /// The draft (rad) at which the sides meet exactly at the depth.
         largest_draft: f64,
     },
     /// A profile begins or ends off the base line, at height h (m).
@@ -116,11 +117,11 @@ pub enum ProfileError {
 }
 
 impl Profile {
-    /// The profile's points (s, h), from its beginning to its end, both at h = 0; none for a
-    /// profile that is no more than the base line, or no deeper than [`SHALLOWEST`] of its width.
+    /// The profile's points (s, h), from its beginning to its end, both at h = 0; empty for a
+    /// profile equal to the base line, or no deeper than [`SHALLOWEST`] of its width.
     ///
     /// # Errors
-    /// Where the parameters leave no profile to draw.
+    /// If no profile has these parameters.
     pub fn polyline(&self) -> Result<Polyline, ProfileError> {
         match self {
             Self::Flat => Ok(Vec::new()),
@@ -164,12 +165,12 @@ impl Profile {
     }
 }
 
-/// The complement `-h(-s)` of a polyline, point by point: the line of the mating face.
+/// The complement `-h(-s)` of a polyline, point by point: the profile of the mating face.
 pub fn complement(line: &[[f64; 2]]) -> Polyline {
     line.iter().rev().map(|[s, h]| [-s, -h]).collect()
 }
 
-/// The arcs of the [`complement`] of a polyline of so many points.
+/// The arcs of the [`complement`] of a polyline with this many points.
 pub fn complement_arcs(arcs: &[[usize; 2]], points: usize) -> Arcs {
     let mirrored = |&[first, last]: &[usize; 2]| [points - 1 - last, points - 1 - first];
     arcs.iter().rev().map(mirrored).collect()
@@ -193,8 +194,8 @@ fn tab(width: f64, depth: f64, draft: f64, offset: f64) -> Result<Polyline, Prof
 fn teeth(form: Waveform, count: u32, depth: f64, span: f64) -> Polyline {
     let amplitude = depth / 2.0;
     let halves = 2 * i64::from(count);
-    // Point k of `pieces`; symmetric about s = 0 to the last bit, as k and pieces - k differ in
-    // sign alone.
+    // Point k of `pieces`; symmetric about s = 0 to the last bit, because k and pieces - k differ
+    // only in sign.
     let s = |k: i64, pieces: i64| span / 2.0 * (2 * k - pieces) as f64 / pieces as f64;
     match form {
         Waveform::Sine => {
@@ -247,10 +248,10 @@ fn arc(width: f64, depth: f64, offset: f64) -> Polyline {
     // Half the angle that the segment spans, and the circle's radius.
     let half_angle = 2.0 * libm::atan(2.0 * sagitta / width);
     let radius = (width * width / 4.0 + sagitta * sagitta) / (2.0 * sagitta);
-    // A chord over the angle 2 a leaves its circle by radius (1 - cos a).
+    // A chord over the angle 2 a deviates from its circle by radius (1 - cos a).
     let error = (CHORD_SHARE * sagitta / radius).min(CHORD_SHARE_OF_RADIUS);
     let largest = libm::acos(1.0 - error);
-    // Whatever rounding makes of the angles of a shape at other sizes, not one chord more.
+    // Rounding of the angles of a shape at other sizes must not add a chord.
     let half = (half_angle / (2.0 * largest) - 1e-9).ceil().max(1.0) as i64;
     (-half..=half)
         .map(|k| {

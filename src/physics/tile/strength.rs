@@ -1,4 +1,4 @@
-//! How strong a magnet is.
+//! The strength of a magnet.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use super::grade::Grade;
 use super::magnet::Shape;
 use crate::units::MU0;
 
-/// How strong a magnet is; one of the ways to say it.
+/// The strength of a magnet, in one of several units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
     /// Magnetic moment (A m^2).
@@ -15,21 +15,21 @@ pub enum Strength {
     Remanence(f64),
     /// Field at the centre of the block's pole face (T).
     SurfaceField(f64),
-    /// What it is sold as.
+    /// The grade.
     Grade(Grade),
-    /// Force (N) that draws the block's pole face off a thick steel plate.
+    /// Force (N) to pull the block's pole face off a thick steel plate.
     Pull(f64),
 }
 
-/// What a seller states as the pull of a block of N38, over the force of the ideal block on ideal
-/// steel: of seven blocks from 10 x 4 x 1.5 to 42 x 20 x 5 mm, magnetised through the last (dhit.pl),
-/// 0.95, 1.00, 1.08, 0.74, 0.82, 0.93 and 1.00. Thin plates and small blocks lose most to their
-/// coating and to what is rough or thin of the steel.
+/// The stated pull of a block of N38 divided by the force of the ideal block on ideal steel: for
+/// seven blocks from 10 x 4 x 1.5 to 42 x 20 x 5 mm, magnetised through the last (dhit.pl), 0.95,
+/// 1.00, 1.08, 0.74, 0.82, 0.93 and 1.00. Thin plates and small blocks lose most to their coating
+/// and to rough or thin steel.
 pub const PULL_SPREAD: [f64; 2] = [0.74, 1.08];
 
 impl Strength {
     /// The moment (A m^2) of a magnet of `size` (m; along its axis first): `m = Br V / mu0`, with
-    /// Br from [`surface_field_share`] where the field at the pole face is what is known.
+    /// Br from [`surface_field_share`] if the field at the pole face is given.
     pub fn moment(self, shape: Shape, size: [f64; 3]) -> f64 {
         let volume = shape.volume(size);
         match self {
@@ -42,23 +42,24 @@ impl Strength {
     }
 }
 
-/// B0 / Br: the field at the centre of the pole face of a uniformly magnetised block, as a share
+/// B0 / Br: the field at the centre of the pole face of a uniformly magnetised block, as a fraction
 /// of its remanence.
 ///
-/// The two pole faces (a by b, the length l apart) are sheets of magnetic charge; on its axis a
-/// charged rectangle gives a field in proportion to the solid angle that it fills, 2 pi right at
-/// the sheet and `4 atan(a b / (2 l sqrt(4 l^2 + a^2 + b^2)))` at the distance l. The near sheet's
-/// field less the far sheet's is
+/// The two pole faces (a by b, the length l apart) are sheets of magnetic charge; on its axis the
+/// field of a charged rectangle is proportional to its solid angle, 2 pi at the sheet and `4 atan(a
+/// b / (2 l sqrt(4 l^2 + a^2 + b^2)))` at the distance l. The near sheet's field minus the far
+/// sheet's is
 ///
 /// ```text
 /// B0 / Br = 1/2 - (1/pi) atan(a b / (2 l sqrt(4 l^2 + a^2 + b^2)))
 /// ```
 ///
-/// and a disc of radius R, whose far face fills `2 pi (1 - l / sqrt(l^2 + R^2))`, `l / (2 sqrt(l^2 + R^2))`.
+/// and for a disc of radius R, whose far face has the solid angle `2 pi (1 - l / sqrt(l^2 + R^2))`,
+/// `l / (2 sqrt(l^2 + R^2))`.
 ///
-/// Source: charge model, Furlani, *Permanent Magnet and Electromechanical Devices* (2001),
-/// section 4.2; solid angle of a rectangle, Khadjavi, J. Opt. Soc. Am. 58 (1968) 1417.
-/// Edges: a long bar has 1/2, a thin plate tends to 0 as `(2/pi) l sqrt(1/a^2 + 1/b^2)`.
+/// Source: charge model, Furlani, *Permanent Magnet and Electromechanical Devices* (2001), section
+/// 4.2; solid angle of a rectangle, Khadjavi, J. Opt. Soc. Am. 58 (1968) 1417. Limits: a long bar
+/// has 1/2, a thin plate tends to 0 as `(2/pi) l sqrt(1/a^2 + 1/b^2)`.
 pub fn surface_field_share(shape: Shape, [l, a, b]: [f64; 3]) -> f64 {
     if shape == Shape::Disc {
         return l / (2.0 * libm::hypot(l, a / 2.0));
@@ -67,12 +68,12 @@ pub fn surface_field_share(shape: Shape, [l, a, b]: [f64; 3]) -> f64 {
     libm::atan(2.0 * l * (4.0 * l * l + a * a + b * b).sqrt() / (a * b)) / PI
 }
 
-/// The force (N) that draws the pole face of a block of `size` (m; along its axis first) and of
+/// The force (N) to pull the pole face of a block of `size` (m; along its axis first) and of
 /// remanence `remanence` (T) off a thick plate of steel.
 ///
-/// The plate, of a permeability without bound, acts as the block's mirror image: a block like it,
-/// pole to pole. Every pole face (a by b, of charge density Br / mu0) is drawn by the image's two,
-/// l apart:
+/// The plate, of infinite permeability, acts like the block's mirror image: an equal block, pole to
+/// pole. Every pole face (a by b, of charge density Br / mu0) is attracted by the image's two, l
+/// apart:
 ///
 /// ```text
 /// F = Br^2 / (4 pi mu0) [g(0) - 2 g(l) + g(2 l)]
@@ -80,12 +81,13 @@ pub fn surface_field_share(shape: Shape, [l, a, b]: [f64; 3]) -> f64 {
 ///           + d (q + p - r - d)],  p = sqrt(a^2 + d^2), q = sqrt(b^2 + d^2), r = sqrt(a^2 + b^2 + d^2)
 /// ```
 ///
-/// where `g(d)` is the integral of d / R^3 over both of two faces d apart, `g(0) = 2 pi a b`. Discs have
-/// theirs, and `g(0) = 2 pi` times their area.
+/// where `g(d)` is the integral of d / R^3 over both of two faces d apart, `g(0) = 2 pi a b`. Discs
+/// have their own integral, with `g(0) = 2 pi` times their area.
 ///
-/// Source: charge model and image, Furlani, *Permanent Magnet and Electromechanical Devices* (2001),
-/// sections 3.4 and 4.2. Edges: a long bar tends to `Br^2 a b / (2 mu0)`; a real plate that is not
-/// saturated draws a few per cent less, for the block's permeability is 1.05.
+/// Source: charge model and image, Furlani, *Permanent Magnet and Electromechanical Devices*
+/// (2001), sections 3.4 and 4.2. Limits: a long bar tends to `Br^2 a b / (2 mu0)`; the force of a
+/// real plate that is not saturated is a few per cent lower, because the block's permeability is
+/// 1.05.
 pub fn pull(shape: Shape, size: [f64; 3], remanence: f64) -> f64 {
     let [l, a, b] = size;
     let facing = |d: f64| match shape {
@@ -96,7 +98,7 @@ pub fn pull(shape: Shape, size: [f64; 3], remanence: f64) -> f64 {
     remanence * remanence / (4.0 * PI * MU0) * faces
 }
 
-/// How often means are taken: after six all digits agree, but for discs that all but touch.
+/// Number of means: after six all digits agree, except for discs that nearly touch.
 const MEANS: usize = 12;
 
 /// The integral of d / R^3 over both of two discs of a radius R (m) on one axis, d (m) apart (m^2):

@@ -1,4 +1,4 @@
-//! The turns that map a tile onto itself.
+//! The rotations that map a tile onto itself.
 
 use std::f64::consts::TAU;
 
@@ -10,12 +10,12 @@ use crate::configuration::wrap_angle;
 use crate::order::Order;
 
 /// How closely, relative to the tile's size, its moments and a full turn, the turned tile must
-/// agree with the tile.
+/// agree with the original.
 const TOLERANCE: f64 = 1e-9;
 
 /// All angles (rad, in [0, 2 pi), ascending) by which the tile can be turned about its reference
-/// point so that its outline and its magnets (positions, directions, moments, sizes) come to lie
-/// on themselves. The first is 0.
+/// point so that its outline and its magnets (positions, directions, moments, sizes) coincide with
+/// themselves. The first is 0.
 pub fn rotations(tile: &Tile) -> Vec<f64> {
     let vertices = tile.outline.vertices();
     let mut angles: Vec<f64> = (1..vertices.len())
@@ -27,7 +27,8 @@ pub fn rotations(tile: &Tile) -> Vec<f64> {
     angles
 }
 
-/// The angle in (0, 2 pi) that turns each vertex into the one `shift` places on, if there is one.
+/// The angle in (0, 2 pi) that maps each vertex onto the one `shift` places further, if there is
+/// one.
 fn turn_of_outline(vertices: &[Vector2<f64>], shift: usize, scale: f64) -> Option<f64> {
     let n = vertices.len();
     let farthest = (0..n).max_by_key(|&i| OrderedFloat(vertices[i].norm()))?;
@@ -53,8 +54,8 @@ fn maps_magnets(tile: &Tile, angle: f64) -> bool {
 }
 
 /// For each face, the face onto which a turn of [`rotations`] maps it with all its magnets; `None`
-/// where one of the faces does not come to lie on a face. Faces may differ though outlines agree:
-/// one side of an outline may be two faces in line.
+/// if one of the faces is not mapped onto a face. Faces may differ although outlines agree: one
+/// side of an outline may be two faces in line.
 pub fn turned_faces(tile: &Tile, angle: f64) -> Option<Vec<usize>> {
     let rotation = Rotation2::new(angle);
     let scale = tile.outline.circumradius();

@@ -1,4 +1,4 @@
-//! What is asked about words, and answered in one go.
+//! Searches for sets of words: the request and its result.
 
 use super::candidates::number;
 use super::effort::Effort;
@@ -6,53 +6,53 @@ use super::frontier::{self, Point};
 use super::search::{self, Found};
 use super::{Judgement, Lags, Task, Word};
 
-/// What is asked.
+/// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
-    /// As many words as have this gap together.
+    /// As many words as possible with this gap.
     Gap(f64),
-    /// The widest gap of so many words.
+    /// The widest gap of this many words.
     Count(usize),
-    /// Both, one against the other.
+    /// The number of words for every gap.
     Frontier,
 }
 
 /// The answer.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The words, ascending, without their mates. Of a frontier: of its point nearest to half a
-    /// gap.
+    /// The words, ascending, without their mates. For a frontier, those of its point nearest to a
+    /// gap of one half.
     pub words: Vec<Word>,
-    /// How many there can be at most.
+    /// An upper bound of their number.
     pub upper: usize,
-    /// Whether there are no more, or the gap cannot be wider.
+    /// Whether it is proved that there are no more, or that the gap cannot be wider.
     pub proved: bool,
-    /// What they are worth, by energies; `None` of no words.
+    /// Their gap and energies; `None` without words.
     pub judgement: Option<Judgement>,
-    /// Where a number of words was asked for: no so many have a wider gap than this.
+    /// If a number of words was requested: no set of this size has a wider gap than this.
     pub gap_upper: Option<f64>,
-    /// Where a frontier was asked for: its points, from the widest gap on.
+    /// If a frontier was requested: its points, from the widest gap on.
     pub frontier: Vec<Point>,
-    /// Where contacts leave the gap asked for undecided: how many words there are just beyond the
+    /// If counted contacts do not decide the requested gap: the number of words just beyond the
     /// tie.
     pub beyond: Option<Point>,
-    /// How many words there were to choose from, and whether they were all.
+    /// The number of words to choose from, and whether these were all.
     pub candidates: usize,
-    /// See there.
+    /// See `candidates`.
     pub complete: bool,
 }
 
-/// Words on one page of a frontier at most: it ends where there are more.
+/// Largest number of words of a point of a frontier: it ends where there are more.
 const MOST_OF_FRONTIER: usize = 1000;
-/// The gap whose words are told of a whole frontier.
+/// The gap whose words are reported for a frontier.
 const MIDDLE: f64 = 0.5;
-/// Share of the work kept back for the words beyond a tie.
+/// Fraction of the effort reserved for the words beyond a tie.
 const FOR_BEYOND: f64 = 0.1;
 /// Larger sets with a magnet in every place are not searched beyond a tie.
 const MOST_BEYOND: f64 = 5000.0;
 
-/// Answers a question. Words are searched by the energies of `task`; what they are worth is told in
-/// `energies`, which are others where contacts are only counted.
+/// Answers a question. Words are searched by the energies of `task` and judged by `energies`, which
+/// differ if the search only counts contacts.
 pub fn answer(task: &Task, question: Question, energies: &Lags, effort: &mut Effort) -> Answer {
     let judged = |words: &[Word]| Judgement::of(words, energies, &task.rules);
     match question {
@@ -112,8 +112,8 @@ fn of(found: Found) -> Answer {
     }
 }
 
-/// The words of a gap half a contact narrower, where contacts make a tie of the gap asked for that
-/// only neighbours' lags decide.
+/// The words of a gap half a contact narrower, if the requested gap is a tie in contacts that only
+/// neighbouring lags decide.
 fn beyond(task: &Task, gap: f64, energies: &Lags, effort: &mut Effort) -> Option<Point> {
     let magnets = task.magnets as f64;
     let contacts = (1.0 - gap) * magnets;

@@ -1,4 +1,4 @@
-//! How many words there can be at most, without looking at any: bounds of binary codes.
+//! Upper bounds of the number of words without enumerating them: bounds of binary codes.
 //!
 //! With a magnet in every place, two words whose aligned mates attract by at most t contacts differ
 //! in at least d = (places - t) / 2 places: they are a binary code, and so are the words and the
@@ -9,10 +9,10 @@
 //! most 1 + sum_i A_i   with   sum_i A_i K_k(i) >= -C(n, k) for k = 1 .. n,   A_i >= 0,
 //! ```
 //!
-//! K_k(i) being the Krawtchouk polynomials, with two more families of conditions: A_i is at most
-//! A(n, d, i), the number of words of weight i, bounded by Johnson; and words of two weights that are
-//! never d apart exclude each other. It is the dual that is solved: its multipliers, once checked,
-//! prove the bound whatever the solver did.
+//! K_k(i) being the Krawtchouk polynomials, with two additional families of conditions: A_i is at
+//! most A(n, d, i), the number of words of weight i, bounded by Johnson; and words of two weights
+//! that are never d apart exclude each other. The dual is solved: its multipliers, once checked,
+//! prove the bound independently of the solver.
 //!
 //! Source: MacWilliams and Sloane, *The Theory of Error-Correcting Codes* (1977), chapter 17, §4
 //! (A(13, 6) <= 32) and §2 (Johnson).
@@ -37,7 +37,7 @@ pub fn binary_code(n: usize, d: usize) -> usize {
     delsarte(n, d).map_or(shorter, |bound| bound.min(shorter))
 }
 
-/// Delsarte's bound for even d; `None` where the solver fails.
+/// Delsarte's bound for even d; `None` if the solver fails.
 fn delsarte(n: usize, d: usize) -> Option<usize> {
     let distances: Vec<usize> = (d..=n).step_by(2).collect();
     let extra = conditions(n, d, &distances);
@@ -67,7 +67,7 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
         .chain(&by_condition)
         .map(|variable| solution.var_value(*variable).max(0.0))
         .collect();
-    // Whatever these multipliers are, scaled so that every condition holds they prove a bound.
+    // Any multipliers prove a bound once they are scaled so that every condition holds.
     let held = (0..distances.len()).map(|i| {
         let terms = multipliers.iter().zip(coefficients(i));
         terms
@@ -79,12 +79,12 @@ fn delsarte(n: usize, d: usize) -> Option<usize> {
     let costs = costs.chain(extra.iter().map(|(_, bound)| *bound));
     let cost: f64 = multipliers.iter().zip(costs).map(|(m, c)| m * c).sum();
     let bound = 1.0 + cost / held;
-    // Roundings of sums of a few dozen terms are far below this.
+    // The rounding of sums of a few dozen terms is far below this.
     let margin = 1e-7 * bound;
     (held > 0.0 && bound < 1e15).then(|| (bound + margin).floor() as usize)
 }
 
-/// `K_k(i) / C(n, k)`, between -1 and 1: over the places chosen, the mean of -1 to the number of
+/// `K_k(i) / C(n, k)`, between -1 and 1: the mean of (-1)^m over the chosen places, m the number of
 /// them among i.
 fn ratio(n: usize, k: usize, i: usize) -> f64 {
     let hit = |j: usize| {
@@ -160,7 +160,7 @@ mod tests {
     }
 
     /// Brouwer's table of A(n, d), <https://www.win.tue.nl/~aeb/codes/binary-1.html>: no bound may
-    /// lie below it, and these are met.
+    /// lie below it, and these are equal to it.
     #[test]
     fn bounds_of_codes() {
         for (n, d, size) in [

@@ -1,5 +1,5 @@
-//! The words that may be in a set at all: each sound by itself, one of a word and its mate where
-//! the two are interchangeable.
+//! The words that may belong to a set: each valid by itself, and only one of a word and its mate
+//! where the two are interchangeable.
 
 use crate::parallel;
 use rand::seq::index::sample;
@@ -9,32 +9,32 @@ use rand_chacha::ChaCha8Rng;
 use super::Task;
 use super::word::Word;
 
-/// Up to so many words are looked at one and all, if there is work enough for it; of more a sample
-/// is drawn, of at most this size.
+/// Up to this many words are all examined, if the effort suffices; otherwise a sample of at most
+/// this size is drawn.
 const MOST_ENUMERATED: f64 = (1u64 << 23) as f64;
 const SAMPLE: u64 = 1 << 19;
-/// Of a sample so small that all of it can be judged so often with the work there is.
+/// A sample is small enough to judge all of it this many times with the available effort.
 const JUDGED: u64 = 1000;
-/// Units of work that drawing a word takes.
+/// Units of work to draw a word.
 const DRAWN: u64 = 100;
-/// Words of a sample share a random stream.
+/// Number of words of a sample that share a random stream.
 const CHUNK: usize = 1 << 12;
 
 /// Words to choose from.
 #[derive(Clone, Debug)]
 pub struct Candidates {
-    /// In order.
+    /// The words, in order.
     pub words: Vec<Word>,
-    /// Whether these are all there are.
+    /// Whether these are all words.
     pub complete: bool,
-    /// Units of work that finding them took.
+    /// Units of work that their search took.
     pub work: u64,
 }
 
 impl Candidates {
-    /// The words that satisfy a task's constraints and attract nothing wrong of their own by more
-    /// than `limit` (J). With so much work to do on them, which decides how many are drawn where
-    /// they are too many.
+    /// The words that satisfy a task's constraints and whose strongest wrong attraction among their
+    /// own faces is at most `limit` (J). The available effort determines how many are drawn if
+    /// there are too many.
     pub fn new(task: &Task, limit: f64, seed: u64, work: u64) -> Self {
         let number = number(task.places, task.magnets);
         let complete = number <= MOST_ENUMERATED && number * task.judgement() as f64 <= work as f64;
@@ -55,7 +55,7 @@ impl Candidates {
         Self::ordered(words, complete, number as u64 * task.judgement())
     }
 
-    /// Those of about `count` words drawn at random.
+    /// The suitable ones of about `count` words drawn at random.
     pub fn sampled(task: &Task, limit: f64, seed: u64, count: usize) -> Self {
         let words = parallel::flat_map(0..count / CHUNK, |chunk| {
             let words = drawn(task, seed, chunk).map(|word| match task.exchangeable() {
@@ -78,8 +78,8 @@ impl Candidates {
     }
 }
 
-/// Whether a word satisfies a task's constraints and attracts nothing wrong of its own by more than
-/// `limit` (J).
+/// Whether a word satisfies a task's constraints and its strongest wrong attraction among its own
+/// faces is at most `limit` (J).
 fn sound(task: &Task, limit: f64, word: &Word) -> bool {
     let (lags, rules) = (&task.lags, &task.rules);
     (!task.exchangeable() || *word <= word.mate())
@@ -87,13 +87,13 @@ fn sound(task: &Task, limit: f64, word: &Word) -> bool {
         && rules.within(lags, *word, *word, limit)
 }
 
-/// How many words there are of so many places and magnets.
+/// The number of words with this many places and magnets.
 pub fn number(places: usize, magnets: usize) -> f64 {
     let choose = (0..magnets).map(|k| (places - k) as f64 / (k + 1) as f64);
     choose.map(|factor| 2.0 * factor).product()
 }
 
-/// All sets of so many places, ascending (Gosper's hack).
+/// All sets of this many places, ascending (Gosper's hack).
 fn places_of(places: usize, magnets: usize) -> Vec<u64> {
     let mut all = Vec::new();
     let mut set: u128 = (1 << magnets) - 1;

@@ -1,9 +1,9 @@
-//! Largest cliques: a largest set of words that go together, with a proof.
+//! Maximum cliques: a largest set of compatible words, with a proof.
 //!
 //! Branch and bound over bit sets with a bound by greedy colouring (Tomita and Seki 2003, as laid
 //! out for bits by San Segundo, Rodriguez-Losada and Jimenez, *Comput. Oper. Res.* 38 (2011) 571):
-//! vertices of one colour are not joined, so a clique has at most one of each. Of vertices that a
-//! symmetry exchanges only the first is branched on at the root.
+//! vertices of one colour are not joined, so a clique has at most one of each. At the root, only
+//! the first of vertices that are equivalent by symmetry is branched on.
 
 use fixedbitset::FixedBitSet;
 
@@ -12,7 +12,7 @@ use crate::order::Order;
 
 use super::graph::Graph;
 
-/// A clique, and what is known of larger ones.
+/// A clique, and a bound of larger ones.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clique {
     /// Its vertices, ascending.
@@ -21,10 +21,10 @@ pub struct Clique {
     pub upper: usize,
 }
 
-/// Finds a largest clique of a graph that is held, from one already known on; or, where the budget
-/// ends, the largest one so far and a bound.
+/// Finds a largest clique of a stored graph, starting from a known one; if the budget is spent
+/// before, the largest one so far and a bound.
 pub fn largest(graph: &Graph, known: Vec<usize>, budget: &mut Budget) -> Clique {
-    // Each edge is looked at some times, and each two vertices once to be ordered.
+    // Each edge is examined a few times, and each pair of vertices once for the order.
     let pairs = (graph.len() * graph.len()) as u64;
     budget.spend(pairs * LOOKED_AT);
     let order = order(graph);
@@ -49,7 +49,7 @@ pub fn largest(graph: &Graph, known: Vec<usize>, budget: &mut Budget) -> Clique 
     Clique { members, upper }
 }
 
-/// Vertices, those left last when the one of fewest neighbours is taken away again and again, first.
+/// The vertices in the reverse order of repeatedly removing the one with the fewest neighbours.
 fn order(graph: &Graph) -> Vec<usize> {
     let n = graph.len();
     let mut degrees: Vec<usize> = (0..n).map(|v| graph.neighbours(v).count_ones(..)).collect();
@@ -84,11 +84,11 @@ fn permuted(row: &FixedBitSet, position: &[usize]) -> FixedBitSet {
     out
 }
 
-/// Units of work that finding an order and symmetries takes for each two vertices.
+/// Units of work per pair of vertices to find an order and symmetries.
 const LOOKED_AT: u64 = 1;
-/// Units of work that every step takes, however small the graph.
+/// Units of work of every step, however small the graph.
 const OVERHEAD: u64 = 24;
-/// Larger graphs are ordered by the number of neighbours alone.
+/// Larger graphs are ordered only by the number of neighbours.
 const MOST_ORDERED: usize = 4096;
 
 struct Search<'a> {
@@ -99,8 +99,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Searches all of the graph and gives an upper bound: the size of the best clique where the
-    /// budget lasts.
+    /// Searches all of the graph and gives an upper bound: the size of the best clique if the
+    /// budget suffices.
     fn root(&mut self, symmetries: &[Vec<usize>]) -> usize {
         let mut candidates = FixedBitSet::with_capacity(self.rows.len());
         candidates.insert_range(..);

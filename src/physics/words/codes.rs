@@ -1,24 +1,25 @@
-//! Known codes, from which searches of words set out.
+//! Known codes, from which searches for words start.
 //!
-//! Where faces meet aligned only, two words are the farther from attracting each other the more places
-//! they differ in: sets of words are binary codes of a least distance. The best of these have structure
-//! that no exchange of single words finds. Here are those that are quick to write down:
+//! If faces only meet aligned, two words attract each other less the more places they differ in:
+//! sets of words are binary codes with a minimum distance. The best of these have structure that no
+//! exchange of single words finds. Those that are quick to construct are here:
 //!
-//! - lexicodes (Conway and Sloane 1986, doi:10.1109/TIT.1986.1057187): of all words in order each that
-//!   is far enough from all before. They are linear, and those of up to 16 places are, among others,
-//!   Hamming's codes and the first Reed-Muller codes (rows of Sylvester's matrix and their negatives);
-//! - rows of Hadamard matrices of Paley's two kinds, with their negatives: 2 n words of n places, of
-//!   which any two differ in n / 2 at least, and what is left with a column less or two;
+//! - lexicodes (Conway and Sloane 1986, doi:10.1109/TIT.1986.1057187): all words in order that are
+//!   far enough from all earlier ones. They are linear, and those of up to 16 places include
+//!   Hamming's codes and the first Reed-Muller codes (rows of Sylvester's matrix and their
+//!   negatives);
+//! - rows of Hadamard matrices of Paley's two kinds, with their negatives: 2 n words of n places,
+//!   of which any two differ in at least n / 2, and the codes with one or two columns less;
 //! - Golay's extended code of 24 places, and codes of Bose, Ray-Chaudhuri and Hocquenghem of 31 and,
 //!   with a bit of parity, 32, shortened to fewer.
 
-/// More words of a code are not written down.
+/// Largest number of words of a code.
 const MOST: usize = 4096;
-/// Lexicodes are made up to so many places.
+/// Lexicodes are made up to this many places.
 const LEXICODE: usize = 16;
 
-/// Generators of cyclic codes: places, their polynomial, the least distance; a bit of parity makes each
-/// longer by a place and its odd distance by one.
+/// Generators of cyclic codes: places, their polynomial, the least distance; a parity bit adds one
+/// place and increases an odd distance by one.
 const CYCLIC: [(usize, u64, usize); 5] = [
     (23, 0b1010_1110_0011, 7),
     (31, 0b100_101, 3),
@@ -47,8 +48,8 @@ const fn multiply(a: u64, b: u64) -> u64 {
     sum
 }
 
-/// Codes of so many places of which any two words differ in `distance` places at least; bits of
-/// words. Largest first.
+/// Codes with this many places in which any two words differ in at least `distance` places, as bits
+/// of words, largest first.
 pub fn of(places: usize, distance: usize) -> Vec<Vec<u64>> {
     let mut codes = Vec::new();
     if !(2..=places).contains(&distance) || places > 63 {
@@ -82,7 +83,7 @@ fn lexicode(places: usize, distance: usize) -> Vec<u64> {
         code.iter()
             .all(|other| (word ^ other).count_ones() as usize >= distance)
     };
-    // Linear: with a new word come its sums with all words before.
+    // Linear: a new word also adds its sums with all earlier words.
     let mut word = 1u64;
     while word < 1 << places && 2 * code.len() <= MOST {
         if far(&code, word) {
@@ -94,7 +95,8 @@ fn lexicode(places: usize, distance: usize) -> Vec<u64> {
     code
 }
 
-/// The rows of a Hadamard matrix of Paley's kinds, bits for its minus signs; `None` where there is none.
+/// The rows of a Hadamard matrix of Paley's kinds, bits for its minus signs; `None` if there is
+/// none.
 fn hadamard(n: usize) -> Option<Vec<u64>> {
     let prime = |q: usize| q > 2 && (2..q).all(|k| !q.is_multiple_of(k));
     if !(4..=64).contains(&n) {
@@ -123,7 +125,7 @@ fn hadamard(n: usize) -> Option<Vec<u64>> {
             let (block, a, b) = (conference(q, i / 2, j / 2), i % 2, j % 2);
             let sign = if a * b == 1 { -1 } else { 1 };
             match block {
-                // A two by two of its own on the diagonal.
+                // A separate 2 x 2 block on the diagonal.
                 0 => [[1, -1], [-1, -1]][a][b],
                 block => block * sign,
             }
@@ -135,8 +137,8 @@ fn hadamard(n: usize) -> Option<Vec<u64>> {
     Some((0..n).map(row).collect())
 }
 
-/// Rows and their negatives with so many columns less, shortened or punctured, whichever keeps the
-/// distance with more words.
+/// Rows and their negatives with this many columns less, shortened or punctured, whichever has more
+/// words at the distance.
 fn fitted(rows: &[u64], less: usize, places: usize, distance: usize) -> Option<Vec<u64>> {
     let n = places + less;
     let mask = (1u64 << places) - 1;
@@ -147,20 +149,20 @@ fn fitted(rows: &[u64], less: usize, places: usize, distance: usize) -> Option<V
     if n / 2 >= distance + less {
         return Some(all.iter().map(|row| row & mask).collect());
     }
-    // Of those that agree in the first column left out, with another one punctured.
+    // Those that agree in the first omitted column, with another one punctured.
     (less > 0 && n / 2 >= distance + less - 1).then(|| {
         let agree = all.iter().filter(|row| *row >> places & 1 == 0);
         agree.map(|row| row & mask).collect()
     })
 }
 
-/// A cyclic code, with a bit of parity or without, shortened to so many places: no more than [`MOST`]
-/// of its words.
+/// A cyclic code, with or without a parity bit, shortened to this many places: at most [`MOST`] of
+/// its words.
 fn shortened(length: usize, generator: u64, parity: bool, places: usize) -> Vec<u64> {
     let degree = 63 - generator.leading_zeros() as usize;
     let cyclic = length - usize::from(parity);
     let cut = length - places;
-    // Words that are zero in the highest places; the bit of parity stands below all.
+    // Words that are zero in the highest places; the parity bit is the lowest.
     let dimension = (cyclic - degree).saturating_sub(cut);
     let count = dimension.min(MOST.ilog2() as usize);
     let word = |message: u64| {
@@ -199,7 +201,7 @@ mod tests {
         }
     }
 
-    /// Sizes that are known to be the largest (Brouwer's table of A(n, d)), or of linear codes.
+    /// Sizes known to be the largest (Brouwer's table of A(n, d)), or those of linear codes.
     #[test]
     fn codes_are_as_large_as_is_known() {
         let size = |places, distance| of(places, distance)[0].len();

@@ -1,9 +1,8 @@
-//! The constraints that Majumder and Reif put on words (sections 4.3.1 and 4.3.2), after Tulpan,
-//! Hoos and Condon, *Stochastic local search algorithms for DNA word design* (DNA8, 2002).
+//! The constraints on words of Majumder and Reif (sections 4.3.1 and 4.3.2), after Tulpan, Hoos and
+//! Condon, *Stochastic local search algorithms for DNA word design* (DNA8, 2002).
 //!
 //! Two words *match* at a place where both have the same pole: there one attracts the other's mate.
-//! Slid over each other, places that hang over count as mismatches. The complement of a word is its
-//! mate.
+//! In slid positions, overhanging places count as mismatches. The complement of a word is its mate.
 
 use std::ops::RangeInclusive;
 
@@ -11,33 +10,33 @@ use super::lag::Lags;
 use super::rules::Rules;
 use super::word::Word;
 
-/// What words must satisfy beside the gap; `None`, zero and false ask for nothing.
+/// The constraints on words besides the gap; `None`, zero and false mean no constraint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Constraints {
     /// As many north as south poles, or one more of either where their number is odd.
     pub balanced: bool,
     /// Longest run of equal poles.
     pub longest_run: Option<usize>,
-    /// Least distance of two magnets, in places.
+    /// Smallest distance of two magnets, in places.
     pub least_spacing: usize,
-    /// Least number of mismatches of two words, aligned.
+    /// Smallest number of mismatches of two words, aligned.
     pub mismatches: usize,
-    /// Least number of mismatches of a word and a complement (its own included), aligned.
+    /// Smallest number of mismatches of a word and a complement (its own included), aligned.
     pub complement_mismatches: usize,
-    /// Least number of mismatches of two words, or a word and a complement, over every slide; a
-    /// word over itself is slid by a place at least.
+    /// Smallest number of mismatches of two words, or a word and a complement, over all slides; for
+    /// a word and itself, over slides by at least one place.
     pub slide_mismatches: usize,
     /// Longest run of consecutive matches over all these slides.
     pub consecutive: Option<RangeInclusive<usize>>,
-    /// Least depth of a bond (J); with the worst faults where faces may have some.
+    /// Smallest depth of a bond (J), with the worst faults if faults are allowed.
     pub least_bond: Option<f64>,
-    /// Where the lowest energy (J) of two words, of a word and another's mate, and of two mates
-    /// may lie.
+    /// Allowed ranges of the lowest energy (J) of two words, of a word and another's mate, and of
+    /// two mates.
     pub ranges: [Option<RangeInclusive<f64>>; 3],
 }
 
 impl Constraints {
-    /// Whether a word by itself will do.
+    /// Whether a single word satisfies the constraints.
     pub fn allow(&self, lags: &Lags, rules: &Rules, word: Word) -> bool {
         let excess = word.excess().unsigned_abs();
         let run = self.longest_run;
@@ -50,7 +49,7 @@ impl Constraints {
             && self.allow_both(lags, rules, word, word)
     }
 
-    /// Whether two words will do together, each of which will by itself; a word and itself as well.
+    /// Whether two words that satisfy them individually do so together; also for a word and itself.
     pub fn allow_both(&self, lags: &Lags, rules: &Rules, u: Word, v: Word) -> bool {
         (u == v || mismatches(u, v, 0) >= self.mismatches)
             && mismatches(u, v.mate(), 0) >= self.complement_mismatches
@@ -97,7 +96,7 @@ impl Constraints {
     }
 }
 
-/// Places of a word that do not match, with what hangs over.
+/// Places of a word that do not match, including overhanging ones.
 fn mismatches(u: Word, v: Word, lag: i32) -> usize {
     u.places() - u.facing(v, lag)[0].count_ones() as usize
 }

@@ -1,29 +1,29 @@
-//! How hard to search.
+//! The search effort.
 
 use crate::budget::Budget;
 
-/// How hard to search.
+/// The effort of a search.
 #[derive(Clone, Debug)]
 pub struct Effort {
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// Work to do at most.
+    /// The largest amount of work.
     pub budget: Budget,
 }
 
 impl Effort {
-    /// So much work.
+    /// The effort with this seed and budget.
     pub fn new(seed: u64, budget: Budget) -> Self {
         Self { seed, budget }
     }
 
-    /// Does a part of the work, with a share of what is left.
+    /// Runs a part of the work with a fraction of the remaining budget.
     pub fn share<T>(&mut self, share: f64, work: impl FnOnce(&mut Self) -> T) -> T {
         let part = self.budget.share(share);
         self.with(part, work)
     }
 
-    /// Does a part of the work, with what about so many seconds (s) take at most.
+    /// Runs a part of the work with at most about this many seconds (s).
     pub fn part<T>(&mut self, seconds: f64, work: impl FnOnce(&mut Self) -> T) -> T {
         let part = self.budget.part(seconds);
         self.with(part, work)

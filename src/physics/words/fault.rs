@@ -1,15 +1,15 @@
-//! Words that stay apart though a tile was made badly: one magnet of a face missing, or put in the
-//! wrong way round.
+//! Words that tolerate a faulty tile: one magnet of a face missing, or inserted the wrong way
+//! round.
 //!
-//! Every face may have one such fault, at any place, so that two faces that meet have two at most.
+//! Every face may have one such fault, at any place, so that two faces in contact have at most two.
 //! With `e[k][j]` the energy of magnet k of the first and j of the second one, and f = 1 for a
-//! missing and 2 for a flipped magnet, the energy with faults at k and j is
-//! `U - f sum_j e[k][j] - f sum_k e[k][j] + f^2 e[k][j]`.
+//! missing and 2 for a flipped magnet, the energy with faults at k and j is `U - f sum_j e[k][j] -
+//! f sum_k e[k][j] + f^2 e[k][j]`.
 
 use super::lag::Lags;
 use super::word::{MOST_PLACES, Word};
 
-/// What may be wrong with one magnet of every face.
+/// The fault that one magnet of every face may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// It is missing.
@@ -18,20 +18,20 @@ pub enum Fault {
     Flipped,
 }
 
-/// The places of the faulty magnets of two faces; `None` of a face without a fault.
+/// The places of the faulty magnets of two faces; `None` for a face without a fault.
 pub type Faulty = [Option<usize>; 2];
 
 impl Fault {
-    /// What each is called.
+    /// The name of each.
     pub const NAMES: [(&'static str, Self); 2] =
         [("missing=1", Self::Missing), ("flipped=1", Self::Flipped)];
 
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize].0
     }
 
-    /// How often the energy of a magnet's pairs is lost.
+    /// How many times the energy of a magnet's pairs is subtracted.
     fn factor(self) -> f64 {
         match self {
             Self::Missing => 1.0,
@@ -39,8 +39,7 @@ impl Fault {
         }
     }
 
-    /// By how many net contacts the faults of two faces change a meeting at most: those that the
-    /// two magnets face.
+    /// The largest change of net contacts by the faults of two faces.
     pub fn contacts(self) -> i32 {
         match self {
             Self::Missing => 2,
@@ -48,8 +47,8 @@ impl Fault {
         }
     }
 
-    /// The least of `sign` times the energy (J) of a word and one as it faces it, slid by s places,
-    /// over all faults and none, and where these are.
+    /// The minimum of `sign` times the energy (J) of a word and a facing one, slid by s places,
+    /// over all faults and none, and the faulty places.
     pub fn least(
         self,
         lags: &Lags,

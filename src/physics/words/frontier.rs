@@ -1,4 +1,5 @@
-//! Gap against number: the widest gap of so many words, and the number of words at every gap.
+//! The trade-off between gap and number of words: the widest gap of a given number of words, and
+//! the number of words at every gap.
 
 use super::Task;
 use super::effort::Effort;
@@ -7,29 +8,29 @@ use super::search::{self, Found};
 use super::set::{Judgement, Weighed};
 use super::word::Word;
 
-/// The widest gap of so many words.
+/// The widest gap of a number of words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widest {
-    /// The words, ascending; none where none so many have a gap above zero.
+    /// The words, ascending; empty if no set of this size has a gap above zero.
     pub words: Vec<Word>,
-    /// Their gap; 0 of none.
+    /// Their gap; 0 without words.
     pub gap: f64,
-    /// No set of so many words has a wider gap than this.
+    /// No set of this size has a wider gap.
     pub upper: f64,
-    /// Whether both are the same.
+    /// Whether both are equal.
     pub proved: bool,
-    /// What was found of sets with this gap.
+    /// The result of the search at this gap.
     pub found: Found,
 }
 
-/// Gaps within this are told apart by searching at the better one.
+/// Gaps closer than this are distinguished by a search at the better one.
 const BISECTED: f64 = 1e-3;
 /// Gaps closer to each other than this are the same.
 const SAME_GAP: f64 = 1e-9;
-/// Share of the work left for one question.
+/// Fraction of the remaining work for one search.
 const FOR_A_STEP: f64 = 0.25;
 
-/// The widest gap that `count` words can have: halving, then from the best set to the next better
+/// The widest gap that `count` words can have: bisection, then from the best set to the next better
 /// one until there is none.
 pub fn widest(task: &Task, count: usize, effort: &mut Effort) -> Widest {
     let mut best = ask(task, 0.0, count, effort);
@@ -91,7 +92,7 @@ fn ask(task: &Task, gap: f64, count: usize, effort: &mut Effort) -> Found {
     effort.share(FOR_A_STEP, |part| search::largest(task, gap, count, part))
 }
 
-/// So many of the words, those taken away whose loss widens the gap most.
+/// This many of the words: those whose removal widens the gap most are dropped.
 fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
     let mut set = Weighed::new(&task.lags, &task.rules, words.to_vec());
     while set.words().len() > count {
@@ -103,17 +104,17 @@ fn chosen(task: &Task, words: &[Word], count: usize) -> Vec<Word> {
 /// A point of the frontier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// The gap asked for: half a contact from those that contacts decide.
+    /// The requested gap: half a contact away from those decided by contacts.
     pub asked: f64,
-    /// What was found.
+    /// The result of the search.
     pub found: Found,
-    /// What it is worth; `None` of no words.
+    /// The evaluation of the words; `None` without words.
     pub judgement: Option<Judgement>,
 }
 
 impl Point {
-    /// The words with at most so many net contacts in wrong meetings, told apart halfway between those
-    /// and one more; what they are worth is told in `energies`.
+    /// The words with at most this many net contacts in wrong contacts of faces, separated halfway
+    /// to one more; they are judged by `energies`.
     pub(super) fn of(task: &Task, contacts: usize, energies: &Lags, effort: &mut Effort) -> Self {
         let asked = 1.0 - (contacts as f64 + 0.5) / task.magnets as f64;
         let found = search::largest(task, asked, usize::MAX, effort);
@@ -125,9 +126,9 @@ impl Point {
     }
 }
 
-/// The number of words for every number of net contacts t that wrong meetings may have, from the
-/// widest gap on: at gaps halfway between those of t and t + 1 contacts, so that neighbours' lags
-/// decide nothing. Ends where more than `most` words are found.
+/// The number of words for every allowed number of net contacts t of wrong attractions, from the
+/// widest gap on: at gaps halfway between those of t and t + 1 contacts, so that neighbouring lags
+/// decide nothing. Ends when more than `most` words are found.
 pub fn frontier(task: &Task, most: usize, energies: &Lags, effort: &mut Effort) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for contacts in 0..task.magnets {

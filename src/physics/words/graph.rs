@@ -1,4 +1,5 @@
-//! Which words go together: a graph with a word at each vertex.
+//! The compatibility graph of words: a vertex for each word, an edge between words that can be in
+//! one set.
 
 use crate::parallel;
 use std::borrow::Cow;
@@ -8,24 +9,24 @@ use fixedbitset::FixedBitSet;
 use super::Task;
 use super::word::Word;
 
-/// Up to so many vertices the whole graph is held.
+/// Up to this many vertices the whole graph is stored.
 const MOST_HELD: usize = 20_000;
 
-/// The words of a task that may be in a set, and which of them may be in one together: two words
-/// and their mates with no wrong meeting that attracts by more than a limit.
+/// The words of a task that may be in a set. Two of them are joined if no wrong attraction among
+/// them and their mates exceeds a limit.
 pub struct Graph<'a> {
     task: &'a Task,
     /// The word at each vertex.
     pub words: Vec<Word>,
     /// Strongest wrong attraction (J).
     limit: f64,
-    /// Neighbours of each vertex; empty where they are worked out as they are needed.
+    /// Neighbours of each vertex; empty if they are computed on demand.
     rows: Vec<FixedBitSet>,
 }
 
 impl<'a> Graph<'a> {
-    /// Of words that are sound by themselves; held as a whole only if that takes no more than so much
-    /// work.
+    /// The graph of individually valid words; stored as a whole only if this takes at most this
+    /// much work.
     pub fn new(task: &'a Task, words: Vec<Word>, limit: f64, work: u64) -> Self {
         let mut graph = Self {
             task,
@@ -49,17 +50,17 @@ impl<'a> Graph<'a> {
         self.words.len()
     }
 
-    /// Whether there is none.
+    /// Whether it has no vertices.
     pub fn is_empty(&self) -> bool {
         self.words.is_empty()
     }
 
-    /// Whether the whole graph is held.
+    /// Whether the whole graph is stored.
     pub fn is_held(&self) -> bool {
         self.rows.len() == self.len()
     }
 
-    /// Units of work that holding it took.
+    /// Units of work to compute it.
     pub fn work(&self) -> u64 {
         match self.is_held() {
             true => self.work_to_hold(),
@@ -71,13 +72,13 @@ impl<'a> Graph<'a> {
         self.judgement() * (self.len() * self.len()) as u64 / 2
     }
 
-    /// Units of work that finding out whether two words go together counts as.
+    /// Units of work to check whether two words are compatible.
     pub fn judgement(&self) -> u64 {
         self.task.judgement()
     }
 
-    /// The graph of pairs of vertices that a symmetry exchanges, of which both or none are taken:
-    /// half as large, for sets that have the symmetry. With it the vertices of each pair.
+    /// The graph of pairs of vertices that a symmetry exchanges, for sets with this symmetry: half
+    /// as large. Also returns the vertices of each pair.
     pub fn folded(&self, image: &[usize]) -> (Self, Vec<[usize; 2]>) {
         let goes = |v: usize| image[v] == v || self.rows[v].contains(image[v]);
         let firsts = (0..self.len()).filter(|v| image[image[*v]] == *v && *v <= image[*v]);
@@ -99,7 +100,7 @@ impl<'a> Graph<'a> {
         (folded, pairs)
     }
 
-    /// Whether two words go together.
+    /// Whether two words are compatible.
     pub fn joined(&self, a: usize, b: usize) -> bool {
         a != b
             && self
@@ -107,7 +108,7 @@ impl<'a> Graph<'a> {
                 .compatible([self.words[a], self.words[b]], self.limit)
     }
 
-    /// The words that go with one.
+    /// The words compatible with one.
     pub fn row(&self, vertex: usize) -> Cow<'_, FixedBitSet> {
         match self.rows.get(vertex) {
             Some(row) => Cow::Borrowed(row),
@@ -115,7 +116,7 @@ impl<'a> Graph<'a> {
         }
     }
 
-    /// Neighbours of a vertex where the whole graph is held.
+    /// Neighbours of a vertex of a stored graph.
     pub fn neighbours(&self, vertex: usize) -> &FixedBitSet {
         &self.rows[vertex]
     }
@@ -135,7 +136,7 @@ impl<'a> Graph<'a> {
             .fold(0, |bits, other| bits | 1 << (other - first))
     }
 
-    /// All rows: what lies above the diagonal worked out, the rest mirrored.
+    /// All rows: the part above the diagonal is computed, the rest mirrored.
     fn all_rows(&self) -> Vec<FixedBitSet> {
         let n = self.len();
         let mut rows: Vec<FixedBitSet> = parallel::map(0..n, |a| {
@@ -154,7 +155,7 @@ impl<'a> Graph<'a> {
         rows
     }
 
-    /// Permutations of the vertices that keep the graph, the identity left out: poles exchanged,
+    /// Permutations of the vertices that preserve the graph, without the identity: poles exchanged,
     /// words reversed, both.
     pub fn symmetries(&self) -> Vec<Vec<usize>> {
         let class = |word: Word| match self.task.exchangeable() {
@@ -177,8 +178,8 @@ impl<'a> Graph<'a> {
         found
     }
 
-    /// Whether a permutation keeps the graph: energies of mirrored words may differ in their last
-    /// bits.
+    /// Whether a permutation preserves the graph: energies of mirrored words may differ in their
+    /// last bits.
     fn keeps(&self, image: &[usize]) -> bool {
         (0..self.len()).all(|a| {
             let row = &self.rows[image[a]];

@@ -1,14 +1,14 @@
-//! The energy of two magnets of flush faces by how many places lie between them.
+//! The energy of two magnets of flush faces as a function of the number of places between them.
 //!
-//! In flush faces every magnet faces along the normal, D from the one it meets (the length of a
-//! bar and both insets). With `J(d)` the energy of two north poles d places apart along the faces,
-//! that of two words u and v, slid by s places, is a sum over correlations,
+//! In flush faces every magnet faces along the normal, at the distance D from its counterpart (the
+//! length of a bar and both insets). With `J(d)` the energy of two north poles d places apart along
+//! the faces, the energy of two words u and v, slid by s places, is a sum over correlations,
 //!
 //! ```text
 //! U(s) = sum_d J(d) c(s + d),    c(l) = sum_k u[k] v'[k + l],    v'[k] = v[places - 1 - k]   (J)
 //! ```
 //!
-//! Standing magnets face nothing; for them a north pole is one that is up.
+//! For upright magnets, a north pole is one that is up.
 //!
 //! For dipoles `J(d) = K / r^3 (3 D^2 / r^2 - 1)` with `r^2 = D^2 + (d pitch)^2` and
 //! `K = mu0 m^2 / 4 pi`; for blocks it is the exact energy.
@@ -23,18 +23,18 @@ use crate::tile::magnet::{Form, Shape, Standing};
 use crate::tile::strength::Strength;
 use crate::tile::{Magnet, Tile};
 
-/// The magnets of a face and how they are spaced.
+/// The magnets of a face and their spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
     /// Along the face's normal, along the face, through the tile (m).
     pub size: [f64; 3],
     /// Magnetic moment (A m^2).
     pub moment: f64,
-    /// Its shape, and whether it stands.
+    /// Its shape, and whether it is upright.
     pub form: Form,
-    /// From the face to the magnet (m).
+    /// Distance from the face to the magnet (m).
     pub inset: f64,
-    /// From place to place (m).
+    /// Distance between places (m).
     pub pitch: f64,
     /// Dipoles or blocks.
     pub model: MagnetModel,
@@ -44,7 +44,7 @@ pub struct Bar {
 pub const PAPER_FACE: f64 = 0.43;
 
 impl Bar {
-    /// The paper's: 10 x 10 x 3 mm, 1.2 T, 40 mm apart.
+    /// The paper's magnets: 10 x 10 x 3 mm, 1.2 T, 40 mm apart.
     pub fn paper() -> Self {
         let size = [0.010, 0.010, 0.003];
         Self {
@@ -57,7 +57,8 @@ impl Bar {
         }
     }
 
-    /// A magnet at the origin with its north pole, or what is outwards, in the direction `angle` (rad).
+    /// A magnet at the origin with its north pole, or its outward direction, in the direction
+    /// `angle` (rad).
     fn magnet(&self, angle: f64) -> Magnet {
         Magnet {
             position: Vector2::zeros(),
@@ -70,17 +71,17 @@ impl Bar {
     }
 }
 
-/// J(d) (J) for d = 0, 1, 2 ... places: of two north poles.
+/// J(d) (J) of two north poles, for d = 0, 1, 2 ... places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lags {
-    /// J(|d|) from the least d on.
+    /// J(|d|) from the lowest d on.
     either_way: Vec<f64>,
-    /// The sum of the k largest magnitudes but for the first (J), those of either side apart.
+    /// The sum of the k largest magnitudes without J(0) (J), with each side counted separately.
     beside: Vec<f64>,
 }
 
 impl Lags {
-    /// Of real magnets, for words of so many places.
+    /// For real magnets and words with this many places.
     pub fn new(bar: &Bar, places: usize) -> Self {
         let (first, second) = ([bar.magnet(0.0)], [bar.magnet(std::f64::consts::PI)]);
         let potential = interaction::bare(bar.model, &first, &second);
@@ -89,7 +90,7 @@ impl Lags {
         Self::of((0..2 * places - 1).map(energy).collect())
     }
 
-    /// Facing magnets count 1 and all others nothing.
+    /// Lags that count facing magnets as 1 and all others as 0.
     pub fn contacts(places: usize) -> Self {
         let mut energies = vec![0.0; 2 * places - 1];
         energies[0] = 1.0;
@@ -117,14 +118,14 @@ impl Lags {
         self.apart(0)
     }
 
-    /// The most (J) that all pairs but the facing ones add to the energy of two words, of which one
-    /// has so many magnets and the other so many `others`.
+    /// Bound (J) of the contribution of all pairs except the facing ones to the energy of two words
+    /// with `magnets` and `others` magnets.
     pub fn rest(&self, magnets: u32, others: u32) -> f64 {
         let beside = self.beside.get(others as usize).or(self.beside.last());
         f64::from(magnets) * beside.copied().unwrap_or_default()
     }
 
-    /// J(d) (J) of magnets d places apart, either way.
+    /// J(d) (J) of magnets d places apart, in either direction.
     #[inline]
     pub(super) fn apart(&self, d: i32) -> f64 {
         let at = (self.either_way.len() / 2) as i32 + d;
@@ -139,7 +140,7 @@ impl Lags {
             .sum()
     }
 
-    /// The same at all slides, side by side: each the sum of the same terms in the same order.
+    /// The same at all slides together, each as the sum of the same terms in the same order.
     pub(super) fn energies(&self, correlations: &Correlations) -> BySlide {
         let count = self.either_way.len() / 2 + 1;
         let mut sums = [0.0; 2 * MOST_PLACES];
@@ -180,7 +181,7 @@ pub struct Correlations {
 }
 
 impl Correlations {
-    /// Of a word and of one read as it faces the first.
+    /// The correlations of a word and one read as it faces the first.
     pub fn new(word: super::Word, facing: super::Word) -> Self {
         let places = word.places();
         let mut values = [0; 2 * MOST_PLACES];
@@ -200,14 +201,14 @@ impl Correlations {
         Self { places, values }
     }
 
-    /// c of a lag of less than as many places as there are.
+    /// c at a lag smaller than the number of places.
     #[inline]
     pub(super) fn at(&self, lag: i32) -> i32 {
         self.values[(lag + self.places as i32 - 1) as usize]
     }
 }
 
-/// Why a face's magnets are no [`Bar`].
+/// Why a face's magnets are not a [`Bar`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BarError {
     /// There are none.
@@ -219,7 +220,7 @@ pub enum BarError {
     /// Words are made of magnets along the normal.
     #[error("the magnets of its target face are turned away from the normal")]
     Turned,
-    /// Energies behind shields are not known by lags.
+    /// Energies behind shields do not depend only on lags.
     #[error("its magnets have shields, which word searches do not support")]
     Shielded,
 }
@@ -228,7 +229,7 @@ impl Bar {
     /// The magnets of a face of a tile, `pitch` (m) apart.
     ///
     /// # Errors
-    /// Where they are none that words can be made of.
+    /// If words cannot be made of them.
     pub fn of_face(
         tile: &Tile,
         face: usize,
@@ -266,7 +267,7 @@ impl Bar {
                 return Err(BarError::Differ);
             }
         }
-        // A face that magnets stick out of is a shape's; words lie behind flat faces.
+        // Only a shaped face has magnets that stick out; words lie behind flat faces.
         let inset = if first.inset.abs() < 1e-9 {
             0.0
         } else {
@@ -279,7 +280,7 @@ impl Bar {
     }
 }
 
-/// A form with the north pole up, if it stands.
+/// A form with the north pole up, if it is upright.
 fn north(form: Form) -> Form {
     Form {
         stands: form.stands.map(|_| Standing::Up),

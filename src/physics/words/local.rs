@@ -1,10 +1,10 @@
-//! Large cliques by local search: sets of words grown, exchanged and shaken.
+//! Large cliques by local search: sets of words are grown, exchanged and perturbed.
 //!
-//! As in Tulpan, Hoos and Condon (DNA8, 2002) a set of words is improved by exchanging words that
-//! conflict; the rules of exchange are those of Pullan and Hoos, *Dynamic local search for the
-//! maximum clique problem* (JAIR 25 (2006) 159): add a word that goes with all; else exchange one
-//! for a word that goes with all others; prefer words seldom met before (penalties); when stuck,
-//! keep only what goes with a random word.
+//! As in Tulpan, Hoos and Condon (DNA8, 2002) a set of words is improved by exchanging conflicting
+//! words, by the rules of Pullan and Hoos, *Dynamic local search for the maximum clique problem*
+//! (JAIR 25 (2006) 159): add a word compatible with all; otherwise exchange one for a word
+//! compatible with all others; prefer rarely used words (penalties); when stuck, keep only the
+//! words compatible with a random one.
 
 use std::borrow::Cow;
 
@@ -18,16 +18,16 @@ use crate::parallel;
 use super::effort::Effort;
 use super::graph::Graph;
 
-/// Walks of their own through the same graph.
+/// Number of independent walks through the same graph.
 const WALKS: usize = 4;
-/// Work of a walk (s) before the walks are compared.
+/// Work of a walk (s) between comparisons of the walks.
 const ROUND: f64 = 0.1;
-/// Units that every step takes, however small the graph.
+/// Units of work of every step, however small the graph.
 const STEP: u64 = 24;
-/// Stuck so often, all penalties fall by one.
+/// After getting stuck this often, all penalties decrease by one.
 const FORGET_AFTER: u32 = 2;
 
-/// A large clique, from a known one on; stops at the size `enough`.
+/// A large clique, starting from a known one; stops at the size `enough`.
 pub fn search(graph: &Graph, known: Vec<usize>, enough: usize, effort: &mut Effort) -> Vec<usize> {
     let (seed, budget) = (effort.seed, &mut effort.budget);
     let mut best = known;
@@ -61,10 +61,10 @@ struct Walk<'a> {
     rng: ChaCha8Rng,
     /// The set, each with its row.
     members: Vec<(usize, Cow<'a, FixedBitSet>)>,
-    /// For each word, how many of the set do not go with it (itself included).
+    /// For each word, how many of the set are incompatible with it (including itself).
     conflicts: Vec<u32>,
     penalties: Vec<u32>,
-    /// Words that left or came since the set last grew or was shaken.
+    /// Words that left or entered since the set last grew or was perturbed.
     used: FixedBitSet,
     stuck: u32,
     best: Vec<usize>,
@@ -117,8 +117,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Of the words not used before a word with no conflict, and one with a single conflict, each of
-    /// least penalty, at random.
+    /// Among the words not used before, a word without conflicts and one with a single conflict,
+    /// each with the lowest penalty, at random.
     fn choose(&mut self) -> [Option<usize>; 2] {
         let mut chosen = [None; 2];
         let (mut least, mut ties) = ([u32::MAX; 2], [0u32; 2]);
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Makes the set's words dearer, and keeps what goes with a random one.
+    /// Increases the penalties of the set's words, and keeps those compatible with a random one.
     fn shake(&mut self) {
         self.used.clear();
         for (member, _) in &self.members {

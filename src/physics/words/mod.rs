@@ -1,21 +1,21 @@
-//! Sets of words: barcodes of which each binds its mate strongly and all else weakly.
+//! Sets of words: barcodes that bind their mates strongly and everything else weakly.
 //!
-//! A [`Task`] says what a word is (places, magnets, energies, constraints) and which meetings are
-//! wrong; [`search::largest`] finds a largest set with a given gap, [`frontier::widest`] the widest
-//! gap of a given number of words, both with a proof where the work asked for suffices. The gap of a
-//! set is 1 less the strongest wrong attraction over the weakest bond, in energies of flush faces at
-//! contact over all slides.
+//! A [`Task`] defines a word (places, magnets, energies, constraints) and the wrong contacts of
+//! faces; [`search::largest`] finds a largest set with a given gap, [`frontier::widest`] the widest
+//! gap of a given number of words, both with a proof if the effort suffices. The gap of a set is
+//! `1 - strongest wrong attraction / weakest bond`, for flush faces at contact over all slides.
 //!
-//! - [`word`] - words as bits; [`lag`] - energies of magnets so many places apart;
-//! - [`rules`] - which meetings are wrong; [`fault`] - badly made faces; [`constraint`] - what else
-//!   is asked of words;
-//! - [`candidates`], [`graph`] - words that will do, and which go together;
-//! - [`codes`] - known sets to set out from;
+//! - [`word`] - words as bits; [`lag`] - energies of magnets as a function of the places between
+//!   them;
+//! - [`rules`] - the wrong contacts; [`fault`] - faulty faces; [`constraint`] - further constraints
+//!   on words;
+//! - [`candidates`], [`graph`] - possible words, and their compatibility;
+//! - [`codes`] - known codes as starting points;
 //! - [`clique`], [`local`], [`bound`] - largest sets, with proof; large sets; bounds without search;
-//! - [`search`], [`frontier`] - of gaps, counts and both; [`set`] - what a set is worth;
-//! - [`answer`](mod@answer) - a question answered;
+//! - [`search`], [`frontier`] - for gaps, counts and both; [`set`] - the evaluation of a set;
+//! - [`answer`](mod@answer) - the request of a search and its result;
 //! - [`continuous`] - positions and poles together, over all poses;
-//! - [`crosstalk`] - attraction of every two words over all poses.
+//! - [`crosstalk`] - attraction of all pairs of words over all poses.
 
 pub mod answer;
 pub mod bound;
@@ -48,23 +48,23 @@ pub use rules::{Faces, Meeting, Rules, Shape};
 pub use set::Judgement;
 pub use word::Word;
 
-/// Products of energies and correlations that take a unit of work.
+/// Number of products of energies and correlations per unit of work.
 const WEIGHED_A_UNIT: u64 = 12;
 
-/// What words are wanted.
+/// The words to search for.
 #[derive(Clone, Debug)]
 pub struct Task {
     /// Places of a word.
     pub places: usize,
-    /// Magnets of a word: as many as places, or fewer where spacing is part of the code.
+    /// Magnets of a word: as many as places, or fewer if spacing is part of the code.
     pub magnets: usize,
-    /// Whether they stand: north is up.
+    /// Whether they are upright: north is up.
     pub stands: bool,
     /// Energies of magnets.
     pub lags: Lags,
-    /// Which meetings are wrong.
+    /// The wrong contacts.
     pub rules: Rules,
-    /// What else words must satisfy.
+    /// Further constraints on words.
     pub constraints: Constraints,
 }
 
@@ -74,25 +74,25 @@ impl Task {
         Word::new(north, south, self.places).standing(self.stands)
     }
 
-    /// Whether a word and its mate may be exchanged for one another: then one of the two is enough.
+    /// Whether a word and its mate are interchangeable, so that one of the two suffices.
     fn exchangeable(&self) -> bool {
         self.rules.exchangeable() && self.constraints.exchangeable()
     }
 
-    /// Whether two different words, each sound by itself, go together.
+    /// Whether two different words, each valid by itself, are compatible.
     fn compatible(&self, [u, v]: [Word; 2], limit: f64) -> bool {
-        // Two names of the same two faces are no two words.
+        // Two names of the same pair of faces are not two words.
         (!self.rules.words_meet() || u != v.mate())
             && self.rules.within(&self.lags, u, v, limit)
             && self.constraints.allow_both(&self.lags, &self.rules, u, v)
     }
 
-    /// Units of work that finding the strongest wrong meetings of so many words counts as.
+    /// Units of work to find the strongest wrong contacts of this many words.
     fn weighing(&self, words: usize) -> u64 {
         (words * words / 2) as u64 * self.weighing_two()
     }
 
-    /// How many words can be weighed with so much work.
+    /// How many words can be weighed with this much work.
     fn weighed_with(&self, work: u64) -> usize {
         (2 * work / self.weighing_two()).isqrt() as usize
     }
@@ -106,7 +106,7 @@ impl Task {
         20 + each
     }
 
-    /// Units of work that finding out whether two words go together counts as.
+    /// Units of work to check whether two words are compatible.
     pub fn judgement(&self) -> u64 {
         let meetings = self.rules.meetings(self.places) as u64;
         let one = match self.rules.fault {
@@ -114,13 +114,13 @@ impl Task {
             None => 1,
         };
         match self.magnets == self.places {
-            // Most pairs that conflict do so at once.
+            // Most conflicts are found immediately.
             true => 8 + one * meetings / 4,
             false => 8 + one * meetings,
         }
     }
 
-    /// What a set of words is worth; `None` of no words.
+    /// The evaluation of a set of words; `None` without words.
     pub fn judge(&self, words: &[Word]) -> Option<Judgement> {
         Judgement::of(words, &self.lags, &self.rules)
     }
@@ -131,17 +131,17 @@ impl Task {
         magnets * self.lags.contact() + self.rest()
     }
 
-    /// The most (J) that all pairs but the facing ones add to any energy.
+    /// Bound (J) of the contribution of all pairs except the facing ones to any energy.
     fn rest(&self) -> f64 {
         self.lags.rest(self.magnets as u32, self.magnets as u32)
     }
 
-    /// In how many places two words differ at least that attract by at most `limit` (J) where they
-    /// lie aligned and only facing magnets count; `None` of words with empty places, and where any two
-    /// will do.
+    /// The smallest number of places in which two words differ that attract by at most `limit` (J)
+    /// when aligned, counting only facing magnets; `None` for words with empty places, and if any
+    /// two are allowed.
     fn distance(&self, limit: f64) -> Option<usize> {
         let contacts = (limit / self.lags.contact() + 1e-9).floor().max(-1.0);
-        // Equal less unequal poles are as even or odd as their number.
+        // Equal minus unequal poles has the parity of their number.
         let differ = (self.places as f64 - contacts) / 2.0;
         (self.magnets == self.places && differ > 0.0).then(|| differ.ceil() as usize)
     }
@@ -165,7 +165,7 @@ impl Task {
     }
 
     /// An upper bound of the number of words with wrong attractions up to `limit` (J), from codes;
-    /// the largest number there is where codes say nothing.
+    /// the largest representable number if codes give no bound.
     fn code_bound(&self, limit: f64) -> usize {
         let Some(distance) = self.distance(limit + self.rest()) else {
             return usize::MAX;

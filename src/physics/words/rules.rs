@@ -1,8 +1,8 @@
-//! Which meetings of two words are wrong, and how strongly they attract.
+//! Which contacts of two words are wrong, and how strongly the words attract in them.
 //!
 //! A face carries a word u or its mate u*. Slid by s places, u meets v with the correlations of u
-//! and the reverse of v, and v* with those of u and -v. A face turned over carries its word
-//! reversed. So all meetings of two words and their mates come down to four correlations at most.
+//! and the reverse of v, and v* with those of u and -v. A face that is turned over has its word
+//! reversed. So all contacts of two words and their mates need at most four correlations.
 
 use super::fault::{Fault, Faulty};
 use super::lag::{Correlations, Lags};
@@ -14,16 +14,16 @@ pub enum Faces {
     /// Every face can meet every face.
     #[default]
     All,
-    /// Words meet mates only.
+    /// Words meet only mates.
     Mates,
 }
 
 impl Faces {
-    /// What each is called.
+    /// The name of each.
     pub const NAMES: [(&'static str, Self); 2] = [("all", Self::All), ("mates", Self::Mates)];
 }
 
-/// What complementary shapes the faces have.
+/// The complementary shapes of the faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
     /// None: faces slide.
@@ -31,39 +31,39 @@ pub enum Shape {
     None,
     /// One that any two faces share and that forbids slides.
     Shared,
-    /// Knobs on words, slots on mates: words meet mates only, and do not slide.
+    /// Knobs on words, slots on mates: words meet only mates, and do not slide.
     Polar,
 }
 
 impl Shape {
-    /// What each is called.
+    /// The name of each.
     pub const NAMES: [(&'static str, Self); 3] = [
         ("none", Self::None),
         ("shared", Self::Shared),
         ("polar", Self::Polar),
     ];
 
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize].0
     }
 }
 
-/// Which meetings are wrong.
+/// The wrong contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rules {
-    /// Which faces can meet, where there is no shape.
+    /// Which faces can meet, without a shape.
     pub faces: Faces,
     /// Their shapes.
     pub shape: Shape,
     /// Tiles may lie upside down.
     pub flip: bool,
-    /// What may be wrong with one magnet of every face; bonds and wrong meetings are then those of
-    /// the worst faults.
+    /// The fault that one magnet of every face may have; bonds and wrong attractions are then those
+    /// with the worst faults.
     pub fault: Option<Fault>,
 }
 
-/// Contacts that differ by less than this are as many.
+/// Numbers of contacts that differ by less than this are equal.
 const ROUNDED: f64 = 1e-9;
 
 /// One way in which a face meets another word's faces.
@@ -76,7 +76,7 @@ struct Way {
 }
 
 impl Way {
-    /// The second face as it faces the first one, up to the sign.
+    /// The second face as read from the first one, up to the sign.
     fn facing(self, word: Word) -> Word {
         if self.mate == self.flipped {
             word.reversed()
@@ -85,24 +85,23 @@ impl Way {
         }
     }
 
-    /// The place of the second face, as it is when not turned over, of magnet j of
-    /// [`Self::facing`].
+    /// The place on the second face, when not turned over, of magnet j of [`Self::facing`].
     fn place(self, j: usize, places: usize) -> usize {
         if self.flipped { j } else { places - 1 - j }
     }
 
-    /// What attraction is in terms of the energy of [`Self::facing`].
+    /// The sign of the attraction relative to the energy of [`Self::facing`].
     fn sign(self) -> f64 {
         if self.mate { 1.0 } else { -1.0 }
     }
 }
 
-/// The strongest wrong meeting of two faces.
+/// The strongest wrong contact of two faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Of the first face.
+    /// The word of the first face.
     pub first: Word,
-    /// Of the second face, as it is when not turned over.
+    /// The word of the second face, when not turned over.
     pub second: Word,
     /// Whether the second face is turned over.
     pub flipped: bool,
@@ -110,7 +109,7 @@ pub struct Meeting {
     pub slide: i32,
     /// J.
     pub energy: f64,
-    /// Places of the faulty magnets, of faces that may have faults.
+    /// Places of the faulty magnets, if faults are allowed.
     pub faulty: Faulty,
 }
 
@@ -126,7 +125,7 @@ impl Meeting {
 }
 
 impl Rules {
-    /// Whether a word and its mate may be exchanged without changing who meets whom.
+    /// Whether a word and its mate may be exchanged without changing which faces meet.
     pub fn exchangeable(&self) -> bool {
         self.words_meet()
     }
@@ -145,12 +144,12 @@ impl Rules {
         self.shape == Shape::None
     }
 
-    /// How many meetings two words of so many places have.
+    /// Number of contacts of two words with this many places.
     pub fn meetings(&self, places: usize) -> usize {
         self.ways().count() * self.slides_of(places).count()
     }
 
-    /// How many ways they meet in, at any slide.
+    /// Number of ways in which they meet at a slide.
     pub(super) fn ways_of_meeting(&self) -> usize {
         self.ways().count()
     }
@@ -163,34 +162,34 @@ impl Rules {
             .map(|(mate, flipped)| Way { mate, flipped })
     }
 
-    /// The slides at which two words of so many places have places that face, from the middle.
+    /// The slides at which two words with this many places overlap, from the middle.
     fn slides_of(&self, places: usize) -> impl Iterator<Item = i32> {
         let last = if self.slides() { places as i32 - 1 } else { 0 };
         (0..=last).flat_map(|s| [s, -s].into_iter().take(if s == 0 { 1 } else { 2 }))
     }
 
-    /// Whether a meeting is the bond: of a word and its own mate, at slide 0.
+    /// Whether a contact is the bond: a word and its own mate, at slide 0.
     fn is_bond(way: Way, s: i32, same: bool) -> bool {
         same && s == 0 && way.mate && !way.flipped
     }
 
-    /// Whether no wrong meeting of two words and their mates attracts by more than `limit` (J).
+    /// Whether no wrong attraction of two words and their mates exceeds `limit` (J).
     pub fn within(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
         self.within_but(lags, [u, v], u == v, limit)
     }
 
-    /// The same where the aligned meeting of the one with the mate of the other is wanted as well.
+    /// The same if the aligned contact of one with the other's mate is also intended.
     pub fn within_but_aligned(&self, lags: &Lags, u: Word, v: Word, limit: f64) -> bool {
         self.within_but(lags, [u, v], true, limit)
     }
 
-    /// The same where aligned a word and the other one's mate are bound, or not.
+    /// The same, with or without the aligned contact of a word and the other one's mate.
     fn within_but(&self, lags: &Lags, [u, v]: [Word; 2], same: bool, limit: f64) -> bool {
         let (places, magnets) = (u.places() as i32, u.magnets().min(v.magnets()));
         let others = u.magnets().max(v.magnets());
         let full = magnets as i32 == places;
-        // The facing magnets nearly always decide: so many are fine whatever the others add, and
-        // more than so many are too many.
+        // The facing magnets nearly always decide: up to one number is allowed whatever the others
+        // add, and above another is too many.
         let (contact, rest) = (lags.contact(), lags.rest(magnets, others));
         let by_faults = self.fault.map_or(0, Fault::contacts);
         let fine = ((limit - rest) / contact - ROUNDED).floor() as i32 - by_faults;
@@ -225,13 +224,13 @@ impl Rules {
                 let all = all_lags.get_or_insert_with(|| Correlations::new(u, facing));
                 way.sign() * lags.energy(all, s) <= limit
             };
-            // Slid farther fewer face than are fine.
+            // At larger slides, fewer magnets face each other than are allowed.
             (last < 0 || is_within(0)) && (1..=last).all(|s| is_within(s) && is_within(-s))
         })
     }
 
-    /// The wrong meeting of two words and their mates that attracts most, be it weakly; `None`
-    /// where they never meet.
+    /// The strongest wrong contact of two words and their mates, however weak; `None` if they never
+    /// meet.
     pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
         let found = self
             .ways()
@@ -239,7 +238,7 @@ impl Rules {
         found.reduce(Meeting::stronger)
     }
 
-    /// The same of two faces alone, that of a word and its mate left out at slide 0.
+    /// The same for two faces alone, without slide 0 for a word and its mate.
     pub fn strongest_of(&self, lags: &Lags, first: Word, second: Word) -> Option<Meeting> {
         let ways = self.ways().filter(|way| way.mate);
         let found = ways.filter_map(|way| self.strongest_way(lags, [first, second.mate()], way));
@@ -267,8 +266,8 @@ impl Rules {
         })
     }
 
-    /// The depth (J) of the bond of a word and its mate, flush; with the worst faults where faces
-    /// may have some.
+    /// The depth (J) of the bond of a word and its mate, flush; with the worst faults if faults are
+    /// allowed.
     pub fn bond(&self, lags: &Lags, word: Word) -> f64 {
         match self.fault {
             Some(fault) => fault.least(lags, 1.0, [word, word], 0).0,
@@ -277,13 +276,14 @@ impl Rules {
     }
 
     /// The energy (J) of two faces without faults, neither turned over, the second one `slide`
-    /// places farther along the first (counter-clockwise); the bond of a word and its mate too.
+    /// places farther along the first (counter-clockwise); includes the bond of a word and its
+    /// mate.
     pub fn energy_at(&self, lags: &Lags, first: Word, second: Word, slide: i32) -> f64 {
         let all = Correlations::new(first, second.mate());
         -lags.energy(&all, -slide)
     }
 
-    /// All energies (J) of wrong meetings of two faces without faults, the second a mate or not,
+    /// All energies (J) of wrong contacts of two faces without faults, the second a mate or not,
     /// neither turned over.
     pub fn energies(&self, lags: &Lags, [u, v]: [Word; 2], mate: bool) -> Vec<f64> {
         let way = Way {

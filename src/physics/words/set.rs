@@ -1,23 +1,23 @@
-//! Sets of words, judged.
+//! Sets of words and their evaluation.
 
 use super::lag::Lags;
 use super::rules::{Meeting, Rules};
 use super::word::Word;
 use crate::parallel;
 
-/// What a set of words is worth: all of it worked out again from the words alone.
+/// The evaluation of a set of words, computed from the words alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// Depth (J) of the weakest bond of a word and its mate.
     pub bond: f64,
-    /// The strongest wrong meeting; `None` where there is none.
+    /// The strongest wrong contact; `None` if there is none.
     pub worst: Option<Meeting>,
-    /// 1 less the strongest wrong attraction over the weakest bond; 1 where nothing wrong attracts.
+    /// 1 - strongest wrong attraction / weakest bond; 1 if nothing wrong attracts.
     pub gap: f64,
 }
 
 impl Judgement {
-    /// Of words, each with its mate; `None` of no words.
+    /// The evaluation of words, each with its mate; `None` without words.
     pub fn of(words: &[Word], lags: &Lags, rules: &Rules) -> Option<Self> {
         let set = Weighed::new(lags, rules, words.to_vec());
         Some(Self {
@@ -28,7 +28,7 @@ impl Judgement {
     }
 }
 
-/// Words, with what the strongest wrong meeting of every two comes to, so that some can be taken away.
+/// Words with the strongest wrong attractions of all pairs, so that some can be removed.
 pub(super) struct Weighed<'a> {
     lags: &'a Lags,
     rules: &'a Rules,
@@ -59,12 +59,12 @@ impl<'a> Weighed<'a> {
         &self.words
     }
 
-    /// The depth (J) of the weakest bond; `None` of no words.
+    /// The depth (J) of the weakest bond; `None` without words.
     fn bond(&self) -> Option<f64> {
         self.bonds.iter().copied().reduce(f64::min)
     }
 
-    /// The first two words that meet most strongly where they should not, and the energy (J).
+    /// The first two words with the strongest wrong attraction, and its energy (J).
     fn worst(&self) -> (f64, [usize; 2]) {
         let all = self.wrong.iter().enumerate();
         let all =
@@ -82,12 +82,12 @@ impl<'a> Weighed<'a> {
         (energy < f64::INFINITY).then(meeting).flatten()
     }
 
-    /// As [`Judgement`] has it; `None` of no words.
+    /// The gap as in [`Judgement`]; `None` without words.
     pub fn gap(&self) -> Option<f64> {
         Some(gap(self.bond()?, self.worst().0))
     }
 
-    /// Takes a word of the strongest wrong meeting away.
+    /// Removes a word of the strongest wrong contact.
     pub fn drop_worst(&mut self) {
         let worst = self.worst_meeting();
         let in_worst = |word: &Word| {
@@ -104,11 +104,11 @@ impl<'a> Weighed<'a> {
     }
 }
 
-/// 1 less the strongest wrong attraction over the weakest bond (J), of energies.
+/// 1 - strongest wrong attraction / weakest bond, from energies (J).
 fn gap(bond: f64, worst: f64) -> f64 {
     match bond > 0.0 {
         true => 1.0 - (-worst).max(0.0) / bond,
-        // With faults a bond may be none at all.
+        // With faults, a bond may not attract at all.
         false => f64::MIN,
     }
 }

@@ -1,4 +1,4 @@
-//! Words: barcodes as two sets of bits, for millions of them at once.
+//! Words: barcodes as two sets of bits, fast enough for millions of them.
 
 use std::cmp::Ordering;
 use std::fmt::{self, Write};
@@ -9,8 +9,8 @@ use crate::tile::barcode::{Barcode, BarcodeError, Pole};
 pub const MOST_PLACES: usize = 64;
 
 /// A barcode of at most [`MOST_PLACES`] places, read counter-clockwise: place k is bit k of the set
-/// of north poles or of the set of south poles, or of neither where there is no magnet. Of magnets
-/// that stand north is up, and the letters are `U` and `D`. Words are ordered as texts of N and S are.
+/// of north poles or of the set of south poles, or of neither if there is no magnet. For upright
+/// magnets north is up, and the letters are `U` and `D`. Words are ordered like texts of N and S.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Word {
     north: u64,
@@ -19,22 +19,22 @@ pub struct Word {
     stands: bool,
 }
 
-/// Why a text is no word.
+/// Why a text is not a word.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WordError {
-    /// A character stands for no pole.
+    /// A character is not a pole.
     #[error(transparent)]
     Character(#[from] BarcodeError),
-    /// It has no places, or too many.
+    /// There are no places, or too many.
     #[error("a word has 1 to {MOST_PLACES} positions, not {0}")]
     Places(usize),
-    /// N or S beside U or D.
+    /// N or S together with U or D.
     #[error("magnets of a word are all in the plane (N, S) or all upright (U, D)")]
     Mixed,
 }
 
 impl Word {
-    /// From the sets of its north and south poles, which share no place below `places`.
+    /// The word with these disjoint sets of north and south poles, all below `places`.
     pub(super) fn new(north: u64, south: u64, places: usize) -> Self {
         let mask = u64::MAX >> (MOST_PLACES - places);
         Self {
@@ -45,16 +45,16 @@ impl Word {
         }
     }
 
-    /// The same word of magnets that stand, or that lie.
+    /// The same word of upright or lying magnets.
     pub fn standing(self, stands: bool) -> Self {
         Self { stands, ..self }
     }
 
-    /// Reads a word such as `NN.S`, or `UU.D` of magnets that stand.
+    /// Reads a word such as `NN.S`, or `UU.D` for upright magnets.
     ///
     /// # Errors
-    /// Where a character is none of `N`, `S`, `U`, `D` and `.`, there are none or too many, or some are
-    /// of magnets that lie and some of magnets that stand.
+    /// If a character is none of `N`, `S`, `U`, `D` and `.`, if there are none or too many, or if
+    /// letters of lying and upright magnets are mixed.
     pub fn parse(text: &str) -> Result<Self, WordError> {
         let code = Barcode::parse(text)?;
         let places = text.len();
@@ -75,12 +75,12 @@ impl Word {
         Ok(Self::new(north, south, places).standing(stands))
     }
 
-    /// How many places it has, empty ones included.
+    /// Number of places, including empty ones.
     pub fn places(self) -> usize {
         self.places.into()
     }
 
-    /// How many magnets it has.
+    /// Number of magnets.
     pub fn magnets(self) -> u32 {
         (self.north | self.south).count_ones()
     }
@@ -110,7 +110,7 @@ impl Word {
         self.negated().reversed()
     }
 
-    /// Its poles exchanged.
+    /// The word with exchanged poles.
     pub fn negated(self) -> Self {
         Self {
             north: self.south,
@@ -119,7 +119,7 @@ impl Word {
         }
     }
 
-    /// Read the other way; what a face turned over carries.
+    /// The reversed word, which a face that is turned over has.
     pub fn reversed(self) -> Self {
         let reverse = |set: u64| set.reverse_bits() >> (MOST_PLACES - self.places());
         Self {
@@ -129,15 +129,15 @@ impl Word {
         }
     }
 
-    /// Equal less unequal poles with `other`, moved by `lag` places: the sum over k of
-    /// `self[k] other[k + lag]`.
+    /// Equal minus unequal poles with `other`, moved by `lag` places: the sum over k of `self[k]
+    /// other[k + lag]`.
     #[inline]
     pub fn correlation(self, other: Self, lag: i32) -> i32 {
         let [equal, unequal] = self.facing(other, lag);
         equal.count_ones() as i32 - unequal.count_ones() as i32
     }
 
-    /// The correlation of words with a magnet in every place, quicker.
+    /// The correlation of words with a magnet in every place, which is faster.
     #[inline]
     pub(super) fn full_correlation(self, other: Self, lag: i32) -> i32 {
         let overlap = i32::from(self.places) - lag.abs();
@@ -163,12 +163,12 @@ impl Word {
         ]
     }
 
-    /// North less south poles.
+    /// North minus south poles.
     pub fn excess(self) -> i32 {
         self.north.count_ones() as i32 - self.south.count_ones() as i32
     }
 
-    /// The longest run of equal poles, places without a magnet in between left out.
+    /// The longest run of equal poles, ignoring places without a magnet.
     pub fn longest_run(self) -> usize {
         let mut last = 0;
         let mut run = 0;
@@ -180,7 +180,7 @@ impl Word {
         })
     }
 
-    /// The least distance of two of its magnets, in places.
+    /// The smallest distance of two of its magnets, in places.
     pub fn least_spacing(self) -> usize {
         let magnets = self.north | self.south;
         let mut apart = 1..self.places();

@@ -1,4 +1,4 @@
-//! Designs side by side.
+//! Comparisons of designs.
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -1,4 +1,4 @@
-//! Values of Python as values of a design file, and JSON as values of Python.
+//! Converts Python values to values of a design file, and JSON to Python values.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping, PyString};
@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use crate::fault;
 
-/// Most tables and lists within each other.
+/// Deepest nesting of tables and lists.
 const DEEPEST: usize = 32;
 
 /// A number, a text, a list or a mapping as a value of TOML.
@@ -57,7 +57,7 @@ fn table_within(mapping: &Bound<'_, PyMapping>, depth: usize) -> PyResult<Table>
     Ok(table)
 }
 
-/// What a JSON text says, as dictionaries and lists.
+/// A JSON text as dictionaries and lists.
 pub fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (text,))
 }

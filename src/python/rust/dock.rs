@@ -1,4 +1,4 @@
-//! Docking: what becomes of tiles that are sent towards each other.
+//! Docking experiments.
 
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ pub fn dock(
     Ok(Docking { found, content })
 }
 
-/// Most points of a trajectory, which are all held in memory.
+/// Largest number of points of a trajectory, since all are kept in memory.
 const MOST_POINTS: f64 = 1e7;
 
 /// Outcomes of a docking experiment. Immutable.

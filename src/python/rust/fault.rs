@@ -16,12 +16,12 @@ pub fn design(py: Python<'_>, fault: &design::DesignError) -> PyErr {
     exception(py, fault).map_or_else(|error| error, PyErr::from_value)
 }
 
-/// A fault that has no place in a file.
+/// A fault without a place in a file.
 pub fn of_design(py: Python<'_>, file: &str, message: String, help: &str) -> PyErr {
     design(py, &design::DesignError::new(file, None, message, help))
 }
 
-/// Why a job is not done: a `ValueError`, of a file `tilebind.DesignError`.
+/// The exception of a refused job: a `ValueError`, or `tilebind.DesignError` for a file.
 pub fn refused(py: Python<'_>, why: &Refused) -> PyErr {
     match why {
         Refused::File(fault) => design(py, fault),
@@ -44,7 +44,7 @@ fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Boun
     class.call((fault.to_string(),), Some(&more))
 }
 
-/// Why there is no answer: a `ValueError` where what was asked for has none.
+/// The exception of a job without a result: a `ValueError` if the request has none.
 pub fn of(error: impl Unanswered) -> PyErr {
     match error.is_of_the_question() {
         true => value(error.to_string().replace("--", "")),
@@ -52,7 +52,7 @@ pub fn of(error: impl Unanswered) -> PyErr {
     }
 }
 
-/// A `FileNotFoundError` where there is no such file.
+/// A `FileNotFoundError` if there is no such file.
 pub fn if_missing(path: &Path) -> PyResult<()> {
     match path.metadata() {
         Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -69,12 +69,12 @@ pub fn value(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// A `RuntimeError`: the work did not come to a result.
+/// A `RuntimeError`: the work failed.
 pub fn run(message: impl Display) -> PyErr {
     PyRuntimeError::new_err(message.to_string())
 }
 
-/// A `RuntimeWarning`: there is a result all the same.
+/// A `RuntimeWarning`: there is a result nevertheless.
 pub fn warn(py: Python<'_>, message: impl Display) -> PyResult<()> {
     let text = CString::new(message.to_string())?;
     PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &text, 1)

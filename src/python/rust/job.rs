@@ -1,5 +1,5 @@
-//! Long work: done beside the interpreter, whose lock is released, on threads of its own; progress
-//! is shown, ctrl-C heeded.
+//! Runs long work on threads of its own, without the interpreter's lock; it shows progress and
+//! heeds ctrl-C.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,15 +16,15 @@ use tilebind::request::Unanswered;
 
 use crate::fault;
 
-/// Time between two looks at signals and progress.
+/// Interval of checking signals and progress.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What the work says it is doing.
+/// The progress reported by the work.
 #[derive(Default)]
 pub struct Told(Mutex<(f64, String)>);
 
 impl Told {
-    /// A share (0 to 1) is done; what comes next has this name.
+    /// Reports the finished share (0 to 1) and the name of the next stage.
     pub fn tell(&self, share: f64, text: String) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = (share, text);
     }
@@ -49,14 +49,14 @@ impl Observer for Told {
 }
 
 /// Threads of a job: `RAYON_NUM_THREADS`, or else all cores. (No pool is shared: a forked process
-/// would wait for its threads for ever.)
+/// would wait for its threads forever.)
 pub fn threads() -> usize {
     let asked = std::env::var("RAYON_NUM_THREADS").ok();
     let asked = asked.and_then(|text| text.parse().ok()).filter(|n| *n > 0);
     asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from))
 }
 
-/// Does long work, with a bar unless `progress` is false (or `None` where nobody would see it).
+/// Runs long work, with a bar unless `progress` is false (or `None` and nobody would see it).
 pub fn run<T: Send>(
     py: Python<'_>,
     progress: Option<bool>,
@@ -77,7 +77,7 @@ pub fn run<T: Send>(
     done
 }
 
-/// Long work that may have no answer, with a bar as [`run`] has it.
+/// Runs long work that can fail, with a bar as for [`run`].
 pub fn answer<T: Send, E: Unanswered + Send>(
     py: Python<'_>,
     progress: Option<bool>,
@@ -86,7 +86,7 @@ pub fn answer<T: Send, E: Unanswered + Send>(
     run(py, progress, work)?.map_err(fault::of)
 }
 
-/// The same without a word.
+/// The same without a progress bar.
 pub fn quietly<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     attend(py, None, |_| work())
 }
@@ -128,7 +128,7 @@ fn attend<T: Send>(
     })
 }
 
-/// Heeds signals and shows progress.
+/// Handles signals and shows progress.
 fn look(py: Python<'_>, bar: Option<&Py<PyAny>>, told: &Told) -> PyResult<()> {
     py.check_signals()?;
     match bar {
@@ -148,7 +148,7 @@ fn broken(payload: &(dyn Any + Send)) -> PyErr {
     ))
 }
 
-/// Refuses a roadmap for which the machine has not the memory.
+/// Checks that the machine has the memory for a roadmap.
 pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()> {
     let told = memory::check(milestones, neighbours, 1);
     told.map(drop).map_err(fault::of)

@@ -1,11 +1,12 @@
-//! tilebind for Python: the classes and functions of the package, each a thin view of the library.
+//! The Python package: its classes and functions, each a thin wrapper of the library.
 //!
 //! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
 //!   configurations;
-//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`] - what comes of jobs;
-//! - [`request`] - what is asked, by keywords; [`job`] - long work: progress, ctrl-C, faults;
-//! - [`shown`] - results as people look at them; [`table`] - structured arrays; [`convert`] - values of
-//!   Python as values of a design file;
+//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`] - the results of
+//!   jobs;
+//! - [`request`] - options as keyword arguments; [`job`] - long work: progress, ctrl-C, faults;
+//! - [`shown`] - display of results; [`table`] - structured arrays; [`convert`] - conversion of
+//!   Python values to values of a design file;
 //! - [`fault`] - exceptions; [`pickle`] - results as bytes.
 
 mod analysis;

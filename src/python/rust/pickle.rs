@@ -1,5 +1,5 @@
-//! Results as bytes, and back: MessagePack, exact to the last bit, for the same version of tilebind
-//! only.
+//! Results as bytes (MessagePack) and back, exact to the last bit; readable only by the same
+//! version of tilebind.
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

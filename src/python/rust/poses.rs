@@ -1,4 +1,4 @@
-//! What is known of many configurations at once: arrays in, arrays out.
+//! Functions of many configurations at once: arrays in, arrays out.
 
 use numpy::{
     AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods,
@@ -11,21 +11,21 @@ use tilebind::{Configuration, interruption, memory};
 
 use crate::{fault, job};
 
-/// Poses as users have them: anything that NumPy takes for an array (..., 3) of x (m), y (m) and
-/// theta (rad).
+/// Poses from users: anything that NumPy can convert to an array (..., 3) of x (m), y (m) and theta
+/// (rad).
 pub type Poses<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
 
-/// Numbers of a pose beyond this (m, rad), whose powers would be infinite, are as good as infinite.
+/// Numbers of a pose beyond this (m, rad) count as infinite, since their powers would be.
 const FARTHEST: f64 = 1e30;
-/// So few poses are worth neither threads nor the interpreter's lock.
+/// Up to this number of poses, neither threads nor releasing the interpreter's lock pay off.
 const FEW: usize = 64;
-/// So many are worth threads.
+/// From this number on, threads pay off.
 const MANY: usize = 2048;
-/// Poses that are worked on together.
+/// Number of poses per task.
 const TOGETHER: usize = 512;
 
-/// For each pose `WIDTH` numbers, found by `kernel` for several poses at a time. NaN where a pose is
-/// not finite.
+/// `WIDTH` numbers for each pose, computed by `kernel` for several poses at a time. NaN if a pose
+/// is not finite.
 pub fn numbers<'py, const WIDTH: usize>(
     py: Python<'py>,
     poses: &Poses<'py>,
@@ -41,7 +41,7 @@ pub fn numbers<'py, const WIDTH: usize>(
     if WIDTH > 1 {
         shape.push(WIDTH);
     }
-    // The same memory, seen as one run of numbers.
+    // The same memory as one slice of numbers.
     let array = PyArray1::from_vec(py, found.into_flattened());
     if shape.len() == 1 {
         return Ok(array.into_any());
@@ -49,7 +49,7 @@ pub fn numbers<'py, const WIDTH: usize>(
     Ok(array.reshape(shape)?.into_any())
 }
 
-/// For each pose whether something holds; it does not where a pose is not finite.
+/// A condition for each pose; false if a pose is not finite.
 pub fn truths<'py>(
     py: Python<'py>,
     poses: &Poses<'py>,
@@ -119,8 +119,8 @@ fn evaluate<T: Copy + Send + Sync>(
     Ok(out)
 }
 
-/// Room for so many. Arrays of NumPy need not hold what they say that they hold: one row may stand for
-/// any number.
+/// Allocates room for a number of items. NumPy arrays can claim more items than memory holds, since
+/// rows can be repeated.
 fn room<T>(count: usize) -> PyResult<Vec<T>> {
     let bytes = count as f64 * size_of::<T>() as f64;
     let too_many = |_| PyMemoryError::new_err(format!("no memory for {:.1} GB", bytes / 1e9));
@@ -130,7 +130,7 @@ fn room<T>(count: usize) -> PyResult<Vec<T>> {
     Ok(room)
 }
 
-/// Leaves `out` as it is where a pose is not finite.
+/// Leaves `out` unchanged if a pose is not finite.
 fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configuration], &mut [T])) {
     for (rows, out) in rows.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
         let is_known = |row: &[f64; 3]| row.iter().all(|number| number.abs() <= FARTHEST);
@@ -147,7 +147,7 @@ fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configurat
     }
 }
 
-/// The time (s) that a potential takes for poses on all cores, once they lie ready.
+/// The time (s) of a potential for prepared poses on all cores.
 pub fn kernel_seconds(
     py: Python<'_>,
     poses: &Poses<'_>,

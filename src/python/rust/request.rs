@@ -1,4 +1,4 @@
-//! What is asked by keyword arguments: the options of the program, with their limits and defaults.
+//! Requests from keyword arguments: the options of the program, with their limits and defaults.
 
 use clap::Args;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString};
 use tilebind::request::{Misused, of_keywords};
 
-/// A request out of keyword arguments; what is `None` is not asked for.
+/// A request from keyword arguments; `None` means the default.
 pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
     let mut words = Vec::new();
     for (key, value) in given.into_iter().flatten() {
@@ -18,7 +18,7 @@ pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
     })
 }
 
-/// The same with an argument that has a place of its own.
+/// The same with a positional argument.
 pub fn request_with<'py, R: Args>(
     py: Python<'py>,
     given: Option<&Bound<'py, PyDict>>,
@@ -30,8 +30,8 @@ pub fn request_with<'py, R: Args>(
     request(Some(&all))
 }
 
-/// The values of an argument as a command line has them: the items of a list with commas between them,
-/// a list of lists one by one.
+/// The values of an argument as on a command line: the items of a list separated by commas; a list
+/// of lists as repeated options.
 fn values(value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     if value.is_none() {
         return Ok(Vec::new());

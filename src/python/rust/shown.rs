@@ -1,4 +1,4 @@
-//! Results as people look at them, and as bytes: what all classes have.
+//! The methods that all results share: their display, and their pickling.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -18,7 +18,7 @@ pub fn pictures(py: Python<'_>, document: &Document) -> PyResult<Vec<String>> {
     svg(py, || Ok(document.figures(&Sheet::SCREEN)?.concat()))
 }
 
-/// SVG documents of pictures that are drawn beside the interpreter.
+/// SVG documents of pictures, drawn without the interpreter's lock.
 pub fn svg(
     py: Python<'_>,
     draw: impl FnOnce() -> Result<Vec<Figure>, PictureError> + Send,
@@ -32,13 +32,13 @@ pub fn page(py: Python<'_>, document: &Document, command: &str) -> PyResult<Stri
     job::quietly(py, || document.html(command))?.map_err(fault::run)
 }
 
-/// What a notebook shows: a text and pictures.
+/// The display in a notebook: a text and pictures.
 pub fn notebook(py: Python<'_>, text: String, pictures: Vec<String>) -> PyResult<Bound<'_, PyAny>> {
     let html = py.import("tilebind._html")?;
     html.call_method1("page", (text, pictures))
 }
 
-/// What draws on axes of matplotlib, see `_plots.py`.
+/// Calls a function that draws on axes of matplotlib, see `_plots.py`.
 pub fn plotted<'py>(
     py: Python<'py>,
     name: &str,
@@ -50,10 +50,10 @@ pub fn plotted<'py>(
         .call(arguments, style)
 }
 
-/// How a class's `_restore` makes an object anew.
+/// The arguments with which a class's `_restore` recreates an object.
 pub type Reduced<'py> = (Bound<'py, PyAny>, (Bound<'py, PyBytes>,));
 
-/// An object in a pickle: what makes it anew of this value.
+/// An object in a pickle: the function and the value that recreate it.
 pub fn reduced<'py, T>(object: &Bound<'py, T>, value: &impl Serialize) -> PyResult<Reduced<'py>> {
     let restore = object.as_any().get_type().getattr("_restore")?;
     Ok((restore, (pickle::dump(object.py(), value)?,)))

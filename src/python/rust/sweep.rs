@@ -1,4 +1,4 @@
-//! Designs made from one by varying its keys.
+//! Sweeps: designs made from one by varying its keys.
 
 use std::collections::HashMap;
 use std::convert::Infallible;
@@ -86,12 +86,12 @@ pub fn sweep(
     Ok(Sweep { plan, outcomes })
 }
 
-/// What came of points, by their names.
+/// The outcomes of points, by name.
 #[derive(Default)]
 struct Known(Mutex<HashMap<String, Outcome>>);
 
 impl Known {
-    /// Works on the points of which nothing is known.
+    /// Computes the points without an outcome.
     fn work(&self, plan: &Plan, told: &Told) {
         let all = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut points = plan.points();

@@ -1,4 +1,4 @@
-//! Structured arrays of NumPy, of which `pandas.DataFrame` makes tables. They cannot be written to.
+//! Read-only structured NumPy arrays, of which `pandas.DataFrame` makes tables.
 
 use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -11,11 +11,11 @@ pub const FREE: i64 = -1;
 /// No place at all.
 const NOWHERE: i64 = -2;
 
-/// A column by its name, with what NumPy calls its type.
+/// A column with its name and its NumPy type.
 type Named<'py> = (String, String, Bound<'py, PyAny>);
 
-/// A structured array of a table's columns: one is of places, of whole numbers, of numbers (NaN where
-/// nothing is known), true or false, or else of texts.
+/// A structured array of a table's columns, each of places, whole numbers, numbers (NaN if not
+/// known), truth values, or texts.
 pub fn array<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyAny>> {
     let columns = table.columns().into_iter();
     let columns = columns.map(|(name, cells)| column(py, name, &cells));

@@ -21,7 +21,7 @@ def plot_map(analysis, ax=None, **style):
     found = analysis.landscape_map()
     energy = 1e3 * found.energy
     most = np.nanmax(np.abs(energy))
-    # Blue holds and red repels, for the colour-blind too; small energies are told apart.
+    # Blue attracts and red repels, colour-blind safe; small energies are distinguishable.
     norm = SymLogNorm(linthresh=1e-2 * most, linscale=0.5, vmin=-most, vmax=most, base=10)
     mesh = ax.pcolormesh(
         found.x, found.y, energy, **{"cmap": "RdBu_r", "norm": norm, "rasterized": True, **style}
@@ -80,7 +80,7 @@ def plot_disconnectivity(analysis, ax=None, **style):
             copies = f" ×{line['copies']:.0f}" if line["copies"] > 1 else ""
             note = {"xytext": (0, -3), "textcoords": "offset points", "ha": "center", "va": "top"}
             ax.annotate(f"{names[0]}{copies}", (x, foot), **note)
-    # What joins at one level is joined across.
+    # States that merge at one level are joined by a horizontal line.
     middles = np.array([middle(names) for names in held])
     for level in np.unique(tops[~np.isnan(tops)]):
         joined = middles[tops == level]

@@ -29,7 +29,7 @@ class AirTable(tuple):  # type: ignore[type-arg]
             ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
         runs : int, optional
         shard : str, optional
-            "i/n": make every n-th run only, from the i-th.
+            "i/n": compute only every nth run, from the ith on.
         shaking : float, optional
             Effective energy kT (J) of shaking.
         correlation : float, optional
@@ -46,7 +46,7 @@ class AirTable(tuple):  # type: ignore[type-arg]
         frames : float, optional
             Interval (s) at which poses are recorded.
         compare : bool, optional
-            Compare with what `bond` and `yields` give for as many tiles at this kT.
+            Compare with the predictions of `bond` and `yields`.
         seed : int, optional
         progress : bool, optional
 

@@ -16,7 +16,7 @@ _Picture = Literal[
     "map", "approach", "profiles", "docking", "models", "disconnectivity", "disconnectivity-linear"
 ]
 _Floats = NDArray[np.float64]
-# Structured: its fields are told where it comes from.
+# Structured: its fields are described where it is returned.
 _Table = NDArray[np.void]
 _Value = float | str | bool | Sequence[Any] | Mapping[str, Any]
 

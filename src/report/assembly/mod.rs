@@ -1,5 +1,5 @@
-//! Tile sets whose glues are words: what engines read, designs of all pairs that meet, the sheet for
-//! the workshop, and what is known of them.
+//! Assemblies as documents: files for the engines, designs of all pairs that meet, the workshop
+//! sheet and the results.
 
 mod picture;
 mod sheet;
@@ -19,12 +19,12 @@ use jobs::assembly::{Assembly, Axis, SIDES, TileType, designs, rgrow, xgrow};
 use physics::order::Order;
 use physics::units::{plain, si};
 
-/// Slid meetings that people see, the deepest.
+/// Number of slid contacts shown to people, deepest first.
 const SHOWN: usize = 40;
-/// Rows that a terminal has.
+/// Number of rows on a terminal.
 const LISTED: usize = 5;
 
-/// What there is to know of a tile set that was built.
+/// The document of an assembly.
 pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
     let slides = assembly.slides();
     let title = "Error-free growth";
@@ -136,7 +136,7 @@ fn verdict(assembly: &Assembly) -> &'static str {
     }
 }
 
-/// What grows at which shaking, errors included.
+/// Simulated growth at each kT, with errors.
 #[rustfmt::skip]
 fn growths(assembly: &Assembly) -> Table {
     let asked = [(assembly.built.shaking.kt, assembly.growth)];
@@ -235,7 +235,7 @@ fn bonds(assembly: &Assembly) -> Table {
         .listing(LISTED)
 }
 
-/// The deepest slid meetings of faces.
+/// The deepest slid contacts of faces.
 #[rustfmt::skip]
 fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
     let built = &assembly.built;
@@ -255,9 +255,9 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
         .table("slid")
 }
 
-/// A row a pair of tiles that meet: its design, the word of its bond, the energy of the two faces
-/// that meet (the matrix's), of all other faces, and of the whole tiles, which `tilebind energy` has
-/// of the design.
+/// One row per pair of tiles that meet: its design, the word of its bond, the energy of the two
+/// faces in contact (from the matrix), of all other faces, and of the whole tiles, as `tilebind
+/// energy` computes it for the design.
 #[rustfmt::skip]
 fn pairs(assembly: &Assembly) -> Table {
     let built = &assembly.built;
@@ -275,7 +275,7 @@ fn pairs(assembly: &Assembly) -> Table {
         .table("pairs")
 }
 
-/// What engines and other commands read.
+/// Files for engines and other commands.
 fn beside(assembly: &Assembly) -> Files {
     let engine = assembly.built.engine();
     let remarks = text::for_engines(assembly);
@@ -296,7 +296,7 @@ fn beside(assembly: &Assembly) -> Files {
     all.map(|(name, text)| (name, text.into_bytes())).collect()
 }
 
-/// The energies of all faces with all.
+/// The energies of all pairs of faces.
 fn energies(assembly: &Assembly) -> Table {
     let matrix = &assembly.built.matrix;
     let faces = 0..matrix.energies.len();

@@ -1,4 +1,4 @@
-//! What grows without errors, drawn tile by tile.
+//! A picture of the growth without errors, tile by tile.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::plots::key::{Sign, key as explained};
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::assembly::{Assembly, TileSet};
 
-/// Colours that colour-blind people tell apart (Okabe and Ito), and two greys.
+/// Colours distinguishable with colour blindness (Okabe and Ito), and two greys.
 const COLOURS: [&str; 8] = [
     "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999",
 ];
@@ -19,12 +19,14 @@ const SIDE: f64 = 640.0;
 /// Greatest side of a tile, and space around them all (pixels).
 const MOST_CELL: f64 = 40.0;
 const SPACE: f64 = 22.0;
-/// Of more kinds of tiles the key names colours, with the kinds that have them.
+/// With more kinds of tiles than this, the key has one entry per colour, with the kinds of that
+/// colour.
 const MOST_NAMED: usize = 16;
-/// Letters of such names at most.
+/// Largest number of letters of such names.
 const LETTERS: [usize; 2] = [16, 36];
 
-/// Kinds of tiles, blocks of tiles as one, and their colours; and the kind of every tile.
+/// Kinds of tiles with their colours, where a block of tiles is one kind; and the kind of every
+/// tile.
 fn kinds(set: &TileSet) -> (Vec<(&str, String)>, Vec<usize>) {
     let mut kinds: Vec<(&str, String)> = Vec::new();
     let mut of_tile = Vec::new();
@@ -43,7 +45,7 @@ fn kinds(set: &TileSet) -> (Vec<(&str, String)>, Vec<usize>) {
     (kinds, of_tile)
 }
 
-/// Colours and what the key says of them.
+/// The entries of the key: colours and names.
 fn key(kinds: &[(&str, String)]) -> Vec<(String, String)> {
     let clip = |name: &str, most: usize| -> String { name.chars().take(most).collect() };
     if kinds.len() <= MOST_NAMED {
@@ -83,7 +85,7 @@ fn colour(hex: &str) -> RGBColor {
     RGBColor(part(1), part(3), part(5))
 }
 
-/// Draws it.
+/// Draws the picture.
 pub(super) fn grown(
     assembly: &Assembly,
     title: &str,

@@ -1,4 +1,4 @@
-//! The sheet for the workshop.
+//! The workshop sheet.
 
 use crate::document::rows;
 use crate::markdown::markdown_table;
@@ -6,7 +6,7 @@ use jobs::assembly::{Assembly, Axis, TileType};
 use physics::tile::magnet::Shape;
 use physics::units::si;
 
-/// Which magnets on which face of which tile, and how many of each.
+/// The sheet: which magnets on which face of which tile, and how many of each.
 pub(super) fn sheet(assembly: &Assembly) -> String {
     let built = &assembly.built;
     let (set, grown) = (&built.set, &built.grown);

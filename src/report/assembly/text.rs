@@ -1,4 +1,4 @@
-//! What is told of an assembly in words.
+//! The text of an assembly's summary.
 
 use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};
@@ -7,7 +7,7 @@ use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::{Assembly, lattice};
 use physics::units::{plain, si, si_range};
 
-/// One sentence that answers whether it can be built.
+/// One sentence that says whether the set can be built.
 pub(super) fn headline(assembly: &Assembly) -> String {
     let built = &assembly.built;
     let (set, gse) = (&built.set, built.gse());
@@ -49,7 +49,7 @@ pub(super) fn headline(assembly: &Assembly) -> String {
     )
 }
 
-/// What files of engines say above the set.
+/// The comments above the set in files for engines.
 pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
     let built = &assembly.built;
     let (name, version) = (&built.set.name, env!("CARGO_PKG_VERSION"));
@@ -69,7 +69,7 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
     ]
 }
 
-/// What else to know of it.
+/// Further notes.
 pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     let built = &assembly.built;
     let grown = &built.grown;
@@ -151,7 +151,7 @@ fn grown_at(kt: f64, growth: &Kinetic) -> String {
     )
 }
 
-/// Which shaking grows right.
+/// The suggested kT.
 fn proposal(assembly: &Assembly) -> String {
     match assembly.proposal() {
         Some((kt, growth)) => format!("suggested: --kt {kt:.2e}; {}", grown_at(kt, &growth)),
@@ -167,7 +167,7 @@ fn proposal(assembly: &Assembly) -> String {
     }
 }
 
-/// That strengths are not quite those asked for.
+/// A note that strengths differ from the requested ones.
 fn strengths(assembly: &Assembly) -> Option<String> {
     let built = &assembly.built;
     let (bond, asked, has) = built
@@ -182,7 +182,7 @@ fn strengths(assembly: &Assembly) -> Option<String> {
     ))
 }
 
-/// That glues which bind nothing are no magnets, though the file has them repel.
+/// A note that glues without a bond have no magnets, although they repel in the file.
 fn repelled(assembly: &Assembly) -> Option<String> {
     let set = &assembly.built.set;
     let binds_none = |strengths: &Vec<f64>| {
@@ -203,7 +203,7 @@ fn repelled(assembly: &Assembly) -> Option<String> {
     })
 }
 
-/// What the file says and is not followed.
+/// A note on ignored entries of the file.
 fn passed_over(assembly: &Assembly) -> Option<String> {
     let keys = &assembly.built.set.passed_over;
     let list = keys.join(", ");
@@ -211,7 +211,7 @@ fn passed_over(assembly: &Assembly) -> Option<String> {
         .then(|| format!("ignored in the file, because it only controls a simulator: {list}"))
 }
 
-/// That a canvas is another one than the file's.
+/// A note that the canvas differs from the file's.
 fn canvas(assembly: &Assembly) -> Option<String> {
     let built = &assembly.built;
     let [rows, columns] = built.set.size?;
@@ -225,7 +225,7 @@ fn canvas(assembly: &Assembly) -> Option<String> {
     })
 }
 
-/// What the search for words says, if there was one.
+/// A note on the search for words, if there was one.
 fn found(assembly: &Assembly) -> Option<String> {
     let (last, before) = assembly.tried.split_last()?;
     let failed = || before.iter().filter(|it| it.verdict != Verdict::Found);
@@ -239,7 +239,7 @@ fn found(assembly: &Assembly) -> Option<String> {
             all - proved
         ),
     };
-    // Trials end with the narrowest gap that failed, and those that did not.
+    // The trials end with the narrowest failed gap and the successful ones.
     let wider = failed().rfind(|it| it.places == last.places);
     let wider = wider.map_or(String::new(), |it| match it.verdict {
         Verdict::Refuted => format!("; with {:.3} there are none, proved", it.gap),
@@ -251,10 +251,10 @@ fn found(assembly: &Assembly) -> Option<String> {
     ))
 }
 
-/// How much deeper bonds are in whole tiles, from the least to the most.
+/// How much deeper bonds are between whole tiles, from the smallest to the largest difference.
 fn whole(ends: [f64; 2]) -> String {
     let [least, most] = ends.map(|share| format!("{:.1} %", 100.0 * share.abs()));
-    // Less than a tenth of a percent is neither.
+    // A difference below a tenth of a per cent is ignored.
     let told = match (ends[0] < -5e-4, ends[1] > 5e-4) {
         (true, true) => format!("from {least} shallower to {most} deeper"),
         (true, false) => format!("up to {least} shallower"),

@@ -17,7 +17,7 @@ impl Entries {
 }
 
 impl Document<'_> {
-    /// What is printed where JSON is asked for.
+    /// The output with `--json`.
     pub fn printed(&self) -> String {
         let tables = self.tables();
         let alone = tables.iter().find(|table| Some(table.key) == self.printed);
@@ -29,7 +29,7 @@ impl Document<'_> {
         self.entries.report()
     }
 
-    /// Tables of numbers by their files' names: those of the document, and those within their rows.
+    /// Tables of numbers by file name: those of the document, and those nested in their rows.
     pub fn numbers(&self) -> Files {
         let mut sheets: Vec<Numbers> = Vec::new();
         for table in self.tables() {
@@ -63,7 +63,7 @@ fn object(entries: &[Entry]) -> Value {
 }
 
 impl Table {
-    /// The file of its numbers, without those of tables within its rows.
+    /// The file of its numbers, without nested tables.
     pub fn csv(&self) -> String {
         let mut sheets = Vec::new();
         collect(&self.clone().in_file(""), None, &mut sheets);
@@ -115,7 +115,7 @@ impl Numbers {
     }
 }
 
-/// Adds a table with those within its rows; `outer` is the cell of the row that it is within.
+/// Adds a table with its nested tables; `outer` is the cell of the enclosing row.
 fn collect(table: &Table, outer: Option<(&str, &str)>, sheets: &mut Vec<Numbers>) {
     let shown: Vec<usize> = (0..table.heads.len())
         .filter(|k| table.heads[*k].is_csv)
@@ -151,7 +151,7 @@ fn collect(table: &Table, outer: Option<(&str, &str)>, sheets: &mut Vec<Numbers>
     }
 }
 
-/// The keys of the columns of numbers that a column is.
+/// The keys of a column's columns of numbers.
 fn keys(head: &Head) -> Vec<String> {
     let key = &head.key;
     match head.parts {
@@ -181,7 +181,7 @@ fn parts(head: &Head, cell: &Cell) -> Vec<Cell> {
     }
 }
 
-/// A cell's text in those columns; empty where nothing is known.
+/// A cell's text in those columns; empty if nothing is known.
 fn texts(head: &Head, cell: &Cell) -> Vec<String> {
     let text = |cell: Cell| match cell {
         Cell::Number(value) if value.is_finite() => number(value),

@@ -1,4 +1,4 @@
-//! A result as one document that every output reads.
+//! The document of a result, from which every output is made.
 //!
 //! One function makes the [`Document`] of a result; the terminal's text, JSON, CSV, the page and
 //! pictures ([`super::plots`]) are made from it. A new figure or column is one entry of the document
@@ -25,34 +25,34 @@ use crate::files::Files;
 use crate::page::{Charts, Crowd, Landscape, Meetings};
 use jobs::design::Design;
 
-/// What there is to know of a result.
+/// The document of a result.
 #[derive(Default)]
 pub struct Document<'a> {
     /// The heading.
     pub title: String,
-    /// The sentence that answers the question.
+    /// The headline, in one sentence.
     pub answer: String,
-    /// What to know before reading on.
+    /// Remarks before the results.
     pub remarks: Vec<String>,
     /// Drawn with characters, for a terminal.
     pub sketch: Option<Braille>,
-    /// All that was found, in the order of the report.
+    /// All results, in the order of the report.
     pub entries: Entries,
-    /// The table that is printed alone where JSON is asked for; the whole report otherwise.
+    /// The only table printed with `--json`; `None` for the whole report.
     pub printed: Option<&'static str>,
     /// Its pictures, in order.
     pub pictures: Vec<Drawing<'a>>,
-    /// What one can move about in on its page, if anything.
+    /// The interactive part of its page, if any.
     pub part: Option<Part>,
-    /// Files of other forms that it comes with, by their names.
+    /// Additional files, by name.
     pub beside: Files,
-    /// What to know in the end.
+    /// Notes after the results.
     pub notes: Vec<String>,
     /// How it was made: version, model, method.
     pub origin: String,
 }
 
-/// Something that was found.
+/// A part of the results.
 pub enum Entry {
     /// One figure.
     Fact(Fact),
@@ -60,30 +60,30 @@ pub enum Entry {
     Table(Table),
     /// Entries that belong together, under one key.
     Group(&'static str, Vec<Entry>),
-    /// What programs alone read.
+    /// Data for programs only.
     Data(&'static str, Value),
 }
 
 /// One figure.
 pub struct Fact {
-    /// What it is.
+    /// Its description.
     pub head: Head,
     /// Its value.
     pub cell: Cell,
-    /// The value as people read it, where that is more than the value.
+    /// The value as shown to people, if that is more than the value.
     pub view: Option<String>,
-    /// What else to know of it.
+    /// A note on it.
     pub note: String,
 }
 
-/// A part of a page that answers to clicks.
+/// An interactive part of a page.
 #[derive(Clone)]
 pub enum Part {
     /// The energy over configurations, with pathways.
     Landscape(Box<Landscape>),
     /// Curves and maps of a sweep.
     Charts(Charts),
-    /// All faces of a set of words against all.
+    /// All pairs of faces of a set of words.
     Meetings(Meetings),
     /// Many tiles on a table, over time.
     Crowd(Crowd),
@@ -93,7 +93,7 @@ pub enum Part {
 #[derive(Default)]
 pub struct Entries(Vec<Entry>);
 
-/// What every report begins with: the version, the design by its name and checksum, its model.
+/// The first entries of every report: the version, the design by its name and checksum, its model.
 pub fn entries(design: &Design) -> Entries {
     let identity = json!({"name": design.name, "sha256": design.sha256});
     Entries::default()
@@ -103,8 +103,8 @@ pub fn entries(design: &Design) -> Entries {
 }
 
 impl Entries {
-    /// A figure: its key in files, which ends in its unit, what people call it (nothing where they do
-    /// not see it), and its value.
+    /// Adds a figure: its key in files, which ends in its unit, its name for people (empty if it is
+    /// not shown to them), and its value.
     #[must_use]
     pub fn fact(
         mut self,
@@ -128,51 +128,51 @@ impl Entries {
         self
     }
 
-    /// With what else there is to know of the last figure.
+    /// Adds a note to the last figure.
     #[must_use]
     pub fn noted(self, note: impl Into<String>) -> Self {
         self.last(|fact| fact.note = note.into())
     }
 
-    /// The last figure as people read it.
+    /// Sets the text of the last figure for people.
     #[must_use]
     pub fn viewed(self, view: impl Into<String>) -> Self {
         self.last(|fact| fact.view = Some(view.into()))
     }
 
-    /// The last figure is a share of all.
+    /// Marks the last figure as a share.
     #[must_use]
     pub fn share(self) -> Self {
         self.last(|fact| fact.head.unit = Unit::Share)
     }
 
-    /// People see so many digits of the last figure.
+    /// Sets the number of digits of the last figure for people.
     #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         self.last(|fact| fact.head.digits = digits)
     }
 
-    /// The last figure is for people only.
+    /// Restricts the last figure to people.
     #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|fact| (fact.head.is_data, fact.head.is_viewed) = (false, true))
     }
 
-    /// With others behind them.
+    /// Appends other entries.
     #[must_use]
     pub fn and(mut self, others: Self) -> Self {
         self.0.extend(others.0);
         self
     }
 
-    /// A table.
+    /// Adds a table.
     #[must_use]
     pub fn table(mut self, table: Table) -> Self {
         self.0.push(Entry::Table(table));
         self
     }
 
-    /// The figures of a table's first row.
+    /// Adds the figures of a table's first row.
     #[must_use]
     pub fn row(self, mut table: Table) -> Self {
         let row = table.rows.drain(..).next().unwrap_or_default();
@@ -186,21 +186,21 @@ impl Entries {
         self.more(facts.map(Entry::Fact))
     }
 
-    /// Entries that there may be.
+    /// Adds optional entries.
     #[must_use]
     pub fn more(mut self, entries: impl IntoIterator<Item = Entry>) -> Self {
         self.0.extend(entries);
         self
     }
 
-    /// Entries under one key.
+    /// Adds entries under one key.
     #[must_use]
     pub fn group(mut self, key: &'static str, entries: Self) -> Self {
         self.0.push(Entry::Group(key, entries.0));
         self
     }
 
-    /// What programs read under a key.
+    /// Adds data for programs under a key.
     #[must_use]
     pub fn data(mut self, key: &'static str, value: impl Into<Value>) -> Self {
         self.0.push(Entry::Data(key, value.into()));
@@ -209,7 +209,7 @@ impl Entries {
 }
 
 impl Fact {
-    /// As people read it.
+    /// The text for people.
     pub fn to_text(&self) -> String {
         let told = || self.head.told(&self.cell);
         self.view.clone().unwrap_or_else(told)
@@ -217,7 +217,7 @@ impl Fact {
 }
 
 impl Document<'_> {
-    /// All facts and tables, those of groups too.
+    /// Visits all facts and tables, including those of groups.
     fn walk<'b>(entries: &'b [Entry], see: &mut dyn FnMut(&'b Entry)) {
         for entry in entries {
             match entry {
@@ -238,7 +238,7 @@ impl Document<'_> {
         tables
     }
 
-    /// The figures that are known and that people see, in order.
+    /// The known figures for people, in order.
     pub fn facts(&self) -> Vec<&Fact> {
         let mut facts = Vec::new();
         Self::walk(&self.entries.0, &mut |entry| {

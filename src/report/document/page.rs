@@ -1,4 +1,4 @@
-//! Documents as a page, and all files of a document.
+//! Documents as HTML pages, and all files of a document.
 
 use serde_json::{Value, json};
 
@@ -9,8 +9,8 @@ use crate::plots::{Figure, PictureError, Sheet};
 use physics::parallel;
 
 impl Document<'_> {
-    /// The report, tables, pictures with their numbers, and the page that shows them all, made by
-    /// `command`; and what went wrong where a picture could not be drawn, which the others do without.
+    /// All files: the report, tables, pictures with their numbers, and the page, made by `command`;
+    /// and the errors of pictures that could not be drawn, which are omitted.
     pub fn files(&self, sheet: &Sheet, command: &str) -> (Files, Result<(), PictureError>) {
         let mut whole = Ok(());
         let figures: Vec<Vec<Figure>> = (self.drawn(sheet).into_iter())
@@ -27,27 +27,27 @@ impl Document<'_> {
         files.insert(REPORT.to_owned(), self.report().into_bytes());
         let named = figures.into_iter().flatten().flat_map(Figure::files);
         files.extend(named.map(|(name, bytes)| (format!("{PICTURES}/{name}"), bytes)));
-        // Of pathways there are many, and tables and the page name them.
+        // Pathways are not listed: there are many, and tables and the page name them.
         let linked = files.keys().filter(|name| !name.starts_with("pathways/"));
         let page = page.made_by(command).beside(linked).to_html();
         files.insert(PAGE.to_owned(), page.into_bytes());
         (files, whole)
     }
 
-    /// The page by itself, made by `command`.
+    /// Only the page, made by `command`.
     ///
     /// # Errors
-    /// Where a picture cannot be drawn.
+    /// If a picture cannot be drawn.
     pub fn html(&self, command: &str) -> Result<String, PictureError> {
         let figures = self.figures(&Sheet::SCREEN)?;
         let page = self.page(&Sheet::SCREEN, &figures);
         Ok(page.made_by(command).to_html())
     }
 
-    /// The pictures, drawn: those of each drawing.
+    /// Draws the pictures of each drawing.
     ///
     /// # Errors
-    /// Where one cannot be drawn.
+    /// If a picture cannot be drawn.
     pub fn figures(&self, sheet: &Sheet) -> Result<Vec<Vec<Figure>>, PictureError> {
         self.drawn(sheet).into_iter().collect()
     }
@@ -89,7 +89,7 @@ impl Document<'_> {
 }
 
 impl Document<'_> {
-    /// What reproduces the result, setting by setting.
+    /// The settings that reproduce the result.
     fn settings(&self) -> Option<page::Table> {
         let asked = self.entries.0.iter().find_map(|entry| match entry {
             Entry::Data("settings", asked) => Some(asked),
@@ -101,7 +101,7 @@ impl Document<'_> {
     }
 }
 
-/// The values of an object and of those in it, each with the keys that lead to it.
+/// The values of an object and its nested objects, each with its path of keys.
 fn flatten(name: &str, value: &Value, rows: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(inner) => {

@@ -1,11 +1,12 @@
-//! Tables are made of rows, column by column, each declared once with its key, name, meaning and value.
+//! Tables built column by column; each column is declared once with its key, name, meaning and
+//! value.
 
 use std::borrow::Cow;
 
 use super::table::Parts;
 use super::{Cell, Head, Table, Unit};
 
-/// Rows of which a table is made, column by column.
+/// Rows from which a table is built, column by column.
 ///
 /// ```
 /// use tilebind_report::document::rows;
@@ -22,7 +23,7 @@ pub struct Rows<'a, Row> {
     columns: Vec<Column<'a, Row>>,
 }
 
-/// What makes something of a row.
+/// A function of a row.
 type Of<'a, Row, T> = dyn Fn(&Row) -> T + 'a;
 
 /// A column whose cells are made from `Row`s.
@@ -32,7 +33,7 @@ struct Column<'a, Row> {
     view: Option<Box<Of<'a, Row, String>>>,
 }
 
-/// Rows for some things.
+/// Starts a table with one row per item.
 pub fn rows<'a, Row>(rows: impl IntoIterator<Item = Row>) -> Rows<'a, Row> {
     Rows {
         rows: rows.into_iter().collect(),
@@ -41,7 +42,7 @@ pub fn rows<'a, Row>(rows: impl IntoIterator<Item = Row>) -> Rows<'a, Row> {
 }
 
 impl<'a, Row> Rows<'a, Row> {
-    /// A column more: its key in files, which ends in its unit, what people call it, what it means,
+    /// Adds a column: its key in files, which ends in its unit, its name for people, its meaning,
     /// and its value in a row.
     #[must_use]
     pub fn column<C: Into<Cell>>(
@@ -59,7 +60,7 @@ impl<'a, Row> Rows<'a, Row> {
         self
     }
 
-    /// The last column as people read it, where that is more than the value.
+    /// Sets the text of the last column for people, if that is more than the value.
     #[must_use]
     pub fn viewed(mut self, view: impl Fn(&Row) -> String + 'a) -> Self {
         if let Some(column) = self.columns.last_mut() {
@@ -75,61 +76,61 @@ impl<'a, Row> Rows<'a, Row> {
         self
     }
 
-    /// The last column has shares of all.
+    /// Marks the last column as shares.
     #[must_use]
     pub fn share(self) -> Self {
         self.last(|head| head.unit = Unit::Share)
     }
 
-    /// People see so many digits of the last column.
+    /// Sets the number of digits of the last column for people.
     #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         self.last(|head| head.digits = digits)
     }
 
-    /// The last column has sampled shares of all.
+    /// Marks the last column as sampled shares.
     #[must_use]
     pub fn sampled(self) -> Self {
         self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))
     }
 
-    /// The last column is for programs only.
+    /// Restricts the last column to programs.
     #[must_use]
     pub fn in_data(self) -> Self {
         self.last(|head| head.is_viewed = false)
     }
 
-    /// The last column is in JSON only.
+    /// Restricts the last column to JSON.
     #[must_use]
     pub fn in_json(self) -> Self {
         self.in_data().without_csv()
     }
 
-    /// The last column is no number, and in no table of them.
+    /// Excludes the last column from tables of numbers.
     #[must_use]
     pub fn without_csv(self) -> Self {
         self.last(|head| head.is_csv = false)
     }
 
-    /// The last column is in tables of numbers only.
+    /// Restricts the last column to tables of numbers.
     #[must_use]
     pub fn in_csv(self) -> Self {
         self.in_data().last(|head| head.is_data = false)
     }
 
-    /// The last column is for people only.
+    /// Restricts the last column to people.
     #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|head| (head.is_data, head.is_csv, head.is_viewed) = (false, false, true))
     }
 
-    /// The last column is for people only, and not for the terminal.
+    /// Restricts the last column to the page.
     #[must_use]
     pub fn on_page(self) -> Self {
         self.in_view().last(|head| head.is_printed = false)
     }
 
-    /// The table, by what JSON calls it.
+    /// The finished table, with its key in JSON.
     pub fn table(self, key: &'static str) -> Table {
         let cells = |row: &Row| -> Vec<_> {
             let cell = |column: &Column<Row>| {

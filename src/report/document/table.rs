@@ -1,4 +1,4 @@
-//! Tables and their cells: what is known, and how people and programs read it.
+//! Tables and their cells, and how people and programs read them.
 
 use std::borrow::Cow;
 
@@ -16,18 +16,18 @@ use physics::units::si_range;
 /// A value of a table or a fact.
 #[derive(Clone, Debug)]
 pub enum Cell {
-    /// Not known, or there is none.
+    /// Not known, or absent.
     Missing,
-    /// A quantity; what is not finite is not known, or never.
+    /// A quantity; non-finite numbers mean not known, or never.
     Number(f64),
-    /// A count or a number by which something is called.
+    /// A count or an index.
     Whole(i128),
     /// Whether something holds.
     Truth(bool),
     /// A name.
     Text(String),
-    /// The ends between which a quantity lies; in tables of numbers two columns, `low` and `high` in
-    /// place of `interval` or `bounds`.
+    /// The ends of an interval; in tables of numbers two columns, `low` and `high` in place of
+    /// `interval` or `bounds`.
     Interval([Option<f64>; 2]),
     /// A configuration (m, m, rad); in tables of numbers three columns.
     Pose(Configuration),
@@ -35,9 +35,9 @@ pub enum Cell {
     Place(Place),
     /// A sampled share with its 95 % interval.
     Sampled(Proportion),
-    /// Rows of their own; a table of numbers repeats the first column of the row that they belong to.
+    /// Nested rows; a table of numbers repeats the first column of the enclosing row.
     Rows(Table),
-    /// What programs alone read.
+    /// Data for programs only.
     Data(Value),
 }
 
@@ -70,7 +70,7 @@ impl Cell {
         }
     }
 
-    /// What a table sorts by: a number, or the text itself.
+    /// The sort key: a number, or the text itself.
     pub fn key(&self) -> Value {
         match self {
             Self::Number(value) if value.is_finite() => json!(value),
@@ -83,7 +83,7 @@ impl Cell {
         }
     }
 
-    /// As JSON has it; what is not finite is null.
+    /// As JSON; non-finite numbers are null.
     pub fn json(&self) -> Value {
         match self {
             Self::Missing => Value::Null,
@@ -135,20 +135,20 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
     }
 }
 
-/// What a figure or a column is.
+/// The description of a figure or a column.
 #[derive(Clone, Debug)]
 pub struct Head {
-    /// What files call it; ends in the unit.
+    /// Its key in files, which ends in the unit.
     pub key: Cow<'static, str>,
-    /// What people call it; empty for what programs only read.
+    /// Its name for people; empty for data for programs.
     pub name: Cow<'static, str>,
-    /// What it means, in a sentence.
+    /// Its meaning, in a sentence.
     pub meaning: &'static str,
-    /// What it is measured in.
+    /// Its unit.
     pub unit: Unit,
-    /// Which columns it is in tables of numbers.
+    /// Its columns in tables of numbers.
     pub(super) parts: Parts,
-    /// Digits that people see.
+    /// Number of digits for people.
     pub digits: usize,
     /// Whether programs read it, in JSON ...
     pub is_data: bool,
@@ -156,18 +156,18 @@ pub struct Head {
     pub is_csv: bool,
     /// Whether people see it ...
     pub is_viewed: bool,
-    /// ... and on a terminal, too.
+    /// ... also on a terminal.
     pub is_printed: bool,
 }
 
-/// What a column of figures is in tables of numbers.
+/// The columns of a figure in tables of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parts {
     /// One column.
     One,
-    /// `low` and `high`, where the key has `interval` or `bounds`.
+    /// `low` and `high`, if the key has `interval` or `bounds`.
     Ends,
-    /// x, y and theta, where the key ends in `pose`.
+    /// x, y and theta, if the key ends in `pose`.
     Pose,
     /// A share with the ends of its interval.
     Sampled,
@@ -185,7 +185,7 @@ impl Parts {
 }
 
 impl Head {
-    /// Of a quantity whose unit its key says.
+    /// Creates the description of a quantity whose unit is in its key.
     pub fn new(
         key: impl Into<Cow<'static, str>>,
         name: impl Into<Cow<'static, str>>,
@@ -206,7 +206,7 @@ impl Head {
         }
     }
 
-    /// A value as people read it.
+    /// A value for people.
     pub fn told(&self, cell: &Cell) -> String {
         cell.told(self.unit, self.digits)
     }
@@ -217,22 +217,22 @@ impl Head {
 pub enum Link {
     /// A state, by its id.
     State(usize),
-    /// A way, by its number among those that are played.
+    /// A path, by its index among the animated ones.
     Way(usize),
 }
 
 /// Rows of figures.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// What JSON calls it.
+    /// Its key in JSON.
     pub key: &'static str,
     /// The stem of its file of numbers, if it has one.
     pub file: Option<&'static str>,
-    /// What its rows are.
+    /// Its title.
     pub title: String,
-    /// What else there is to know of it.
+    /// A note on it.
     pub note: String,
-    /// Whether JSON has it.
+    /// Whether it is in JSON.
     pub is_data: bool,
     /// Whether people see it ...
     pub is_viewed: bool,
@@ -240,25 +240,25 @@ pub struct Table {
     pub is_printed: bool,
     /// ... and on the page.
     pub is_paged: bool,
-    /// What the page shows when a row is clicked; nothing where it is empty.
+    /// What the page shows when a row is clicked; empty for nothing.
     pub links: Vec<Option<Link>>,
-    /// Rows that a terminal has at most, the first ones.
+    /// Largest number of rows on a terminal.
     pub listed: usize,
-    /// What its columns are.
+    /// The descriptions of its columns.
     pub heads: Vec<Head>,
-    /// The cells, with their texts where these are more than the values.
+    /// The cells, with their texts if these are more than the values.
     pub rows: Vec<Vec<(Cell, Option<String>)>>,
 }
 
 impl Table {
-    /// With a file of numbers of this name.
+    /// Adds a file of numbers with this name.
     #[must_use]
     pub fn in_file(mut self, stem: &'static str) -> Self {
         self.file = Some(stem);
         self
     }
 
-    /// With what its rows are, and what else there is to know of it.
+    /// Sets the title and the note.
     #[must_use]
     pub fn titled(mut self, title: impl Into<String>, note: impl Into<String>) -> Self {
         self.title = title.into();
@@ -266,49 +266,49 @@ impl Table {
         self
     }
 
-    /// For programs only.
+    /// Restricts the table to programs.
     #[must_use]
     pub fn in_data(mut self) -> Self {
         self.is_viewed = false;
         self
     }
 
-    /// For programs only, as a file of numbers of this name.
+    /// Restricts the table to programs, with a file of numbers with this name.
     #[must_use]
     pub fn in_csv(mut self, stem: &'static str) -> Self {
         (self.is_data, self.is_viewed) = (false, false);
         self.in_file(stem)
     }
 
-    /// Not on the terminal.
+    /// Excludes the table from the terminal.
     #[must_use]
     pub fn on_page(mut self) -> Self {
         self.is_printed = false;
         self
     }
 
-    /// Not on the page.
+    /// Excludes the table from the page.
     #[must_use]
     pub fn on_terminal(mut self) -> Self {
         self.is_paged = false;
         self
     }
 
-    /// With what the page shows when a row is clicked.
+    /// Sets what the page shows when a row is clicked.
     #[must_use]
     pub fn linked(mut self, links: impl IntoIterator<Item = Option<Link>>) -> Self {
         self.links = links.into_iter().collect();
         self
     }
 
-    /// With so many rows on a terminal at most.
+    /// Sets the largest number of rows on a terminal.
     #[must_use]
     pub fn listing(mut self, most: usize) -> Self {
         self.listed = most;
         self
     }
 
-    /// For people only.
+    /// Restricts the table to people.
     #[must_use]
     pub fn in_view(mut self) -> Self {
         self.is_data = false;
@@ -316,7 +316,7 @@ impl Table {
         self
     }
 
-    /// The columns that people see, by their numbers: those of which anything is known.
+    /// The indices of the columns for people that have any known value.
     pub fn viewed(&self) -> impl Iterator<Item = usize> {
         let is_known = |k: usize| {
             self.rows
@@ -329,7 +329,7 @@ impl Table {
             .map(|(k, _)| k)
     }
 
-    /// A cell as people read it.
+    /// The text of a cell for people.
     pub fn text(&self, row: usize, column: usize) -> String {
         let (cell, view) = &self.rows[row][column];
         view.clone()

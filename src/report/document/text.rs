@@ -1,4 +1,4 @@
-//! Documents on a terminal.
+//! Documents as terminal text.
 
 use std::fmt::Write;
 
@@ -6,10 +6,10 @@ use super::{Document, Table};
 use crate::markdown::{markdown_table, without_html};
 use crate::terminal::write_fitted;
 
-/// Width of lines where no terminal says how wide it is.
+/// Default width of lines without a terminal.
 const WIDTH: usize = 100;
 
-/// A text in lines of this width at most, as far as its words go.
+/// Wraps a text at this width, between words.
 fn wrapped(text: &str, width: usize) -> String {
     let mut out = String::new();
     for line in text.lines() {
@@ -34,7 +34,7 @@ fn wrapped(text: &str, width: usize) -> String {
 }
 
 impl Document<'_> {
-    /// The answer, the tables and what to know of them; tables are folded at the terminal's width.
+    /// The headline, the tables and the notes; tables are folded at the terminal's width.
     pub fn text(&self, columns: Option<usize>) -> String {
         let width = columns.unwrap_or(WIDTH);
         let mut text = wrapped(&self.answer, width);
@@ -88,12 +88,12 @@ impl Document<'_> {
 }
 
 impl Table {
-    /// Whether people have anything to see in it.
+    /// Whether the table has anything to show to people.
     pub(super) fn is_shown(&self) -> bool {
         self.is_viewed && !self.rows.is_empty() && self.viewed().next().is_some()
     }
 
-    /// What people see on a terminal, its head first.
+    /// The texts of the table on a terminal, with the head first.
     pub(crate) fn texts(&self) -> Vec<Vec<String>> {
         let printed: Vec<usize> = self
             .viewed()

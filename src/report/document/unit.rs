@@ -1,19 +1,19 @@
-//! What quantities are measured in, and how people read them.
+//! Units of quantities, and how they are printed for people.
 
 use physics::units::{duration, plain, si};
 
-/// What a quantity is measured in.
+/// The unit of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Nothing: a count, a ratio, a name.
+    /// No unit: a count, a ratio, a name.
     None,
-    /// A part of all, which people read in percent.
+    /// A share, shown in per cent.
     Share,
     /// A unit by its symbol.
     Of(&'static str),
 }
 
-/// Ends of keys and the units that they stand for, longer ones first.
+/// Suffixes of keys and their units, longer ones first.
 const UNITS: [(&str, &str); 21] = [
     ("_m2_per_s", "m²/s"),
     ("_m2_s", "m²/s"),
@@ -39,7 +39,7 @@ const UNITS: [(&str, &str); 21] = [
 ];
 
 impl Unit {
-    /// The unit in which a key ends.
+    /// The unit of a key's suffix.
     pub fn of_key(key: &str) -> Self {
         let found = UNITS.iter().find(|(end, _)| key.ends_with(end));
         found.map_or(Self::None, |(_, symbol)| Self::Of(symbol))
@@ -51,7 +51,7 @@ impl Unit {
         found.next().unwrap_or(key)
     }
 
-    /// Its symbol; empty where there is none.
+    /// Its symbol; empty if there is none.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::None => "",
@@ -61,7 +61,7 @@ impl Unit {
     }
 }
 
-/// A number as people read it: with so many digits, its unit, and a prefix where that is usual.
+/// A number for people: with a number of digits, its unit, and an SI prefix where that is usual.
 pub fn told(value: f64, unit: Unit, digits: usize) -> String {
     match unit {
         _ if value.is_nan() => "-".to_owned(),

@@ -1,7 +1,7 @@
 // A sweep: a figure of its points over a number or another figure.
 
 const charts = page.charts;
-/** Okabe and Ito's colours, those of the pictures; the last one is the ink's. */
+/** Okabe and Ito's colours, as in the pictures; the last one is the text colour. */
 const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 const seriesColour = (k) => SERIES[k] ?? theme.ink;
 /** The point under the pointer, the one that was clicked, and the one that all are set against, by
@@ -19,10 +19,10 @@ function figureOf(point, figure) {
   return base ? numbers.map((v) => v === null ? null : v / base) : null;
 }
 
-/** Whether a point has no figure for want of a trap. */
+/** Whether a point has no figure because it has no trap. */
 const hasNoTrap = (point, figure) => charts.points[point].without.includes(figure);
 
-/** Ticks at powers of ten, in a unit, of a range of logarithms. */
+/** Ticks at powers of ten, in a unit, for a range of logarithms. */
 function decadeTicks([low, high]) {
   const ticks = [];
   for (let k = Math.ceil(low); k <= high; k++) ticks.push(k);
@@ -47,7 +47,7 @@ function figureTicks(range, unit, count) {
   return { ticks: ticks.map((t) => [t, minus(t.toFixed(decimals))]), name: "" };
 }
 
-/** A canvas with a heading and what belongs to it, in a grid of them. */
+/** A canvas with a heading and its controls, in a grid. */
 function panelCanvas(grid, heading, ...more) {
   const box = make("figure");
   const canvas = make("canvas");
@@ -60,7 +60,7 @@ function panelCanvas(grid, heading, ...more) {
   return canvas;
 }
 
-/** A button that says on which scale a panel is, and changes it. */
+/** A button that shows the scale of a panel, and changes it. */
 function scaleButton(panel) {
   const button = make("button");
   button.type = "button";
@@ -72,7 +72,7 @@ function scaleButton(panel) {
   return button;
 }
 
-/** Figures of one kind over a number, a curve a series. */
+/** Figures of one kind over a number, one curve per series. */
 class CurvePanel {
   /** `group`: the name of the axis, and series with a name and points, each a place on the axis and a
       point of the sweep; `panel`: a heading, a unit and figures. */
@@ -88,7 +88,7 @@ class CurvePanel {
 
   positive() { return this.all().filter((v) => v > 0); }
 
-  /** By logarithms where that was asked for, or where positive numbers span several powers of ten. */
+  /** Logarithmic if requested, or if positive numbers span several powers of ten. */
   isLogarithmic() {
     const all = this.all();
     if (!this.positive().length || all.some((v) => v < 0)) return false;
@@ -97,7 +97,7 @@ class CurvePanel {
     return this.panel.unit !== "%" && spread > MOST_DECADES;
   }
 
-  /** From zero, or from below it, to a little above the highest value; of logarithms, about them. */
+  /** From zero, or below, to slightly above the highest value; the range of the values for logarithms. */
   range() {
     const all = this.all();
     if (this.logarithmic) {
@@ -110,7 +110,7 @@ class CurvePanel {
     return [low < 0 ? low - 0.08 * (high - low) : 0, high + 0.08 * (high - low)];
   }
 
-  /** Where a value stands on the axis; by logarithms zero is at the foot. */
+  /** The position of a value on the axis; on a logarithmic one zero is at the bottom. */
   at(x, value) {
     const y = this.logarithmic ? Math.max(this.values[0], Math.log10(value)) : value;
     return this.plot.at(x, y);
@@ -184,14 +184,14 @@ class CurvePanel {
         pen.globalAlpha = 1;
       }
       pen.strokeStyle = colour;
-      // Later curves are thinner, so that an earlier one can be seen beneath.
+      // Later curves are thinner, so that earlier ones remain visible below them.
       pen.lineWidth = 1.6 + 2.4 * (this.group.series.length - 1 - number) / this.group.series.length;
       line(pen, piece.map(({ x, estimate }) => this.at(x, estimate[0])));
       for (const { x, point, estimate } of piece) this.dots.push({ point, at: this.at(x, estimate[0]), colour });
     }
     for (const { x, point, estimate } of known) {
       if (!estimate || estimate[0] !== null) continue;
-      // No way at all, proved: beyond any scale.
+      // Proved to have no path: beyond any scale.
       const [px] = this.plot.at(x, this.values[1]);
       const top = this.plot.box[1];
       pen.strokeStyle = colour;
@@ -202,7 +202,7 @@ class CurvePanel {
     return known.some(({ estimate }) => estimate);
   }
 
-  /** Crosses for impossible designs, rings where there is no trap; whether there was one of these. */
+  /** Crosses for impossible designs, rings for those without a trap; whether there was one of these. */
   signs(pen, series, number) {
     const colour = pen.strokeStyle = seriesColour(number);
     const [, top, , bottom] = this.plot.box;
@@ -213,7 +213,7 @@ class CurvePanel {
       const impossible = !charts.points[point].figures.length;
       const ring = !impossible && hasNoTrap(point, this.panel.figures[0]);
       if (!impossible && !ring) continue;
-      // Without a trap nothing competes: a ratio is then beyond any scale.
+      // Without a trap a ratio is beyond any scale.
       const y = ring && !this.panel.unit ? top + 8 + 9 * number : bottom - 8 - 9 * number;
       if (impossible) {
         line(pen, [[px - 3.5, y - 3.5], [px + 3.5, y + 3.5]]);

@@ -1,4 +1,4 @@
-//! The points of a sweep as a page's data.
+//! The points of a sweep as data of the page.
 
 use serde::Serialize;
 
@@ -10,21 +10,21 @@ use crate::sweep::points::Variable;
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES};
 use jobs::comparison::{Assessment, Quantity};
 
-/// What a page needs to tell of points and to draw a figure of them against another.
+/// The data for plotting figures of points against each other.
 #[derive(Clone, Debug, Serialize)]
 pub struct Charts {
     /// The varied numbers, with their units.
     axes: Vec<String>,
-    /// All figures, in the order in which points have them.
+    /// All figures, in the order of the points' values.
     figures: Vec<ChartFigure>,
-    /// The tiles of points; none where there are many points.
+    /// The tiles of points; empty if there are many points.
     tiles: Vec<Thumbnail>,
     points: Vec<ChartPoint>,
-    /// The point that all are set against at first.
+    /// The initial baseline point.
     baseline: Option<usize>,
 }
 
-/// A figure that can be chosen.
+/// A selectable figure.
 #[derive(Clone, Debug, Serialize)]
 struct ChartFigure {
     label: &'static str,
@@ -35,22 +35,22 @@ struct ChartFigure {
 /// A point of the sweep.
 #[derive(Clone, Debug, Serialize)]
 struct ChartPoint {
-    /// What it is called.
+    /// Its name.
     name: String,
-    /// What it has in common with others, but for the varied numbers.
+    /// The series it belongs to: all points that differ only in the varied numbers.
     series: String,
-    /// Its places on the axes; null where it is not a number.
+    /// Its coordinates on the axes; null if it is not a number.
     places: Vec<Option<f64>>,
-    /// Which of the tiles are its own.
+    /// The index of its tiles.
     tiles: Option<usize>,
     /// The file of its design beside the page.
     design: Option<String>,
-    /// The figures that it has not for want of a trap.
+    /// The figures that are missing because there is no trap.
     without: Vec<usize>,
-    /// What is said of it under the pointer.
+    /// The text under the pointer.
     readout: String,
-    /// Of each figure the value and its bounds (SI), a value of null where there is no way at all;
-    /// null where the figure is not known. None at all for an impossible design.
+    /// For each figure the value and its bounds (SI), with a value of null if there is no path at
+    /// all; null if the figure is not known. Empty for an impossible design.
     figures: Vec<Option<[Option<f64>; 3]>>,
 }
 
@@ -80,7 +80,7 @@ impl Charts {
     }
 }
 
-/// Without the dust of a change of unit.
+/// Removes rounding errors of a change of unit.
 fn tidy(value: f64) -> f64 {
     super::rounded(value, 9)
 }

@@ -1,7 +1,7 @@
-// Many tiles on a table, moment by moment.
+// Many tiles on a table, frame by frame.
 
 const crowd = page.crowd;
-/** The longest that a run takes to play (s); one shorter than this plays as it was. */
+/** Longest playing time (s); a shorter run plays in real time. */
 const LONGEST = 40;
 const moment = { frame: 0, playing: false };
 
@@ -30,7 +30,7 @@ function drawCrowd() {
   element("crowd-play").textContent = moment.playing ? "Pause" : "Play";
 }
 
-/** What a tile is called, where there is room for it. */
+/** Writes the name of a tile if there is room for it. */
 function label(pen, kind, [x, y], scale) {
   const room = scale * Math.max(...kind.outline.map(([a, b]) => Math.hypot(a, b)));
   if (pen.measureText(kind.name).width > 1.2 * room) return;

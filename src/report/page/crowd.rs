@@ -1,4 +1,4 @@
-//! Many tiles on a table that a page plays.
+//! The animation of many tiles on a page.
 
 use serde::Serialize;
 
@@ -8,21 +8,21 @@ use jobs::table::Found;
 use physics::table::contacts::{Held, Tie};
 use physics::table::{Mover, Sample};
 
-/// Poses that a page holds at most; of more tiles it has fewer moments.
+/// Largest number of poses on a page; with more tiles there are fewer frames.
 const MOST_POSES: usize = 20_000;
 
-/// A run, moment by moment.
+/// A run, frame by frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Crowd {
-    /// What is played.
+    /// The caption.
     note: String,
     /// The table's size (m).
     size: [f64; 2],
     /// The kinds of tiles.
     kinds: Vec<Kind>,
-    /// The number of the kind of each tile.
+    /// The index of each tile's kind.
     tiles: Vec<usize>,
-    /// In order.
+    /// The frames, in order.
     frames: Vec<Frame>,
 }
 
@@ -34,7 +34,7 @@ struct Kind {
     shape: Drawn,
 }
 
-/// The table at one moment.
+/// The table at one time.
 #[derive(Clone, Debug, Serialize)]
 struct Frame {
     time: f64,
@@ -45,7 +45,7 @@ struct Frame {
 }
 
 impl Crowd {
-    /// The first of the runs that were made; the last moment is always among those that are kept.
+    /// The animation of the first computed run; it always includes the last frame.
     pub fn new(found: &Found) -> Self {
         let crowd = &found.crowd;
         let run = found.runs.first();
@@ -78,7 +78,7 @@ impl Crowd {
         });
         Self {
             note: format!(
-                "Run {}: lines join tiles that hold each other.",
+                "Run {}: lines join the tiles of bonds and traps.",
                 run.map_or(0, |run| run.index)
             ),
             size: crowd.half_size.map(|half| 2.0 * half),

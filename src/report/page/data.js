@@ -8,16 +8,16 @@ const element = (id) => document.getElementById(id);
 
 const minus = (text) => text.replace("-", "\u2212");
 
-/** The power of ten of a number rounded to so many significant digits. */
+/** The power of ten of a number rounded to this many significant digits. */
 const powerOf = (value, digits) => Number(value.toExponential(digits - 1).split("e")[1]);
 
-/** What the SI prefix stands for with which a size, rounded to so many digits, is below 1000, and the prefix. */
+/** The factor of the SI prefix with which a size, rounded to this many digits, is below 1000, and the prefix. */
 function prefixOf(size, digits = 16) {
   const prefixes = [[1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"]];
   return prefixes.find(([scale]) => powerOf(size / scale, Math.max(3, digits)) < 3) ?? prefixes[5];
 }
 
-/** The decimals that give a number so many significant digits once it is rounded. */
+/** The decimals that give a rounded number this many significant digits. */
 const decimalsOf = (value, digits) => Math.max(0, digits - 1 - powerOf(value, digits));
 
 function si(value, unit, digits = 4) {
@@ -46,7 +46,7 @@ const full = world ? Math.asinh(world.most / linear) : 1;
 const positionOf = (energy) => Math.max(-1, Math.min(1, Math.asinh(energy / linear) / full));
 const energyOf = (position) => linear * Math.sinh(position * full);
 
-/** An energy as text, 0 where it is lost on the scale. */
+/** An energy as text, 0 if it is negligible on the scale. */
 const energyText = (energy, digits = 4) =>
   Math.abs(energy) < 1e-3 * linear ? "0 J" : si(energy, "J", digits);
 
@@ -108,7 +108,7 @@ function positionAt(volume, plane, u, v) {
 }
 
 const stateOf = (id) => world.states.find((state) => state.id === id);
-/** Kinds of states: copies that symmetry makes have one class. */
+/** Kinds of states: symmetric copies have one class. */
 const classOf = (id) => stateOf(id)?.class ?? null;
 
 // Poses

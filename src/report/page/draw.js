@@ -122,7 +122,7 @@ function line(pen, points, closed = false) {
   pen.stroke();
 }
 
-/** A line with a seam that sets it off from any ground. */
+/** A line with an outline that contrasts with any background. */
 function seamed(pen, points, colour, width) {
   pen.strokeStyle = "#fff";
   pen.lineWidth = width + 2.4;
@@ -132,7 +132,7 @@ function seamed(pen, points, colour, width) {
   line(pen, points);
 }
 
-/** A star for the bond, a disc for a trap, a ring for free tiles, a diamond for where one is. */
+/** A star for the bond, a disc for a trap, a ring for free tiles, a diamond for the current place. */
 function marker(pen, kind, [x, y], radius) {
   pen.beginPath();
   if (kind === "bound") {
@@ -176,7 +176,7 @@ function drawTile(pen, tile, pose, at, fill) {
     };
     const half = magnet.size[0] / 2;
     if (magnet.stands) {
-      // The pole that is up, and which it is.
+      // The upper pole, with its letter.
       pen.fillStyle = magnet.stands.up === "N" ? theme.north : theme.south;
       const [x, y] = at(placed(magnet.position, pose));
       const [ex, ey] = at(placed([magnet.position[0] + half, magnet.position[1]], pose));
@@ -228,13 +228,13 @@ function extent(poses) {
   return box;
 }
 
-/** Where a pointer is on a canvas. */
+/** The position of a pointer on a canvas. */
 function pointer(canvas, event) {
   const box = canvas.getBoundingClientRect();
   return [event.clientX - box.left, event.clientY - box.top];
 }
 
-/** The outline of the moving tile where the pointer is. */
+/** The outline of the moving tile at the pointer. */
 function ghost(pen, pose, at) {
   pen.save();
   pen.setLineDash([5, 4]);
@@ -244,7 +244,7 @@ function ghost(pen, pose, at) {
   pen.restore();
 }
 
-/** Fills a plot with the hatching of what is blocked. */
+/** Fills a plot with the hatching of blocked regions. */
 function hatch(pen, plot) {
   const [left, top, right, bottom] = plot.box;
   pen.fillStyle = theme.hatch;
@@ -268,7 +268,7 @@ function drawColourBar() {
   pen.textAlign = "center";
   pen.textBaseline = "top";
   const taken = [];
-  // Zero first, then outwards: where numbers would collide the later ones are left out.
+  // Zero first, then outwards: numbers that would collide with earlier ones are omitted.
   for (const energy of energyTicks(-1, 1).sort((a, b) => Math.abs(a) - Math.abs(b))) {
     const x = left + (right - left) * (positionOf(energy) + 1) / 2;
     line(pen, [[x, 18], [x, 23]]);

@@ -1,11 +1,11 @@
-//! The parts of a page put together.
+//! Assembles a page from its parts.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use physics::order::Order;
 use sha2::{Digest, Sha256};
 
-/// What to cite, as BibTeX: the program, and the paper that it follows.
+/// The citation as BibTeX: the program, and the paper it follows.
 pub const CITATION: &str = concat!(
     "@software{tilebind,\n",
     "  title   = {tilebind: how two magnetic tiles bind},\n",
@@ -21,8 +21,8 @@ pub const CITATION: &str = concat!(
     "}\n"
 );
 
-/// A template with its placeholders replaced, each found once; what replaces one is not searched
-/// for another.
+/// A template with its placeholders replaced. Each occurs once; replacements are not searched for
+/// further placeholders.
 pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut places: Vec<_> = parts
         .iter()
@@ -46,7 +46,7 @@ pub fn hash(content: &str) -> String {
     format!("'sha256-{digest}'")
 }
 
-/// A text as markup shows it.
+/// A text escaped for markup.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;")
 }

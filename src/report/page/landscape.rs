@@ -1,4 +1,4 @@
-//! The landscape of a pair of tiles as a page's data.
+//! The landscape of a pair of tiles as data of the page.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -21,7 +21,7 @@ use physics::potential::{DipolePotential, MagnetModel, Potential};
 use physics::tile::Tile;
 use physics::tile::magnet::{Form, Shape, Standing};
 
-/// Orientations to a full turn of the moving tile, and to its part after which it repeats.
+/// Number of orientations per full turn of the moving tile, and per period of its symmetry.
 const ORIENTATIONS: [usize; 2] = [144, 72];
 /// Grid points of the map all around, and the most along a side.
 const AROUND: f64 = 400_000.0;
@@ -29,18 +29,18 @@ const LONGEST: f64 = 121.0;
 /// Gaps, tilts and slides of the map in front of the target face.
 const IN_FRONT: [usize; 3] = [25, 61, 61];
 
-/// What a page needs to draw a landscape and to move tiles about in it. Lengths in m, angles in
-/// rad, energies in J.
+/// The data for drawing a landscape and moving tiles in it. Lengths in m, angles in rad, energies
+/// in J.
 #[derive(Clone, Debug, Serialize)]
 pub struct Landscape {
     /// Largest energy of the scale; see [`EnergyScale`].
     most: f64,
     decades: i32,
-    /// Colours of positions from -1 to 1, evenly.
+    /// Colours of evenly spaced positions from -1 to 1.
     palette: &'static [[u8; 3]],
     fixed: Drawn,
     moving: Drawn,
-    /// Whether U is the sum over the magnets as point dipoles, so that the page may compute it.
+    /// Whether U is the sum over point dipoles, so that the page can compute it.
     dipoles: bool,
     target: TargetFaces,
     around: Packed,
@@ -74,7 +74,7 @@ pub(super) struct DrawnMagnet {
     stands: Option<Stands>,
 }
 
-/// Of a magnet that stands: which pole is up, and whether it is a disc.
+/// An upright magnet: which pole is up, and whether it is a disc.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Stands {
     up: char,
@@ -82,7 +82,7 @@ pub(super) struct Stands {
 }
 
 impl Stands {
-    /// `None` of magnets that lie.
+    /// `None` for magnets that lie flat.
     pub(super) fn of(form: Form) -> Option<Self> {
         form.stands.map(|stands| Self {
             up: match stands {
@@ -116,7 +116,7 @@ struct DrawnState {
 }
 
 impl Landscape {
-    /// The landscape of a scene and the ways through it that are played.
+    /// The landscape of a scene and the animated paths through it.
     pub fn new(design: &Design, scene: &Scene, pathways: Vec<Played>) -> Self {
         let around = whole(scene);
         let in_front = in_front(scene);
@@ -160,8 +160,8 @@ impl Landscape {
     }
 }
 
-/// The map all around the fixed tile: at least so many orientations, and as many places as the
-/// number of grid points leaves.
+/// The map all around the fixed tile: at least [`ORIENTATIONS`], and as many positions as the
+/// number of grid points allows.
 pub fn whole(scene: &Scene) -> Volume {
     let repeats = physics::tile::symmetry::rotations(&scene.pair.moving).len();
     let orientations = ORIENTATIONS[usize::from(repeats == 1)];
@@ -180,7 +180,7 @@ pub fn in_front(scene: &Scene) -> InFront {
     InFront::new(
         scene.problem,
         &approach,
-        // Closer together where the energy is steep.
+        // Grid points are denser where the energy is steep.
         evenly(0.0, 1.0, gaps)
             .into_iter()
             .map(|u| 0.5 * length * u * u)

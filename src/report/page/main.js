@@ -29,7 +29,7 @@ function showPage() {
   element("citation").textContent = page.citation;
 }
 
-/** A picture, told under the pointer what its places are. */
+/** A picture that describes the place under the pointer. */
 function drawnOf(source, title) {
   const parsed = new DOMParser().parseFromString(source, "image/svg+xml");
   const picture = document.importNode(parsed.documentElement, true);
@@ -60,7 +60,7 @@ function listFiles(files) {
 let views = null;
 let waiting = false;
 
-/** Draws everything anew, once, before the next frame. */
+/** Redraws everything once before the next frame. */
 function redraw() {
   if (waiting || !views) return;
   waiting = true;
@@ -104,7 +104,7 @@ function takePath(index) {
   markChosen();
 }
 
-/** Shows a state's pose, and the way out of it or of another of its kind. */
+/** Shows a state's pose, and the exit of it or of another state of its kind. */
 function choose(state) {
   if (!views) return;
   now.chosen = state;
@@ -116,7 +116,7 @@ function choose(state) {
   redraw();
 }
 
-/** Takes a way from its beginning. */
+/** Shows a path from its start. */
 function choosePath(index) {
   if (!views) return;
   now.playing = false;
@@ -204,7 +204,7 @@ async function showLandscape() {
   }
   if (world.pathways.length) {
     takePath(0);
-    // Where the way in is steepest says more than its far end.
+    // The steepest part of the approach is more informative than its far end.
     goTo(0.6);
   }
   now.chosen = world.states.length ? world.states[0].id : null;

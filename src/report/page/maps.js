@@ -21,7 +21,7 @@ function mapImage(volume, plane, width, height) {
   return canvas;
 }
 
-/** A map: a plane of a volume, chosen by a slider, with what lies on it. */
+/** A map: a plane of a volume, chosen by a slider, with the states and the path on it. */
 class MapView {
   constructor(id, volume, { xName, yName, xUnit, yUnit, shape }) {
     Object.assign(this, { canvas: element(id), volume, xName, yName, xUnit, yUnit, shape });
@@ -37,7 +37,7 @@ class MapView {
     return values.map((value, k) => (value - this.ranges[k][0]) / (this.ranges[k][1] - this.ranges[k][0]));
   }
 
-  /** The state that is drawn under the pointer. */
+  /** The state under the pointer. */
   stateAt(event) {
     const [px, py] = pointer(this.canvas, event);
     const apart = ({ at: [x, y] }) => Math.hypot(x - px, y - py);
@@ -46,7 +46,7 @@ class MapView {
     return near.sort((a, b) => apart(a) - apart(b))[0]?.state ?? null;
   }
 
-  /** Marks a state, paler where it lies out of the plane. */
+  /** Marks a state, paler if it lies outside the plane. */
   mark(pen, state, at, here) {
     pen.globalAlpha = here ? 1 : 0.4;
     marker(pen, state.kind, at, here ? 5.5 : 3.5);
@@ -137,7 +137,7 @@ class AroundView extends MapView {
       const [r, s] = [a[(i + 1) % a.length], b[(j + 1) % b.length]];
       const corners = [plus(p, q), plus(r, q), plus(r, s), plus(p, s)];
       const area = (r[0] - p[0]) * (s[1] - q[1]) - (r[1] - p[1]) * (s[0] - q[0]);
-      // All one way round, so that they add up.
+      // All in the same orientation, so that they add up.
       add(area < 0 ? corners.reverse() : corners);
     }));
     return path;
@@ -173,7 +173,7 @@ class AroundView extends MapView {
   }
   isBlocked(event, position) {
     if (!this.blocked) return position !== position;
-    // With a pen that has no scale of its own.
+    // With a pen without a scale.
     const pen = new OffscreenCanvas(1, 1).getContext("2d");
     return pen.isPointInPath(this.blocked, ...pointer(this.canvas, event));
   }
@@ -184,7 +184,7 @@ class InFrontView extends MapView {
   constructor(volume) {
     super("in-front", volume, { xName: "slide", yName: "tilt", xUnit: "m", yUnit: "rad", shape: 0.96 });
   }
-  /** The distance along the normal at which the tiles first touch; null where they pass. */
+  /** The distance along the normal at which the tiles first touch; null if they do not. */
   landing(tilt, slide) {
     const [, tilts, slides] = this.volume.axes;
     const index = (axis, value) => (value - axis[0]) / (axis.at(-1) - axis[0]) * (axis.length - 1);
@@ -200,7 +200,7 @@ class InFrontView extends MapView {
     }
     return weight > 0 ? sum / weight : null;
   }
-  /** Tilt, slide and gap of a pose, null where it is not in front of the target face. */
+  /** Tilt, slide and gap of a pose, null if it is not in front of the target face. */
   coordinates(pose) {
     const { tilt, slide, distance } = inFrontOf(pose);
     const landing = this.landing(tilt, slide);
@@ -250,7 +250,7 @@ class InFrontView extends MapView {
   }
 }
 
-/** An energy in words: computed where the formula is that of point dipoles, else from the map. */
+/** An energy as text: computed for point dipoles, otherwise from the map. */
 function energyAt(pose, position) {
   if (world.dipoles) return energyText(dipoleEnergy(pose));
   return position === position ? `about ${energyText(energyOf(position), 2)}` : "not on the map's grid";

@@ -1,4 +1,4 @@
-// Meetings of a set of words: a map of all faces against all, and the tiles of the one chosen.
+// Contacts of a set of words: a map of all pairs of faces, and the tiles of the chosen one.
 
 const meetings = page.meetings;
 let met = null;
@@ -6,7 +6,7 @@ let met = null;
 const shareOf = (energy) => Math.max(0, -energy / meetings.bond_J);
 const areMates = (i, j) => Math.abs(i - j) === meetings.names.length / 2;
 
-/** A tile with one face's magnets; of one turned over they lie the other way round. */
+/** A tile with one face's magnets, in reverse order if it is turned over. */
 function faceTile(magnets, over) {
   const lying = (m) => over ? { ...m, position: [m.position[0], -m.position[1]] } : m;
   return { outline: meetings.outline, magnets: magnets.map(lying) };

@@ -1,4 +1,4 @@
-//! Meetings of a set of words: all faces against all.
+//! The contacts of all faces of a set of words as data of the page.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -13,38 +13,38 @@ use physics::tile::Magnet;
 use physics::tile::magnet::Form;
 use physics::words::Word;
 
-/// A map of all faces, words and then their mates, against all: the strongest wrong meeting of each
-/// two, which a click shows.
+/// A map of all pairs of faces, words and then their mates: the strongest wrong contact of each
+/// pair, which a click shows.
 #[derive(Clone, Debug, Serialize)]
 pub struct Meetings {
     /// The heading.
     pub title: String,
-    /// What a cell is.
+    /// The meaning of a cell.
     pub note: String,
-    /// Of the faces.
+    /// The names of the faces.
     pub names: Vec<String>,
-    /// What they carry.
+    /// Their codes.
     pub codes: Vec<String>,
-    /// Energies (J), null of faces that do not meet.
+    /// Energies (J), null for faces that do not meet.
     #[serde(rename = "energies_J")]
     energies: Vec<Vec<Option<f64>>>,
-    /// Proved lower bounds (J); empty where nothing is proved.
+    /// Proved lower bounds (J); empty if nothing is proved.
     #[serde(rename = "lower_J")]
     lower: Vec<Vec<Option<f64>>>,
-    /// Of the tile with the second face in the frame of that with the first.
+    /// Poses of the tile with the second face in the frame of the tile with the first.
     poses: Vec<Vec<Option<[f64; 3]>>>,
-    /// Whether the second tile is turned over; empty where none ever is.
+    /// Whether the second tile is turned over; empty if none ever is.
     over: Vec<Vec<bool>>,
     /// Depth of the weakest bond (J).
     #[serde(rename = "bond_J")]
     bond: f64,
-    /// The meeting that is shown first.
+    /// The initially shown contact.
     worst: [usize; 2],
     /// The outline of both tiles.
     outline: Vec<[f64; 2]>,
-    /// The magnets of each face where its tile is the first, and where it is the second.
+    /// The magnets of each face when its tile is the first.
     first: Vec<Vec<Block>>,
-    /// See there.
+    /// The magnets of each face when its tile is the second.
     second: Vec<Vec<Block>>,
 }
 
@@ -58,14 +58,14 @@ struct Block {
     stands: Option<Stands>,
 }
 
-/// One meeting of two faces.
+/// One contact of two faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Met {
-    /// J.
+    /// Energy (J).
     pub energy: f64,
     /// Proved lower bound (J).
     pub lower: Option<f64>,
-    /// Of the second tile.
+    /// Pose of the second tile.
     pub pose: Configuration,
     /// Whether the second tile is turned over.
     pub over: bool,
@@ -76,13 +76,13 @@ pub struct Met {
 pub struct Carrier {
     /// Side of the tiles (m).
     pub side: f64,
-    /// Where the places lie along a face (m).
+    /// Positions of the places along a face (m).
     pub places: Vec<f64>,
-    /// Along a magnet's axis and along the face (m).
+    /// Size of a magnet along its axis and along the face (m).
     pub size: [f64; 2],
-    /// From the face to a magnet's outer end (m).
+    /// Distance from the face to a magnet's outer end (m).
     pub inset: f64,
-    /// What they are, north up where they stand.
+    /// The form of the magnets, with north up for upright ones.
     pub form: Form,
 }
 
@@ -96,7 +96,7 @@ impl Carrier {
             .filter(|(k, _)| word.at(*k) != 0)
             .map(|(k, at)| Block {
                 position: [fixed(sign * depth), fixed(sign * at)],
-                // A north pole outwards.
+                // The north pole points outwards.
                 angle: match (word.at(k) > 0) == east {
                     true => 0.0,
                     false => std::f64::consts::PI,
@@ -110,12 +110,13 @@ impl Carrier {
             .collect()
     }
 
-    /// Of two tiles that lie along each other: the second one `slide` (m) along the first one's face.
+    /// The pose of two flush tiles: the second is shifted by `slide` (m) along the first one's
+    /// face.
     pub fn flush(&self, slide: f64) -> Configuration {
         Configuration::new(self.side, slide, 0.0)
     }
 
-    /// Of a tile made elsewhere: where its places' magnets lie and how large they are.
+    /// From the magnets at the places of an existing tile.
     pub fn of_magnets(
         side: f64,
         normal: Vector2<f64>,
@@ -136,7 +137,8 @@ impl Carrier {
 }
 
 impl Meetings {
-    /// Of faces by their names, with their words, `met` telling of every two of them (rows, columns).
+    /// From faces with their names and words; `met` gives the contact of every two of them (rows,
+    /// columns).
     pub fn new(
         carrier: &Carrier,
         faces: &[(String, Word)],
@@ -215,7 +217,7 @@ impl Meetings {
         .into()
     }
 
-    /// With a heading and what a cell is.
+    /// Sets the heading and the meaning of a cell.
     #[must_use]
     pub fn titled(self, title: &str, note: &str) -> Self {
         Self {

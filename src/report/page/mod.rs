@@ -1,9 +1,9 @@
-//! `report.html`: results as one page that needs nothing but a browser.
+//! `report.html`: results as one self-contained page.
 //!
-//! A [`Page`] holds what is to be seen: facts, a landscape to move about in, pictures, tables that
-//! sort. It is written as one file: markup, style, script, and the data as JSON. A content security
-//! policy lets the page run its own script and style, known by their SHA-256, and load nothing at
-//! all; it opens from disk. The same page comes out as the same bytes.
+//! A [`Page`] has facts, an interactive landscape, pictures and sortable tables. It is written as
+//! one file: markup, style, script, and the data as JSON. A content security policy allows only the
+//! page's own script and style, identified by their SHA-256, and no other resources; the page opens
+//! from disk. The same contents give the same bytes.
 
 mod charts;
 mod crowd;
@@ -28,7 +28,7 @@ pub use pathways::Played;
 
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// In the order in which they build on each other.
+/// In the order of their dependencies.
 const SCRIPTS: [&str; 12] = [
     include_str!("data.js"),
     include_str!("draw.js"),
@@ -44,76 +44,76 @@ const SCRIPTS: [&str; 12] = [
     include_str!("main.js"),
 ];
 
-/// What a page shows.
+/// The contents of a page.
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {
     /// The heading.
     pub title: String,
     /// A line below it.
     pub subtitle: String,
-    /// What to know first.
+    /// The main facts.
     pub facts: Vec<Fact>,
-    /// The energy over configurations, with pathways; `None` where there is no one landscape.
+    /// The energy over configurations, with pathways; `None` if there is not exactly one landscape.
     pub landscape: Option<Landscape>,
     /// The points of a sweep; `None` elsewhere.
     pub charts: Option<Charts>,
-    /// All faces of a set of words against all; `None` elsewhere.
+    /// All pairs of faces of a set of words; `None` elsewhere.
     pub meetings: Option<Meetings>,
-    /// Many tiles on a table, to be played; `None` elsewhere.
+    /// The animation of many tiles on a table; `None` elsewhere.
     pub crowd: Option<Crowd>,
     /// Pictures, in order.
     pub pictures: Vec<Illustration>,
     /// Tables, in order.
     pub tables: Vec<Table>,
-    /// What else to know, a paragraph each.
+    /// Notes, one paragraph each.
     pub notes: Vec<String>,
     /// How it was made: version, seed, checksum.
     pub origin: String,
-    /// The command line that makes the same page; empty where it is not known.
+    /// The command line that makes the same page; empty if it is not known.
     pub command: String,
-    /// What to cite, as BibTeX.
+    /// The citation, as BibTeX.
     pub citation: &'static str,
-    /// The files beside it that it links to, by their names from its folder.
+    /// The files that it links to, relative to its folder.
     pub files: Vec<String>,
 }
 
-/// A quantity told in a few words.
+/// A quantity in a few words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fact {
-    /// What it is.
+    /// Its name.
     pub name: String,
     /// Its value, with the unit.
     pub value: String,
-    /// What to know of it, in small letters; may be empty.
+    /// A note in small type; may be empty.
     pub note: String,
 }
 
 /// A picture, as an SVG document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Illustration {
-    /// What it shows.
+    /// Its title.
     pub title: String,
-    /// Whether it says so itself.
+    /// Whether the picture contains its title.
     pub is_titled: bool,
-    /// A whole document, put into the page as it is.
+    /// A complete document, embedded in the page unchanged.
     pub svg: String,
 }
 
-/// A table that sorts.
+/// A sortable table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// What its rows are.
+    /// Its title.
     pub title: String,
-    /// What a row is.
+    /// A note on its rows.
     pub note: String,
     /// The columns, in order.
     pub columns: Vec<Column>,
-    /// Numbers (in SI units), texts, null, or a pair of a number that it sorts by and the text
-    /// that is shown; one a column.
+    /// One value per column: numbers (in SI units), texts, null, or a pair of a sort key and the
+    /// text to show.
     pub rows: Vec<Vec<Value>>,
-    /// For each row the state whose pose it shows when clicked; empty where rows show none.
+    /// For each row the state shown when it is clicked; empty for none.
     pub states: Vec<usize>,
-    /// For each row the pathway that it takes when clicked; empty where rows take none.
+    /// For each row the pathway selected when it is clicked; empty for none.
     pub paths: Vec<Option<usize>>,
 }
 
@@ -122,12 +122,12 @@ pub struct Table {
 pub struct Column {
     /// The heading.
     pub name: String,
-    /// What it means, told under the pointer; may be empty.
+    /// Its meaning, shown under the pointer; may be empty.
     pub meaning: &'static str,
 }
 
 impl Table {
-    /// What reproduces a result: settings by their names.
+    /// The table of settings that reproduce a result.
     pub(super) fn of_settings(settings: Vec<(String, Value)>) -> Self {
         let column = |name: &str| Column {
             name: name.to_owned(),
@@ -148,7 +148,7 @@ impl Table {
 }
 
 impl Page {
-    /// A page with nothing on it but its title.
+    /// An empty page with a title.
     pub(super) fn titled(title: String) -> Self {
         Self {
             title,
@@ -168,24 +168,24 @@ impl Page {
         }
     }
 
-    /// The page with the command line that makes it.
+    /// Adds the command line that makes it.
     #[must_use]
     pub fn made_by(self, command: &str) -> Self {
         let command = command.to_owned();
         Self { command, ..self }
     }
 
-    /// The page with links to files beside it, by their names from its folder.
+    /// Adds links to files, relative to its folder.
     #[must_use]
     pub fn beside<'a>(self, files: impl IntoIterator<Item = &'a String>) -> Self {
         let files = files.into_iter().cloned().collect();
         Self { files, ..self }
     }
 
-    /// The file.
+    /// The page as a file.
     ///
     /// # Panics
-    /// Never: plain values with string keys are written.
+    /// Never: plain values with string keys can be serialised.
     pub fn to_html(&self) -> String {
         let data = serde_json::to_string(self).expect("plain values are written");
         let script = format!("\"use strict\";\n{}", SCRIPTS.concat());
@@ -195,14 +195,14 @@ impl Page {
             ("{script-hash}", hash(&script)),
             ("{style}", STYLE.to_owned()),
             ("{script}", script),
-            // JSON holds `<` within strings alone, where its escape means the same.
+            // In JSON `<` occurs only within strings, where its escape is equivalent.
             ("{data}", data.replace('<', "\\u003c")),
         ];
         filled(MARKUP, &parts)
     }
 }
 
-/// A number with `digits` significant digits, 0 for what is not finite.
+/// A number with `digits` significant digits, 0 if it is not finite.
 fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{value:.*e}", digits - 1);
     let rounded = text.parse().unwrap_or(value);
@@ -219,7 +219,7 @@ fn fixed(value: f64) -> f64 {
     super::values::positive_zero((value * scale).round() / scale)
 }
 
-/// Like [`rounded`], `None` for what is not finite.
+/// Like [`rounded`], `None` if it is not finite.
 fn finite(value: f64, digits: usize) -> Option<f64> {
     value.is_finite().then(|| rounded(value, digits))
 }

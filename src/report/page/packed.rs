@@ -1,4 +1,4 @@
-//! A volume of energies in few bytes.
+//! A grid of energies in compact form.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -15,8 +15,8 @@ const STEPS: f64 = 8192.0;
 
 /// Energies as positions on the energy scale, in 16 bits each.
 ///
-/// `data` holds, zlib-deflated and in base64, one number a grid point: 0 where no configuration is
-/// free, else 1 plus the position's step. Each is the difference (modulo 2^16) from its
+/// `data` contains, zlib-deflated and in base64, one number per grid point: 0 if the configuration
+/// is not free, otherwise 1 plus the position's step. Each is the difference (modulo 2^16) from its
 /// prediction, left + below - below left within its plane, and all low bytes come before all high
 /// ones: smooth fields then deflate to about a byte a point.
 #[derive(Clone, Debug, Serialize)]

@@ -1,4 +1,4 @@
-//! The pathways and trajectories that a page plays.
+//! The pathways and trajectories that a page animates.
 
 use serde::Serialize;
 
@@ -10,26 +10,26 @@ use physics::dynamics::Snapshot;
 use physics::landscape::{Barrier, Pathway, PathwayCost, Place};
 use physics::problem::Problem;
 
-/// Most pathways of a page.
+/// Largest number of pathways on a page.
 const MOST: usize = 24;
 
-/// A pathway or a trajectory to play.
+/// A pathway or a trajectory to animate.
 #[derive(Clone, Debug, Serialize)]
 pub struct Played {
     name: String,
-    /// Whether its points are told apart by the time (s), not by the length along it, and have a
+    /// Whether its parameter is the time (s) rather than the length along it, and points have a
     /// kinetic energy.
     timed: bool,
     /// Ids of the states at its ends; null for tiles far apart.
     ends: [Option<usize>; 2],
     /// Certified bounds of its highest energy (J).
     bounds: Option<[f64; 2]>,
-    /// By what it is the best.
+    /// The cost by which it is the best.
     by: &'static str,
-    /// What all climbs on it add up to (J), and its length (m): what it takes as against its height.
+    /// The sum of all climbs on it (J), and its length (m).
     work: f64,
     length: f64,
-    /// From where to where; `None` for a trajectory.
+    /// Its start and end; `None` for a trajectory.
     #[serde(skip)]
     places: Option<[Place; 2]>,
     /// s (m) or t (s), x (m), y (m), theta (rad), U (J), clearance (m), kinetic energy (J).
@@ -61,7 +61,7 @@ impl Played {
         }
     }
 
-    /// A pathway by what it is the best by.
+    /// A pathway with the cost by which it is the best.
     fn of_pathway(
         name: String,
         [from, to]: [Place; 2],
@@ -89,12 +89,12 @@ impl Played {
         }
     }
 
-    /// Whether it is the way over a barrier.
+    /// Whether it is the path over a barrier.
     pub fn is_over(&self, barrier: &Barrier) -> bool {
         self.by == LOWEST && self.places == Some([barrier.from, barrier.to])
     }
 
-    /// How far its highest energy lies above its start's (J).
+    /// Its highest energy relative to its start (J).
     fn climb(&self) -> f64 {
         let energies = self.points.iter().map(|point| point[4]);
         let highest = energies.fold(f64::NEG_INFINITY, f64::max);
@@ -102,12 +102,12 @@ impl Played {
     }
 }
 
-/// What the ways are the best by.
+/// The names of the costs.
 const LOWEST: &str = "lowest maximum energy";
 const LEAST_WORK: &str = "least work";
 const MOST_PROBABLE: &str = "most probable";
 
-/// The ways that are played between the bond, the deepest trap and `free`, with what they take.
+/// The animated paths between the bond, the deepest trap and `free`, with their costs.
 pub fn table(played: &[Played]) -> Table {
     let others = played.iter().filter(|way| way.by != LOWEST);
     let ends: Vec<Place> = others.flat_map(|way| way.places).flatten().collect();
@@ -140,9 +140,9 @@ pub fn table(played: &[Played]) -> Table {
         .linked(shown.iter().map(|&k| Some(Link::Way(k))))
 }
 
-/// The way into the bond, the lowest way out of each class of states, and other barriers, as many
-/// as there is room for; then the ways between the bond, the deepest trap and `free` that are the
-/// best by something else.
+/// The path into the bond, the lowest path out of each class of states, and other barriers, as far
+/// as there is room; then the paths between the bond, the deepest trap and `free` that are the best
+/// by other costs.
 pub fn played(scene: &Scene) -> Vec<Played> {
     let bond = scene.catalogue.bound_state.map(Place::State);
     let docking = scene.docking().zip(bond).map(|(pathway, bond)| {

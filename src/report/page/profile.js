@@ -16,7 +16,7 @@ function prepared(path) {
   return { ...path, progress: progress.map((p) => p / total), extent: pathExtent(path) };
 }
 
-/** Where one is at a progress from 0 to 1. */
+/** The place at a progress from 0 to 1. */
 function placeAt(route, progress) {
   const { points } = route;
   let k = route.progress.findIndex((p) => p >= progress);

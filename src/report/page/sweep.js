@@ -1,4 +1,4 @@
-// A sweep's page: what is chosen, the point that is looked at, and all panels together.
+// A sweep's page: the chosen axes, the selected point, and all panels.
 
 const SIGNS = "bands: certified bounds, 95 % for shares; \u25cb no trap; ^ caged, proved; \u00d7 impossible";
 
@@ -45,7 +45,7 @@ function drawThumbnail(canvas, point) {
   drawTile(pen, tiles.moving, tiles.bound, at, theme.moving);
 }
 
-/** The point that is looked at: its tiles, its figures, and how to see all of it. */
+/** The selected point: its tiles, its figures, and links to its complete results. */
 function showPoint() {
   const card = element("point"), point = hovered ?? pinned;
   const [canvas, text] = card.children;
@@ -67,14 +67,14 @@ function showPoint() {
   if (!canvas.hidden) drawThumbnail(canvas, point);
 }
 
-/** A panel of whatever is chosen: a varied number or a figure to the right, a figure upwards. */
+/** A panel with chosen axes: a varied number or a figure to the right, a figure upwards. */
 function chosenGroup(x) {
   const isAxis = x < charts.axes.length;
   const series = new Map();
   charts.points.forEach((point, k) => {
     const value = isAxis ? point.places[x] : point.figures[x - charts.axes.length]?.[0] ?? null;
     if (value === null || value === undefined) return;
-    // Curves join points that differ in nothing else.
+    // Curves join points that differ only in this number.
     const others = charts.axes.map((name, axis) => axis === x || point.places[axis] === null ? "" : `${name} ${point.places[axis]}`);
     const name = [point.series, ...(isAxis ? others : [])].filter(Boolean).join(", ");
     series.set(name, [...series.get(name) ?? [], [value, k]]);
@@ -144,7 +144,7 @@ function showCharts() {
   const card = make("div");
   card.id = "point";
   card.append(make("canvas"), make("p"));
-  // The pictures above what is chosen, with the point that is looked at.
+  // The pictures above the chosen axes, with the selected point.
   section.append(card, element("pictures"));
   addChosen(section, against, panels, watch, drawAll);
   rows.forEach((row, point) => {
@@ -163,7 +163,7 @@ function showCharts() {
   });
 }
 
-/** The panel of whatever is chosen. */
+/** The panel with the chosen axes. */
 function addChosen(section, against, panels, watch, drawAll) {
   const figures = charts.figures.map(({ label }) => label);
   const [across, xs] = chooser("across", "x axis", [...charts.axes, ...figures]);

@@ -1,6 +1,6 @@
 // Tables that sort.
 
-/** What a cell sorts by: a pair is that and what is shown. */
+/** The sort key of a cell: a pair is the key and the displayed text. */
 const valueOf = (cell) => Array.isArray(cell) ? cell[0] : cell;
 
 const isNumeric = (rows, k) => rows.every((row) => valueOf(row[k]) === null || typeof valueOf(row[k]) === "number");
@@ -12,7 +12,7 @@ function make(name, text = "", className = "") {
   return made;
 }
 
-/** Says that a box scrolls, where it does. */
+/** Indicates that a box scrolls, if it does. */
 function hintScroll(box, what) {
   const hint = make("p", `the ${what} continues: scroll sideways \u2192`, "more");
   hint.hidden = true;
@@ -21,7 +21,7 @@ function hintScroll(box, what) {
     const scrolls = box.scrollWidth > box.clientWidth + 1;
     hint.hidden = !scrolls;
     box.classList.toggle("scrolls", scrolls);
-    // What scrolls must be reached without a pointer too.
+    // A scrolling box must be reachable without a pointer.
     if (scrolls) box.tabIndex = 0;
     else box.removeAttribute("tabindex");
   };
@@ -80,7 +80,7 @@ function buildTable(table, choose, choosePath) {
     head.cells[k].setAttribute("aria-sort", sign > 0 ? "ascending" : "descending");
     const compare = (a, b) => {
       const [x, y] = [valueOf(a.cells[k]), valueOf(b.cells[k])];
-      // What is missing comes last either way.
+      // Missing values come last in both orders.
       if (x === null || y === null) return (x === null) - (y === null);
       return sign * (numeric[k] ? x - y : String(x).localeCompare(String(y), "en", { numeric: true }));
     };

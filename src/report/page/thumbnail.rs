@@ -1,4 +1,4 @@
-//! The tiles of a point of a sweep, small.
+//! A small drawing of the tiles of a sweep's point.
 
 use serde::Serialize;
 
@@ -8,8 +8,8 @@ use jobs::sweep::Point;
 
 /// With more points the page would grow large.
 const MOST_POINTS: usize = 200;
-/// How far (as a fraction of the outline's extent) what is left out of an outline may lie from the
-/// rest: less than a pixel of a small picture.
+/// Largest distance of omitted corners from the simplified outline, as a fraction of its extent:
+/// less than a pixel of a small picture.
 const TOLERANCE: f64 = 0.004;
 
 /// Both tiles, bound.
@@ -21,7 +21,7 @@ pub struct Thumbnail {
 }
 
 impl Thumbnail {
-    /// `None` where the design is impossible, or there are too many.
+    /// `None` if the design is impossible, or there are too many.
     pub fn of(sweep: &Sweep, point: &Point) -> Option<Self> {
         if sweep.points.len() > MOST_POINTS {
             return None;
@@ -42,13 +42,13 @@ impl Thumbnail {
 
 type Corner = [f64; 2];
 
-/// An outline without the corners that nobody would miss.
+/// An outline without negligible corners.
 fn simplified(outline: &[Corner]) -> Vec<Corner> {
     let extent = outline
         .iter()
         .flatten()
         .fold(0.0, |most: f64, c| most.max(c.abs()));
-    // Closed: from the first corner round to itself.
+    // The outline is closed: it starts and ends at the first corner.
     let mut closed = outline.to_vec();
     closed.extend(outline.first());
     let mut kept = vec![false; closed.len()];
@@ -58,8 +58,8 @@ fn simplified(outline: &[Corner]) -> Vec<Corner> {
     corners.map(|(_, (corner, _))| *corner).collect()
 }
 
-/// Keeps the corner between two that lies farthest from the line through them, and so on with what is
-/// left on either side of it (Ramer, Douglas and Peucker).
+/// Keeps the corner farthest from the line through two others, and recurses on both sides of it
+/// (Ramer, Douglas and Peucker).
 fn keep(corners: &[Corner], first: usize, last: usize, tolerance: f64, kept: &mut [bool]) {
     let far = |k: usize| apart(corners[k], [corners[first], corners[last]]);
     let between = first + 1..last;
@@ -73,7 +73,7 @@ fn keep(corners: &[Corner], first: usize, last: usize, tolerance: f64, kept: &mu
     }
 }
 
-/// Distance of a point from a line through two others, or from their one place.
+/// Distance of a point from the line through two others, or from their common position.
 fn apart(p: Corner, [a, b]: [Corner; 2]) -> f64 {
     let (along, from) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let length = libm::hypot(along[0], along[1]);

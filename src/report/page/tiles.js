@@ -25,7 +25,7 @@ function scaleBar(pen, scale, width, height) {
   pen.fillText(si(length, "m", 1), right, y - 4);
 }
 
-/** The rectangle in which a path is seen: where the tiles are near each other. */
+/** The visible rectangle of a path: where the tiles are near each other. */
 function pathExtent({ points, timed }) {
   const far = (timed ? 0.8 : 0.25) * Math.max(...world.moving.outline.map(([x, y]) => Math.hypot(x, y)));
   const near = points.filter((p) => p[5] <= far);

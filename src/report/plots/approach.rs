@@ -17,7 +17,7 @@ use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
 
 const WIDTH: f64 = 1000.0;
-/// The least width (pixels) of a panel beside the other.
+/// Smallest width (pixels) of a panel beside the other.
 const LEAST: f64 = 360.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [34.0, 20.0, 62.0, 84.0];
@@ -42,9 +42,9 @@ pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {
 
 struct ApproachPanel<'a> {
     grid: &'a Grid<Sample>,
-    /// What is plotted against the tilt.
+    /// The quantity plotted against the tilt.
     quantity: &'a str,
-    /// What holds throughout the panel.
+    /// The condition that holds throughout the panel.
     condition: &'a str,
     /// Tilt (rad) and quantity (m) of the states in the panel.
     states: Vec<(f64, f64, Mark)>,

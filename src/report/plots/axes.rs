@@ -1,4 +1,4 @@
-//! Axes, and where values stand between them.
+//! Axes, and the positions of values on them.
 
 use std::ops::Range;
 
@@ -16,19 +16,19 @@ use physics::units::prefix_of;
 /// Space left of and below the names of axes (pixels).
 const EDGE: f64 = 12.0;
 
-/// How values stand along an axis.
+/// The spacing of values along an axis.
 #[derive(Clone, Copy, Debug)]
 pub enum Spacing {
     /// As multiples of a unit.
     Even(f64),
-    /// By the decimal logarithms of what they are more than minus this.
+    /// By the decimal logarithms of values plus this offset.
     Logarithms(f64),
     /// By a scale of energies.
     Energies(EnergyScale),
 }
 
 impl Spacing {
-    /// Where a value stands, on an axis without ends.
+    /// The position of a value on an unbounded axis.
     pub fn of(self, value: f64) -> f64 {
         match self {
             Self::Even(unit) => value / unit,
@@ -38,20 +38,20 @@ impl Spacing {
     }
 }
 
-/// One axis: from where to where, the values that are marked with their texts, what is told.
+/// One axis: its range, the marked values with their texts, and its name.
 #[derive(Clone, Debug)]
 pub struct Axis {
     pub spacing: Spacing,
-    /// As they are spaced.
+    /// The ends, in the spacing of the axis.
     pub ends: [f64; 2],
-    /// Places of marks, as they are spaced.
+    /// Positions of marks, in the spacing of the axis.
     pub marks: Vec<(f64, String)>,
     pub name: String,
 }
 
 impl Axis {
-    /// An axis of multiples of a unit with about `count` marks at round numbers. A range without a
-    /// width is widened about what it is, to where marks can be told apart.
+    /// An axis of multiples of a unit with about `count` marks at round numbers. A range of zero
+    /// width is widened around its value until marks can be distinguished.
     pub fn even(range: [f64; 2], unit: f64, count: usize, name: impl Into<String>) -> Self {
         let ends = widened(range.map(|end| end / unit));
         let numbers = round_numbers(ends, count + 1);
@@ -74,7 +74,7 @@ impl Axis {
         Self::even(range, unit, count, format!("{name} ({prefix}{symbol})"))
     }
 
-    /// An axis on which nothing is told but which of some things one is.
+    /// An axis of indices without marks.
     pub fn places(count: usize) -> Self {
         Self {
             spacing: Spacing::Even(1.0),
@@ -84,16 +84,16 @@ impl Axis {
         }
     }
 
-    /// As plotters has it.
+    /// In the form of plotters.
     fn spaced(&self) -> RangedCoordf64 {
         (self.ends[0]..self.ends[1]).into()
     }
 }
 
-/// Numbers beyond this stand at the end: the width of an axis is to be finite.
+/// Larger numbers are clamped to this, so that the width of an axis is finite.
 const FARTHEST: f64 = 1e300;
 
-/// Ends that are apart, of a range whose ends may be one number or none.
+/// A range of non-zero width, from one whose ends may be equal or undefined.
 fn widened(range: [f64; 2]) -> [f64; 2] {
     let [low, high] = range.map(|end| match end.is_nan() {
         true => 0.0,
@@ -113,7 +113,7 @@ fn widened(range: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Along the axis are values as they are spaced.
+/// Values along the axis are in its spacing.
 impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
@@ -150,8 +150,8 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Draws axes within a place but for the margins (pixels: top, right, bottom, left), which hold
-    /// the texts of marks and the names of axes as well; with a grid or without.
+    /// Draws axes within a rectangle minus the margins (pixels: top, right, bottom, left), which
+    /// contain the texts of marks and the names of axes; with or without a grid.
     pub fn new(
         canvas: &mut Canvas,
         [left, top, right, bottom]: Box4,
@@ -200,12 +200,12 @@ impl Plot {
         }
     }
 
-    /// A point as it is spaced, which series are made of.
+    /// A point in the spacing of the axes, as used by series.
     pub fn place(&self, x: f64, y: f64) -> (f64, f64) {
         (self.spacing[0].of(x), self.spacing[1].of(y))
     }
 
-    /// Where a point lies (pixels).
+    /// The position of a point (pixels).
     pub fn at(&self, x: f64, y: f64) -> Pixel {
         let (x, y) = self.chart.backend_coord(&self.place(x, y));
         (f64::from(x) / UNITS, f64::from(y) / UNITS)
@@ -228,7 +228,7 @@ impl Plot {
         [(left, y), (right, y)]
     }
 
-    /// Says above the plot what it shows.
+    /// Draws a heading above the plot.
     pub fn heading(&self, canvas: &mut Canvas, text: &str) {
         let at = (self.frame[0], self.frame[1] - 8.0);
         canvas.write(LABEL.bold(), text, at, Anchor::BottomLeft);

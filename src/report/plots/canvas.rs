@@ -1,4 +1,4 @@
-//! What pictures are drawn on, in pixels: a drawing area of plotters, with what plotters has not.
+//! A drawing area in pixels: that of plotters, with what plotters lacks.
 
 use std::cell::{Ref, RefCell};
 use std::fmt::Display;
@@ -20,11 +20,11 @@ pub type Pixel = (f64, f64);
 /// A rectangle (pixels): left, top, right, bottom.
 pub type Box4 = [f64; 4];
 
-/// What an SVG document tells of a place under the pointer, and what a page knows that place by.
+/// A region with a tooltip in SVG documents, by which a page identifies it.
 #[derive(Clone, Debug)]
 pub struct Spot {
     pub title: String,
-    /// Of what it is, such as `state`.
+    /// The kind of thing, such as `state`.
     pub kind: &'static str,
     pub value: String,
 }
@@ -34,20 +34,20 @@ pub struct Spot {
 pub struct Bitmap {
     pub width: usize,
     pub palette: Vec<[u8; 3]>,
-    /// One palette index a pixel.
+    /// One palette index per pixel.
     pub pixels: Vec<u8>,
 }
 
-/// A picture in the making.
+/// A picture under construction.
 pub struct Canvas {
     recorder: Rc<RefCell<Recorder>>,
-    /// All of it.
+    /// The whole area.
     pub root: DrawingArea<Recorder, Shift>,
     /// Images beneath the drawing (units: left, top, right, bottom).
     pub images: Vec<(Bitmap, [i32; 4])>,
-    /// Places over it.
+    /// Regions over it.
     pub spots: Vec<(Vec<BackendCoord>, Spot)>,
-    /// Why the first thing that could not be drawn was not.
+    /// The first drawing error.
     failure: Option<String>,
 }
 
@@ -66,7 +66,7 @@ pub fn middle([left, top, right, bottom]: Box4) -> Pixel {
     ((left + right) / 2.0, (top + bottom) / 2.0)
 }
 
-/// So many points around a place, the first one above it, at radii (pixels) that repeat.
+/// A number of points around a position, the first one above it, at repeating radii (pixels).
 pub fn around((x, y): Pixel, count: usize, radii: &[f64]) -> Vec<Pixel> {
     let point = |(k, radius): (usize, &f64)| {
         let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / count as f64);
@@ -92,7 +92,7 @@ impl Canvas {
         }
     }
 
-    /// What was drawn, or why it could not be.
+    /// The drawing, or its first error.
     pub fn shapes(&self) -> Result<Ref<'_, [Shape]>, String> {
         match &self.failure {
             Some(why) => Err(why.clone()),
@@ -110,7 +110,7 @@ impl Canvas {
         self.done(drawn);
     }
 
-    /// Remembers why something could not be drawn.
+    /// Records a drawing error.
     pub fn done<E: Display>(&mut self, drawn: Result<(), E>) {
         if let Err(why) = drawn {
             self.failure.get_or_insert(why.to_string());
@@ -122,7 +122,7 @@ impl Canvas {
         self.draw(&PathElement::new(units(points), stroke(colour, width)));
     }
 
-    /// A line with a white seam that sets it off from any ground.
+    /// A line with a white seam that makes it visible on any background.
     pub fn seamed(&mut self, points: &[Pixel], colour: impl Color, width: f64) {
         self.line(points, WHITE.mix(0.8), width + 2.4);
         self.line(points, colour, width);
@@ -170,7 +170,7 @@ impl Canvas {
         self.draw(&Circle::new(at, unit(DISC), colour.filled()));
     }
 
-    /// A small circle, for what is none.
+    /// A small empty circle, for an absent value.
     pub fn circle(&mut self, (x, y): Pixel, colour: impl Color) {
         self.draw(&Circle::new(
             (unit(x), unit(y)),
@@ -188,7 +188,7 @@ impl Canvas {
         ));
     }
 
-    /// A text; `anchor` tells which of its points is at `at`.
+    /// A text; `anchor` says which of its points is at `at`.
     pub fn write(&mut self, font: Text, text: &str, (x, y): Pixel, anchor: Anchor) {
         if !text.is_empty() {
             self.draw(&Words::new(text, (unit(x), unit(y)), font.style(anchor)));
@@ -200,12 +200,12 @@ impl Canvas {
         self.write(SMALL, text, at, anchor);
     }
 
-    /// A place under the pointer, of which nothing is seen.
+    /// An invisible region with a tooltip.
     pub fn spot(&mut self, corners: &[Pixel], spot: Spot) {
         self.spots.push((units(corners), spot));
     }
 
-    /// An image stretched over a rectangle, beneath all that is drawn.
+    /// An image stretched over a rectangle, beneath everything drawn.
     pub fn image(&mut self, bitmap: Bitmap, place: Box4) {
         self.images.push((bitmap, place.map(unit)));
     }

@@ -1,4 +1,4 @@
-//! A chart: series of points over an axis, with what they may be off by.
+//! A chart: series of points over an axis, with error bars.
 
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordi32;
@@ -23,27 +23,27 @@ const WIDTH: f64 = 860.0;
 const FLATNESS: f64 = 0.5;
 /// Space around the plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [14.0, 30.0, 62.0, 92.0];
-/// Most marked powers of ten along an axis.
+/// Largest number of marked powers of ten along an axis.
 const MOST_POWERS: usize = 8;
 
-/// What is told along an axis.
+/// The quantity of an axis.
 #[derive(Clone, Debug)]
 pub struct Dimension {
-    /// What files call it; ends in the unit.
+    /// Its key in files, which ends in the unit.
     key: &'static str,
-    /// What people call it.
+    /// Its name for people.
     name: String,
     unit: Unit,
     is_logarithmic: bool,
-    /// What logarithms are taken beside: 1 of counts, which begin at none.
+    /// The offset inside logarithms: 1 for counts, which can be 0.
     offset: f64,
     range: Option<[f64; 2]>,
-    /// Where marks are; wherever numbers are round if there are none.
+    /// The marks; at round numbers if empty.
     marks: Vec<f64>,
 }
 
 impl Dimension {
-    /// A quantity whose unit its key says.
+    /// A quantity whose unit is in its key.
     pub fn new(key: &'static str, name: impl Into<String>) -> Self {
         Self {
             key,
@@ -56,7 +56,7 @@ impl Dimension {
         }
     }
 
-    /// A share of all, from none to all.
+    /// A share, from 0 to 1.
     pub fn share(key: &'static str, name: impl Into<String>) -> Self {
         Self {
             unit: Unit::Share,
@@ -65,7 +65,7 @@ impl Dimension {
         }
     }
 
-    /// By its decimal logarithm.
+    /// On a logarithmic axis.
     #[must_use]
     pub fn logarithmic(self) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl Dimension {
         }
     }
 
-    /// Of counts, none among them: by the decimal logarithm of one more.
+    /// On a logarithmic axis for counts that can be 0: by the logarithm of the count plus 1.
     #[must_use]
     pub fn counting(self) -> Self {
         Self {
@@ -83,7 +83,7 @@ impl Dimension {
         }
     }
 
-    /// From one number to another.
+    /// With a fixed range.
     #[must_use]
     pub fn within(self, range: [f64; 2]) -> Self {
         Self {
@@ -101,12 +101,12 @@ impl Dimension {
         }
     }
 
-    /// Whether a value has a place on the axis.
+    /// Whether a value can be shown on the axis.
     fn holds(&self, value: f64) -> bool {
         value.is_finite() && !(self.is_logarithmic && value + self.offset <= 0.0)
     }
 
-    /// The axis for values up to the greatest of these.
+    /// The axis for these values.
     fn axis(&self, values: impl Iterator<Item = f64>, count: usize) -> Axis {
         let values = values.filter(|value| self.holds(*value));
         let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
@@ -150,7 +150,7 @@ impl Dimension {
         axis
     }
 
-    /// A range with a little room at its ends, unless they are given.
+    /// A range with a margin at its ends, unless they are given.
     fn room(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         let margin = match high > low {
             true => 0.03 * (high - low),
@@ -159,12 +159,12 @@ impl Dimension {
         match self.range {
             Some(_) => [low, high],
             None if self.is_logarithmic || low < 0.0 => [low - margin, high + margin],
-            // What counts from zero begins there.
+            // An axis of counts begins at zero.
             None => [0.0, high + margin],
         }
     }
 
-    /// Marks at powers of ten, or at 1, 2 and 5 times these where there are few.
+    /// Marks at powers of ten, or at 1, 2 and 5 times these if there are few.
     fn powers(&self, [low, high]: [f64; 2]) -> Vec<(f64, String)> {
         let powers = RangedCoordi32::from(low.floor() as i32..high.ceil() as i32);
         let multiples: &[f64] = match high - low < 2.0 {
@@ -178,7 +178,7 @@ impl Dimension {
             .filter(|value| *value >= self.offset);
         let none = (self.offset > 0.0).then_some(0.0);
         let text = |value: f64| match self.unit {
-            // Powers of ten of minutes and hours are none.
+            // Powers of ten of minutes and hours are not round.
             Unit::Of("s") => si(value, "s", 1),
             Unit::None if value.fract() == 0.0 => value.to_string(),
             unit => told(value, unit, 1),
@@ -190,7 +190,7 @@ impl Dimension {
     }
 }
 
-/// How a series looks.
+/// The style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Look {
     /// A line with dots at its points and a band between their ends.
@@ -204,16 +204,16 @@ pub enum Look {
     Dots,
     /// Rings, with lines to their ends.
     Rings,
-    /// Bars from zero, as far apart as the points.
+    /// Bars from zero, as wide as the distance of the points.
     Bars,
 }
 
-/// A point with the ends between which its y lies; NaN where it is not known.
+/// A point with the interval of its y; NaN if it is not known.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// Along the chart.
+    /// The abscissa.
     pub x: f64,
-    /// Up it.
+    /// The vertical axis.
     pub y: f64,
     /// Lower and upper end.
     pub ends: Option<[f64; 2]>,
@@ -225,21 +225,21 @@ impl From<[f64; 2]> for Point {
     }
 }
 
-/// Points that belong together.
+/// A series of points.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// What they are.
+    /// Its name.
     pub name: String,
-    /// How they look.
+    /// Its style.
     pub look: Look,
-    /// Which of the colours of series.
+    /// The index of its colour.
     pub colour: usize,
     /// The points, from left to right.
     pub points: Vec<Point>,
 }
 
 impl Series {
-    /// Points in a colour by its number.
+    /// A series with a colour by its index.
     pub fn new<P: Into<Point>>(
         name: impl Into<String>,
         look: Look,
@@ -254,7 +254,7 @@ impl Series {
         }
     }
 
-    /// What a key says of it.
+    /// Its entry in the key.
     pub fn meaning(&self) -> (Sign, String) {
         let colour = COLOURS[self.colour];
         let sign = match self.look {
@@ -273,20 +273,20 @@ impl Series {
 pub struct Chart {
     /// The stem of its files.
     pub name: &'static str,
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// Along it.
+    /// The horizontal axis.
     pub x: Dimension,
-    /// Up it.
+    /// The vertical axis.
     pub y: Dimension,
-    /// What is in it.
+    /// Its series.
     pub series: Vec<Series>,
-    /// What to know of it; may be empty.
+    /// A remark; may be empty.
     pub remark: String,
 }
 
 impl Chart {
-    /// With another series, in a colour of its own.
+    /// Adds a series in a new colour.
     #[must_use]
     pub fn with<P: Into<Point>>(
         mut self,
@@ -299,7 +299,7 @@ impl Chart {
         self
     }
 
-    /// The last series in a colour by its number, such as that of another.
+    /// Gives the last series a colour by its index, such as that of another series.
     #[must_use]
     pub fn in_colour(mut self, number: usize) -> Self {
         if let Some(series) = self.series.last_mut() {
@@ -308,7 +308,7 @@ impl Chart {
         self
     }
 
-    /// Draws it.
+    /// Draws the chart.
     ///
     /// # Errors
     /// See [`PictureError`].
@@ -353,7 +353,7 @@ impl From<Chart> for Drawing<'_> {
     }
 }
 
-/// Which sign is which series; nothing for a single one.
+/// The entries of the key; empty for a single series.
 pub fn meanings(series: &[Series]) -> Meanings {
     let shown = series.iter().filter(|series| !series.points.is_empty());
     let meanings: Meanings = shown.map(Series::meaning).collect();
@@ -364,7 +364,7 @@ pub fn meanings(series: &[Series]) -> Meanings {
     }
 }
 
-/// Draws series between axes that hold them all.
+/// Draws series between axes that contain them all.
 pub fn plotted(
     canvas: &mut Canvas,
     place: Box4,
@@ -395,7 +395,7 @@ pub fn plotted(
             let later = (series.len() - 1 - number) as f64 / series.len() as f64;
             drawn(canvas, &mut plot, series_drawn, run, 2.0 + 2.0 * later);
         }
-        // What is more than any number.
+        // Infinity.
         let beyond = series_drawn.points.iter();
         for point in beyond.filter(|point| point.y == f64::INFINITY) {
             let (x, top) = (plot.at(point.x, 0.0).0, plot.frame[1]);
@@ -406,7 +406,7 @@ pub fn plotted(
     plot
 }
 
-/// Draws a series' points without a break, a line through them so wide (pixels).
+/// Draws an unbroken run of a series' points, with a line of this width (pixels).
 fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[Point], width: f64) {
     let colour = COLOURS[series.colour];
     let line: Vec<_> = run.iter().map(|one| plot.place(one.x, one.y)).collect();
@@ -478,7 +478,7 @@ fn bands(canvas: &mut Canvas, plot: &mut Plot, run: &[Point], colour: RGBColor) 
     }
 }
 
-/// Bars from a height (pixels) to points, as wide as these are apart.
+/// Bars from a height (pixels) to points, as wide as the distance of the points.
 fn bars(canvas: &mut Canvas, tops: &[Pixel], zero: f64, colour: RGBColor) {
     let step = tops.windows(2).map(|pair| pair[1].0 - pair[0].0);
     let half = 0.46 * step.fold(f64::INFINITY, f64::min).min(40.0);

@@ -1,4 +1,4 @@
-//! A committor as a map of colours, with its reactive flux.
+//! A committor as a colour map, with its reactive flux.
 
 use plotters::style::WHITE;
 
@@ -16,9 +16,9 @@ use physics::kinetics::map::Map;
 const WIDTH: f64 = 640.0;
 /// Space around the map (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
-/// Squares that an arrow stands for, along x and y.
+/// Number of squares per arrow, along x and y.
 const ARROW: usize = 5;
-/// Arrows are left out that are this share of the longest.
+/// Arrows shorter than this share of the longest are omitted.
 const FAINT: f64 = 0.05;
 
 /// The committor as colours, the flux as arrows, the fixed tile as an outline; with its numbers.
@@ -67,7 +67,7 @@ fn draw(canvas: &mut Canvas, place: Box4, design: &Design, map: &Map) {
         line.into_iter().map(|[x, y]| plot.at(x, y)).collect()
     };
     let arrows: Vec<Vec<Pixel>> = arrows(map).into_iter().map(at).collect();
-    // All seams first: none is to hide a part of an arrow.
+    // All seams first, so that none hides a part of an arrow.
     for (colour, width) in [(WHITE, 3.0), (INK, 1.3)] {
         for line in &arrows {
             canvas.line(line, colour, width);
@@ -75,7 +75,7 @@ fn draw(canvas: &mut Canvas, place: Box4, design: &Design, map: &Map) {
     }
 }
 
-/// Arrows of the mean flux of some squares each, as lines (m): the shaft, then the head.
+/// Arrows of the mean flux of groups of squares, as lines (m): the shaft, then the head.
 fn arrows(map: &Map) -> Vec<Vec<[f64; 2]>> {
     let count = map.side / ARROW;
     let flow = |number: usize| {
@@ -96,7 +96,7 @@ fn arrows(map: &Map) -> Vec<Vec<[f64; 2]>> {
     let strong = flows.iter().filter(|flow| flow.2 >= FAINT * most);
     let arrow = |(middle, flow, size): &([f64; 2], [f64; 2], f64)| {
         let long = (size / most).sqrt() * longest;
-        // So far along the arrow and across it, as shares of its length.
+        // Positions along and across the arrow, as shares of its length.
         let at = |along: f64, across: f64| {
             let [u, v] = flow.map(|part| part / size * long);
             [

@@ -1,4 +1,4 @@
-//! Pictures of several panels: laid out side by side as the width allows, or each on its own.
+//! Pictures of several panels: side by side as the width allows, or each in its own file.
 
 use super::canvas::{Box4, Canvas};
 use super::picture::{Picture, PictureError};
@@ -10,16 +10,16 @@ const HEADS: [f64; 3] = [50.0, 28.0, 6.0];
 /// Space at the sides of a title (pixels).
 const SIDE: f64 = 20.0;
 
-/// What draws a panel into a rectangle (pixels).
+/// A function that draws a panel into a rectangle (pixels).
 type Draw<'a> = dyn Fn(&mut Canvas, Box4) + Send + Sync + 'a;
 
 /// A part of a picture that can stand alone.
 pub struct Panel<'a> {
-    /// What its file is called after the picture's name where it stands alone.
+    /// The suffix of its file name if it is written alone.
     pub name: String,
-    /// Its share of a row's width, as against that of its neighbours.
+    /// Its relative width within a row.
     pub weight: f64,
-    /// The least width (pixels) at which it stands beside another.
+    /// Smallest width (pixels) at which it is placed beside another.
     pub least: f64,
     /// Its height at a width (pixels).
     pub height: Box<dyn Fn(f64) -> f64 + Send + Sync + 'a>,
@@ -28,8 +28,7 @@ pub struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    /// A panel as wide as its neighbours, or alone in its row where it would be narrower than
-    /// `least`.
+    /// A panel as wide as its neighbours, or alone in its row if it would be narrower than `least`.
     pub fn new(
         name: impl Into<String>,
         least: f64,
@@ -53,7 +52,7 @@ impl<'a> Panel<'a> {
         Self::new("", 0.0, height, draw)
     }
 
-    /// The same with another share of the width.
+    /// Sets its relative width.
     pub fn weighing(self, weight: f64) -> Self {
         Self { weight, ..self }
     }
@@ -64,15 +63,15 @@ impl<'a> Panel<'a> {
 pub struct Composition<'a> {
     /// The stem of its files.
     pub name: String,
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// What it leaves out; may be empty.
+    /// A note on what it omits; may be empty.
     pub note: String,
     /// Width on a screen (pixels).
     pub width: f64,
     /// From left to right, row by row.
     pub panels: Vec<Panel<'a>>,
-    /// What explains them all: below them, or below each that stands alone.
+    /// The keys: below all panels, or below each panel that is written alone.
     pub keys: Vec<Panel<'a>>,
 }
 
@@ -127,22 +126,22 @@ impl Composition<'_> {
     fn head(&self, canvas: &mut Canvas, sheet: &Sheet, width: f64) {
         let mut font = SMALL.colour(SOFT);
         if !sheet.is_titled() || self.title.is_empty() {
-            // Smaller where there is no room.
+            // Smaller if there is no room.
             let wide = font.room(&self.note).max(1.0);
             font.size *= ((width - 2.0 * SIDE) / wide).min(1.0);
             return canvas.write(font, &self.note, (SIDE, 8.0), Anchor::TopLeft);
         }
         let room = width - 2.0 * SIDE - 1.1 * font.width(&self.note);
         let mut large = TITLE.bold();
-        // Smaller where there is no room; a browser's bold letters may be a sixth wider.
+        // Smaller if there is no room; a browser's bold letters can be a sixth wider.
         large.size *= (room / (1.17 * large.width(&self.title)).max(1.0)).min(1.0);
         canvas.write(large, &self.title, (SIDE, 16.0), Anchor::TopLeft);
         canvas.write(font, &self.note, (width - SIDE, 22.0), Anchor::TopRight);
     }
 }
 
-/// Rows of panels with their widths (pixels): as many side by side as have room. A last row that is
-/// shorter than the others does not make its panels wider.
+/// Rows of panels with their widths (pixels): as many side by side as there is room for. Panels of
+/// an incomplete last row are not widened.
 fn rows<'a>(panels: &[&'a Panel<'a>], width: f64) -> Vec<Vec<(&'a Panel<'a>, f64)>> {
     let mut rows: Vec<Vec<&Panel>> = Vec::new();
     let mut room = 0.0;
@@ -167,7 +166,7 @@ fn rows<'a>(panels: &[&'a Panel<'a>], width: f64) -> Vec<Vec<(&'a Panel<'a>, f64
     rows.into_iter().map(widths).collect()
 }
 
-/// What is said where a picture has room for the `most` lowest of so many kinds of states.
+/// The note of a picture that only has room for the `most` lowest kinds of states.
 pub fn left_out(kinds: usize, most: usize, how: &str) -> String {
     match kinds.saturating_sub(most) {
         0 => String::new(),
@@ -176,7 +175,7 @@ pub fn left_out(kinds: usize, most: usize, how: &str) -> String {
     }
 }
 
-/// What is said below a picture, in as many lines as it takes.
+/// A remark below a picture, wrapped to lines.
 pub fn remark<'a>(text: String) -> Panel<'a> {
     const FONT: Text = SMALL.colour(SOFT);
     const LINE: f64 = 18.0;

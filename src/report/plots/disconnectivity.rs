@@ -27,7 +27,7 @@ const MARGIN: [f64; 4] = [6.0, 20.0, 14.0, 100.0];
 const LEAF: f64 = 62.0;
 /// Height of a state's label with the marker above it (pixels).
 const LABEL: f64 = 84.0;
-/// Classes shown at most, and on a page.
+/// Largest number of classes shown, and on a page.
 const MOST: usize = 11;
 const MOST_ON_PAGE: usize = 24;
 
@@ -41,7 +41,7 @@ fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tree> {
             Place::Free => Some(None),
             Place::State(_) => Some(Some(scene.class_of(place)?)),
         };
-        // Tiles far apart have U = 0, and no way to them has a lower highest energy.
+        // Tiles far apart have U = 0, so no path to them has a lower maximum energy.
         let least = if [barrier.from, barrier.to].contains(&Place::Free) {
             0.0
         } else {
@@ -57,7 +57,7 @@ fn merge_tree(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> Vec<Tree> {
     merge(leaves, joins.collect(), scale)
 }
 
-/// Why no way leads from a tree to `free`; `None` for the tree that holds `free`.
+/// Why no path leads from a tree to `free`; `None` for the tree that contains `free`.
 fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
     let mut kinds = scene.catalogue.kinds();
     let is_caged = |kind: Kind| {
@@ -72,14 +72,14 @@ fn why_apart(scene: &Scene, tree: &Tree) -> Option<&'static str> {
     }
 }
 
-/// How many of the lowest kinds of states have room.
+/// The number of kinds of states for which there is room.
 fn room(sheet: &Sheet) -> usize {
     let plot = sheet.width(WIDTH) - MARGIN[1] - MARGIN[3];
     // One more line is for free tiles.
     ((plot / LEAF) as usize - 1).min(MOST)
 }
 
-/// The graph of the lowest classes of states, as many as have room, with its numbers; `None` where
+/// The graph of the lowest classes of states, as far as there is room, with its numbers; `None` if
 /// there is no state.
 pub fn composed<'a>(
     scene: &'a Scene,
@@ -116,11 +116,11 @@ fn panel<'a>(scene: &'a Scene, kinds: Vec<Kind<'a>>, scale: EnergyScale) -> Pane
     })
 }
 
-/// The graph for a page, by itself, of as many classes of states as a page has: an SVG document.
+/// The graph for a page, with as many classes of states as a page shows: an SVG document.
 pub fn on_page(scene: &Scene, scale: EnergyScale) -> Option<String> {
     let mut kinds = scene.kinds();
     kinds.truncate(MOST_ON_PAGE);
-    // A browser's letters may be wider.
+    // A browser's letters can be wider.
     let width = MARGIN[1] + MARGIN[3] + 1.15 * LEAF * (kinds.len() + 1) as f64;
     let graph = Composition {
         width: width.max(560.0),
@@ -131,7 +131,8 @@ pub fn on_page(scene: &Scene, scale: EnergyScale) -> Option<String> {
     drawn.into_iter().next().map(|(_, picture)| picture.svg)
 }
 
-/// Each line of the graph of some kinds of states with its foot, and where it joins which other.
+/// Each line of the graph of some kinds of states with its foot, and the energy and line at which
+/// it joins another.
 pub fn lines(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> String {
     let mut rows = Vec::new();
     for tree in merge_tree(scene, kinds, scale) {
@@ -151,7 +152,7 @@ pub fn lines(scene: &Scene, kinds: &[Kind], scale: &EnergyScale) -> String {
     table(head, rows)
 }
 
-/// A row for each line below a tree's top, with the states that hang on it.
+/// A row for each line below a tree's top, with the states below it.
 fn branches(tree: &Tree, scene: &Scene, kinds: &[Kind], rows: &mut Vec<Vec<String>>) {
     let Tree::Merge {
         energy,
@@ -197,8 +198,8 @@ fn branch(
     ]
 }
 
-/// Positions from below the lowest state's label, which takes that share of the height, to above the
-/// highest saddle.
+/// The range of positions, from below the lowest state's label, which takes a share of the height,
+/// to above the highest saddle.
 fn extent(trees: &[Tree], scale: &EnergyScale, label: f64) -> (f64, f64) {
     let highest = |tree: &Tree| match tree {
         Tree::Merge {
@@ -216,18 +217,18 @@ fn extent(trees: &[Tree], scale: &EnergyScale, label: f64) -> (f64, f64) {
     (low - label * whole, high + 0.14 * span)
 }
 
-/// A graph in the making.
+/// A graph under construction.
 struct Graph<'a> {
     scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
     kinds: &'a [Kind<'a>],
     plot: Plot,
     labels: Labels,
-    /// How many states were drawn.
+    /// Number of states drawn so far.
     next_leaf: usize,
-    /// Where two lines join, and the saddle energy there.
+    /// The points where two lines join, and the saddle energies.
     merges: Vec<(Pixel, f64)>,
-    /// The states' markers and where they stand.
+    /// The states' markers and their positions.
     feet: Vec<(Mark, Pixel)>,
 }
 
@@ -275,7 +276,7 @@ impl<'a> Graph<'a> {
             if let Some(why) = why_apart(scene, tree) {
                 let font = SMALL.colour(SOFT);
                 let wide = font.width(why);
-                // To the left of its line where there is no room to the right.
+                // To the left of its line if there is no room to the right.
                 let left = match at.0 + 6.0 + wide <= right {
                     true => at.0 + 6.0,
                     false => at.0 - 6.0 - wide,
@@ -290,13 +291,13 @@ impl<'a> Graph<'a> {
         graph.finish(canvas);
     }
 
-    /// A line that labels keep off.
+    /// A line that labels avoid.
     fn line(&mut self, canvas: &mut Canvas, points: &[Pixel], width: f64) {
         canvas.line(points, INK, width);
         self.labels.keep_off_line(points);
     }
 
-    /// Draws a tree up to its own energy and gives the x it stands at.
+    /// Draws a tree up to its own energy and returns its x position.
     fn tree(&mut self, canvas: &mut Canvas, tree: &Tree) -> f64 {
         let (energy, bounds, children) = match tree {
             Tree::Leaf { class, energy } => return self.leaf(canvas, *class, *energy),
@@ -372,7 +373,8 @@ impl<'a> Graph<'a> {
         x
     }
 
-    /// What lies on top of the lines, and the energies at which they join, clear of all of them.
+    /// Draws the markers on top of the lines, and the energies at which lines join, without
+    /// overlaps.
     fn finish(mut self, canvas: &mut Canvas) {
         for (mark, foot) in self.feet {
             marker(canvas, mark, foot, 7.0);

@@ -1,4 +1,4 @@
-//! Docking: the chance of a match over orientation and speed.
+//! The probability of a match over orientation and speed.
 
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas};
@@ -15,23 +15,23 @@ use physics::dynamics::docking::DockingMap;
 const WIDTH: f64 = 860.0;
 /// Space around a plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
-/// Chances with contours.
+/// Probabilities of the contour lines.
 const LEVELS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.24];
-/// Runs a cell at least, as far as cells can be made larger: the 95 % interval of a chance of a tenth
-/// is then 0.04 to 0.24.
+/// Least number of runs per cell, as far as cells can be enlarged: the 95 % interval of a
+/// probability of a tenth is then 0.04 to 0.24.
 const RUNS_A_CELL: usize = 32;
-/// The most cells along the orientation and the speed, and the fewest along either.
+/// Largest numbers of cells along the orientation and the speed, and the smallest along each.
 const CELLS: [usize; 2] = [12, 13];
 const FEWEST: usize = 3;
 
-/// How many cells along the orientation and the speed so many runs can fill.
+/// The numbers of cells along the orientation and the speed for a number of runs.
 pub fn cells(runs: usize) -> [usize; 2] {
     let side = (runs as f64 / RUNS_A_CELL as f64).sqrt() as usize;
     CELLS.map(|most| side.clamp(FEWEST, most))
 }
 
-/// The chance of a match over relative orientation and speed, with contours of the chances
-/// averaged over neighbouring cells; `numbers` are the same as CSV.
+/// The probability of a match over relative orientation and speed, with contours of the
+/// probabilities averaged over neighbouring cells; `numbers` are the same as CSV.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -48,7 +48,7 @@ pub fn chances(
         .fold(0.05, f64::max);
     let runs = map.cells.iter().map(|c| c.matched.of);
     let (fewest, many) = (runs.clone().min().unwrap_or(0), runs.max().unwrap_or(0));
-    // The ends first; then the levels, as far as their numbers keep clear of others.
+    // The ends first; then the levels whose numbers do not overlap others.
     let levels = LEVELS.into_iter().rev().filter(|level| *level < most);
     let marks = [most, 0.0].into_iter().chain(levels).map(|level| Marked {
         at: level / most,
@@ -75,7 +75,7 @@ pub fn chances(
     Figure::new(&composition, sheet, numbers)
 }
 
-/// Colour of a share of the greatest chance.
+/// The colour of a probability, relative to the largest one.
 fn shade(share: f64) -> [u8; 3] {
     colour(-share)
 }
@@ -108,7 +108,7 @@ fn map_panel(canvas: &mut Canvas, place: Box4, map: &DockingMap, most: f64) {
     }
 }
 
-/// Chances averaged over the cells around, with weights 1, 2, 1 along each direction.
+/// Probabilities averaged over neighbouring cells, with weights 1, 2, 1 along each direction.
 fn smoothed(map: &DockingMap) -> Vec<f64> {
     let [columns, rows] = map.size;
     let near = |k: usize, n: usize| (k.saturating_sub(1)..(k + 2).min(n)).collect::<Vec<_>>();

@@ -1,5 +1,5 @@
 //! The landscape map: the lowest energy over theta at each (x, y), with the fixed tile, the states
-//! and the pathways on it, and an enlargement of what lies in front of the target face.
+//! and the pathways, and an enlarged view of the region in front of the target face.
 
 use nalgebra::Vector2;
 
@@ -24,20 +24,20 @@ use physics::units::prefix_of;
 const WIDTH: f64 = 1000.0;
 /// Space around a plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [34.0, 16.0, 62.0, 84.0];
-/// Shares of the width of the two plots, and the least widths (pixels) at which they stand side by
+/// Shares of the width of the two plots, and the smallest widths (pixels) at which they are side by
 /// side.
 const WEIGHTS: [f64; 2] = [0.62, 0.38];
 const LEAST: [f64; 2] = [420.0, 280.0];
-/// Share of the enlargement's width that lies behind the bound position.
+/// Share of the enlarged view's width behind the bound position.
 const LABELS: f64 = 0.4;
 /// Grid points along the longer side of a map.
 const SAMPLES: f64 = 160.0;
-/// Grid points where outlines have many parts and contact is costly to ask for.
+/// The same for outlines with many parts, for which contact queries are expensive.
 const SAMPLES_OF_MANY_PARTS: f64 = 96.0;
 const MANY_PARTS: usize = 200;
 /// Orientations at each grid point.
 const ORIENTATIONS: usize = 48;
-/// Pixels of an embedded image a pixel of the picture.
+/// Pixels of an embedded image per pixel of the picture.
 const IMAGE: f64 = 0.8;
 
 /// The two maps of the picture.
@@ -49,7 +49,7 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// The maps for plots as a sheet has them.
+    /// The maps for the plots of a sheet.
     pub fn new(scene: &Scene, sheet: &Sheet) -> Self {
         let [whole, target] = plot_sizes(sheet, scene);
         let whole = whole_window(scene, whole);
@@ -78,9 +78,9 @@ fn whole_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
     window(scene, Vector2::zeros(), 0.0, half.map(|h| -h), half)
 }
 
-/// Away from the target face along x, along it along y, the bound position at the origin; in
-/// proportion to the plot. What lies behind the bound position is mostly blocked and leaves room
-/// for labels.
+/// The window in front of the target face: x away from the face, y along it, with the bound
+/// position at the origin; in proportion to the plot. The region behind the bound position is
+/// mostly blocked and leaves room for labels.
 fn target_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
     let face = scene.pair.target_face();
     let normal = face.normal();
@@ -192,7 +192,7 @@ pub fn data(maps: &Maps) -> String {
     table(head, rows)
 }
 
-/// A map as it is plotted.
+/// The plot of a map.
 #[derive(Clone, Copy)]
 struct MapPlot<'a> {
     map: &'a EnergyMap,
@@ -210,7 +210,8 @@ impl MapPlot<'_> {
         (0..2).all(|k| (window.low[k]..=window.high[k]).contains(&at[k]))
     }
 
-    /// Draws the map with its axes; tells how the plane became pixels and the plot's frame.
+    /// Draws the map with its axes; returns the transform from the plane to pixels, and the plot's
+    /// frame.
     fn draw(&self, canvas: &mut Canvas, place: Box4) -> (View, Box4) {
         let window = &self.map.window;
         let longer = (0..2)

@@ -1,4 +1,4 @@
-//! Pictures with the numbers that they show, drawn and yet to be drawn.
+//! Pictures together with the numbers they show, before and after drawing.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -10,9 +10,9 @@ use physics::interruption;
 /// Pictures with the numbers that they show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The stem of the file of numbers, and of the picture if there is one only.
+    /// The stem of the file of numbers, and of the picture if there is only one.
     pub name: String,
-    /// By the stems of their files: one, or one for each of its panels.
+    /// The pictures by the stems of their files: one, or one for each panel.
     pub pictures: Vec<(String, Picture)>,
     /// The numbers, as CSV.
     pub data: String,
@@ -55,20 +55,20 @@ impl Figure {
     }
 }
 
-/// What draws pictures.
+/// A function that draws pictures.
 type Draw<'a> = dyn Fn(&Sheet) -> Result<Vec<Figure>, PictureError> + Send + Sync + 'a;
 
 /// A picture yet to be drawn.
 pub struct Drawing<'a> {
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// Whether the page has it; where a part of the page shows the same, it does not.
+    /// Whether the page shows it; not if an interactive part shows the same.
     pub is_shown: bool,
     draw: Box<Draw<'a>>,
 }
 
 impl<'a> Drawing<'a> {
-    /// A picture of what its title says.
+    /// A picture with a title.
     pub fn new(
         title: impl Into<String>,
         draw: impl Fn(&Sheet) -> Result<Figure, PictureError> + Send + Sync + 'a,
@@ -88,10 +88,11 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The pictures; a fault in drawing them is an error like others, for the results are worth more.
+    /// Draws the pictures. A panic while drawing becomes an error, so that the results are not
+    /// lost.
     ///
     /// # Errors
-    /// Where they cannot be drawn.
+    /// If they cannot be drawn.
     pub fn drawn(&self, sheet: &Sheet) -> Result<Vec<Figure>, PictureError> {
         let drawn = catch_unwind(AssertUnwindSafe(|| (self.draw)(sheet)));
         drawn.unwrap_or_else(|fault| match interruption::is_interrupted(fault.as_ref()) {
@@ -100,7 +101,7 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    /// In a file only: a part of the page shows the same.
+    /// Excludes the picture from the page.
     #[must_use]
     pub fn off_page(self) -> Self {
         Self {

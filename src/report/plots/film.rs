@@ -15,7 +15,7 @@ use crate::csv::table;
 use physics::landscape::{Pathway, PathwayPoint};
 use physics::units::si;
 
-/// Least width of a frame (pixels), and the most side by side.
+/// Smallest width of a frame (pixels), and the largest number side by side.
 const FRAME: f64 = 190.0;
 const COLUMNS: usize = 4;
 const FRAMES: usize = 8;
@@ -24,15 +24,15 @@ const GAP: f64 = 14.0;
 /// Height of the text under a frame (pixels).
 const CAPTION: f64 = 48.0;
 
-/// The frames of the way into the bond.
+/// The frames of the path into the bond.
 pub struct Film {
     frames: Vec<PathwayPoint>,
-    /// The rectangle (m) that is seen: both tiles in every frame, with a margin.
+    /// The visible rectangle (m): both tiles in every frame, with a margin.
     seen: [Vector2<f64>; 2],
 }
 
 impl Film {
-    /// `None` where no way from far away to the bound state is known.
+    /// `None` if no path from far away to the bound state is known.
     pub fn new(scene: &Scene, scale: &EnergyScale) -> Option<Self> {
         let pathway = scene.docking()?;
         let frames = frames(near(&pathway, scene), scale);
@@ -42,7 +42,7 @@ impl Film {
         Some(Self { frames, seen })
     }
 
-    /// Columns, and width and height of a frame, on a picture of this width (pixels).
+    /// Number of columns, and width and height of a frame, for a picture of this width (pixels).
     fn layout(&self, width: f64) -> (usize, [f64; 2]) {
         let columns = ((width / FRAME) as usize).clamp(2, COLUMNS);
         let size = self.seen[1] - self.seen[0];
@@ -73,7 +73,7 @@ impl Film {
     }
 }
 
-/// Both tiles on their way together.
+/// The film strip.
 pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) -> Composition<'a> {
     let height = |width: f64| {
         let (columns, [_, high]) = film.layout(width);
@@ -102,10 +102,10 @@ pub fn composed<'a>(scene: &'a Scene, film: &'a Film, scale: &'a EnergyScale) ->
     }
 }
 
-/// Tiles that are no farther apart (m, told for the paper's tile) are told to touch.
+/// Tiles not farther apart than this (m, for the paper's tile) are said to touch.
 const TOUCHING: f64 = 1e-5;
 
-/// Number, energy and gap below a frame; a gap below `touching` (m) is none.
+/// Number, energy and gap below a frame; a gap below `touching` (m) counts as contact.
 fn caption(
     canvas: &mut Canvas,
     scale: &EnergyScale,
@@ -126,15 +126,15 @@ fn caption(
     canvas.write(soft, &gap, (middle, bottom + 28.0), Anchor::Top);
 }
 
-/// The part of a pathway from where the tiles are no farther apart than the moving one's size.
+/// The part of a pathway from the point where the gap is at most the moving tile's size.
 fn near<'a>(pathway: &'a Pathway, scene: &Scene) -> &'a [PathwayPoint] {
     let far = 0.8 * scene.pair.moving.outline.circumradius();
     let first = pathway.iter().rposition(|point| point.clearance > far);
     &pathway[first.unwrap_or(0).min(pathway.len() - 2)..]
 }
 
-/// Points of a pathway spread evenly over its length and its energy (on the pictures' scale)
-/// together, so that frames crowd where something happens.
+/// Points of a pathway spaced evenly over the sum of its length and its energy (on the pictures'
+/// scale), so that frames are dense where the energy changes.
 fn frames(pathway: &[PathwayPoint], scale: &EnergyScale) -> Vec<PathwayPoint> {
     let length = (pathway[pathway.len() - 1].s - pathway[0].s).max(f64::MIN_POSITIVE);
     let mut progress = vec![0.0];

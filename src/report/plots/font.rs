@@ -1,11 +1,11 @@
-//! The font that is part of the program.
+//! The font embedded in the program.
 
 use std::sync::LazyLock;
 
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// Fonts of about the width that labels are laid out for, the last of them any browser's own.
+/// Fonts of about the width that labels are laid out for; the last one is the browser's default.
 pub const FAMILY: &str = "Noto Sans, Helvetica, Arial, sans-serif";
 
 /// Regular and bold.
@@ -26,7 +26,7 @@ pub fn width(text: &str, bold: bool) -> f64 {
     f64::from(advance) / f64::from(face.units_per_em())
 }
 
-/// The outline of a text in em, from where it begins to the right and down from its foot, and the
+/// The outline of a text in em, x to the right from its start and y down from its baseline, and the
 /// height of a small letter.
 pub fn outline(text: &str, bold: bool) -> Option<(Path, f64)> {
     let face = &FACES[usize::from(bold)];
@@ -45,7 +45,7 @@ pub fn outline(text: &str, bold: bool) -> Option<(Path, f64)> {
     Some((pen.builder.finish()?.transform(scale)?, ex))
 }
 
-/// Draws letters in units of the font, y upwards.
+/// Collects the outlines of letters in font units, y upwards.
 struct Pen {
     builder: PathBuilder,
     x: f32,

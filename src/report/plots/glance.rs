@@ -1,4 +1,4 @@
-//! A design at a glance: both tiles where they bind, and the figures beside them.
+//! A picture of a design: both tiles where they bind, and the figures beside them.
 
 use nalgebra::Vector2;
 
@@ -23,12 +23,12 @@ const FOOT: f64 = 190.0;
 const MARGIN: f64 = 40.0;
 /// Height of a line of text (pixels).
 const LINE: f64 = 22.0;
-/// What the letters at the magnets are.
+/// The explanation of the letters at the magnets.
 const KEY: &str = "letters: outward pole of each magnet; U, D: north pole up, down";
-/// Most faults that are told on the picture.
+/// Largest number of faults shown on the picture.
 const TOLD: usize = 3;
 
-/// Draws a design; for print the tiles alone.
+/// Draws a design; for print only the tiles.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -89,7 +89,7 @@ fn tiles(canvas: &mut Canvas, design: &Design, [left, top, right, bottom]: Box4)
     }
 }
 
-/// Names of the faces, inside of their magnets with the letters of their codes.
+/// The names of the faces, inside their magnets with the letters of their codes.
 fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
     for (number, face) in tile.faces.iter().enumerate() {
         let letters: Vec<(f64, &Magnet, char)> = magnets(tile, number)
@@ -129,7 +129,7 @@ fn faces(canvas: &mut Canvas, view: &View, tile: &Tile, q: &Configuration) {
     }
 }
 
-/// What holds the tiles, a line for each model.
+/// The forces that hold the tiles, one line for each model.
 fn figures(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     let top = SIZE[1] - FOOT + 10.0;
     let columns = [MARGIN, 200.0, 380.0, 640.0];
@@ -157,7 +157,7 @@ fn figures(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     }
 }
 
-/// What is wrong, below the figures, in the order of importance.
+/// Faults, below the figures, in the order of importance.
 fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     const STEP: f64 = 19.0;
     let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;

@@ -1,4 +1,4 @@
-//! Maps of colours: images of grids, and the bars that tell what colours mean.
+//! Colour maps: images of grids, and their colour bars.
 
 use super::axes::Plot;
 use super::canvas::{Bitmap, Box4, Canvas, middle};
@@ -12,18 +12,18 @@ use plotters::style::{RGBColor, WHITE};
 
 /// Steps of colour.
 const COLOURS: usize = 250;
-/// Colours of the hatching of what is blocked, and of nothing.
+/// Colours of the hatching of blocked regions, and of missing values.
 pub const HATCH: [[u8; 3]; 2] = [[226, 226, 226], [198, 198, 198]];
 const BLANK: [[u8; 3]; 2] = [[255; 3]; 2];
-/// Space left and right of a bar of colours, and its height with name and numbers (pixels).
+/// Space left and right of a colour bar, and its height with name and numbers (pixels).
 const SIDES: [f64; 2] = [84.0, 24.0];
 const BAR: f64 = 84.0;
-/// Pixels of an image of cells, so many that cells keep their edges.
+/// Pixels of an image of cells, enough for sharp edges of cells.
 const SHARP: usize = 500;
 
-/// An image of so many pixels, the first row at the top, of colours of shares from 0 to 1: `share`
-/// tells it at the fraction (0 to 1, from the left and from the bottom); `others` are the colours, in
-/// stripes, of where there is none.
+/// An image of a number of pixels, with the first row at the top, coloured by shares from 0 to 1.
+/// `share` returns the share at a position (0 to 1, from the left and from the bottom); `others`
+/// are the colours, in stripes, for positions without one.
 pub fn shaded(
     [width, height]: [usize; 2],
     others: [[u8; 3]; 2],
@@ -49,8 +49,7 @@ pub fn shaded(
     }
 }
 
-/// Fills a plot with cells, each of the colour of its share; rows and columns count from the lower
-/// left.
+/// Fills a plot with cells coloured by their shares; rows and columns count from the lower left.
 pub fn cells(
     canvas: &mut Canvas,
     plot: &Plot,
@@ -66,7 +65,7 @@ pub fn cells(
     canvas.frame(plot.frame, INK);
 }
 
-/// A cell of a table in a colour with its text, where there is room.
+/// A coloured cell of a table with its text, if there is room.
 pub fn cell(canvas: &mut Canvas, place: Box4, fill: [u8; 3], text: &str) {
     let [left, top, right, bottom] = place;
     let [r, g, b] = fill;
@@ -78,7 +77,7 @@ pub fn cell(canvas: &mut Canvas, place: Box4, fill: [u8; 3], text: &str) {
     }
 }
 
-/// The range of positions on a scale of energies that colours are given to.
+/// The range of positions on a scale of energies that the colours cover.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     low: f64,
@@ -86,7 +85,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// The positions of these energies, with zero and a little on either side of it.
+    /// The range of these energies, including zero and a little on both sides of it.
     pub fn of(scale: &EnergyScale, energies: impl Iterator<Item = f64>) -> Self {
         let (low, high) = (-0.15, 0.15);
         energies
@@ -105,7 +104,7 @@ impl Range {
         colour(self.low + (self.high - self.low) * share)
     }
 
-    /// Fills a plot with an image of so many pixels of positions, `None` where blocked.
+    /// Fills a plot with an image of positions, `None` if blocked.
     pub fn fill(
         &self,
         canvas: &mut Canvas,
@@ -121,7 +120,7 @@ impl Range {
         canvas.frame(plot.frame, INK);
     }
 
-    /// The colours with their energies, in a bar.
+    /// The colour bar with its energies.
     pub fn bar<'a>(self, scale: &EnergyScale) -> Panel<'a> {
         let mut marks = scale.ticks(self.low, self.high);
         // Zero first, then outwards.
@@ -138,17 +137,17 @@ impl Range {
     }
 }
 
-/// What is told at a place of a bar.
+/// A mark of a colour bar.
 pub struct Marked {
-    /// From 0 to 1.
+    /// Its position, from 0 to 1.
     pub at: f64,
     pub text: String,
-    /// Whether a line goes across the colours there.
+    /// Whether a line crosses the colours there.
     pub is_crossed: bool,
 }
 
-/// Colours from left to right with what they mean; where texts would collide the later ones are left
-/// out.
+/// A colour bar from left to right with its marks; texts that would overlap earlier ones are
+/// omitted.
 pub fn bar<'a>(
     name: impl Into<String>,
     colour: impl Fn(f64) -> [u8; 3] + Send + Sync + 'a,
@@ -203,7 +202,7 @@ impl Interpolated {
         }
     }
 
-    /// The four grid points about a place (fractions of the width and the height) with their
+    /// The four grid points around a position (fractions of the width and the height) with their
     /// weights.
     pub fn corners(&self, u: f64, v: f64) -> [(usize, f64); 4] {
         let cell = |f: f64, count: usize| {
@@ -222,7 +221,7 @@ impl Interpolated {
         ]
     }
 
-    /// The mean over the free grid points about a place, and their share of the weight.
+    /// The mean over the free grid points around a position, and their share of the weight.
     pub fn position(&self, u: f64, v: f64) -> Option<(f64, f64)> {
         let known = self.corners(u, v).into_iter();
         let known = known.filter_map(|(index, weight)| Some((self.positions[index]?, weight)));

@@ -1,4 +1,4 @@
-//! What marks, lines and colours mean.
+//! The legend of marks, lines and colours.
 
 use plotters::style::RGBColor;
 
@@ -8,7 +8,7 @@ use super::heat;
 use super::marks::{Mark, marker};
 use super::style::{Anchor, BLUE, INK, SMALL, SOFT, VERMILLION};
 
-/// A sign that a key explains.
+/// A sign in a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sign {
     Mark(Mark),
@@ -25,12 +25,12 @@ pub enum Sign {
 /// Signs and their meanings.
 pub type Meanings = Vec<(Sign, String)>;
 
-/// Those of states.
+/// The signs of states.
 pub const STATES: [(Sign, &str); 2] = [
     (Sign::Mark(Mark::Bond), "bond"),
     (Sign::Mark(Mark::Trap), "trap"),
 ];
-/// Those of magnets.
+/// The signs of magnets.
 pub const POLES: [(Sign, &str); 2] = [
     (Sign::Block(VERMILLION), "north pole"),
     (Sign::Block(BLUE), "south pole"),
@@ -43,13 +43,13 @@ const SIGN: f64 = 31.0;
 const GAP: f64 = 22.0;
 const LINE: f64 = 25.0;
 
-/// The square at which a path starts.
+/// The square at the start of a path.
 pub fn start(canvas: &mut Canvas, (x, y): Pixel, colour: RGBColor) {
     canvas.block([x - 3.0, y - 3.0, x + 3.0, y + 3.0], colour);
 }
 
 impl Sign {
-    /// Draws it to the right of a place.
+    /// Draws it to the right of a position.
     fn draw(self, canvas: &mut Canvas, (x, y): Pixel) {
         let (line, middle) = ([(x, y), (x + 24.0, y)], (x + 12.0, y));
         let block = [x + 4.0, y - 7.0, x + 20.0, y + 7.0];
@@ -71,7 +71,7 @@ impl Sign {
     }
 }
 
-/// What signs mean, in as many lines as it takes.
+/// A key of signs, wrapped to lines.
 pub fn key<'a, T: Into<String>>(meanings: impl IntoIterator<Item = (Sign, T)>) -> Panel<'a> {
     let meanings = meanings.into_iter().map(|(sign, text)| (sign, text.into()));
     let meanings: Meanings = meanings.collect();

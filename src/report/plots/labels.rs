@@ -1,4 +1,4 @@
-//! Labels that keep out of each other's way.
+//! Labels placed so that they do not overlap.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -8,17 +8,17 @@ use plotters::style::{Color, WHITE};
 use super::canvas::{Box4, Canvas, Pixel, middle};
 use super::style::{Anchor, SOFT, Text};
 
-/// Width and height (pixels) of a text with its ground.
+/// Width and height (pixels) of a text with its background.
 fn extent(font: Text, text: &str) -> (f64, f64) {
     (font.room(text) + 6.0, 1.25 * font.size + 2.0)
 }
 
-/// The point of a rectangle that is nearest to another point.
+/// The point of a rectangle nearest to another point.
 fn nearest((x, y): Pixel, [left, top, right, bottom]: Box4) -> Pixel {
     (x.clamp(left, right), y.clamp(top, bottom))
 }
 
-/// Joins a label to what it names by a thin line, where it is not beside it.
+/// Connects a label to its anchor by a thin line, unless it is beside it.
 fn join(canvas: &mut Canvas, anchor: Pixel, place: Box4) {
     let nearest = nearest(anchor, place);
     if libm::hypot(nearest.0 - anchor.0, nearest.1 - anchor.1) > 14.0 {
@@ -27,18 +27,18 @@ fn join(canvas: &mut Canvas, anchor: Pixel, place: Box4) {
     }
 }
 
-/// Writes a text on a pale ground.
+/// Writes a text on a pale background.
 fn write(canvas: &mut Canvas, text: &str, font: Text, place: Box4) {
     canvas.block(place, WHITE.mix(0.85));
     canvas.write(font, text, middle(place), Anchor::Middle);
 }
 
-/// How far apart labels in a column are if there is room, in their height: lines that lead to what
-/// lies close together can then be told apart.
+/// Spacing of labels in a column if there is room, relative to their height: connecting lines can
+/// then be distinguished.
 const AIR: f64 = 1.4;
 
-/// Writes labels in a column along the left side of a frame, each as near as may be to the height
-/// of what it names.
+/// Writes labels in a column along the left side of a frame, each as near as possible to the height
+/// of its anchor.
 pub fn label_column(
     canvas: &mut Canvas,
     font: Text,
@@ -86,7 +86,7 @@ fn spread(heights: &mut [f64], step: f64, low: f64, high: f64) {
     }
 }
 
-/// Places labels beside what they name so that none covers another or a marker.
+/// Places labels beside their anchors so that none covers another label or a marker.
 pub struct Labels {
     within: Box4,
     taken: Vec<Box4>,
@@ -118,8 +118,8 @@ impl Labels {
         }
     }
 
-    /// Writes `text` near `anchor`, joined to it by a thin line where it is not beside it. Leaves
-    /// it out where there is no room near.
+    /// Writes `text` near `anchor`, connected by a thin line unless it is beside it. Omits it if
+    /// there is no room nearby.
     pub fn place(
         &mut self,
         canvas: &mut Canvas,
@@ -137,7 +137,7 @@ impl Labels {
         }
     }
 
-    /// The nearest free place, those in the direction `outwards` first.
+    /// The nearest free position, preferring the direction `outwards`.
     fn free_place(
         &self,
         (x, y): Pixel,
@@ -178,7 +178,7 @@ impl Labels {
     }
 
     fn is_free(&self, [left, top, right, bottom]: Box4) -> bool {
-        // Moving a rectangle inside rounds it.
+        // Moving a rectangle inside the frame causes rounding errors.
         const ROUNDING: f64 = 1e-6;
         let [l, t, r, b] = self.within;
         let over = [l - left, t - top, right - r, bottom - b];

@@ -12,12 +12,12 @@ use physics::configuration::Configuration;
 use physics::landscape::{Kind, StateKind};
 use physics::order::Order;
 
-/// Pathways drawn.
+/// Number of pathways drawn.
 const PATHWAYS: usize = 8;
-/// Classes of states that are named.
+/// Number of named classes of states.
 pub const NAMED: usize = 12;
 
-/// Ways out, and all states as markers, one a place.
+/// Draws the ways out, and markers of all states, one per position.
 pub fn ways_and_states(canvas: &mut Canvas, (view, frame): (View, Box4), scene: &Scene) {
     let ways = || scene.main_escapes().into_iter().take(PATHWAYS);
     for barrier in ways() {
@@ -54,7 +54,7 @@ fn inside([left, top, right, bottom]: Box4, (x, y): Pixel) -> bool {
     x >= left && x <= right && y >= top && y <= bottom
 }
 
-/// The kinds of states that are named, each at its copy nearest to the target, with their labels.
+/// The named kinds of states with their labels, each at its copy nearest to the target.
 fn named_states(scene: &Scene, scale: &EnergyScale) -> Vec<(Configuration, String)> {
     let label = |kind: &Kind| {
         let state = kind.first();
@@ -67,7 +67,7 @@ fn named_states(scene: &Scene, scale: &EnergyScale) -> Vec<(Configuration, Strin
     scene.kinds().iter().take(NAMED).map(label).collect()
 }
 
-/// Names states beside them on the whole map, but for those that the enlargement names.
+/// Names states beside them on the whole map, except those named in the enlarged view.
 pub fn name_around(
     canvas: &mut Canvas,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Marks on pictures: of states and saddles, tiles.
+//! Marks in pictures: states, saddles and tiles.
 
 use nalgebra::{Rotation2, Vector2};
 use plotters::style::{RGBColor, WHITE};
@@ -10,10 +10,10 @@ use physics::landscape::StateKind;
 use physics::tile::magnet::Standing;
 use physics::tile::{Magnet, Pair, Tile};
 
-/// Where the fixed tile lies.
+/// The pose of the fixed tile.
 pub const ORIGIN: Configuration = Configuration::new(0.0, 0.0, 0.0);
 
-/// What a marker stands for; each has a shape and a colour of its own.
+/// The meaning of a marker; each has its own shape and colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     Bond,
@@ -48,20 +48,21 @@ pub fn marker(canvas: &mut Canvas, mark: Mark, at: Pixel, radius: f64) {
     }
 }
 
-/// How metres of the fixed tile's frame become pixels.
+/// The transform from the fixed tile's frame (m) to pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// The point (m) that is drawn at `origin`.
+    /// The point (m) drawn at `origin`.
     pub centre: Vector2<f64>,
     /// The pixel of `centre`.
     pub origin: Pixel,
-    /// Angle (rad) by which the plane is turned on the picture.
+    /// Angle (rad) by which the plane is rotated on the picture.
     pub turn: f64,
-    /// Pixels a metre.
+    /// Pixels per metre.
     pub scale: f64,
 }
 
-/// The corners of the least rectangle (m) that holds both tiles in some poses of the moving one.
+/// The corners of the smallest rectangle (m) that contains both tiles in the given poses of the
+/// moving one.
 pub fn extent<'a>(
     pair: &Pair,
     poses: impl IntoIterator<Item = &'a Configuration>,
@@ -77,7 +78,7 @@ pub fn extent<'a>(
 }
 
 impl View {
-    /// A view in which a rectangle (m) fills a place.
+    /// A view in which a rectangle (m) fills a rectangle of the picture.
     pub fn filling([left, top, right, bottom]: Box4, [low, high]: [Vector2<f64>; 2]) -> Self {
         let size = high - low;
         Self {
@@ -109,8 +110,8 @@ impl View {
         }
     }
 
-    /// A magnet's block, its two poles in colour, with their letters where there is room. Blocks too
-    /// small to see are drawn larger, about the same outer pole.
+    /// A magnet's block with coloured poles, and their letters if there is room. Blocks too small
+    /// to see are enlarged around the same outer pole.
     fn magnet(&self, canvas: &mut Canvas, magnet: &Magnet, q: &Configuration) {
         let axis = Vector2::new(libm::cos(magnet.angle), libm::sin(magnet.angle));
         let across = Vector2::new(-axis.y, axis.x);

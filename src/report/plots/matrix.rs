@@ -1,4 +1,4 @@
-//! A matrix: a number of every two of some things, as a colour.
+//! A matrix as a colour map.
 
 use super::canvas::{Box4, Canvas, Spot, corners};
 use super::composition::{Composition, Panel};
@@ -8,7 +8,7 @@ use super::style::{Anchor, GRID, SMALL, VERMILLION};
 use super::{Drawing, Figure, Sheet};
 
 const WIDTH: f64 = 860.0;
-/// Greatest side of a cell (pixels).
+/// Largest side of a cell (pixels).
 const CELL: f64 = 56.0;
 /// Space right of and below the cells (pixels).
 const EDGE: f64 = 16.0;
@@ -18,22 +18,22 @@ const EDGE: f64 = 16.0;
 pub struct Matrix {
     /// The stem of its files.
     pub name: &'static str,
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// Of rows and of columns.
+    /// Names of rows and columns.
     pub names: Vec<String>,
-    /// Numbers from 0 to 1, row by row; `None` where there is none.
+    /// Numbers from 0 to 1, row by row; `None` if there is none.
     pub shares: Vec<Vec<Option<f64>>>,
     /// Whether rows and columns are framed.
     pub is_framed: fn(row: usize, column: usize, count: usize) -> bool,
-    /// What its numbers are.
+    /// The meaning of its numbers.
     pub legend: String,
     /// The numbers, as CSV.
     pub numbers: String,
 }
 
 impl Matrix {
-    /// Draws it.
+    /// Draws the matrix.
     ///
     /// # Errors
     /// See [`PictureError`].
@@ -68,7 +68,7 @@ impl Matrix {
 
     fn cells(&self, canvas: &mut Canvas, (left, top): (f64, f64), side: f64) {
         let at = |k: usize| (k as f64 + 0.5) * side;
-        // Names with room for each.
+        // The names for which there is room.
         let [lines, columns] = [16.0, self.widest()].map(|room| (room / side).ceil() as usize);
         for (k, name) in self.names.iter().enumerate() {
             if k % lines == 0 {

@@ -11,7 +11,7 @@ const SAME_LEVEL: f64 = 0.004;
 /// A merge tree of classes of states.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tree {
-    /// A class by its number; `None` for free tiles.
+    /// A class by its index; `None` for free tiles.
     Leaf { class: Option<usize>, energy: f64 },
     Merge {
         /// Saddle energy (J).
@@ -46,7 +46,7 @@ impl Tree {
         self.deepest().0.into_inner()
     }
 
-    /// Energy (J) and class of the tree's deepest state; among equals the one of the lowest number.
+    /// Energy (J) and class of the tree's deepest state; of equal ones that of the lowest index.
     fn deepest(&self) -> (OrderedFloat<f64>, Option<usize>) {
         match self {
             Self::Leaf { class, energy } => (OrderedFloat(*energy), *class),
@@ -58,7 +58,7 @@ impl Tree {
         }
     }
 
-    /// How many states the tree joins.
+    /// The number of states of the tree.
     pub fn leaves(&self) -> usize {
         match self {
             Self::Leaf { .. } => 1,
@@ -82,7 +82,7 @@ impl Tree {
         }
     }
 
-    /// Two trees joined over a saddle. A tree that was joined at this very level, to the eye, gives
+    /// Joins two trees over a saddle. A tree that was joined at visually the same level contributes
     /// its children.
     fn join(trees: [Tree; 2], over: &Join, scale: &EnergyScale) -> Self {
         let mut children = Vec::new();
@@ -102,8 +102,8 @@ impl Tree {
     }
 }
 
-/// Joins leaves (class and energy) over saddles, the lowest first. Leaves that no saddle joins stay
-/// trees of their own; saddles to classes that are not among the leaves are left out.
+/// Joins leaves (class and energy) over saddles, lowest first. Unconnected leaves remain separate
+/// trees; saddles to other classes are ignored.
 pub fn merge(
     leaves: Vec<(Option<usize>, f64)>,
     mut joins: Vec<Join>,
@@ -148,7 +148,7 @@ mod tests {
     fn states_merge_at_the_lowest_saddle_that_joins_them() {
         let scale = EnergyScale::holding([-1.0]);
         let leaves = vec![(Some(7), -1.0), (Some(2), -0.5), (None, 0.0)];
-        // Between 2 and 7 the way round is lower than the straight one.
+        // Between 2 and 7 the indirect path is lower than the direct one.
         let joins = vec![
             join(Some(2), Some(7), 0.4),
             join(None, Some(2), 0.1),

@@ -1,4 +1,4 @@
-//! The pictures of an analysis, each as SVG and as PNG, for print as PDF too, and its numbers as CSV.
+//! The pictures of an analysis, each as SVG and PNG, as PDF for print, and its numbers as CSV.
 //!
 //! - `map`: lowest energy over theta at each (x, y), with states and pathways on it;
 //! - `approach`: energy in front of the target face, gap and slide against tilt;
@@ -8,10 +8,10 @@
 //! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
 //!   linear scale.
 //!
-//! A picture is a composition of panels, laid out for a [`Sheet`]. Panels are drawn by plotters: its
-//! elements, charts and series, on a backend that keeps the shapes. These are then written as SVG (by
-//! plotters), as pixels (by tiny-skia) and as PDF (by pdf-writer), with a font that is part of the
-//! program, so that no form depends on what is installed.
+//! A picture is a composition of panels, laid out for a [`Sheet`]. Panels are drawn with plotters
+//! (its elements, charts and series) on a backend that records the shapes. These are then written
+//! as SVG (by plotters), as pixels (by tiny-skia) and as PDF (by pdf-writer), with an embedded
+//! font, so that no format depends on installed fonts.
 
 mod approach;
 pub(crate) mod axes;
@@ -58,7 +58,7 @@ use models::Curves;
 use physics::parallel;
 use scale::EnergyScale;
 
-/// All pictures of an analysis; those that nothing is known for are left out.
+/// All pictures of an analysis; those without data are omitted.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -66,15 +66,15 @@ pub fn draw_all(scene: &Scene, sheet: &Sheet) -> Result<Vec<Figure>, PictureErro
     draw(scene, sheet, |_| true)
 }
 
-/// Which states merge at which energy, all kinds of them, as CSV: each line of the graph with its
-/// foot, and where it joins which other.
+/// The disconnectivity graph of all kinds of states as CSV: each line of the graph with its foot,
+/// and the energy and line at which it joins another.
 pub fn merge_lines(scene: &Scene) -> String {
     let energies = scene.states().iter().map(|state| state.energy);
     let scale = EnergyScale::holding(energies.chain([0.0])).linear_throughout();
     disconnectivity::lines(scene, &scene.kinds(), &scale)
 }
 
-/// The pictures of an analysis that are wanted, by their names.
+/// The selected pictures of an analysis, by name.
 ///
 /// # Errors
 /// See [`PictureError`].

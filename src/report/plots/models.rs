@@ -1,5 +1,5 @@
-//! What the model of the magnets costs: the energy of point dipoles against that of blocks, and
-//! the error of the dipoles, as the bound tiles are drawn apart along the target face's normal.
+//! The error of the dipole model: the energy of point dipoles against that of blocks, and the
+//! difference, as the bound tiles are drawn apart along the target face's normal.
 
 use super::canvas::{Box4, Canvas};
 use super::chart::{Dimension, Look, Series, plotted};
@@ -19,7 +19,7 @@ const HEIGHT: f64 = 390.0;
 const LEAST: f64 = 380.0;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [32.0, 24.0, 60.0, 80.0];
-/// Which of the colours of series are whose.
+/// Indices of the colours of series.
 const BLOCKS: usize = 0;
 const DIPOLES: usize = 1;
 const ERROR: usize = 6;
@@ -34,15 +34,15 @@ pub struct Curves {
     gaps: Vec<f64>,
     dipoles: Vec<f64>,
     blocks: Vec<f64>,
-    /// What these are called.
+    /// The name of the bodies.
     bodies: &'static str,
-    /// Of dipoles and of blocks in the bond, which need not lie on the way of the curves.
+    /// Energies of dipoles and of blocks in the bond, which need not lie on the curves.
     bond: Option<[f64; 2]>,
 }
 
 impl Curves {
-    /// `None` where there are no magnets, the faces cannot meet along the normal, or nothing is to
-    /// be compared.
+    /// `None` if there are no magnets, the faces cannot meet along the normal, or there is nothing
+    /// to compare.
     pub fn new(scene: &Scene) -> Option<Self> {
         let pair = scene.pair;
         let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
@@ -53,7 +53,8 @@ impl Curves {
             return None;
         }
         let approach = Approach::new(pair);
-        // From the bond on, also where shapes hold the tile in it: head-on it may touch before.
+        // Starts at the bond, also if shapes lock the tile in it: on the way straight in it may
+        // touch earlier.
         let landing = match scene.problem.is_clear(&pair.bound) {
             true => 0.0,
             false => approach.landing(scene.problem, 0.0, 0.0)?,

@@ -1,4 +1,4 @@
-//! Paths of docking tiles.
+//! Trajectories of docking tiles.
 
 use plotters::style::RGBColor;
 
@@ -19,7 +19,7 @@ const WIDTH: f64 = 860.0;
 /// Space around the plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
 
-/// Paths of the moving tile's reference point by where they end, and the tile where it is bound.
+/// Paths of the moving tile's reference point by their ends, and the bound tile.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -64,7 +64,7 @@ pub fn trajectories(
     Figure::new(&composition, sheet, table(head, rows))
 }
 
-/// What a path's end is called.
+/// The name of a path's end.
 pub fn ending(end: &End) -> &'static str {
     match end {
         End::Bound { .. } => "bound",
@@ -73,7 +73,7 @@ pub fn ending(end: &End) -> &'static str {
     }
 }
 
-/// Of a square plot at a width (pixels).
+/// The height of a square plot of this width (pixels).
 fn plot_height(width: f64) -> f64 {
     MARGIN[0] + (width - MARGIN[1] - MARGIN[3]).min(700.0) + MARGIN[2]
 }
@@ -120,5 +120,5 @@ fn paths(
     }
 }
 
-/// Paths that end free, most of them.
+/// The colour of paths that end free, which are most of them.
 const FAINT: RGBColor = RGBColor(150, 150, 150);

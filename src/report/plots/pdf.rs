@@ -1,7 +1,7 @@
 //! A drawing as a PDF of one page, for print.
 //!
-//! Text is drawn by its outlines, as the pixels are, so that nothing need be embedded and nothing
-//! is substituted; the file holds no date, and the same drawing gives the same bytes.
+//! Text is drawn by its outlines, as in bitmaps, so that no font needs to be embedded or is
+//! substituted. The file contains no date, and the same drawing gives the same bytes.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::canvas::{Bitmap, Canvas};
 use super::recorder::Shape;
 use crate::packing::deflated;
 
-/// Points of print in a millimetre.
+/// Points per millimetre.
 const POINTS_A_MILLIMETRE: f64 = 72.0 / 25.4;
 /// The page's objects; images and degrees of transparency come after.
 const CATALOG: i32 = 1;
@@ -23,7 +23,7 @@ const CONTENT: i32 = 4;
 const INFO: i32 = 5;
 const FIRST: i32 = 6;
 
-/// The file: a canvas, a unit being so many mm.
+/// The file of a canvas, with the size of a unit in mm.
 pub fn page(title: &str, canvas: &Canvas, shapes: &[Shape], millimetres: f64) -> Vec<u8> {
     let scale = (millimetres * POINTS_A_MILLIMETRE) as f32;
     let size = canvas.root.dim_in_pixel();
@@ -116,7 +116,7 @@ fn paint(content: &mut Content, opacities: &mut BTreeSet<u32>, shape: &Shape) {
 fn trace(content: &mut Content, path: &Path, transform: Transform) {
     let at = |mut point: Point| {
         transform.map_point(&mut point);
-        // Tenths of a unit are a hundredth of a pixel.
+        // A tenth of a unit is a hundredth of a pixel.
         [point.x, point.y].map(|c| (10.0 * c).round() / 10.0)
     };
     let mut last = [0.0; 2];

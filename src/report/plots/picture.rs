@@ -20,11 +20,11 @@ use super::style::UNITS;
 /// A drawing as SVG and, if wanted, as PNG and PDF.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// A whole document.
+    /// A complete document.
     pub svg: String,
-    /// A whole file; unless there are to be no bitmaps.
+    /// A complete file; `None` without bitmaps.
     pub png: Option<Vec<u8>>,
-    /// A whole file; for print only.
+    /// A complete file; only for print.
     pub pdf: Option<Vec<u8>>,
 }
 
@@ -37,7 +37,7 @@ pub enum PictureError {
     /// The bitmap could not be encoded.
     #[error("could not write a picture as PNG: {0}")]
     Png(#[from] png::EncodingError),
-    /// Its drawing broke down.
+    /// Drawing panicked.
     #[error(
         "could not draw a picture ({0}): this is a bug of tilebind; all other results are \
         complete"
@@ -49,7 +49,7 @@ impl Picture {
     /// A canvas on white.
     ///
     /// # Errors
-    /// Where something could not be drawn, there is no such bitmap or it cannot be encoded.
+    /// If something could not be drawn, there is no such bitmap or it cannot be encoded.
     pub(super) fn new(sheet: &Sheet, title: &str, canvas: &Canvas) -> Result<Self, PictureError> {
         let shapes = &canvas.shapes().map_err(PictureError::Layout)?[..];
         let bitmap = || png(canvas, shapes, sheet.dots() / UNITS);
@@ -62,8 +62,8 @@ impl Picture {
     }
 }
 
-/// What plotters writes, with a head of our own (size in pixels or mm, coordinates in units, round
-/// joins), images beneath and spots above. Writing to a string cannot fail.
+/// The output of plotters with a custom header (size in pixels or mm, coordinates in units, round
+/// joins), images beneath and tooltip regions above. Writing to a string cannot fail.
 fn svg(
     canvas: &Canvas,
     shapes: &[Shape],
@@ -78,7 +78,7 @@ fn svg(
     }
     drop(backend);
     let body = elements.split_once('>').map_or("", |(_, body)| body);
-    // What all elements share is said once.
+    // Attributes that all elements share are written once.
     let body = body
         .trim_start()
         .trim_end_matches("</svg>\n")
@@ -119,7 +119,7 @@ fn svg(
     Ok(document)
 }
 
-/// So many dots a unit, with smooth edges.
+/// The bitmap with a number of dots per unit, anti-aliased.
 fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureError> {
     let size = canvas.root.dim_in_pixel();
     let [width, height] = [size.0, size.1].map(|side| (f64::from(side) * dots).round() as u32);
@@ -159,7 +159,8 @@ fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureE
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
-    // Drawings, of few colours: filters and longer searches take time and make them no smaller.
+    // For drawings with few colours, filters and longer searches take time and do not reduce the
+    // size.
     encoder.set_filter(png::Filter::NoFilter);
     encoder.set_deflate_compression(png::DeflateCompression::Level(3));
     encoder.write_header()?.write_image_data(&rgb)?;

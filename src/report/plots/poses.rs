@@ -1,4 +1,4 @@
-//! Both tiles in several poses, a panel each.
+//! Both tiles in several poses, one panel each.
 
 use nalgebra::Vector2;
 
@@ -11,12 +11,12 @@ use physics::configuration::Configuration;
 use physics::tile::Pair;
 
 const WIDTH: f64 = 1000.0;
-/// Least width of a panel, its text's height, and the space around its tiles (pixels).
+/// Smallest width of a panel, its text's height, and the space around its tiles (pixels).
 const LEAST: f64 = 240.0;
 const HEAD: f64 = 28.0;
 const SPACE: f64 = 14.0;
 
-/// Draws poses of the moving tile with what is said of each; `numbers` are the same as CSV.
+/// Draws poses of the moving tile with a caption for each; `numbers` are the same as CSV.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -27,7 +27,7 @@ pub fn draw(
     numbers: String,
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
-    // All panels have one scale.
+    // All panels have the same scale.
     let sizes = poses.iter().map(|(q, _)| {
         let [low, high] = extent(pair, [q]);
         high - low

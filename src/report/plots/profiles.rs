@@ -22,12 +22,12 @@ const WIDTH: f64 = 1000.0;
 const PANEL_HEIGHT: f64 = 306.0;
 /// The least width (pixels) of a panel beside another.
 const LEAST: f64 = 400.0;
-/// Pathways shown.
+/// Number of pathways shown.
 const MOST: usize = 6;
 /// Space around a panel's plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [48.0, 20.0, 60.0, 80.0];
 
-/// One panel a pathway out of a state; `None` where no pathway is known.
+/// One panel per pathway out of a state; `None` if no pathway is known.
 pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composition<'a>> {
     let barriers = scene.main_escapes();
     let panel = |barrier: &&'a Barrier| {
@@ -67,7 +67,7 @@ pub fn data(scene: &Scene) -> String {
     table(["from", "to", "s_m", "energy_J"], rows)
 }
 
-/// The length (m) a panel shows: of an end that lies below the energy `low` (J) nothing.
+/// The length (m) that a panel shows, without the part of an end below the energy `low` (J).
 fn shown_length(barrier: &Barrier, low: f64) -> f64 {
     let path = &barrier.pathway;
     let whole = path[path.len() - 1].s - path[0].s;
@@ -76,8 +76,8 @@ fn shown_length(barrier: &Barrier, low: f64) -> f64 {
     seen.min(whole).max(f64::MIN_POSITIVE)
 }
 
-/// The energies (J) a panel shows: zero, the saddle with its bounds and the start for certain; of
-/// an end that lies far below the start only the beginning of the fall.
+/// The energies (J) that a panel shows: always zero, the saddle with its bounds and the start; of
+/// an end far below the start only the beginning of the descent.
 fn shown_energies(barrier: &Barrier) -> [f64; 2] {
     let energies = || barrier.pathway.iter().map(|p| p.energy);
     let SaddleBounds { lower, upper, .. } = barrier.bounds;
@@ -97,7 +97,7 @@ fn shown_energies(barrier: &Barrier) -> [f64; 2] {
     [low - 0.06 * span, high + 0.16 * span]
 }
 
-/// The profile of a pathway in the making.
+/// The profile of a pathway under construction.
 struct Profile<'a> {
     scene: &'a Scene<'a>,
     scale: &'a EnergyScale,
@@ -153,7 +153,7 @@ impl<'a> Profile<'a> {
         profile.ends(canvas, &curve);
     }
 
-    /// Where a length along the pathway (m) and an energy (J) lie.
+    /// The position of a length along the pathway (m) and an energy (J).
     fn at(&self, s: f64, energy: f64) -> Pixel {
         self.plot.at(s - self.barrier.pathway[0].s, energy)
     }
@@ -204,7 +204,7 @@ impl<'a> Profile<'a> {
     /// Both ends by name and energy; an end below the panel is named where the curve leaves it.
     fn ends(&mut self, canvas: &mut Canvas, curve: &[Pixel]) {
         let barrier = self.barrier;
-        // A way to `free` ends where the tiles are apart, not where the energy is zero.
+        // A path to `free` ends where the tiles are apart, not where the energy is zero.
         let name = |place: Place, energy: f64| match place {
             Place::Free => "free: U \u{2192} 0".to_owned(),
             _ => format!(

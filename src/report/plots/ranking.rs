@@ -1,5 +1,4 @@
-//! Designs side by side at a glance: depths, barriers between their bounds, and captures, the best
-//! design on top.
+//! Designs side by side: depths, barriers with their bounds, and captures, the best design on top.
 
 use plotters::style::{Color, RGBColor};
 
@@ -27,8 +26,8 @@ const GAP: f64 = 40.0;
 const RIGHT: f64 = 20.0;
 /// Room (pixels) for the line at zero.
 const AXIS: f64 = 20.0;
-/// Names of the panels' files, their shares of the width, their headings, and how far beyond the
-/// greatest value their axes go.
+/// File names of the panels, shares of the width, headings, and extension of the axes beyond the
+/// largest value.
 const PLOTS: [(&str, f64, &str, f64); 3] = [
     ("depth", 550.0, "depth", 1.22),
     ("barrier", 320.0, "barrier, certified bounds", 1.06),
@@ -36,20 +35,20 @@ const PLOTS: [(&str, f64, &str, f64); 3] = [
 ];
 const COLOURS: [RGBColor; 3] = [BLUE, GREEN, VERMILLION];
 
-/// What a panel shows of each design.
+/// A panel with one quantity or several of each design.
 struct RankingPanel {
-    /// Its number among the panels.
+    /// Its index among the panels.
     number: usize,
-    /// How numbers are shown.
+    /// The unit of the numbers.
     shown: Shown,
-    /// Greatest number on the axis (SI).
+    /// Largest number on the axis (SI).
     end: f64,
     entries: Vec<(Place, &'static Quantity)>,
-    /// Ratios, whose numbers stand beside the bars.
+    /// Ratios, whose numbers are written beside the bars.
     ratios: Vec<&'static Quantity>,
 }
 
-/// One row a design in the order of their ranking `by` something; `numbers` are the same as CSV.
+/// One row per design in the order of the ranking `by` a figure; `numbers` are the same as CSV.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -71,7 +70,7 @@ pub fn draw(
         let draw = move |canvas: &mut Canvas, [left, top, right, bottom]: Box4| {
             let narrow = right - left < 0.5 * WIDTH;
             let names = if narrow { 0.6 * NAMES } else { NAMES };
-            // The names stand left of the first panel of each row.
+            // The names are left of the first panel of each row.
             let gap = if left > 0.0 { GAP } else { names };
             panel.draw(canvas, designs, [left + gap - AXIS, top, right, bottom]);
             if left == 0.0 {

@@ -1,6 +1,6 @@
-//! A plotters backend that keeps what is drawn, for each form of a picture to be made of it.
+//! A plotters backend that records a drawing, from which all its file formats are made.
 //!
-//! plotters' own bitmap backend has no text without system fonts and little smoothing.
+//! The bitmap backend of plotters needs system fonts for text and has little anti-aliasing.
 
 use std::convert::Infallible;
 
@@ -17,7 +17,7 @@ use super::style::{FONT_SCALE, UNITS};
 
 type Outcome<E = Infallible> = Result<(), DrawingErrorKind<E>>;
 
-/// What plotters drew; all lengths in drawing units.
+/// A shape drawn by plotters; all lengths in drawing units.
 pub enum Shape {
     Line(Vec<BackendCoord>, ShapeStyle),
     Area(Vec<BackendCoord>, ShapeStyle),
@@ -38,7 +38,7 @@ impl Shape {
         }
     }
 
-    /// Its colour, and how wide (units) its line is unless its inside is filled.
+    /// Its colour, and the width (units) of its line unless it is filled.
     pub fn paint(&self) -> (BackendColor, Option<u32>) {
         match self {
             Self::Line(_, style) | Self::Area(_, style) | Self::Circle(_, _, style) => {
@@ -49,7 +49,7 @@ impl Shape {
         }
     }
 
-    /// Its path and what takes that to its place.
+    /// Its path, and the transform to its position.
     pub fn path(&self) -> Option<(Path, Transform)> {
         let float = |(x, y): BackendCoord| (x as f32, y as f32);
         let (points, is_closed) = match self {
@@ -76,7 +76,7 @@ impl Shape {
     }
 }
 
-/// A text where plotters' SVG backend has it.
+/// A text at the position of plotters' SVG backend.
 fn lettering(text: &str, style: &TextStyle, (x, y): (f32, f32)) -> Option<(Path, Transform)> {
     let bold = is_bold(style);
     let (path, ex) = font::outline(text, bold)?;
@@ -106,7 +106,7 @@ fn is_bold<S: BackendTextStyle>(style: &S) -> bool {
     matches!(style.style(), FontStyle::Bold)
 }
 
-/// Keeps shapes, one over the other.
+/// Records shapes in drawing order.
 pub struct Recorder {
     /// Units.
     pub size: (u32, u32),
@@ -114,7 +114,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Keeps a shape of this look unless nothing would be seen of it.
+    /// Records a shape with this style, unless it is invisible.
     fn keep<S: BackendStyle>(
         &mut self,
         style: &S,
@@ -188,7 +188,7 @@ impl DrawingBackend for Recorder {
         let Some(last) = path.pop() else {
             return Ok(());
         };
-        // Points too close together to be seen apart only make the file longer.
+        // Points that are indistinguishable only enlarge the file.
         let mut kept: Vec<BackendCoord> = Vec::new();
         for point in path {
             if kept

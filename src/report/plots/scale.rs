@@ -1,4 +1,4 @@
-//! Energies as positions and colours.
+//! Scales that map energies to positions and colours.
 
 use plotters::coord::ranged1d::{BoldPoints, Ranged};
 use plotters::coord::types::RangedCoordf64;
@@ -8,8 +8,8 @@ use physics::order::Order;
 use physics::units::si;
 
 /// The diverging colour map "vik", attraction blue and repulsion brown, pale at zero: perceptually
-/// uniform and safe for colour-blind readers. Every sixteenth of its colours; straight lines
-/// between them stay within 7/255 of the original.
+/// uniform and safe for colour-blind readers. Every sixteenth of its colours; linear interpolation
+/// between them is within 7/255 of the original.
 ///
 /// Source: Crameri, *Scientific colour maps* 8 (2023), doi:10.5281/zenodo.1243862 (MIT licence).
 pub const VIK: [[u8; 3]; 17] = [
@@ -59,7 +59,7 @@ impl EnergyScale {
     /// Decades between the linear part and the largest energy.
     pub const DECADES: i32 = 4;
 
-    /// A scale that holds `energies` (J); infinite ones are left out.
+    /// A scale that covers `energies` (J); infinite ones are ignored.
     pub fn holding(energies: impl IntoIterator<Item = f64>) -> Self {
         let most = energies
             .into_iter()
@@ -80,7 +80,7 @@ impl EnergyScale {
         }
     }
 
-    /// The name of an axis or a bar of energies.
+    /// The name of an energy axis or colour bar.
     pub fn axis(&self) -> String {
         match self.is_linear {
             true => "energy U".to_owned(),
@@ -127,7 +127,7 @@ impl EnergyScale {
         self.label(energy, if self.is_linear { 2 } else { 1 })
     }
 
-    /// An energy with its unit, as 0 where it is lost on this scale.
+    /// An energy with its unit; 0 if it is negligible on this scale.
     pub fn label(&self, energy: f64, digits: usize) -> String {
         if energy.abs() < 1e-3 * self.linear() {
             return "0 J".into();
@@ -136,10 +136,10 @@ impl EnergyScale {
     }
 }
 
-/// Round numbers, evenly apart, from one number to another: as many as plotters finds, at most so many.
+/// Evenly spaced round numbers in a range, as plotters finds them, at most the given number.
 pub fn round_numbers([low, high]: [f64; 2], most: usize) -> Vec<f64> {
     let mut numbers = RangedCoordf64::from(low..high).key_points(BoldPoints(most));
-    // What is only rounding is zero.
+    // Rounding errors count as zero.
     for number in &mut numbers {
         if number.abs() < 1e-9 * (high - low) {
             *number = 0.0;
@@ -164,7 +164,7 @@ mod tests {
         for u in energies {
             assert_eq!(scale.position(-u), -scale.position(u));
         }
-        // Far from zero a decade is a decade.
+        // Far from zero the scale is logarithmic.
         let decade = scale.position(1e-2) - scale.position(1e-3);
         let other = scale.position(1e-3) - scale.position(1e-4);
         assert!((decade / other - 1.0).abs() < 0.01);

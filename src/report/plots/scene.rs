@@ -1,4 +1,4 @@
-//! What the pictures are drawn from, and which of it they show.
+//! The data that pictures are drawn from, and the selection they show.
 
 use ordered_float::OrderedFloat;
 
@@ -10,12 +10,12 @@ use physics::potential::Interaction;
 use physics::problem::Problem;
 use physics::tile::Pair;
 
-/// A pair of tiles and what was found out about it.
+/// A pair of tiles with its results.
 #[derive(Clone, Copy)]
 pub struct Scene<'a> {
     /// Name of the design.
     pub name: &'a str,
-    /// What acts between the tiles.
+    /// The interaction of the tiles.
     pub interaction: &'a Interaction,
     /// Their energy and contact.
     pub problem: &'a Problem,
@@ -37,8 +37,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Half the size (m) of the map along x and y: a fifth of the tiles' size beyond where they can
-    /// touch, or to the table's edge.
+    /// Half the size (m) of the map along x and y: it extends a fifth of the tiles' size beyond the
+    /// distance of contact, or to the table's edge.
     pub fn reach(&self) -> [f64; 2] {
         let space = &self.problem.space;
         space
@@ -82,7 +82,7 @@ impl<'a> Scene<'a> {
             .collect()
     }
 
-    /// The barriers over which a way is known.
+    /// The barriers with a known path.
     pub fn barriers(&self) -> impl Iterator<Item = &'a Barrier> {
         self.catalogue
             .barriers
@@ -90,7 +90,7 @@ impl<'a> Scene<'a> {
             .filter(|barrier| barrier.has_way())
     }
 
-    /// The way from far away into the bond.
+    /// The path from far away into the bond.
     pub fn docking(&self) -> Option<Pathway> {
         let way_out = self.catalogue.way_out_of_the_bond()?;
         (way_out.pathway.len() > 1).then(|| pathway::reversed(&way_out.pathway))
@@ -104,7 +104,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// What a place is called on a picture.
+    /// The name of a place on a picture.
     pub fn name_of(&self, place: Place) -> String {
         self.catalogue.name_of(place)
     }

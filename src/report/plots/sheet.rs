@@ -1,32 +1,32 @@
-//! What pictures are drawn for: a screen, or print at a width and with a size of text.
+//! The medium of a picture: a screen, or print at a given width and text size.
 
 use super::style::SMALL;
 
 /// Millimetres in a point of print.
 const POINT: f64 = 25.4 / 72.0;
-/// Dots in a millimetre of print: 600 to an inch.
+/// Dots per millimetre of print: 600 per inch.
 const DOTS_A_MILLIMETRE: f64 = 600.0 / 25.4;
 /// Narrower layouts (pixels) have no room for axes and labels.
 const NARROWEST: f64 = 360.0;
 /// Wider ones only waste paper (pixels).
 const WIDEST: f64 = 2400.0;
 
-/// How pictures are laid out.
+/// The layout of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sheet {
     print: Option<Print>,
-    /// Whether each panel is a picture of its own.
+    /// Whether each panel is a separate picture.
     pub(super) separate: bool,
-    /// Whether there is no bitmap.
+    /// Whether bitmaps are omitted.
     pub(super) vectors_only: bool,
 }
 
 /// A layout for print.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Print {
-    /// Width of the layout (pixels); each picture's own, with its title, where none was asked for.
+    /// Width of the layout (pixels); `None` for each picture's own width, with its title.
     width: Option<f64>,
-    /// Millimetres a pixel of the layout.
+    /// Millimetres per pixel of the layout.
     pixel: f64,
 }
 
@@ -38,7 +38,7 @@ impl Sheet {
         vectors_only: false,
     };
 
-    /// Pictures as on a screen, a pixel being so many millimetres, as PDF too.
+    /// Pictures as on a screen, also as PDF with the given size of a pixel in mm.
     pub const fn of_pixels(millimetres: f64) -> Self {
         Self {
             print: Some(Print {
@@ -49,18 +49,18 @@ impl Sheet {
         }
     }
 
-    /// Pictures `width` mm wide whose text is `font` points high, without titles (captions say
-    /// what a figure shows), as PDF too.
+    /// Pictures `width` mm wide with text of `font` points, without titles (figures have captions),
+    /// also as PDF.
     ///
     /// # Errors
-    /// The least and the greatest width (mm) that text of this size can have, where it has not.
+    /// The smallest and the largest width (mm) for text of this size, if the width is outside.
     pub fn for_print(width: f64, font: f64) -> Result<Self, [f64; 2]> {
         let pixel = font * POINT / SMALL.size;
         let limits = [NARROWEST * pixel, WIDEST * pixel];
         if !(limits[0]..=limits[1]).contains(&width) {
             return Err(limits);
         }
-        // Whole pixels: the width is kept, the text gives way by a thousandth at most.
+        // Whole pixels: the width is exact, the text size changes by at most a thousandth.
         let pixels = (width / pixel).round();
         Ok(Self {
             print: Some(Print {
@@ -71,7 +71,7 @@ impl Sheet {
         })
     }
 
-    /// The same with each panel as a picture of its own.
+    /// The same with each panel as a separate picture.
     #[must_use]
     pub fn with_panels_apart(self) -> Self {
         Self {
@@ -99,12 +99,12 @@ impl Sheet {
         self.print.is_none_or(|print| print.width.is_none())
     }
 
-    /// Millimetres a pixel of the layout; `None` on a screen.
+    /// Millimetres per pixel of the layout; `None` on a screen.
     pub(super) fn millimetres(&self) -> Option<f64> {
         self.print.map(|print| print.pixel)
     }
 
-    /// Dots of the bitmap a pixel of the layout.
+    /// Dots of the bitmap per pixel of the layout.
     pub(super) fn dots(&self) -> f64 {
         self.print
             .map_or(1.0, |print| print.pixel * DOTS_A_MILLIMETRE)

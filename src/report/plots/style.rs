@@ -1,4 +1,4 @@
-//! What all pictures have in common: colours and sizes of text.
+//! The colours and text sizes that all pictures share.
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
@@ -6,10 +6,10 @@ use plotters_backend::BackendCoord;
 
 use super::font::{FAMILY, width};
 
-/// Drawing units in a pixel. plotters places everything on whole units; tenths of a pixel keep gentle
-/// slopes smooth.
+/// Drawing units per pixel. plotters places everything on whole units; with tenths of a pixel,
+/// gentle slopes are smooth.
 pub const UNITS: f64 = 10.0;
-/// Text of this size in plotters is set with a font of the size divided by this.
+/// plotters sets text of a given size with a font of the size divided by this.
 pub const FONT_SCALE: f64 = 1.24;
 
 pub const INK: RGBColor = RGBColor(34, 34, 34);
@@ -17,7 +17,7 @@ pub const SOFT: RGBColor = RGBColor(105, 105, 105);
 pub const GRID: RGBColor = RGBColor(228, 228, 228);
 pub const FIXED_FILL: RGBColor = RGBColor(205, 208, 212);
 pub const MOVING_FILL: RGBColor = RGBColor(247, 233, 200);
-/// Okabe and Ito's colours, told apart by colour-blind readers.
+/// Okabe and Ito's colours, distinguishable by colour-blind readers.
 pub const VERMILLION: RGBColor = RGBColor(213, 94, 0);
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub const YELLOW: RGBColor = RGBColor(240, 228, 66);
@@ -49,7 +49,7 @@ pub fn stroke(colour: impl Color, width: f64) -> ShapeStyle {
     colour.stroke_width(unit(width).max(1) as u32)
 }
 
-/// Which point of a text is named by its place.
+/// The point of a text that its position refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     TopLeft,
@@ -63,7 +63,7 @@ pub enum Anchor {
     BottomRight,
 }
 
-/// How a text looks.
+/// The style of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Text {
     /// Pixels.
@@ -115,12 +115,12 @@ impl Text {
         width(text, self.bold) * self.size
     }
 
-    /// Room for a text (pixels): other fonts may be a tenth wider.
+    /// Room for a text (pixels): other fonts can be a tenth wider.
     pub fn room(&self, text: &str) -> f64 {
         1.08 * self.width(text)
     }
 
-    /// A text in lines that fit into so many pixels, as far as its words do.
+    /// Wraps a text to a width (pixels), between words.
     pub fn lines(&self, text: &str, room: f64) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text.split_whitespace() {

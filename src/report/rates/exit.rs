@@ -1,4 +1,4 @@
-//! How soon a pose is left, and whereto.
+//! Exits from a pose: how soon a tile leaves it, and where it goes.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use physics::kinetics::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
 use physics::units::{duration, duration_to, plain, si};
 
-/// What there is to know of an exit; and of moving tiles, where they were let go as well.
+/// The document of an exit, with the check by moving tiles if requested.
 pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
     let finest = exit.found.finest();
     let [x, y, theta] = exit.asked.start.to_array();
@@ -64,13 +64,13 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
     entries(design)
         .fact("diffusion_m2_s", "", exit.diffusion)
         .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(told_bounds(exit).unwrap_or_default())
-        // Midway between the bounds, as the mesh is too coarse for it, or what the mesh has.
+        // The mesh's value, or the middle of the bounds if the mesh is too coarse for it.
         .fact("mean_exit_midway", "", found.midway.is_some())
         .fact("mean_exit_bounds_s", "", exit.bounds())
-        // Proved are the inequalities, not the integrals over cells.
+        // The inequalities are proved, the integrals over cells are not.
         .data("bounds_hold", bounds.map(|_| "on the mesh"))
         .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
-        // Of the well about the start, apart from any mesh.
+        // For the well around the start, independent of any mesh.
         .data("proved", proved_entry(exit.diffusion, found.proved.as_ref()))
         .group("exits", Entries::default()
             .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("probability")
@@ -209,12 +209,12 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
     notes
 }
 
-/// What moving tiles say of an exit; ratios are theirs over the overdamped motion's.
+/// The check of an exit by moving tiles; ratios are their times over those of overdamped motion.
 fn check_entry(exit: &PoseExit, runs: &ExitRuns) -> Value {
     let ([bound, free], [time, error], [warmth, of_warmth]) = (runs.ends, runs.time, runs.warmth);
     json!({
         "runs": {"bound": bound, "free": free, "given_up": runs.given_up},
-        // Where some were given up the mean is longer than this.
+        // If some were abandoned, the true mean is longer.
         "mean_exit_s": finite(time),
         "standard_error_s": finite(error),
         "ratio": finite(time / exit.mean()),
@@ -272,7 +272,8 @@ fn check_notes(exit: &PoseExit, runs: &ExitRuns) -> Vec<String> {
     notes
 }
 
-/// An area with four digits; small and large ones with a power of ten, for m² takes no prefix well.
+/// An area with four digits; small and large ones with a power of ten, since prefixes of m² are
+/// ambiguous.
 fn area(value: f64) -> String {
     if (1e-4..1e4).contains(&value) {
         format!("{value:.4} m²")

@@ -1,4 +1,4 @@
-//! Exits and rates of overdamped motion.
+//! Exits and rates of overdamped motion, as documents.
 
 mod exit;
 mod table;
@@ -11,31 +11,31 @@ use serde_json::{Value, json};
 use physics::kinetics::Capacity;
 use physics::units::{duration_to, plain};
 
-/// Where kT means something.
+/// The scope in which kT is meaningful.
 const SCOPE: &str = "valid for overdamped motion (drag of at least 50 /s) and elastic collisions; \
     at less drag, or with lossy collisions, no kT exists";
-/// What is said of bounds.
+/// The note on bounds.
 const ON_THE_MESH: &str = "the bounds hold on the mesh (Dirichlet, Thomson) and exclude its \
     discretisation error";
-/// What is not in bounds that hold on the mesh.
+/// Errors that the bounds on the mesh exclude.
 const NOT_BOUNDED: [&str; 2] = [
     "the integrals of exp(-U/kT) and exp(U/kT) over cells, by Gauss' rule",
     "basins made of whole cells: mesh.of_basins estimates how much that changes capacities",
 ];
 const NO_BOUNDS: &str = "no bounds: they need a start in a well";
-/// Of outlines with walls along rays or across them twice.
+/// The note for outlines with walls along rays, or crossed twice by rays.
 const ONE_SIDED: &str = "the other bound needs a flux along the contact, which exists only if \
     every ray from the centre crosses the contact boundary once";
-/// What is said where a proof was asked for and there is none.
+/// The note if a requested proof failed.
 const NOT_PROVED: &str = "nothing is proved: a proof needs tiles that are convex about their \
     centres of mass and have few corners, an energy with bounds over cells, and sets that the \
     mesh separates";
-/// What is proved.
+/// The note on what is proved.
 const PROVED: &str = "proved (integrals and sets enclosed, rounding included)";
-/// Bounds that are farther apart than so many times say nothing worth telling.
+/// Bounds farther apart than this factor are not shown.
 const FAR: f64 = 10.0;
 
-/// Proved bounds of how often tiles leave a set, as an object.
+/// Proved bounds of the rate of leaving a set, as an object.
 fn proved_entry(diffusion: f64, proved: Option<&Capacity>) -> Value {
     proved.map_or(Value::Null, |proved| {
         json!({
@@ -48,17 +48,18 @@ fn proved_entry(diffusion: f64, proved: Option<&Capacity>) -> Value {
     })
 }
 
-/// Proved bounds (1/s) of how often a tile leaves a set for an end, by the time spent in the set.
+/// Proved bounds (1/s) of the rate at which a tile leaves a set for an end, per time spent in the
+/// set.
 fn leaving_set(diffusion: f64, proved: &Capacity) -> [f64; 2] {
     proved.leaving().map(|end| end * diffusion)
 }
 
-/// Proved bounds (s) of the mean time until a tile that leaves the set for an end is there.
+/// Proved bounds (s) of the mean time until a tile that leaves the set reaches an end.
 fn mean_exit(diffusion: f64, proved: &Capacity) -> [f64; 2] {
     proved.mean_exit().map(|end| end / diffusion)
 }
 
-/// Proved bounds (s) of a mean exit time that are worth telling, rounded outwards.
+/// Proved bounds (s) of a mean exit time, rounded outwards, if they are close enough to be shown.
 fn mean_exit_ends([least, most]: [f64; 2]) -> [Option<String>; 2] {
     let upper = || duration_to(most, 3, f64::ceil);
     [
@@ -77,7 +78,7 @@ fn mean_exit_words(ends: [f64; 2]) -> String {
     }
 }
 
-/// Bounds rounded outwards, to three digits of either.
+/// Bounds rounded outwards to three digits.
 fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
     let unit = |end: f64| 10f64.powi(libm::log10(end).floor() as i32 - 2);
     let to = |end: f64, round: fn(f64) -> f64| match end > 0.0 && end.is_finite() {
@@ -87,7 +88,7 @@ fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
     [to(lower, f64::floor), to(upper, f64::ceil)]
 }
 
-/// How far apart bounds are, in percent of the lower one, or how many times it.
+/// The width of bounds in per cent of the lower one, or as a factor.
 fn apart([lower, upper]: [f64; 2]) -> String {
     match upper / lower {
         times if lower <= 0.0 || !times.is_finite() => "any factor".to_owned(),
@@ -96,10 +97,10 @@ fn apart([lower, upper]: [f64; 2]) -> String {
     }
 }
 
-/// How many digits a figure has that is off by this share of it; as many more as keep it between its
+/// The number of digits of a figure with this relative error; more if needed to keep it between its
 /// bounds.
 fn digits(value: f64, error: f64, [lower, upper]: [Option<f64>; 2]) -> usize {
-    /// More are not told.
+    /// Largest number of digits shown.
     const MOST: usize = 6;
     let known = match error {
         _ if error < 0.005 => 3,
@@ -113,7 +114,7 @@ fn digits(value: f64, error: f64, [lower, upper]: [Option<f64>; 2]) -> usize {
     (known..MOST).find(is_between).unwrap_or(MOST)
 }
 
-/// A number that JSON has.
+/// A number that JSON can represent.
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

@@ -1,4 +1,4 @@
-//! Rates between states and `free`.
+//! Rates between states and `free`, as a document.
 
 use serde_json::{Value, json};
 
@@ -18,12 +18,13 @@ use physics::kinetics::map::Map;
 use physics::kinetics::rates::RateBounds;
 use physics::units::{duration, plain, si};
 
-/// Meshes that differ by this share say nothing of a rate.
+/// Relative difference of meshes above which a rate is unknown.
 const UNSETTLED: f64 = 0.5;
-/// Upper bounds that are so many times too high by what lies outside of basins are told why.
+/// Factor by which occupation outside of basins increases upper bounds, above which a note explains
+/// it.
 const MOSTLY: f64 = 1.5;
 
-/// What there is to know of rates, which were found with this seed of all random numbers.
+/// The document of rates, computed with this random seed.
 pub fn document<'a>(design: &'a Design, found: &'a StateRates, seed: u64) -> Document<'a> {
     Document {
         title: format!("Rates of {}", design.name),
@@ -68,18 +69,18 @@ fn per_second(rate: f64, digits: usize) -> String {
     format!("{} /s", plain(rate, digits))
 }
 
-/// A share of all, to three digits: 1 - 1e-9 is all but nothing, and no more is known of it.
+/// A share to three digits: 1 - 1e-9 is known no better than 1.
 fn share(part: f64) -> String {
     format!("{} %", plain(100.0 * part, 3))
 }
 
-/// How many digits of a rate are known, as far as meshes tell.
+/// The number of known digits of a rate, estimated from meshes.
 fn digits_of(found: &StateRates, from: usize, to: usize) -> usize {
     let bounds = found.bounds(from, to);
     digits(found.rate(from, to), found.error(from, to), bounds)
 }
 
-/// How many digits of the rate out of a place are known: as many as of the largest that it is made of.
+/// The number of known digits of the rate out of a place: that of the largest rate it consists of.
 fn digits_out(found: &StateRates, from: usize) -> usize {
     let others = (0..found.count()).filter(|to| *to != from);
     let largest = others.max_by(|a, b| found.rate(from, *a).total_cmp(&found.rate(from, *b)));
@@ -87,7 +88,7 @@ fn digits_out(found: &StateRates, from: usize) -> usize {
     digits(found.rate_out(from), error, found.bounds_out(from))
 }
 
-/// A bound from below, or from above, rounded outwards.
+/// A lower or upper bound, rounded outwards.
 fn told_end(end: Option<f64>, is_upper: bool) -> String {
     end.map_or("-".to_owned(), |end| {
         per_second(outwards([end; 2])[usize::from(is_upper)], 3)
@@ -107,7 +108,7 @@ fn told_bounds(found: &StateRates, place: usize) -> String {
     }
 }
 
-/// What of the landscape a place is.
+/// The region of the landscape that a place stands for.
 fn told_set(found: &StateRates, place: usize) -> String {
     match found.states.get(place) {
         Some(state) => below(state.below),
@@ -136,7 +137,7 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
         .fact("free_at_m", "free", found.asked.free_at).noted("centres so far apart").in_view()
         .table(places(found))
         .table(pairs(found))
-        // Proved are the inequalities, not the integrals over cells.
+        // The inequalities are proved, the integrals over cells are not.
         .data("bounds_hold", bounds.map(|_| "on the mesh"))
         .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
         .group("mesh", Entries::default()
@@ -149,7 +150,7 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
         .more(found.map().map(|map| Entry::Table(squares(map))))
 }
 
-// One line a column: what files and people call it, what it means, its value.
+// One line per column: key, name, meaning, value.
 #[rustfmt::skip]
 fn places(found: &StateRates) -> Table {
     let of = |get: fn(&RatedState) -> f64| move |k: &usize| found.states.get(*k).map(get);
@@ -215,7 +216,7 @@ fn pairs(found: &StateRates) -> Table {
         .table("rates").titled("Rates", "").in_file("rates")
 }
 
-/// What is proved of how basins are left, beside what the mesh has.
+/// Proved bounds of leaving basins, beside the mesh's values.
 #[rustfmt::skip]
 fn proofs(found: &StateRates) -> Table {
     let proved = |k: &usize| found.proved(*k);
@@ -276,7 +277,7 @@ fn courses(found: &StateRates) -> Table {
         .table("over-kt").in_csv("over-kt")
 }
 
-/// The squares of a map that hold free configurations.
+/// The squares of a map that contain free configurations.
 #[rustfmt::skip]
 fn squares(map: &Map) -> Table {
     rows((0..map.committor.len()).filter(|square| map.committor[*square].is_finite()))
@@ -302,7 +303,7 @@ fn pictures<'a>(design: &'a Design, found: &'a StateRates) -> Vec<Drawing<'a>> {
         .collect()
 }
 
-/// Rates out of each state over kT, both by their logarithms; the closed form dashed.
+/// Rates out of each state over kT, on logarithmic axes; the closed form dashed.
 fn over_kt(found: &StateRates) -> Chart {
     let mut chart = Chart {
         name: "rates",
@@ -348,7 +349,7 @@ fn notes(found: &StateRates) -> Vec<String> {
     let is_blocked = |k: usize| found.bounds_out(k)[1] == Some(0.0);
     match &found.found.bounds {
         None => notes.push(NO_BOUNDS.to_owned()),
-        // That contact blocks every way is proved apart from any mesh.
+        // The proof that contact blocks every path does not depend on a mesh.
         Some(_) if (0..found.states.len()).all(is_blocked) => {}
         Some(bounds) => notes.extend(of_bounds(found, bounds)),
     }
@@ -394,8 +395,8 @@ fn of_bounds(found: &StateRates, bounds: &RateBounds) -> Vec<String> {
             "relative width of the bounds of the rates out: {told}; {ON_THE_MESH}"
         )];
     }
-    // The first basin that has most of its occupation outside of it: upper bounds of rates that count
-    // the inside only say little then.
+    // The first basin with most of its occupation outside of it: upper bounds of rates that only
+    // count the inside are then poor.
     let shares = |k: usize| (found.found.inside[k], found.found.finest().occupation[k]);
     let mut all = 0..found.states.len();
     let mostly_outside = all.find(|k| MOSTLY * shares(*k).0 < shares(*k).1);

@@ -1,4 +1,4 @@
-//! What a sweep answers: one sentence, and a table of its points.
+//! The answer of a sweep: one sentence, and a table of its points.
 
 use super::points::Sweep;
 use crate::assessments::view;
@@ -9,9 +9,9 @@ use jobs::comparison::{Assessment, Quantity, ranking};
 use jobs::sweep::Point;
 use physics::order::Order;
 
-/// Points that the table lists; of more, the first ones.
+/// Largest number of points in the table.
 const LISTED: usize = 12;
-/// What the table says of each point.
+/// The columns of the table.
 const COLUMNS: [&str; 5] = [
     "bond_depth",
     "trap_depth",
@@ -26,7 +26,8 @@ fn quantity(key: &str) -> &'static Quantity {
 }
 
 impl Sweep<'_> {
-    /// What the points are ranked by: selectivity, or the bond's depth where there are no traps.
+    /// The figure by which points are ranked: selectivity, or the bond's depth if there are no
+    /// traps.
     fn by(&self) -> &'static Quantity {
         let selectivity = quantity("selectivity");
         let mut done = self.done().into_iter();
@@ -36,8 +37,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// The sentence that answers: the best point, the least, and how much better the best is than
-    /// the one that all are set against, or the first; `None` where nothing was assessed.
+    /// The headline: the best and the worst point, and how much better the best is than the
+    /// baseline, or the first point; `None` if nothing was assessed.
     pub fn answer(&self) -> Option<String> {
         let done = self.done();
         let by = self.by();
@@ -100,7 +101,7 @@ impl Sweep<'_> {
             let shown = quantity(key);
             table = view(table, shown.label, vec![shown], of);
             if let Some((index, base)) = base.filter(|_| key == by.key) {
-                // How much better, beside what it is.
+                // The improvement, after the value.
                 let ratio = move |(_, one): &(_, Option<&Assessment>)| {
                     let value = by.of((*one)?)?.value / base;
                     value.is_finite().then_some(value)
@@ -131,7 +132,7 @@ impl Sweep<'_> {
             .listing(LISTED)
     }
 
-    /// The points that were assessed, with their places.
+    /// The assessed points, with their indices.
     fn done(&self) -> Vec<(usize, &Assessment)> {
         let places = 0..self.outcomes.len();
         places

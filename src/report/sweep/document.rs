@@ -1,4 +1,4 @@
-//! Sweeps: tables of all points, and what the terminal is told.
+//! Sweeps as documents: tables of all points, and the terminal text.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -9,11 +9,11 @@ use crate::document::{Cell, Document, Entries, Part, Table, rows};
 use crate::page::Charts;
 use jobs::sweep::{Outcome, Point, Progress};
 
-/// Reasons that the summary gives.
+/// Largest number of reasons in the summary.
 const REASONS: usize = 5;
 
 impl Sweep<'_> {
-    /// What there is to know of it.
+    /// The document of the sweep.
     pub fn document(&self) -> Document<'_> {
         let plan = self.plan;
         let names: Vec<&str> = plan.designs.iter().map(|d| d.name.as_str()).collect();
@@ -89,8 +89,8 @@ impl Sweep<'_> {
         entry
     }
 
-    /// One line a point: the varied keys (as the design file has them, in SI units), the figures
-    /// with their bounds, and for impossible designs the reason.
+    /// One row per point: the varied keys (in the notation of the design file, in SI units), the
+    /// figures with their bounds, and the reason for impossible designs.
     pub fn numbers(&self) -> Table {
         let points = self.points.iter();
         let mut all = rows(points.map(|point| (point, self.assessment(point.index))))

@@ -1,7 +1,7 @@
-//! A sweep: the designs that come of one by varying it, and what became of each.
+//! Sweeps: the designs, and the result of each.
 //!
-//! `points` are its points and what they are called; `document` is what there is to know of it,
-//! with `answer` (a sentence and a table) and `pictures` (curves and maps).
+//! `points` has the points and their names; `document` the document, with `answer` (a sentence and
+//! a table) and `pictures` (curves and maps).
 
 mod answer;
 mod document;

@@ -1,4 +1,4 @@
-//! The pictures of a sweep: its figures as curves over one varied number, or as maps over two.
+//! The pictures of a sweep: curves over one varied number, or maps over two.
 
 use super::points::{Common, Sweep, Variable};
 use crate::csv::{number, table};
@@ -18,48 +18,48 @@ use jobs::sweep::Point;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
 
-/// Most pictures of a sweep, and most series in one: one a colour.
+/// Largest number of pictures of a sweep; the series in one are limited by the colours.
 const MOST_PICTURES: usize = 24;
 const MOST_SERIES: usize = COLOURS.len();
 const WIDTH: f64 = 1200.0;
-/// Height of a panel of curves and of a map, and the least width beside another (pixels).
+/// Height of a panel of curves and of a map, and the smallest width beside another (pixels).
 const HEIGHTS: [f64; 2] = [262.0, 380.0];
 const LEAST: [f64; 2] = [320.0, 360.0];
 /// Space around the plot of curves and around a map (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [34.0, 20.0, 58.0, 78.0];
 const MAP_MARGIN: [f64; 4] = [34.0, 18.0, 58.0, 76.0];
-/// Numbers that span more powers of ten stand by their logarithms.
+/// Numbers that span more powers of ten have a logarithmic axis.
 const MOST_DECADES: f64 = 2.0;
 
-/// What the marks mean, of curves and of maps.
+/// The meaning of marks, for curves and for maps.
 const SIGNS: [&str; 2] = [
     "bands: certified bounds, 95 % intervals; \u{25cb} no trap; ^ caged, proved; \u{d7} \
      impossible design",
     "\u{25cb} no trap; \u{2013} not known; \u{221e} caged, proved; \u{d7} impossible design",
 ];
 
-/// Points that are told apart from others by a name.
+/// A named group of points.
 type Named<'a> = (String, Vec<&'a Point>);
 
-/// What a picture shows.
+/// The content of a picture.
 struct Content<'a> {
     sweep: &'a Sweep<'a>,
     /// One number, or two.
     numbers: Vec<Variable>,
-    /// What all its points have in common.
+    /// The values common to all its points.
     common: Common,
-    /// Its points: of curves one series or several.
+    /// Its points; for curves one series or several.
     series: Vec<Named<'a>>,
 }
 
-/// The pictures of a sweep: curves where one number is varied, maps where two are; none otherwise.
-/// Everything else that is varied tells series and pictures apart.
+/// The pictures of a sweep: curves over one varied number, maps over two; none otherwise. All other
+/// varied values distinguish series and pictures.
 pub fn drawings<'a>(sweep: &'a Sweep) -> Vec<Drawing<'a>> {
     let numbers = sweep.variables();
     if !(1..=2).contains(&numbers.len()) {
         return Vec::new();
     }
-    // Of curves the first word tells series apart.
+    // For curves the first word distinguishes series.
     let words = 2 - numbers.len();
     let mut pictures: Vec<Content> = Vec::new();
     for point in &sweep.points {
@@ -177,7 +177,7 @@ impl Content<'_> {
         let series = self.series.iter().take(MOST_SERIES);
         let rows = series.flat_map(|(name, points)| {
             let mut points = points.clone();
-            // Of curves from left to right, of maps row by row.
+            // Curves from left to right, maps row by row.
             let place = |it: &Variable, point: &Point| it.value(point).map(OrderedFloat);
             points.order_by_key(|point| {
                 let places = self.numbers.iter().rev().map(|it| place(it, point));
@@ -202,7 +202,7 @@ impl Content<'_> {
         table(head, rows)
     }
 
-    /// What is told of a point under the pointer.
+    /// The text for the point under the pointer.
     fn told(&self, point: &Point, quantities: &[&Quantity]) -> Spot {
         let name = self.sweep.called(point);
         let figure = |one: &Assessment| {
@@ -228,7 +228,8 @@ impl Content<'_> {
         }
     }
 
-    /// Figures of the same kind over the number, a curve a series or, to either side of zero, two.
+    /// Figures of the same kind over the number, with one curve per series, or two on both sides of
+    /// zero.
     fn curves(
         &self,
         canvas: &mut Canvas,
@@ -295,7 +296,7 @@ impl Content<'_> {
                 };
                 if lacks_traps(quantities[0], one) {
                     any = true;
-                    // Without a trap nothing competes: selectivity is beyond any scale.
+                    // Without a trap selectivity is infinite.
                     let is_best = measure == Measure::Ratio;
                     let at = (at.0, if is_best { top + 7.0 + step } else { at.1 });
                     canvas.circle(at, COLOURS[number]);
@@ -317,7 +318,7 @@ impl Content<'_> {
         }
     }
 
-    /// One figure over two numbers, a cell a point.
+    /// One figure over two numbers, one cell per point.
     fn map(&self, canvas: &mut Canvas, place: Box4, heading: &str, quantity: &Quantity) {
         let points = || self.series.iter().flat_map(|(_, points)| points);
         let value = |point: &Point| Some(quantity.of(self.sweep.assessment(point.index)?)?.value);
@@ -388,7 +389,7 @@ impl Content<'_> {
     }
 }
 
-/// Whether a design lacks a figure for want of a trap.
+/// Whether a design lacks a figure because it has no trap.
 fn lacks_traps(quantity: &Quantity, one: &Assessment) -> bool {
     (quantity.read)(one).err() == Some(NO_TRAPS)
 }

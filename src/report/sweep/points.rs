@@ -1,4 +1,4 @@
-//! The points of a sweep, and what they are called.
+//! The points of a sweep, and their names.
 
 use crate::csv::number;
 use jobs::comparison::Assessment;
@@ -7,9 +7,9 @@ use physics::order::Order;
 
 /// The folder of the designs of points.
 pub const DESIGNS: &str = "designs";
-/// Of more points the designs are not written.
+/// With more points than this the designs are not written.
 const MOST_DESIGNS: usize = 400;
-/// Keys of the design that are lengths, which people read in mm.
+/// Keys of the design that are lengths, shown in mm.
 const LENGTHS: [&str; 12] = [
     "depth",
     "width",
@@ -28,19 +28,19 @@ const LENGTHS: [&str; 12] = [
 /// A finished sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep<'a> {
-    /// What was asked.
+    /// The plan.
     pub plan: &'a Plan,
     /// The points of the plan, in order.
     pub points: Vec<Point>,
-    /// What came of each point.
+    /// The outcome of each point.
     pub outcomes: Vec<Outcome>,
 }
 
 impl<'a> Sweep<'a> {
-    /// Reads what came of each point.
+    /// Reads the outcome of each point.
     ///
     /// # Errors
-    /// How far the sweep is, where points are missing.
+    /// The progress of the sweep, if points are missing.
     pub fn read(plan: &'a Plan, store: &Store) -> Result<Self, Progress> {
         let points = plan.points();
         let found: Vec<Option<Outcome>> = points.iter().map(|point| store.load(point)).collect();
@@ -55,7 +55,7 @@ impl<'a> Sweep<'a> {
         })
     }
 
-    /// How many points are done, impossible, failed and missing.
+    /// The numbers of done, impossible, failed and missing points.
     pub fn progress(&self) -> Progress {
         Progress::new(self.outcomes.iter().map(Some))
     }
@@ -73,8 +73,8 @@ impl<'a> Sweep<'a> {
         reason(&self.outcomes[index])
     }
 
-    /// The file of a point's design beside the results; `None` where it is impossible, or needs
-    /// drawings, which lie elsewhere.
+    /// The file of a point's design beside the results; `None` if it is impossible, or needs
+    /// drawings, which are elsewhere.
     pub fn design_file(&self, point: &Point) -> Option<String> {
         let needs_drawings = !self.plan.designs[point.design].drawings.is_empty();
         let possible = self.assessment(point.index).is_some() && point.text().is_some();
@@ -82,8 +82,8 @@ impl<'a> Sweep<'a> {
         (possible && few && !needs_drawings).then(|| format!("{DESIGNS}/{}.toml", point.name))
     }
 
-    /// A point by its values: `depth = 5 mm, model = dipole`; with several designs, or where nothing
-    /// is varied, by its design first.
+    /// The name of a point by its values: `depth = 5 mm, model = dipole`; preceded by its design if
+    /// there are several, or if nothing is varied.
     pub fn called(&self, point: &Point) -> String {
         let design = &self.plan.designs[point.design].name;
         let named = self.plan.designs.len() > 1 || self.plan.axes.is_empty();
@@ -96,7 +96,7 @@ impl<'a> Sweep<'a> {
         parts.collect::<Vec<_>>().join(", ")
     }
 
-    /// The point that all are set against, if one was named and could be assessed.
+    /// The baseline point, if one is named and was assessed.
     pub fn baseline(&self) -> Option<usize> {
         let index = self.plan.baseline_of(&self.points)?;
         self.assessment(index).map(|_| index)
@@ -119,8 +119,8 @@ impl<'a> Sweep<'a> {
         .collect()
     }
 
-    /// What a point has in common with others but for the varied numbers, word by word: the design,
-    /// where there are several, and the values along all other axes.
+    /// The values that a point shares with others of its series, word by word: the design, if there
+    /// are several, and the values along all axes except the given numbers.
     pub fn common(&self, point: &Point, numbers: &[Variable]) -> Common {
         let design = &self.plan.designs[point.design].name;
         let several = self.plan.designs.len() > 1;
@@ -143,22 +143,22 @@ fn reason(outcome: &Outcome) -> Option<&str> {
     }
 }
 
-/// Words by which points are told apart, with their keys.
+/// Words that distinguish points, with their keys.
 pub type Common = Vec<(String, String)>;
 
 /// A varied number.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// Which of the plan's axes.
+    /// The index of its axis in the plan.
     pub axis: usize,
     /// Its key in the design.
     key: String,
-    /// From the lowest, two at least.
+    /// At least two values, in ascending order.
     pub values: Vec<f64>,
 }
 
 impl Variable {
-    /// What the numbers of the file are multiplied by on an axis, and its name.
+    /// The factor on the file's numbers for an axis, and the axis's name.
     pub fn shown(&self) -> (f64, String) {
         let mut parts = self.key.rsplit('.');
         let mut last = parts.next().unwrap_or_default().to_owned();
@@ -174,13 +174,13 @@ impl Variable {
         }
     }
 
-    /// What a point has of it.
+    /// The value of a point.
     pub fn value(&self, point: &Point) -> Option<f64> {
         point.values[self.axis].number()
     }
 }
 
-/// A value with its unit, where it has one: `3 mm`.
+/// A value with its unit, if it has one: `3 mm`.
 fn said(key: &str, value: &Value) -> String {
     match value.number().filter(|_| LENGTHS.contains(&key)) {
         Some(metres) => format!("{} mm", number(1e3 * metres)),

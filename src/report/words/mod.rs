@@ -1,4 +1,4 @@
-//! Sets of words.
+//! Sets of words as documents.
 
 mod spaced;
 mod text;
@@ -20,10 +20,10 @@ use physics::words::frontier::Point;
 use physics::words::set::name;
 use physics::words::{Answer, Bar, Fault, Meeting, Word};
 
-/// Sets of more words are not listed in full on a terminal.
+/// Sets with more words than this are not listed in full on a terminal.
 const LISTED: usize = 40;
 
-/// What there is to know of words that were sought.
+/// The document of a search for words.
 pub fn document(found: &Found) -> Document<'_> {
     match found {
         Found::Even(sought) => of_sought(sought),
@@ -89,7 +89,7 @@ fn of_sought(sought: &Sought) -> Document<'_> {
     }
 }
 
-/// That the words have no room on the face, and what pitch gives them room.
+/// A note that the words do not fit on the face, and the pitch with which they do.
 fn too_long(sought: &Sought) -> Option<String> {
     let fits = sought.pitch_that_fits()?;
     let [needed, face, pitch] =
@@ -137,9 +137,10 @@ fn entries(sought: &Sought) -> Entries {
         .fact("worst", "strongest wrong meeting", worst.map(|it| meeting(&it, bar)))
             .viewed(worst.map_or(String::new(), |it| si(it.energy, "J", 4)))
             .noted(worst.map_or(String::new(), |it| told(&it, sought)))
-        // Where the widest gap of a number of words was asked for: none is wider than this.
+        // If the widest gap for a number of words was requested: an upper bound of it.
         .data("gap_upper_bound", answer.gap_upper)
-        // Where the gap asked for is a tie of contacts: the words just beyond it.
+        // If the requested gap coincides with a number of contacts: the number of words just beyond
+        // it.
         .data("beyond_tie", answer.beyond.as_ref().map(|it| self::points(std::slice::from_ref(it)).json()[0].take()))
         .data("frontier", (!answer.frontier.is_empty()).then(|| points.json()))
         .table(points.in_view().in_file("frontier"))
@@ -187,7 +188,7 @@ fn meeting(meeting: &Meeting, bar: &Bar) -> Value {
         "slide": meeting.slide,
         "slide_m": f64::from(meeting.slide) * bar.pitch,
         "flipped": meeting.flipped,
-        // Places of the faulty magnets, where faces may have some.
+        // Places of the faulty magnets, if faults are allowed.
         "faulty": meeting.faulty,
         "energy_J": positive_zero(meeting.energy),
     })
@@ -206,7 +207,7 @@ fn points(points: &[Point]) -> Table {
         .table("frontier")
 }
 
-/// The words, each with its bond and its own worst meeting.
+/// The words, each with its bond and its worst contact.
 #[rustfmt::skip]
 fn list(sought: &Sought) -> Table {
     type Row<'a> = (usize, Word, Option<Meeting>);
@@ -227,8 +228,8 @@ fn list(sought: &Sought) -> Table {
         .listing(LISTED)
 }
 
-/// Every two words, with their mates: the strongest wrong meeting, and the pose of the second tile
-/// in the frame of the first where both are squares as wide as the words need.
+/// All pairs of words, including mates: the strongest wrong contact, and the pose of the second
+/// tile in the frame of the first for squares as wide as the words need.
 #[rustfmt::skip]
 fn pairs(sought: &Sought) -> Table {
     let words = &sought.answer.words;
@@ -247,7 +248,7 @@ fn pairs(sought: &Sought) -> Table {
         .table("crosstalk")
 }
 
-/// The number of words over the gap; of what is not proved up to the most that there can be.
+/// The number of words over the gap; if not proved, with its upper bound.
 fn frontier_chart(answer: &Answer) -> Chart {
     const MOST: usize = 1 << 20;
     let points = |is_proved: bool| {
@@ -274,7 +275,7 @@ fn frontier_chart(answer: &Answer) -> Chart {
     .with("found, and at most", Look::Rings, points(false))
 }
 
-/// All faces against all, flush.
+/// The map of all pairs of flush faces.
 fn map(sought: &Sought) -> Meetings {
     let Sought {
         task, bar, answer, ..
@@ -295,7 +296,7 @@ fn map(sought: &Sought) -> Meetings {
     let faces: Vec<_> = own.chain(mates).collect();
     let m = words.len();
     let met = |i: usize, j: usize| {
-        // Where words meet mates only, two words do not, nor two mates.
+        // If words only meet mates, two words do not meet, nor two mates.
         if !task.rules.words_meet() && (i < m) == (j < m) {
             return None;
         }

@@ -1,4 +1,4 @@
-//! Sets of words with magnets anywhere along the face, judged over all poses.
+//! Sets of words with magnets anywhere along the face, evaluated over all poses.
 
 use serde_json::json;
 
@@ -11,7 +11,7 @@ use physics::words::continuous::SpacedWord;
 use physics::words::crosstalk::Crosstalk;
 use physics::words::set::name;
 
-/// What there is to know of words with magnets anywhere.
+/// The document of words with magnets anywhere.
 pub(super) fn document(spaced: &Spaced) -> Document<'_> {
     let headline = headline(spaced);
     let set = file::of_spaced(&headline, &spaced.words, &spaced.bar, spaced.face);
@@ -63,11 +63,11 @@ fn entries(spaced: &Spaced) -> Entries {
     });
     let entries = Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
-        // Poles in order; where they lie along the face is in positions_m.
+        // Poles in order; their positions along the face are in positions_m.
         .data("words", spaced.words.iter().map(|it| it.code(stands(spaced))).collect::<Vec<_>>())
         .data("positions_m", json!(spaced.words.iter().map(SpacedWord::positions).collect::<Vec<_>>()))
         .fact("count", "words", spaced.words.len())
-        // None is known: positions are numbers without end.
+        // No bound is known, since positions are continuous.
         .data("upper_bound", json!(null))
         .data("proved", false)
         .fact("gap", "gap", found.and_then(Crosstalk::gap)).digits(4).noted("over sampled poses")

@@ -1,11 +1,12 @@
-//! The answer in words.
+//! The summary of a search for words.
 
 use jobs::word_sets::Sought;
 use physics::units::si;
 use physics::words::set::name;
 use physics::words::{Fault, Meeting, Question, Rules, Shape, Word};
 
-/// The first sentence: how many words, how sure, the weakest bond and the strongest wrong meeting.
+/// The headline: the number of words and its certainty, the weakest bond and the strongest wrong
+/// contact.
 pub(super) fn headline(sought: &Sought) -> String {
     let answer = &sought.answer;
     let many = match sought.question {
@@ -62,7 +63,7 @@ pub(super) fn how_many(count: usize, upper: usize) -> String {
     }
 }
 
-/// A face of the set by its name: `A`, or `A*` of a mate.
+/// The name of a face of the set: `A`, or `A*` for a mate.
 pub(super) fn face(word: Word, sought: &Sought) -> String {
     let find = |word| sought.answer.words.iter().position(|other| *other == word);
     let own = find(word).map(name);
@@ -81,7 +82,7 @@ pub(super) fn told(meeting: &Meeting, sought: &Sought) -> String {
     format!("{first} on {second}{flipped}, {slide}")
 }
 
-/// How faces meet, in words.
+/// A description of how faces can meet.
 pub(super) fn meetings(rules: &Rules) -> String {
     let who = match rules.words_meet() {
         true => "every face can meet every face",

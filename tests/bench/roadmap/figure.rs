@@ -1,4 +1,4 @@
-//! A table of the roadmap's growth as a picture: wall time and memory over milestones.
+//! A picture of the roadmap's growth: wall time and memory over milestones.
 
 use std::error::Error;
 use std::path::Path;
@@ -9,7 +9,7 @@ const WIDTH: u32 = 1000;
 const HEIGHT: u32 = 420;
 const COLOURS: [RGBColor; 2] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0)];
 
-/// A series: what it is called, and its points (milestones, wall time (s), peak memory (MB)).
+/// A series: its name and its points (milestones, wall time (s), peak memory (MB)).
 type Series = (&'static str, Vec<[f64; 3]>);
 
 /// Draws a table, as `--scale` prints it, to a file of the same name that ends in `.svg`.

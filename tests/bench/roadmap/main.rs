@@ -1,4 +1,4 @@
-//! What a roadmap costs: time and energies of each stage, edges a second, memory.
+//! The cost of a roadmap: time and energies of each stage, edges per second, memory.
 //!
 //! The paper's tile; edges are proved free, and their highest energy is known to 1 % (or 1e-5 of
 //! the bond's depth). The share of contact tests is of the time of the edges.
@@ -158,7 +158,7 @@ fn rates(problem: &Problem, depth: f64, neighbours: Option<usize>) {
             pairs.map(|(a, b)| a.seconds[stage] / b.seconds[stage]),
         );
     }
-    // Energies a second of edges, contact and all, over those of one batch.
+    // Energies per second of edges, including contact, over those of one batch.
     ratio(
         "edges-of-kernel",
         rounds[0].iter().map(|built| {
@@ -202,7 +202,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The most memory (MB) that the process has had so far, where the system tells.
+/// The peak memory (MB) of the process so far, if the system reports it.
 fn peak_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM"))?;

@@ -1,5 +1,5 @@
 //! The bounds of energies over cells against the energy in the interval arithmetic of `inari`,
-//! which shares nothing with this crate: a true energy outside its enclosure is a finding.
+//! which shares no code with this crate: a true energy outside its bounds is a finding.
 
 #![no_main]
 
@@ -49,7 +49,7 @@ fn tile(numbers: &mut Numbers, side: f64) -> Tile {
         let reach = (size[0] * angle.cos().abs() + size[1] * angle.sin().abs()) / 2.0;
         let behind = reach + 1e-6 + 0.01 * numbers.next().max(0.0).powi(2);
         Magnet {
-            // Apart from one another: blocks that overlap are no tile.
+            // Apart from each other: a tile cannot have overlapping blocks.
             position: [
                 side * (HALF - behind),
                 0.03 * (k as f64 - 1.0) + 0.004 * numbers.next(),

@@ -1,4 +1,5 @@
-//! The design reader on any bytes: it answers, and soon, and its answer can be told.
+//! The design reader on arbitrary bytes: it must answer, and quickly, and its answer must be
+//! printable.
 
 #![no_main]
 
@@ -9,6 +10,6 @@ fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = str::from_utf8(bytes) else {
         return;
     };
-    // No drawings: files of this machine are nothing to the fuzzer.
+    // No drawings, because the fuzzer must not read files of this machine.
     tilebind_fuzz::check(Design::parse_with(text, "fuzz.toml", &Default::default()));
 });

@@ -1,4 +1,4 @@
-//! The drawing reader on any bytes, as a tile's outline and as a face's line.
+//! The drawing reader on arbitrary bytes, as a tile's outline and as a face's profile.
 
 #![no_main]
 

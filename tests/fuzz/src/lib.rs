@@ -1,4 +1,4 @@
-//! What holds of every answer of the readers.
+//! Properties that every answer of the readers must have.
 
 use std::fmt::Display;
 
@@ -12,7 +12,7 @@ use jobs::table::{About, read_start};
 use jobs::text::with_commas;
 use physics::Configuration;
 
-/// Whether an answer can be told in a terminal, and a design that was read is sound.
+/// Checks that an answer can be printed in a terminal, and that a design that was read is valid.
 ///
 /// # Panics
 /// Where it cannot, or is not.
@@ -33,7 +33,7 @@ pub fn check(answer: Result<Design, DesignError>) {
     }));
 }
 
-/// Whether what is told can be, in a terminal.
+/// Checks that an answer can be printed in a terminal.
 ///
 /// # Panics
 /// Where it cannot.
@@ -44,13 +44,13 @@ fn tell<E: Display>(answer: Result<String, E>) {
     keep_short(&told);
 }
 
-/// Whether something is told in not too many words.
+/// Checks that a message is not too long.
 fn keep_short(told: &str) {
     assert!(told.len() < 100_000, "{} bytes are told", told.len());
 }
 
-/// Whether a tile set, whatever is wrong with it, has an answer; one that is read is written so that it
-/// is read again as it was.
+/// Checks that any tile set has an answer, and that one that was read is the same after writing and
+/// reading.
 ///
 /// # Panics
 /// Where it is not.
@@ -68,7 +68,7 @@ pub fn tile_set(text: &str) {
     tell(read.map(|set| set.name));
 }
 
-/// Whether a set of words has an answer, and what was read is sound.
+/// Checks that any set of words has an answer, and that one that was read is valid.
 ///
 /// # Panics
 /// Where it is not.
@@ -82,8 +82,8 @@ pub fn word_set(text: &str) {
     tell(read.map(|_| String::new()));
 }
 
-/// Whether the manifest of a sweep has an answer, and so have the designs of its first points; written
-/// it is read again as it was.
+/// Checks that any manifest of a sweep and the designs of its first points have answers, and that a
+/// manifest is the same after writing and reading.
 ///
 /// # Panics
 /// Where it has not, or is not.
@@ -101,14 +101,14 @@ pub fn plan(text: &str) {
     tell(read.map(|_| String::new()));
 }
 
-/// Whether every reader of tables has an answer to one, and what is read is finite.
+/// Checks that every reader of tables has an answer, and that all values read are finite.
 ///
 /// # Panics
 /// Where it has not, or is not.
 pub fn table(text: &str, pair: &Design) {
     let text = &with_commas(text)[..];
     let sound = |q: &Configuration| assert!(q.to_array().iter().all(|x| x.abs() <= 1e30), "{q:?}");
-    // Of what is wrong with tables the program takes control characters out when it tells it.
+    // The program removes control characters from messages about tables when it prints them.
     let tell = |answer: Result<String, String>| keep_short(&answer.unwrap_or_else(|error| error));
     tell(poses::read(text).map(|all| {
         all.iter().for_each(sound);

@@ -1,4 +1,4 @@
-//! Manifests of sweeps of any bytes.
+//! The reader of sweep manifests on arbitrary bytes.
 
 #![no_main]
 

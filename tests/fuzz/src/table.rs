@@ -1,4 +1,4 @@
-//! Tables, of poses and of all that is measured, of any bytes.
+//! The readers of tables, of poses and of all measurements, on arbitrary bytes.
 
 #![no_main]
 

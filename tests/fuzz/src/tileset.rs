@@ -1,4 +1,4 @@
-//! Tile sets, of rgrow and of xgrow, of any bytes.
+//! The readers of tile sets, of rgrow and of xgrow, on arbitrary bytes.
 
 #![no_main]
 

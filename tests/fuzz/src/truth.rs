@@ -126,8 +126,7 @@ fn nodes(panels: usize) -> Vec<(Interval, Interval)> {
     nodes
 }
 
-/// The energy (J) of blocks as charged pole faces; `None` where faces are too close for a plain
-/// rule.
+/// The energy (J) of blocks as charged pole faces; `None` if faces are too close for a plain rule.
 pub fn of_blocks(
     fixed: &Tile,
     moving: &Tile,

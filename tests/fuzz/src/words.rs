@@ -1,4 +1,4 @@
-//! Sets of words of any bytes.
+//! The reader of sets of words on arbitrary bytes.
 
 #![no_main]
 

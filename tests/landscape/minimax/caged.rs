@@ -1,4 +1,4 @@
-//! No way out, proved; and a way out, found.
+//! Absence of a way out, proved; and a way out, found.
 
 use nalgebra::Vector2;
 use tilebind::configuration::Configuration;
@@ -120,7 +120,7 @@ fn ends_that_cannot_be_are_refused() {
 #[test]
 fn a_known_way_through_teeth_without_play_is_proved() {
     let (scene, _) = Scene::shipped("square-teeth-10mm", MagnetModel::Dipole);
-    // Beside a corner not all contacts within a millimetre can be kept open at once.
+    // Near a corner not all contacts within a millimetre can be kept open at the same time.
     let way = [
         [0.442_172_083_65, -0.099_267_659_5, -0.059_647_714_86],
         [0.442_028_926_19, -0.098_645_085_5, -0.054_911_044_75],

@@ -1,6 +1,6 @@
-//! A brute-force answer of its own: a dense grid over the configuration space, each of whose
-//! steps and cells carries a rigorous bound made from nothing but clearances, gradients and the
-//! potential's bound of its curvature.
+//! An independent brute-force answer: a dense grid over the configuration space. Each of its steps
+//! and cells has a rigorous bound computed only from clearances, gradients and the potential's
+//! bound of its curvature.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

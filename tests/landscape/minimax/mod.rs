@@ -1,4 +1,4 @@
-//! Certified barriers, attacked from all sides.
+//! Tests of certified barriers.
 
 mod analytic;
 mod caged;

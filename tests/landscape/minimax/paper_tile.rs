@@ -1,4 +1,4 @@
-//! The paper's tile, against figures from a dense, contact-fitted grid.
+//! The paper's tile, against figures from a dense grid fitted to contact.
 
 use tilebind::configuration::Configuration;
 use tilebind::landscape::minimax::{End, Ordering};

@@ -69,7 +69,7 @@ fn of_blocks(seed: u64) -> Case {
     Case::new(seed, MagnetModel::Cuboid)
 }
 
-/// Checks designs against the grid; returns on how many both sides said something.
+/// Checks designs against the grid; returns for how many both had an answer.
 fn against_the_grid(
     case: fn(u64) -> Case,
     seeds: std::ops::Range<u64>,
@@ -168,7 +168,7 @@ fn no_random_free_path_stays_below_the_lower_bound() {
                     .flat_map(|w| (0..=20).map(|k| w[0].interpolate(&w[1], f64::from(k) / 20.0)))
                     .map(|q| case.scene.potential.energy(&q))
                     .fold(f64::NEG_INFINITY, f64::max);
-                // Sampling may miss the very top by a little.
+                // Sampling may slightly miss the maximum.
                 assert!(
                     highest >= bracket.bounds.least() - 1e-3 * case.tolerance,
                     "{seed}"

@@ -1,4 +1,4 @@
-//! What the tests certify: designs shipped and made up.
+//! The designs that the tests certify: shipped ones and made-up ones.
 
 use nalgebra::Vector2;
 use rand::RngExt;
@@ -13,7 +13,7 @@ use tilebind::tile::{Face, Magnet, Outline, Tile};
 
 use crate::designs;
 
-/// A landscape of two tiles with all that is asked of it.
+/// A landscape of two tiles with everything the tests need.
 pub struct Scene {
     pub tiles: [Tile; 2],
     pub space: ConfigurationSpace,
@@ -75,7 +75,7 @@ impl Scene {
         Certifier::new(self.bounds.as_ref(), Some(&self.contact), &self.space)
     }
 
-    /// A bracket from a certifier of its own.
+    /// A bracket from a new certifier.
     pub fn bracket(&self, from: &Configuration, to: &End, effort: &Effort) -> Bracket {
         self.certifier().bracket(from, to, &[], effort).unwrap()
     }
@@ -124,7 +124,7 @@ fn random_tiles(rng: &mut ChaCha8Rng, model: MagnetModel) -> [Tile; 2] {
 }
 
 fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
-    // How deep magnets sit at least: blocks may all but touch.
+    // The smallest depth of magnets: blocks may nearly touch.
     let depth = match model {
         MagnetModel::Dipole => 0.006,
         MagnetModel::Cuboid => 0.003,
@@ -154,7 +154,7 @@ fn random_tile(rng: &mut ChaCha8Rng, model: MagnetModel) -> Option<Tile> {
             face: 0,
         });
     }
-    // The face that all magnets are said to sit on.
+    // The face assigned to all magnets.
     let [start, end] = [0, 1].map(|k| outline.vertices()[k]);
     let name = "0".to_owned();
     (!magnets.is_empty()).then(|| Tile {

@@ -16,8 +16,8 @@ fn teeth(depth: f64) -> Design {
     Design::parse(&deeper, "deep.toml").unwrap()
 }
 
-/// Between teeth that stand on each other slots lead to other bonds. What keeps two states apart lies
-/// before the slots, not in them, where ways in are known.
+/// Between teeth that stand on each other slots lead to other bonds. If the ways in are known, the
+/// divide between two states lies outside the slots, not in them.
 #[test]
 fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
     let mut settings = Settings {
@@ -27,13 +27,13 @@ fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
     };
     settings.completeness.allowed = Allowance::NONE;
     let analysis = analyse(&teeth(0.05), &settings, &Silent);
-    // Three of them are narrowed to no width that is worth while, for 20,000 to 50,000 cells each.
+    // Three of them do not reach a worthwhile width after 20,000 to 50,000 cells each.
     let cells = analysis.counts.cells;
     assert!(cells < 300_000, "{cells}");
 }
 
-/// Between a tab and a slot contacts near a point are closed on more than one side, and corners a
-/// millimetre away mislead where a pathway is to be lifted off contact.
+/// Between a tab and a slot, contacts near a point are closed on more than one side, and corners a
+/// millimetre away are misleading when a pathway is lifted off contact.
 #[test]
 fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
     let mut settings = Settings {
@@ -47,12 +47,12 @@ fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
     let excess: Vec<f64> = told
         .map(|b| (b.bounds.upper.unwrap() - b.saddle_energy) / b.forward())
         .collect();
-    // The width that is worth while.
+    // The worthwhile width.
     assert!(
         excess.len() >= 5 && excess.iter().all(|excess| *excess < 0.05),
         "{excess:?}"
     );
-    // Those of two traps turned out a thousandth of what was first known of them.
+    // The barriers of two traps turned out to be a thousandth of their first estimates.
     let shallow = analysis
         .catalogue
         .barriers

@@ -1,5 +1,5 @@
-//! kT from how far apart pairs are, where the distribution is known: an energy of the distance
-//! alone, for which the density is `r e^(-U/kT)`.
+//! kT from the distances of pairs, where their distribution is known: for an energy that depends
+//! only on the distance, the density is `r e^(-U/kT)`.
 
 use std::f64::consts::TAU;
 

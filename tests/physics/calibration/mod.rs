@@ -1,4 +1,4 @@
-//! Shields fitted to measurements whose truth is known.
+//! Shields fitted to synthetic measurements with known parameters.
 
 mod distances;
 mod rows;
@@ -54,10 +54,10 @@ fn tile(pole: f64) -> Tile {
     }
 }
 
-/// How large energies (J), forces (N) and torques (N m) are at the poses measured, about.
+/// Approximate magnitudes of energies (J), forces (N) and torques (N m) at the measured poses.
 const SIZES: [f64; 4] = [1e-2, 1.0, 1.0, 1e-2];
 
-/// Measurements made by the model itself, 1.05 times as strong, with noise in units of the sizes.
+/// Measurements computed by the model, 1.05 times as strong, with noise in units of the magnitudes.
 fn measurements(noise: f64) -> Vec<Row> {
     measurements_with(noise, &[Some(TRUTH); 4])
 }
@@ -130,7 +130,7 @@ fn the_constants_are_found_again() {
 fn only_the_faces_that_had_shields_are_fitted() {
     let present = [Some(TRUTH), None, Some(TRUTH), None];
     let rows = measurements_with(0.0, &present);
-    // Whatever the constants are: they are what is looked for.
+    // For any constants, because these are fitted.
     let some = Some(CalibrationSettings::default().start);
     let shields = Shields {
         rule: ShieldRule::Smooth,

@@ -1,4 +1,4 @@
-//! Tables of measurements, as they are read.
+//! Reading tables of measurements.
 
 use tilebind::Configuration;
 use tilebind::calibration::read_rows;

@@ -61,7 +61,7 @@ fn no_free_configuration_is_blocked_or_cut_off() {
     }
 }
 
-/// Which corner an outline begins with says nothing about cells.
+/// The first corner of an outline makes no difference to cells.
 #[test]
 fn cells_do_not_depend_on_how_corners_are_numbered() {
     let mut rng = ChaCha8Rng::seed_from_u64(6);

@@ -1,4 +1,4 @@
-//! What touching leaves free: gaps, their gradients and the directions they admit.
+//! The motions that contact allows: gaps, their gradients and admissible directions.
 
 use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -112,7 +112,7 @@ fn gaps_tell_free_steps_from_blocked_ones() {
         let apothem = 0.05 / half.tan();
         let (mut opened, mut closed) = (0, 0);
         for slide in [0.0, 0.03, -0.06, 0.0999, -0.1] {
-            // The sides face each other: the right one of the one, its image of the other.
+            // The sides face each other: the right side of one, its image on the other.
             let q = Configuration::new(2.0 * apothem, slide, std::f64::consts::PI);
             let constraints = contact.constraints(&q, 1e-6);
             for _ in 0..300 {
@@ -133,8 +133,8 @@ fn gaps_tell_free_steps_from_blocked_ones() {
     }
 }
 
-/// A corner in an obtuse notch, a little up one of its flanks: the other flank is in its way too,
-/// though the corner is not in front of it.
+/// A corner in an obtuse notch, a little up one of its flanks: the other flank also blocks it,
+/// although the corner is not in front of it.
 #[test]
 fn both_flanks_of_a_notch_hold_a_corner_back() {
     let notched = outline(&[

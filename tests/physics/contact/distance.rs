@@ -1,4 +1,4 @@
-//! How far outlines are apart.
+//! The distance of outlines.
 
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;

@@ -1,4 +1,4 @@
-//! Whether contact is left once and for all on the way out.
+//! Tests whether contact is left once and for all on the way out.
 
 use nalgebra::Vector2;
 use tilebind::{Configuration, Design};

@@ -7,7 +7,7 @@ use tilebind::tile::Outline;
 
 use super::{outline, saw, square};
 
-/// Length (m) along which two outlines touch: points of the one so close to the other.
+/// Length (m) along which two outlines touch: points of one this close to the other.
 fn plain_contact(fixed: &Outline, moving: &Outline, q: &Configuration) -> f64 {
     const POINTS: usize = 2000;
     let mut length = 0.0;
@@ -62,7 +62,7 @@ fn contacts_are_as_long_as_they_are_said_to_be_and_none_overlaps() {
     }
 }
 
-/// Exchanging the outlines turns the motions round.
+/// Exchanging the outlines inverts the motions.
 #[test]
 fn contacts_are_those_seen_from_the_other_outline() {
     for (a, b) in [(square(0.1), trapezium()), (saw(false), saw(true))] {

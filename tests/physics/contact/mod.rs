@@ -57,8 +57,8 @@ pub fn saw(left: bool) -> Outline {
     }
 }
 
-/// A free configuration with the tiles a little apart at most: drawn together from where they are
-/// clear of each other.
+/// A free configuration with the tiles at most slightly apart: moved together from a clear
+/// configuration.
 pub fn near_contact(contact: &Contact, rng: &mut ChaCha8Rng) -> Configuration {
     let (angle, theta) = (rng.random_range(-3.1..3.1f64), rng.random_range(-3.1..3.1));
     let (mut near, mut far) = (0.0, 2.0);
@@ -130,8 +130,8 @@ fn flush_mates_touch_and_overlapping_tiles_do_not() {
     assert!(saws.is_free(&Configuration::new(0.4, 0.1, 0.0)));
 }
 
-/// Of squares before each other's faces the cheap bound is the clearance, and of convex tiles apart
-/// there always is one.
+/// For squares in front of each other's faces the cheap bound is the clearance, and for separate
+/// convex tiles there always is one.
 #[test]
 fn the_clearance_s_bound_tells_of_convex_tiles_whether_they_are_apart() {
     let contact = Contact::new(&square(0.43), &square(0.43));

@@ -1,4 +1,4 @@
-//! Motions: free all along, or not.
+//! Motions: free throughout, or not.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -51,7 +51,7 @@ fn verdicts_agree_with_fine_sampling() {
         }
         let sampled = (0..=2000).all(|i| contact.is_free(&a.interpolate(&b, i as f64 / 2000.0)));
         let verdict = contact.motion_is_free(&a, &b);
-        // Sampling can miss a graze; a free verdict it must never contradict.
+        // Sampling can miss a grazing contact, but must never contradict a free verdict.
         assert!(!verdict || sampled);
         counts[usize::from(verdict)] += 1;
         if sampled != verdict {

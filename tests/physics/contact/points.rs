@@ -1,4 +1,4 @@
-//! Points of contact against parry's distance, and what every point must obey.
+//! Points of contact against parry's distance, and properties that every point must have.
 
 use std::sync::Arc;
 
@@ -55,11 +55,11 @@ impl Tiles {
                 .bound
                 .moved(Vector3::new(out.x, out.y, 0.0) + askew);
             if self.contact.clearance(&q) <= 0.0 {
-                // Steep flanks let the tile go straight out only.
+                // Steep flanks only allow the tile to move straight out.
                 q = self.pair.bound.moved(Vector3::new(out.x, out.y, 0.0));
             }
             if found.len() % 2 == 0 {
-                // Come from somewhere until it touches, then a little back.
+                // Approaches until it touches, then moves back a little.
                 let angle = 3.2 * random();
                 let away = Vector2::new(angle.cos(), angle.sin());
                 let turned = Configuration::new(0.0, 0.0, 3.2 * random());

@@ -1,4 +1,4 @@
-//! Contacts that the configurations of a cell may make: motions that close none of them stay free.
+//! Possible contacts of a cell: motions that close none of them stay free.
 
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};

@@ -1,12 +1,12 @@
-//! The stretches of a line on which tiles are free.
+//! The intervals of a line in which tiles are free.
 
 use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::{Configuration, Design};
 
-/// Inside of every stretch tiles are free, inside of what is left out they are not, and what the
-/// line enters and leaves within a millimetre is met too.
+/// Tiles are free inside every stretch and not free between them, and even obstacles that the line
+/// enters and leaves within a millimetre are found.
 #[test]
 fn stretches_are_where_tiles_are_free() {
     let mut rng = ChaCha8Rng::seed_from_u64(9);

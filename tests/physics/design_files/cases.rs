@@ -1,4 +1,4 @@
-//! What the fuzzer starts from and what it found, once more: see `tests/fuzz`.
+//! The fuzzer's seeds and findings, replayed: see `tests/fuzz`.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Discs, and magnets that stand on a pole.
+//! Discs, and magnets magnetised across the table.
 
 use super::magnets_of_face;
 use tilebind::Configuration;
@@ -22,7 +22,7 @@ fn text(magnet: &str, codes: [&str; 2]) -> String {
     )
 }
 
-/// What people write who know magnets by other words, and what they are told to write.
+/// Keys of people who use other words for magnets, and the messages for them.
 #[test]
 fn keys_of_discs_by_other_names_are_answered_with_ours() {
     for (from, to, help) in [
@@ -93,7 +93,7 @@ fn discs_lie_or_stand_as_far_behind_the_face_as_is_said() {
     assert_eq!(magnets[3].form, form(Standing::Down));
     assert_eq!(magnets[0].size, [0.01, 0.01, 0.005]);
     assert!((magnets[0].position.x - (0.05 - 0.001 - 0.005)).abs() < 1e-15);
-    // A block that stands: its height first, then along the face, then into the tile.
+    // An upright block: its height first, then along the face, then into the tile.
     let block = design(
         "size = [0.006, 0.01, 0.004]\naxis = \"up\"",
         ["UUUD", "UDDD"],
@@ -102,7 +102,7 @@ fn discs_lie_or_stand_as_far_behind_the_face_as_is_said() {
     assert_eq!(first.size, [0.004, 0.01, 0.006]);
 }
 
-/// U beside D binds, U beside U is pushed away; words are told with N and S.
+/// U beside D binds, U beside U is repelled; words are written with N and S.
 #[test]
 fn a_mate_of_standing_magnets_binds() {
     let standing = format!("{DISC}\naxis = \"up\"");

@@ -2,7 +2,7 @@
 
 use super::drawings::{design, drawn, outlined, parse, profiled};
 
-/// Each drawing with what is said of it, and the line and column where.
+/// Each drawing with its message, and the line and column of the fault.
 #[test]
 fn drawings_are_refused_where_the_fault_is() {
     let cases: [(&str, &str, &str); 19] = [

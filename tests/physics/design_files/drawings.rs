@@ -43,7 +43,7 @@ pub(crate) fn outlined(drawing: &str, keys: &str) -> Result<Design, DesignError>
     parse(drawing, &text.replace("[target]", mate))
 }
 
-/// What a design's drawings leave in doubt.
+/// The warnings about a design's drawings.
 fn doubts(design: &Design) -> Vec<&DesignError> {
     let doubts = design.warnings.iter();
     doubts
@@ -436,7 +436,7 @@ fn view_boxes_are_fitted_wherever_they_stand() {
             (0..2).all(|k| (found[k] - size[k]).abs() < 1e-12),
             "{content}: {found:?}"
         );
-        // Only what is cut off is told.
+        // Only parts that are cut off are reported.
         let cut = doubts(&design)
             .iter()
             .any(|d| d.message.contains("clips its content"));
@@ -562,7 +562,7 @@ fn a_drawing_without_a_size_is_told_what_units_make_of_it() {
     assert!(wrong(", dpi = 0").contains("above zero"));
 }
 
-/// What the workshop cuts along: arcs drawn as arcs or as the curves that programs make of them.
+/// The workshop cuts along arcs drawn as arcs or as the curves that programs convert them to.
 #[test]
 fn arcs_of_drawings_are_known_as_arcs() {
     let arcs = |drawing: &str| {

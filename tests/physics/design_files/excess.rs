@@ -1,5 +1,5 @@
-//! Files that are no files, and more of a thing than a design needs: refused at once, each with a
-//! message.
+//! Files that are not regular files, and designs with too many entries: refused at once, each with
+//! a message.
 
 use std::path::Path;
 use std::sync::mpsc::channel;
@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::drawings::{design, drawn, outlined, profiled};
 use tilebind::design::{Design, DesignError};
 
-/// What `load` says, within a few seconds.
+/// The answer of `load`, within a few seconds.
 fn at_once<T: Send + 'static>(
     load: impl FnOnce() -> Result<T, DesignError> + Send + 'static,
 ) -> DesignError {
@@ -131,7 +131,7 @@ fn drawings_that_reach_too_far_are_refused_before_they_are_drawn() {
         let drawing = drawn(content);
         let error = at_once(move || outlined(&drawing, ""));
         assert!(error.message.contains(expected), "{content}: {error}");
-        // A hundred zeros are no number to read.
+        // A hundred zeros are not accepted as a number.
         assert!(error.message.len() < 90, "{error}");
         assert_eq!(error.place.unwrap().line, 2, "{content}");
     }
@@ -196,7 +196,7 @@ fn traced_lines_are_simplified_within_the_chord_error() {
             .iter()
             .filter(|doubt| doubt.message.contains(&told));
         assert_eq!(doubts.count(), 1, "{:?}", design.warnings);
-        // What was drawn is within the chord error of what is left, and its corners are there.
+        // The drawn line is within the chord error of the simplified one, which keeps its corners.
         for k in 0..n {
             let angle = std::f64::consts::TAU * k as f64 / n as f64;
             let r = 0.1 + 0.005 * (5.0 * angle).sin();

@@ -1,4 +1,4 @@
-//! Geometry of loaded designs: mates, fits, and where magnets sit.
+//! Geometry of loaded designs: mates, fits, and the positions of magnets.
 
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Design files, good and bad: what loads, what it loads as, and what is said of what does not.
+//! Design files, valid and invalid: what they load as, and the messages for those that do not load.
 
 mod cases;
 mod discs;
@@ -50,7 +50,7 @@ fn every_shipped_design_loads_without_a_doubt() {
     }
 }
 
-/// A bad file says in its first lines where its fault is, `# at: line:column`, and what the
+/// A bad file states in its first lines the place of its fault, `# at: line:column`, and what the
 /// message must contain, `# expect: ...`.
 #[test]
 fn every_bad_design_is_told_where_and_why() {
@@ -212,7 +212,7 @@ fn numbers_may_carry_units() {
     assert!(design.problem().clearance(&design.pair.bound) > 0.49e-3);
 }
 
-/// What is wrong with a file is told at once, in its order, each with its place.
+/// All faults of a file are reported together, in order, each with its place.
 #[test]
 fn all_faults_are_told_at_once() {
     let path = "tests/designs/bad/all-kinds-of-faults.toml";

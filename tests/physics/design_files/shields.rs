@@ -1,4 +1,4 @@
-//! What design files say of shields.
+//! Shields in design files.
 
 use tilebind::design::Design;
 use tilebind::potential::shielding::{Shield, ShieldRule};

@@ -9,7 +9,7 @@ fn the_starter_is_a_sound_design() {
     assert_eq!(design.pair.bound.to_array(), [0.43, 0.0, 0.0]);
 }
 
-/// What the remarks offer can be had by taking the `#` away.
+/// The commented-out lines are valid without the `#`.
 #[test]
 fn the_starter_s_remarks_are_sound_too() {
     let mut taken = 0;

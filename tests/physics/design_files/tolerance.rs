@@ -1,4 +1,5 @@
-//! Faces that differ by what no cutter resolves: accepted with a warning, and bound all the same.
+//! Faces that differ by less than a cutter resolves: accepted with a warning, and bound all the
+//! same.
 
 use tilebind::design::Design;
 use tilebind::problem::Problem;
@@ -35,7 +36,7 @@ fn check_bound(design: &Design) {
     assert!(problem.is_free(&design.pair.bound));
     assert!(problem.clearance(&design.pair.bound).abs() < 1e-6);
     assert!(problem.energy(&design.pair.bound) < 0.0);
-    // What is near is left: the tiles come straight out.
+    // Nearby contacts are left: the tiles come straight out.
     let mut out = design.pair.bound;
     out.x += 0.02;
     assert!(problem.motion_is_free(&design.pair.bound, &out));

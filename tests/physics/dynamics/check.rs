@@ -1,4 +1,4 @@
-//! Barriers checked by moving tiles: true ones stand, and false ones do not.
+//! Barriers checked by moving tiles: true barriers pass, false ones fail.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use tilebind::{Analysis, Design, Settings};
 use super::paper_tile;
 use crate::designs;
 
-/// Of each barrier, from either side of its height.
+/// Number of runs for each barrier, from either side of its height.
 const RUNS: usize = 30;
 
 fn few() -> CheckSettings {
@@ -23,7 +23,7 @@ fn few() -> CheckSettings {
     }
 }
 
-/// An analysis whose list of states nobody has to prove.
+/// An analysis without a proof of its list of states.
 fn analysis(design: Design, milestones: usize) -> (Design, Analysis) {
     let mut settings = Settings {
         milestones,
@@ -40,7 +40,7 @@ fn paper() -> &'static (Design, Analysis) {
     ONCE.get_or_init(|| analysis(paper_tile(), Settings::default().milestones))
 }
 
-/// What moving tiles say of an analysed design's barriers, or of those that `change` makes of them.
+/// The check of an analysed design's barriers by moving tiles, after `change` has modified them.
 fn checked(
     (design, analysis): &(Design, Analysis),
     change: impl Fn(&mut Vec<Barrier>),

@@ -1,4 +1,4 @@
-//! Docking runs: chances against another engine's, and what every run must obey.
+//! Docking runs: probabilities against another engine's, and properties of every run.
 
 use std::sync::Arc;
 
@@ -21,16 +21,16 @@ fn few(runs: usize) -> DockingSettings {
     }
 }
 
-/// What the Open Dynamics Engine found from such starts (2000, at steps of 1 to 0.2 ms): shares bound
-/// and the half width of their intervals, as it is, when its knocks give back 0.10 in the mean though
-/// 0.01 is asked for; and with the speed of its correction of overlap limited to 1 cm/s (8000 starts),
-/// when they give back 0.02.
+/// What the Open Dynamics Engine found from such starts (2000, at steps of 1 to 0.2 ms): shares
+/// bound and the half width of their intervals, as it is, when its mean restitution is 0.10
+/// although 0.01 is set; and with the speed of its overlap correction limited to 1 cm/s (8000
+/// starts), when it is 0.02.
 const ENGINE: [(f64, [f64; 2]); 2] = [
     (0.10, [0.072 - 0.011, 0.082 + 0.011]),
     (0.01, [0.0905 - 0.0063, 0.0905 + 0.0063]),
 ];
 
-/// The engine's share with the restitution that it really has, and with the one it is asked for.
+/// The engine's share with its actual restitution, and with the one that is set.
 #[test]
 fn chances_agree_with_the_open_dynamics_engine() {
     for (restitution, [low, high]) in ENGINE {

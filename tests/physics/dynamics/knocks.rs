@@ -1,4 +1,4 @@
-//! Knocks by the law of impulses.
+//! Collisions by the law of impulses.
 
 use std::f64::consts::TAU;
 
@@ -52,19 +52,19 @@ fn a_knock_on_a_corner_turns_the_tile_as_impulses_say() {
     }
 }
 
-/// A knock of a corner: where the tile is and how it moves when it touches, and against what.
+/// A collision of a corner: the tile's pose and velocity at the contact, and the body that it hits.
 struct Knock {
     place: Vector3<f64>,
     velocity: Vector3<f64>,
     /// From the centre of mass to the corner (m).
     arm: Vector2<f64>,
-    /// Away from what is hit.
+    /// The normal away from the body that is hit.
     normal: Vector2<f64>,
     at_rim: bool,
 }
 
-/// Knocks at the other tile's face and at the rim, off-centre and through the centre of mass, with
-/// sliding either way.
+/// Collisions with the other tile's face and the rim, off-centre and through the centre of mass,
+/// with sliding in either direction.
 fn knocks() -> Vec<Knock> {
     let mut knocks = Vec::new();
     let ways = [
@@ -100,7 +100,7 @@ fn knocks() -> Vec<Knock> {
 }
 
 impl Knock {
-    /// The velocity 10 ms after the knock, from 100 ms before it, through a number of steps.
+    /// The velocity 10 ms after the collision, from a start 100 ms before it.
     fn made(&self, friction: f64, restitution: f64, contact_travel: f64) -> Vector3<f64> {
         let (problem, body) = pushed(Vector3::zeros());
         let settings = MotionSettings {
@@ -117,11 +117,12 @@ impl Knock {
         run.last.motion.velocity
     }
 
-    /// By impulses: the normal one p turns the approach into what is given back, and friction's f
-    /// ends the sliding where that takes `|f| <= mu p`, and is `mu p` against it otherwise.
+    /// By impulses: the normal impulse p reverses the approach velocity according to the
+    /// restitution. Friction's impulse f ends the sliding if this takes `|f| <= mu p`, and
+    /// otherwise is `mu p` against it.
     fn expected(&self, body: &Body, friction: f64, restitution: f64) -> Vector3<f64> {
         let tangent = Vector2::new(-self.normal.y, self.normal.x);
-        // What a unit impulse along an axis changes, and the velocity of the corner along it.
+        // The change by a unit impulse along an axis, and the velocity of the corner along it.
         let [n, t] = [self.normal, tangent].map(|axis| self.lever(axis));
         let change = |axis: Vector3<f64>| axis.component_div(&body.masses());
         let [nn, nt, tt] = [n.dot(&change(n)), n.dot(&change(t)), t.dot(&change(t))];
@@ -143,7 +144,7 @@ impl Knock {
         Vector3::new(axis.x, axis.y, self.arm.perp(&axis))
     }
 
-    /// How fast the corner slides.
+    /// The sliding speed of the corner.
     fn slip(&self, velocity: &Vector3<f64>) -> f64 {
         let tangent = Vector2::new(-self.normal.y, self.normal.x);
         self.lever(tangent).dot(velocity)
@@ -165,7 +166,7 @@ fn a_knock_with_friction_turns_the_tile_as_impulses_say() {
                 let expected = knock.expected(&body, friction, restitution);
                 assert!(body.kinetic_energy(&expected) < body.kinetic_energy(&knock.velocity));
                 let made = knock.made(friction, restitution, 1e-4);
-                // The corner is taken to be where it is at the step's start.
+                // The corner is assumed to be at its place at the start of the step.
                 let wrong = difference(made, expected);
                 assert!(wrong < 3e-4, "{friction} {restitution}: {wrong}");
                 let [before, after] = [knock.velocity, expected].map(|v| knock.slip(&v));
@@ -218,7 +219,7 @@ fn a_knock_keeps_the_turning_about_the_corner_and_never_gives_energy() {
             }
             let full = knock.expected(&body, friction, 1.0);
             if body.kinetic_energy(&full) > whole * (1.0 + 1e-3) {
-                // Newton's restitution would give energy; what is given back is less.
+                // Newton's restitution would add energy; the actual restitution is lower.
                 assert!((energy / whole - 1.0).abs() < 1e-9, "{energy} {whole}");
                 held_back += 1;
             }
@@ -229,7 +230,7 @@ fn a_knock_keeps_the_turning_about_the_corner_and_never_gives_energy() {
 
 #[test]
 fn thrown_about_a_table_a_tile_never_gains_energy() {
-    // Knocks at corners, faces, in the corners of the rim, and between rim and tile.
+    // Collisions at corners, at faces, in the corners of the rim, and between rim and tile.
     let (problem, body) = pushed(Vector3::zeros());
     for (friction, restitution) in [(0.0, 1.0), (0.3, 1.0), (1.0, 0.7)] {
         let settings = MotionSettings {
@@ -261,8 +262,8 @@ fn thrown_about_a_table_a_tile_never_gains_energy() {
     }
 }
 
-/// Pushed against the other tile, thrown back again and again: on a corner, on both at once and in
-/// turn. An elastic knock loses nothing although the push acts on within the steps of knocks.
+/// Pushed against the other tile and thrown back repeatedly: on one corner, on both together and in
+/// turn. An elastic collision loses no energy although the push continues during its steps.
 #[test]
 fn elastic_knocks_keep_energy_under_a_steady_push() {
     let (problem, body) = pushed(Vector3::new(-2.0, 0.0, 0.0));
@@ -276,7 +277,7 @@ fn elastic_knocks_keep_energy_under_a_steady_push() {
         ([0.46, 0.0, -0.01], [0.2, 0.0, -0.2]),
     ] {
         let (run, snapshots) = run(&problem, body, &settings, start, 2.0);
-        // Above what it has at rest on the face.
+        // Above its energy at rest on the face.
         let energy = |snapshot: &Snapshot| snapshot.total() - 2.0 * 0.43;
         let bounces = snapshots
             .windows(2)

@@ -1,4 +1,4 @@
-//! Tiles that really move: friction, drag, shaking and fans by the laws of mechanics.
+//! Rigid-body motion: friction, drag, shaking and fans by the laws of mechanics.
 
 mod check;
 mod docking;

@@ -1,4 +1,4 @@
-//! What a shield leaves of a pair's interaction.
+//! The factor by which a shield reduces a pair's interaction.
 
 use nalgebra::Vector2;
 use tilebind::potential::shielding::Shield;

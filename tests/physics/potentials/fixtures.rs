@@ -1,4 +1,4 @@
-//! Energies, forces and torques of both magnet models against numbers made by independent codes
+//! Energies, forces and torques of both magnet models against numbers from independent codes
 //! (`tests/fixtures/physics.json`, for the design `tests/fixtures/flat.toml`).
 
 use nalgebra::Vector2;
@@ -27,9 +27,9 @@ fn references() -> Vec<Reference> {
     serde_json::from_str(include_str!("../../fixtures/physics.json")).unwrap()
 }
 
-/// How far the independent numbers may be off: relative, and absolute (J, N, N m). The forces and
-/// torques among them are differences of energies, and the energies of blocks far apart are
-/// themselves small differences of large terms.
+/// Errors of the independent numbers: relative, and absolute (J, N, N m). The forces and torques
+/// among them are differences of energies, and the energies of blocks far apart are themselves
+/// small differences of large terms.
 struct Tolerance {
     relative: f64,
     energy: f64,

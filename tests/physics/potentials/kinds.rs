@@ -1,4 +1,5 @@
-//! The kinds of energy: to have one pass all that [`super::laws`] ask, add it to [`all`].
+//! The kinds of energy: an energy that is added to [`all`] is tested by every law in
+//! [`super::laws`].
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,7 +22,7 @@ use tilebind::units::{MU0, MU0_OVER_4PI};
 
 pub type Make<T> = fn([&Tile; 2], &Shields, Level) -> Box<T>;
 
-/// A kind of energy, two tiles to try it on, and how exact it is.
+/// A kind of energy, two tiles for its tests, and its accuracy.
 #[derive(Clone)]
 pub struct Kind {
     pub name: String,
@@ -30,14 +31,14 @@ pub struct Kind {
     pub energy: Make<dyn Potential>,
     /// Its bounds over cells, if it has any.
     pub bounds: Option<Make<dyn CellBounds>>,
-    /// Where the tiles are free of each other, from contact to far away.
+    /// Free configurations, from contact to far away.
     pub poses: Vec<Configuration>,
-    /// What else there is: overlapping, with magnets 1 cm from each other, a kilometre away.
+    /// Other configurations: overlapping, with magnets 1 cm from each other, a kilometre away.
     pub anywhere: Vec<Configuration>,
     pub exact: Exact,
 }
 
-/// What may be off, and by how much at most.
+/// The allowed errors.
 #[derive(Clone, Copy)]
 pub struct Exact {
     /// Steps (m, rad) of differences, and their error as a share of force, and of torque as of a
@@ -108,7 +109,7 @@ pub fn all() -> Vec<Kind> {
     all.extend((0..6).map(odd_shields));
     all.push(attraction());
     if std::env::var_os("TILEBIND_KERNEL").is_some() {
-        // One level is tested: of bare dipoles all are anyway.
+        // One level is tested here; all levels are tested for bare dipoles.
         all.retain(|kind| kind.exact.wider.is_none());
     }
     all
@@ -181,7 +182,7 @@ fn few_dipoles((n, m): (usize, usize)) -> Kind {
         Configuration::new(away.x, away.y, rng.random_range(-PI..PI))
     };
     let poses = (0..60).map(far).collect();
-    // Any number of turns.
+    // Angles of several full turns.
     let turns = [10.0, -100.0, 9.9e4, -1.1e5, 1e9].map(|turns| Configuration::new(0.8, 0.3, turns));
     let anywhere = (0..300).map(|i| {
         let theta = rng.random_range(-PI..PI);
@@ -468,8 +469,8 @@ pub fn shielded(model: MagnetModel, rule: ShieldRule) -> Kind {
     }
 }
 
-/// Dipoles anywhere behind shields of all sorts, some of which pass from front to back within a
-/// thousandth of a turn, so that nothing is asked by differences.
+/// Dipoles anywhere behind various shields, some with a transition from front to back within a
+/// thousandth of a turn, so that differences are not tested.
 fn odd_shields(seed: u64) -> Kind {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let tiles = [5, 3].map(|count| {
@@ -503,7 +504,7 @@ fn odd_shields(seed: u64) -> Kind {
     }
 }
 
-/// Another force, as someone may add it: magnets as bare points that attract each other.
+/// An example of an added force: magnets as points that attract each other.
 fn attraction() -> Kind {
     let plain = few_dipoles((4, 9));
     Kind {

@@ -1,4 +1,4 @@
-//! What holds of every kind of energy.
+//! Laws that every kind of energy obeys.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -14,7 +14,7 @@ use crate::plain::Plain;
 
 const NOWHERE: Configuration = Configuration::new(0.0, 0.0, 0.0);
 
-/// By how much something is off at worst, in the units of what it may be.
+/// The largest error, in units of the allowed one.
 #[derive(Default)]
 struct Worst(f64, String);
 
@@ -72,8 +72,8 @@ fn forces_and_torques_are_derivatives_without_curl() {
     }
 }
 
-/// Seen from the other tile, held by which the first one stands at the inverse configuration, the
-/// energy is the same, forces are opposite, and torques and the force's lever add up to nothing.
+/// In the other tile's frame, in which the first one is at the inverse configuration, the energy is
+/// the same, forces are opposite, and torques and the force's lever add up to zero.
 #[test]
 fn action_equals_reaction() {
     for kind in all() {
@@ -104,13 +104,13 @@ fn action_equals_reaction() {
     }
 }
 
-/// What stands at `then` in a frame that stands at `first`.
+/// The configuration `then` in a frame at `first`.
 fn both(first: &Configuration, then: &Configuration) -> Configuration {
     let place = first.transform(then.position());
     Configuration::new(place.x, place.y, first.theta + then.theta)
 }
 
-/// Of frames that are chosen otherwise, for either tile, energies, forces and torques know nothing.
+/// Energies, forces and torques do not depend on the frames chosen for the tiles.
 #[test]
 fn tiles_may_be_told_in_any_frame() {
     let elsewhere = Configuration::new(0.03, -0.05, 0.9);
@@ -146,7 +146,7 @@ fn tiles_may_be_told_in_any_frame() {
     }
 }
 
-/// With the cube of the length at kept remanence, and with either tile's remanence.
+/// With the cube of the length at constant remanence, and with either tile's remanence.
 #[test]
 fn energies_scale_with_the_volume_and_the_square_of_the_remanence() {
     for kind in all() {
@@ -210,7 +210,7 @@ fn energies_fall_as_the_cube() {
     }
 }
 
-/// Whichever function gives them, whatever else is in a batch and wherever in it they stand.
+/// Whichever function computes them, whatever else is in a batch and at whichever position.
 #[test]
 fn one_or_many_give_the_same_bits() {
     for kind in all() {
@@ -235,7 +235,7 @@ fn one_or_many_give_the_same_bits() {
     }
 }
 
-/// Wherever the tiles are, on top of each other too.
+/// At any place of the tiles, even on top of each other.
 #[test]
 fn energies_are_numbers_everywhere() {
     for kind in all() {
@@ -313,8 +313,8 @@ fn plain(kind: &Kind) -> Plain {
     }
 }
 
-/// Derivatives along motions, by differences, stay below their bounds; and a bound that is never
-/// approached would be of little use.
+/// Derivatives along motions, by differences, stay below their bounds; and the bounds are
+/// approached, as they would otherwise be of little use.
 #[test]
 fn derivatives_along_motions_are_bounded() {
     for kind in all() {

@@ -1,4 +1,4 @@
-//! Every instruction set that this machine has: the same bits, and all tests of energies and bounds.
+//! Every instruction set of this machine: the same bits, and all tests of energies and bounds.
 
 use std::process::Command;
 
@@ -62,7 +62,7 @@ fn all_tests_of_potentials_pass_with_every_level() {
     }
 }
 
-/// All that a kind says at some poses and of some cells around them, as bits.
+/// All results of a kind at some poses and for some cells around them, as bits.
 fn bits(
     kind: &Kind,
     tiles: &[Tile; 2],

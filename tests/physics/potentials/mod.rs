@@ -1,6 +1,6 @@
-//! Energies between two tiles. Every kind passes every law: a kind is an entry of [`kinds::all`], what
-//! holds of it is in [`laws`], of its bounds over cells in [`cells`], and what no other kind has in a
-//! file of its own.
+//! Energies between two tiles. Every kind of energy passes every law: the kinds are the entries of
+//! [`kinds::all`], their laws are in [`laws`], those of their bounds over cells in [`cells`], and
+//! what is special to one kind has its own file.
 
 mod blocks;
 mod cells;

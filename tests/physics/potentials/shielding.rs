@@ -1,4 +1,4 @@
-//! Shielded tiles, what is special to them.
+//! Properties special to shielded tiles.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Functions of vectors against the standard library's, for every instruction set.
+//! Functions of SIMD vectors against the standard library's, for every instruction set.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Many tiles on a table, by the laws of mechanics and of heat.
+//! Many tiles on a table, by the laws of mechanics and of thermodynamics.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -129,7 +129,7 @@ fn shaken(duration: f64, kt: f64, drag: f64) -> TableSettings {
     }
 }
 
-/// Nothing drives, damps or rubs.
+/// No shaking, drag or friction.
 fn ideal(duration: f64) -> TableSettings {
     TableSettings {
         duration,
@@ -290,7 +290,7 @@ fn is_on_table(problem: &Problem, tile: &Tile, q: &Configuration) -> bool {
     })
 }
 
-/// Two small tiles of dipoles that bind by one face, on a table of so large a half.
+/// Two small tiles of dipoles that bind by one face, on a table with this half size.
 fn two_small(half: f64) -> (Problem, Crowd) {
     let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
     let model = MagnetModel::Dipole;
@@ -486,7 +486,7 @@ fn two_tiles_dock_as_often_as_one_at_a_fixed_one() {
             let overlap = by_dock.low <= there.high && there.low <= by_dock.high;
             assert!(overlap, "{by_dock:?} {there:?}");
         }
-        // Enough of them end in contact for this to say something.
+        // Enough of them end in contact for this to be meaningful.
         assert!(counts[0][0] + counts[1][0] > runs / 16, "{counts:?}");
         assert!(others < runs / 20, "{others} of {runs}");
     }

@@ -1,4 +1,4 @@
-//! Faces put together into an outline.
+//! Faces assembled into an outline.
 
 use nalgebra::Vector2;
 use tilebind::tile::assembly::{FaceLine, FitTooLarge, Ring, assemble, surface_height};

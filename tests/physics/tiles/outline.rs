@@ -1,4 +1,4 @@
-//! Outlines: area and moments, convex parts, and what is refused.
+//! Outlines: area and moments, convex parts, and rejected polygons.
 
 use nalgebra::Vector2;
 use tilebind::tile::Outline;

@@ -130,7 +130,8 @@ fn chords_of_an_arc_stay_within_their_error() {
     }
 }
 
-/// A curve keeps its shape at every size: as many chords, and no sine that is a triangle.
+/// A curve keeps its shape at every size: the same number of chords, and no sine becomes a
+/// triangle.
 #[test]
 fn curves_have_the_same_chords_at_every_size() {
     let of = |s: f64| {

@@ -1,4 +1,4 @@
-//! Turns of a tile onto itself.
+//! Rotations of a tile onto itself.
 
 use std::f64::consts::PI;
 

@@ -48,8 +48,8 @@ fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     assert_same(&untimed(&one), &untimed(&two), "one thread");
 }
 
-/// As many magnets as far groups are replaced for, and slides enough that several ways are looked for
-/// at once.
+/// Enough magnets for far groups to be replaced, and enough slides for several paths to be searched
+/// in parallel.
 const MANY: &str = r#"
 name = "many"
 [table]
@@ -125,7 +125,7 @@ fn beside_busy_loops<T>(work: impl FnOnce() -> T) -> T {
     })
 }
 
-/// With proofs that are done, and with such whose work ends before.
+/// With proofs that finish, and with proofs whose effort is spent before.
 #[test]
 fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
     let folder = tempfile::tempdir().unwrap();
@@ -246,7 +246,7 @@ fn check_barrier(out: &Path, states: &[Value], barrier: &Value, from: Option<usi
     let saddle = number("saddle_energy_J");
     let above = |end: &str| saddle - energy(&barrier[end]);
     assert!((number("forward_J") - above("from")).abs() < 1e-12);
-    // No barrier is negative, though ways to free may end a little below 0.
+    // No barrier is negative, although paths to free may end slightly below 0.
     assert!((number("reverse_J") - above("to").max(0.0)).abs() < 1e-12);
     assert!(number("forward_J") > 0.0);
     assert_eq!(numbers(&barrier["saddle_pose"]).len(), 3);

@@ -76,7 +76,7 @@ fn both_engines_get_the_same_strengths() {
         assert!(yaml.contains(&line), "{line}");
         assert!(tiles.contains(&line.replace(": ", "=")), "{line}");
     }
-    // What has come loose leaves, with what hangs on it.
+    // Detached tiles leave, with everything attached to them.
     assert!(yaml.contains("\nfission: keep-seeded\n") && tiles.contains("\nfission\n"));
     let table = text(out, "matrix.csv");
     let rows = rows(&table);
@@ -298,7 +298,7 @@ fn a_lattice_is_written_as_designs_whose_bonds_the_matrix_knows() {
             (whole - faces - others).abs() < 1e-9 * whole.abs(),
             "{row:?}"
         );
-        // No bond is deeper than the matrix says, nor much shallower.
+        // No bond is deeper than in the matrix, nor much shallower.
         assert!(energy >= faces && energy < 0.95 * faces, "{row:?} {energy}");
         let bonds = report["bonds"].as_array().unwrap();
         let bond = bonds
@@ -345,7 +345,8 @@ fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
         let common = ["analyse", file, "--json", "--compact", "--out"];
         let states = json(&[&common[..], &[folder.to_str().unwrap()], &few].concat());
         let states = states["states"].as_array().unwrap().clone();
-        // Magnets of other faces, near on so short a face, take some hundredths.
+        // Magnets of other faces, which are close on such a short face, change it by a few
+        // hundredths.
         let own = number(&states[0]["energy_J"]);
         assert_eq!(states[0]["kind"], "bound", "{name}");
         assert!(own >= bond && own < 0.97 * bond, "{name}: {own} {bond}");
@@ -393,7 +394,7 @@ fn the_first_line_answers() {
         .iter()
         .map(|it| number(&it["errors_a_tile"]))
         .collect();
-    // The colder, the more errors, but for what chance makes of few.
+    // Errors increase at lower temperature, apart from chance in small numbers.
     assert!(errors[0] > 0.3 && errors[0] > 2.0 * errors[3], "{errors:?}");
     assert!(errors[growths.len() - 3] < 0.02, "{errors:?}");
     let frozen = lattice("1e-9");

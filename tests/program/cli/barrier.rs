@@ -1,4 +1,4 @@
-//! `tilebind barrier` on the paper's tile, against a dense, contact-fitted grid.
+//! `tilebind barrier` on the paper's tile, against a dense grid fitted to contact.
 
 use serde_json::Value;
 

@@ -122,7 +122,7 @@ fn what_is_wrong_with_a_shaking_is_told() {
     }
 }
 
-/// Of a list the kT that have an answer get one; of the others it is said why they have none.
+/// In a list, each kT has an answer or the reason why it has none.
 #[test]
 fn shakings_without_an_answer_leave_the_others_theirs() {
     let file = design(PAPER);
@@ -160,7 +160,7 @@ fn shakings_without_an_answer_leave_the_others_theirs() {
     assert!(stdout(&output).contains("at kT = 1.000 J the bond"));
 }
 
-/// Traps of unlike lifetimes: the share of the answer is that of its own simulation.
+/// Traps with different lifetimes: the share of the answer agrees with its own simulation.
 #[test]
 fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
     let folder = tempfile::tempdir().unwrap();
@@ -250,8 +250,8 @@ fn a_yield_with_its_three_views() {
     assert!(of("yield") >= found["yield"].as_f64().unwrap() - 1e-9);
 }
 
-/// The same drag, the same kT, the same states: `yield` has the rates that `rates` solves, within its
-/// bounds, and either names the other's drag.
+/// The same drag, the same kT, the same states: `yield` has the rates that `rates` solves, within
+/// its bounds, and each names the other's drag.
 #[test]
 fn yield_and_rates_have_one_answer_for_one_drag() {
     let file = design(PAPER);

@@ -1,4 +1,4 @@
-//! What a shell offers after `tilebind completions`.
+//! The completions that a shell offers after `tilebind completions`.
 
 use std::process::Command;
 
@@ -57,7 +57,7 @@ fn bash_offers_commands_options_words_and_files() {
         "figures to rank by"
     );
     assert_eq!(offered(&["sweep", "--run", "Cargo.t"]), ["Cargo.toml"]);
-    // Nothing of its own: the shell's own names of files, or of folders, follow.
+    // No completions of its own: the shell's names of files or folders follow.
     assert_eq!(offered(&["energy", "shap"]), [""]);
     assert_eq!(offered(&["energy", ""]), [""]);
     assert_eq!(offered(&["energy", "a.toml", ""]), [""]);

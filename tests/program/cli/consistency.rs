@@ -1,5 +1,5 @@
-//! Summary, page, tables, report and pictures of one analysis say the same: of a caged bond, of a
-//! design without a bond and of one without traps.
+//! Summary, page, tables, report and pictures of one analysis agree: of a caged bond, of a design
+//! without a bond and of one without traps.
 
 use std::path::Path;
 
@@ -67,7 +67,7 @@ impl Told {
         Some(text("value") + "; " + &text("note"))
     }
 
-    /// What is the same of every design: states are called and counted alike in all forms.
+    /// Checks for every design: names and counts of states agree in all forms.
     fn agrees(&self) {
         let states = self.report["states"].as_array().unwrap();
         assert_eq!(states.len() + 1, self.states.len());

@@ -8,7 +8,8 @@ use super::{json, numbers, tilebind};
 
 const FIXTURES: &str = include_str!("../../fixtures/physics.json");
 
-/// Forces and torques of the fixtures are differences of energies, good to some 3e-10 of the force.
+/// Forces and torques of the fixtures are differences of energies, accurate to about 3e-10 of the
+/// force.
 fn close(actual: f64, expected: f64, scale: f64) -> bool {
     (actual - expected).abs() <= 1e-9 * scale
 }

@@ -1,4 +1,5 @@
-//! More than a machine has or a tile needs: told and made do with, or refused, before the work.
+//! Requests larger than the machine's memory or a tile's needs: reduced with a message, or refused,
+//! before the work starts.
 
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;

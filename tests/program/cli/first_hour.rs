@@ -1,5 +1,5 @@
-//! What a new user meets first: designs to start from, mistakes, a design at a glance, files for the
-//! workshop.
+//! The first steps of a new user: designs to start from, mistakes, inspection of a design, files
+//! for the workshop.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use super::{json, numbers, tilebind};
 use crate::folder::contents;
 use crate::program::{command, stderr, stdout};
 
-/// Every design that can be asked for is sound, binds, and has no rival of its bond.
+/// Every possible design is valid, binds, and has no rival of its bond.
 #[test]
 fn designs_to_start_from_are_sound_as_they_are() {
     let folder = tempfile::tempdir().unwrap();
@@ -87,7 +87,7 @@ fn impossible_designs_say_what_to_ask_for() {
         assert!(stderr(&output).contains(said), "{}", stderr(&output));
         assert!(output.stdout.is_empty());
     }
-    // What is proposed is possible.
+    // Proposed values are possible.
     let mended = ["--side", "0.029", "--magnets", "8", "--shape", "flat"];
     assert!(
         tilebind(&[&["init", "-"], &mended[..]].concat())
@@ -199,7 +199,7 @@ fn what_is_wrong_with_a_design_is_shown() {
     let shown = stdout(&tilebind(&["show", name]));
     let told = "12 other pairs of faces bind as strongly: give them other codes";
     assert!(shown.contains(told), "{shown}");
-    // A design without them says nothing of the kind.
+    // A design without them has no such message.
     let shown = stdout(&tilebind(&["show", "shapes/paper-tile.toml"]));
     assert!(!shown.contains("as strongly"), "{shown}");
 }

@@ -1,5 +1,5 @@
-//! What is wrong on the command line or in a design file ends with status 2, says how to fix it,
-//! and leaves nothing behind.
+//! Mistakes on the command line or in a design file end with status 2 and a message that says how
+//! to fix them, and leave no files.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ fn every_broken_design_is_refused_with_its_place_and_leaves_no_results() {
             "tests/designs/bad/{}",
             path.file_name().unwrap().to_str().unwrap()
         );
-        // What is wrong with a drawing is told at the drawing's line.
+        // A fault of a drawing is reported at the drawing's line.
         let place = match name.ends_with("svg-without-id.toml") {
             true => "tests/designs/bad/../drawings/inkscape.svg:35:",
             false => &format!("{name}:"),
@@ -45,7 +45,7 @@ fn a_design_that_is_not_there() {
     );
 }
 
-/// A number below 0 looks like an option; what it belongs to says what is wrong with it.
+/// A number below 0 looks like an option; the message comes from the option that it belongs to.
 #[test]
 fn negative_numbers_are_told_in_our_words() {
     let paper = "shapes/paper-tile.toml";
@@ -74,7 +74,7 @@ fn negative_numbers_are_told_in_our_words() {
         ("rates", "--check", "1", "2 or more"),
         ("rates", "--restitution", "1.5", "from 0 to 1"),
     ] {
-        // Of a list the wrong one is named.
+        // The wrong entry of a list is named.
         let (wrong, _) = value.split_once(',').unwrap_or((value, ""));
         let named = format!("'{wrong}' for '{option} <");
         refused(&[command, paper, option, value], &[&named, said]);
@@ -92,7 +92,7 @@ fn wrong_poses() {
     refused(&["energy", "shapes/paper-tile.toml"], &["--pose"]);
 }
 
-/// Nothing is read that was not meant, and the message says what to write.
+/// A number with a comma is not misread, and the message gives the correct form.
 #[test]
 fn decimal_commas_are_named() {
     let paper = "shapes/paper-tile.toml";
@@ -233,7 +233,7 @@ fn more_memory_than_the_machine_has_is_refused_before_anything_is_done() {
     assert_ne!(tilebind(&few).status.code(), Some(2));
 }
 
-/// A terminal would obey them.
+/// A terminal would interpret them.
 #[test]
 fn messages_hold_no_control_characters() {
     let folder = tempfile::tempdir().unwrap();

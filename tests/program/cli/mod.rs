@@ -1,4 +1,4 @@
-//! The commands on one design, and what every command has: help, mistakes, completions.
+//! The commands on one design, and properties of every command: help, mistakes, completions.
 
 mod analyse;
 mod assemble;
@@ -42,7 +42,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Runs a command that is wrong: it ends with status 2, says all of `said`, and prints nothing else.
+/// Runs a wrong command: it ends with status 2, its message contains all of `said`, and it prints
+/// nothing else.
 fn refused(arguments: &[&str], said: &[&str]) {
     let output = tilebind(arguments);
     let message = stderr(&output);

@@ -44,7 +44,7 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     assert_eq!(entry["bounds_hold"], "on the mesh");
     assert_eq!(entry["bounds_leave_out"].as_array().unwrap().len(), 2);
     assert!((0.0..0.05).contains(&number("/mesh/of_basins")));
-    // What is proved is of a set told by its energy, whatever the mesh.
+    // The proof is about a set defined by its energy, independent of the mesh.
     assert!((-16e-3..-1e-3).contains(&number("/proved/set_below_J")));
     let [capacity, held, leaving] = ["capacity_rad", "held_m2_rad", "leaving_set_per_s"]
         .map(|name| [0, 1].map(|end| number(&format!("/proved/{name}/{end}"))));
@@ -83,9 +83,9 @@ fn an_exit_is_told_with_its_ends_and_scales_with_the_drag() {
     }
 }
 
-/// Elastic knocks and much drag: moving tiles have a temperature, and leave as overdamped ones do.
-/// Little drag and knocks that swallow energy: they have none, and the ratio is no more than a bound
-/// where some are given up.
+/// Elastic collisions and strong drag: moving tiles have a temperature and leave like overdamped
+/// ones. Weak drag and lossy collisions: they have none, and the ratio is only a bound if some runs
+/// are abandoned.
 #[test]
 fn moving_tiles_tell_where_overdamped_rates_hold() {
     let ways = ["--start", "0.43,-0.04,0", "--free-at", "0.65"];
@@ -180,7 +180,7 @@ fn shaking_that_nothing_holds_or_leaves_at_is_refused_at_once() {
     }
 }
 
-/// A dovetail does not come out sideways: contact proves that, so that the rates are 0 and known to be.
+/// A dovetail does not come out sideways: contact proves this, so the rates are 0 with certainty.
 #[test]
 fn of_a_bond_that_contact_shuts_in_the_rates_are_known_to_be_none() {
     let dovetail = ["rates", "shapes/dovetail.toml", "--kt", "3e-3"];
@@ -201,7 +201,7 @@ fn of_a_bond_that_contact_shuts_in_the_rates_are_known_to_be_none() {
     assert!(!text.contains("at most"), "{text}");
 }
 
-/// Square teeth slide into each other without any play: no mesh has a way there, and none is excluded.
+/// Square teeth slide into each other without play: no mesh has a path there, and none is excluded.
 #[test]
 fn of_a_bond_without_a_known_way_nothing_is_claimed() {
     let folder = tempfile::tempdir().unwrap();
@@ -278,8 +278,8 @@ fn rates_between_the_states_balance_in_detail() {
     };
     let all: f64 = places.iter().map(|place| share(&place["name"])).sum();
     assert!((all - 1.0).abs() < 1e-9);
-    // Next to all that is in no other basin lies in the bond's: proved from both sides, on a circle of
-    // free tiles that contact reaches at corners.
+    // Almost everything outside other basins lies in the bond's: proved from both sides, on a
+    // circle of free tiles that contact reaches at corners.
     let bond = &places[0];
     let proved = |end: usize| bond["proved"]["mean_exit_s"][end].as_f64().unwrap();
     let mean = bond["mean_exit_s"].as_f64().unwrap();

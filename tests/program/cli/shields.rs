@@ -1,4 +1,5 @@
-//! Shielded designs through the program: dipoles behind shields are certified; what is not says so.
+//! Shielded designs in the program: dipoles behind shields are certified; the output names what is
+//! not.
 
 use std::path::Path;
 
@@ -43,7 +44,7 @@ fn dipoles_behind_shields_are_certified() {
             ["lower_J", "saddle_energy_J", "upper_J"].map(|key| barrier[key].as_f64().unwrap());
         assert!(lower <= saddle && saddle <= upper, "{barrier}");
     }
-    // The bound state has the energy of blocks behind the same shields beside that of dipoles.
+    // The bound state has both energies, of dipoles and of blocks behind the same shields.
     let bound = &report["states"][0];
     let [dipole, block] = ["energy_J", "block_energy_J"].map(|key| bound[key].as_f64().unwrap());
     assert!(block < 1.5 * dipole && block > 2.5 * dipole, "{bound}");

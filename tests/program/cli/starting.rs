@@ -28,7 +28,7 @@ fn the_starter_is_written_once_and_can_be_used() {
     assert_eq!(fs::read_to_string(&path).unwrap(), "my own work");
 }
 
-/// A first design has a bond that starts find, and nothing that holds the tiles nearly as well.
+/// A first design has a bond that starts reach, and no trap that is nearly as strong.
 #[test]
 fn the_starter_binds() {
     let folder = tempfile::tempdir().unwrap();
@@ -85,8 +85,8 @@ fn the_schema_is_json_of_its_draft() {
     );
 }
 
-/// What an independent validator makes of designs: `sound` and `faulty`, each a list of files.
-/// Exits with 77 where it is not installed.
+/// The verdict of an independent validator on designs: `sound` and `faulty`, each a list of files.
+/// Exits with 77 if it is not installed.
 const VALIDATE: &str = r#"
 import json, sys
 try:
@@ -110,7 +110,7 @@ print(len(sound), "sound", len(faulty), "faulty")
 sys.exit(1 if wrong else 0)
 "#;
 
-/// Designs with a fault that a schema can tell.
+/// Designs with a fault that a schema can detect.
 const FAULTY: [&str; 25] = [
     "code-and-magnets",
     "code-in-lower-case",
@@ -167,7 +167,7 @@ fn an_independent_validator_takes_sound_designs_and_refuses_faulty_ones() {
         eprintln!("skipped: no python3 to validate designs with");
         return;
     };
-    // A validator that is not there ends before it reads.
+    // Without a validator the process ends before it reads.
     let _ = python
         .stdin
         .take()

@@ -1,4 +1,4 @@
-//! Many tiles on one table, as a user asks for them.
+//! `tilebind table`.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ fn report(folder: &Path) -> Value {
 }
 
 #[test]
-fn what_is_bound_is_counted_as_the_target_and_played() {
+fn bound_pairs_count_as_the_target_and_are_on_the_page() {
     let folder = tempfile::tempdir().unwrap();
     let start = folder.path().join("start.csv");
     std::fs::write(&start, START).unwrap();
@@ -110,7 +110,7 @@ fn parts_of_the_runs_are_those_of_the_whole() {
 }
 
 #[test]
-fn tiles_of_a_set_are_set_against_its_pattern() {
+fn tiles_of_a_set_are_compared_with_its_pattern() {
     let folder = tempfile::tempdir().unwrap();
     let set = folder.path().join("two.yaml");
     let text = "size: 2\ntau: 1\ntiles:\n- {name: a, edges: [0, g, 0, 0]}\n\
@@ -126,7 +126,7 @@ fn tiles_of_a_set_are_set_against_its_pattern() {
 }
 
 #[test]
-fn yield_stands_beside_it() {
+fn yield_is_compared() {
     let found = json(&[
         "table",
         TILE,
@@ -163,7 +163,7 @@ fn yield_stands_beside_it() {
 }
 
 #[test]
-fn wrong_tables_are_refused_with_their_mend() {
+fn wrong_tables_are_refused_with_their_fix() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let blocks = folder.path().join("blocks.toml");
@@ -176,7 +176,7 @@ fn wrong_tables_are_refused_with_their_mend() {
     .unwrap();
     let blocks = blocks.to_str().unwrap();
     let counted = ["--count", "1,1", "--time", "1"];
-    for (wrong, mend) in [
+    for (wrong, fix) in [
         (&[TILE, "--shard", "3/2"][..], "parts of n are 1/n"),
         (&[TILE, "--shard", "2/2"], "this part has none"),
         (&[TILE, "--compare"], "--shaking"),
@@ -208,7 +208,7 @@ fn wrong_tables_are_refused_with_their_mend() {
             "{wrong:?} {}",
             stderr(&output)
         );
-        assert!(stderr(&output).contains(mend), "{}", stderr(&output));
+        assert!(stderr(&output).contains(fix), "{}", stderr(&output));
         assert!(!out.exists(), "{wrong:?}: nothing is written");
     }
 }

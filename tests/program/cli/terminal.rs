@@ -1,4 +1,5 @@
-//! Where nobody reads what is printed: commands end as they should, and interruptions still work.
+//! Closed outputs: commands end as they should when nobody reads their output, and interruptions
+//! still work.
 
 use std::io::{Write, pipe};
 use std::process::{Child, Command, Output, Stdio};
@@ -8,7 +9,7 @@ use crate::program::command;
 
 const DESIGN: &str = "shapes/paper-tile.toml";
 
-/// A pipe whose reader is gone.
+/// A pipe without a reader.
 fn closed() -> Stdio {
     let (_, writer) = pipe().unwrap();
     writer.into()
@@ -57,7 +58,7 @@ fn interruptions_work_where_nobody_reads_messages() {
     assert!(!folder.path().join("results").exists());
 }
 
-/// Commands that take no time wait for what they read, too.
+/// Fast commands wait for their input, too.
 #[test]
 fn every_command_can_be_interrupted() {
     for line in [

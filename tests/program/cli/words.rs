@@ -161,7 +161,8 @@ fn a_set_is_written_read_and_judged_over_all_poses() {
     judged(&folder.path().join("one/words.toml"));
 }
 
-/// Crosstalk is symmetric, holds the bonds, lies above its bounds and below what slides tell.
+/// Crosstalk is symmetric, includes the bonds, and lies above its bounds and below the energies of
+/// slides.
 fn judged(set: &Path) {
     let set = set.to_str().unwrap();
     let found = json(&[
@@ -189,7 +190,7 @@ fn judged(set: &Path) {
             assert!(lower[i][j] <= strongest[i][j], "{i} {j}");
         }
         let mate = if i < m { i + m } else { i - m };
-        // Four contacts of 16.4 mJ, less what neighbours take.
+        // Four contacts of 16.4 mJ, minus the effect of neighbours.
         assert!(strongest[i][mate] < -0.06, "{}", strongest[i][mate]);
     }
     assert_eq!(found["poses"].as_array().unwrap().len(), 2 * m);
@@ -265,7 +266,7 @@ fn faults_cost_words_and_are_told() {
     assert!(0 < count(&missing) && count(&missing) < count(&none));
     assert_eq!(missing["settings"]["tolerate"], "missing=1");
     assert!(missing["gap"].as_f64().unwrap() >= 0.2);
-    // Two of eight magnets may be gone.
+    // Two of eight magnets may be missing.
     assert!(missing["bond_J"].as_f64().unwrap() < 0.77 * none["bond_J"].as_f64().unwrap());
     assert_eq!(missing["worst"]["faulty"].as_array().unwrap().len(), 2);
 }
@@ -306,7 +307,7 @@ fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
             "{positions:?}"
         );
     }
-    // The file of the set is judged as the set was.
+    // The evaluation of the set's file equals that of the set.
     let set = out.join("words.toml");
     let judged = json(&["crosstalk", set.to_str().unwrap(), "--json"]);
     assert_eq!(judged["gap"], one["gap"]);
@@ -332,7 +333,7 @@ fn outlines_match_longest_contact_first() {
     }
 }
 
-/// A design with magnets that stand, blocks or discs, on faces of 10 cm.
+/// A design with upright blocks or discs, on faces of 10 cm.
 fn standing(folder: &Path, magnet: &str) -> String {
     let text = format!(
         "name = \"standing\"\n[table]\nsize = [0.6, 0.6]\n[magnet]\n{magnet}\naxis = \"up\"\nremanence = 1.3\n\

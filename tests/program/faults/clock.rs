@@ -1,4 +1,4 @@
-//! A clock that jumps. Skipped where there is no `faketime`.
+//! A clock that jumps. Skipped without `faketime`.
 
 use std::process::Command;
 

@@ -1,4 +1,4 @@
-//! Processes that are killed while they work.
+//! Processes that are killed during their work.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ fn what_is_killed_leaves_whole_files_and_can_be_done_again() {
     }
 }
 
-/// Takes away what was being written, which lies apart from all results.
+/// Removes unfinished files, which are kept apart from results.
 fn take_away_unfinished(folder: &std::path::Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten() {
         let entry = entry.unwrap();

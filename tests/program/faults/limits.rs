@@ -1,4 +1,4 @@
-//! Files that may not grow beyond some size, full devices, and memory that runs out.
+//! Limits of file size, full devices, and memory that runs out.
 
 use std::fs::File;
 
@@ -56,7 +56,7 @@ fn a_full_device_for_the_answer_is_a_failure() {
     }
 }
 
-/// From the least memory in which the program starts at all.
+/// From the smallest memory in which the program starts.
 #[test]
 fn memory_that_runs_out_leaves_whole_files() {
     let limit = |megabytes: u64| format!("ulimit -c 0; ulimit -v {}", 1024 * megabytes);

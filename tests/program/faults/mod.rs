@@ -1,6 +1,5 @@
-//! What the machine does to a command: writes that fail at some byte, memory that runs out, a
-//! worker that is killed, a clock that jumps. The exit status tells, and every file is there as a
-//! whole or not at all.
+//! Failures of the machine: writes that fail at some byte, memory that runs out, a worker that is
+//! killed, a clock that jumps. The exit status reports them, and every file is complete or absent.
 
 #![cfg(unix)]
 
@@ -18,7 +17,7 @@ use crate::program::command;
 
 const DESIGN: &str = "shapes/tab-20mm.toml";
 
-/// The commands that write folders, each with as little work as it can have.
+/// The commands that write folders, each with minimal work.
 const COMMANDS: [(&str, &[&str]); 4] = [
     (
         "analyse",
@@ -40,7 +39,7 @@ const COMMANDS: [(&str, &[&str]); 4] = [
 const NO_BOUNDS: &str = "--certify-cells=0";
 const NO_SEARCH: &str = "--complete-cells=0";
 
-/// What makes a survey short; docking has none.
+/// Options for a short survey; docking has none.
 const SHORT: [&str; 4] = ["--milestones", "200", "--far-starts", "10"];
 
 /// A command's arguments, with its results going to a folder.
@@ -51,7 +50,7 @@ fn arguments<'a>(name: &'a str, more: &[&'a str], out: &'a Path) -> Vec<&'a str>
     [&[name, DESIGN], more, survey, &threads[..]].concat()
 }
 
-/// The command under a shell that first does something to itself.
+/// The command under a shell that first runs a preparation.
 fn after(preparation: &str, arguments: &[&str]) -> Output {
     let program = command(&[]);
     Command::new("sh")
@@ -63,7 +62,7 @@ fn after(preparation: &str, arguments: &[&str]) -> Output {
         .expect("a shell")
 }
 
-/// The files of one of the commands that nothing befalls.
+/// The files of one of the commands without any fault.
 fn undisturbed(name: &str, more: &[&str]) -> &'static BTreeMap<String, Vec<u8>> {
     static ONCE: [OnceLock<BTreeMap<String, Vec<u8>>>; COMMANDS.len()] =
         [const { OnceLock::new() }; COMMANDS.len()];
@@ -78,8 +77,8 @@ fn undisturbed(name: &str, more: &[&str]) -> &'static BTreeMap<String, Vec<u8>> 
     })
 }
 
-/// That every file of a folder is one of those that were to come, and ends as it does: times differ
-/// from run to run, endings do not. Returns how many there are.
+/// Asserts that every file of a folder is one of the expected ones, and complete: times differ
+/// between runs, endings do not. Returns the number of files.
 fn assert_whole(folder: &Path, expected: &BTreeMap<String, Vec<u8>>) -> usize {
     let found = match folder.exists() {
         true => contents(folder),
@@ -90,7 +89,7 @@ fn assert_whole(folder: &Path, expected: &BTreeMap<String, Vec<u8>>) -> usize {
         let whole = expected
             .get(name)
             .unwrap_or_else(|| panic!("{name} is not a result"));
-        // What a point of a sweep came to may be another thing where memory is short.
+        // The outcome of a sweep's point may differ if memory is short.
         let is_whole = match name.ends_with(".json") {
             true => serde_json::from_slice::<serde_json::Value>(content).is_ok(),
             false => ending(content) == ending(whole),

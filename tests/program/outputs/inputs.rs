@@ -1,4 +1,4 @@
-//! What a command reads it never replaces, by whatever name it goes.
+//! A command never replaces its input files, by whatever name they are given.
 
 use super::*;
 
@@ -131,8 +131,7 @@ fn inputs_are_known_by_other_names() {
     assert!(here.join("soft.svg").is_symlink());
 }
 
-/// A manifest that lies among the results stays as it is; one that goes by the name of another
-/// result is refused.
+/// A manifest among the results is unchanged; one with the name of another result is refused.
 #[test]
 fn manifests_are_inputs_of_merging() {
     let desk = desk();
@@ -153,7 +152,7 @@ fn manifests_are_inputs_of_merging() {
     refused(here, &words(SWEEP), &["R/plan.json", "was changed since"]);
 }
 
-/// Old results that are read do not go with the others.
+/// Old results that are read are not removed with the others.
 #[test]
 fn an_old_result_that_is_read_stays() {
     let desk = desk();

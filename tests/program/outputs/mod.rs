@@ -1,5 +1,5 @@
-//! Files that commands write: what of the user's stays, what is replaced, and that a set is all new
-//! or all old.
+//! Output files: which files of the user stay, which are replaced, and that a set is all new or all
+//! old.
 
 mod inputs;
 mod replaced;
@@ -38,7 +38,8 @@ fn done(folder: &Path, arguments: &[&str]) {
     assert!(!leftovers(folder));
 }
 
-/// Runs a command that is refused with status 2, saying all of `said`, and that changes nothing.
+/// Runs a command that is refused with status 2 and a message that contains all of `said`, and that
+/// changes nothing.
 fn refused(folder: &Path, arguments: &[&str], said: &[&str]) {
     let before = contents(folder);
     let record = fs::read(folder.join(RECORD)).ok();
@@ -116,7 +117,7 @@ const ASSEMBLE: &str = "assemble lattice --lattice 2x2 --kt 4e-3 --coverage 0.1 
 /// Refused or begun, but not waited for.
 const RATES: &str = "rates d.toml --kt 8e-3 --quiet --out R";
 
-/// A folder with what these commands read.
+/// A folder with the input files of these commands.
 fn desk() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     copy(folder.path(), &[(DESIGN, "d.toml")]);

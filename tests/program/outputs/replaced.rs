@@ -1,4 +1,4 @@
-//! Folders of results: a command replaces what it wrote itself and nobody changed since.
+//! Folders of results: a command replaces the files that it wrote and that have not changed since.
 
 use serde_json::{Value, json};
 use tilebind::output::Command;
@@ -61,7 +61,7 @@ fn a_command_replaces_its_own_files_and_no_others() {
     }
 }
 
-/// Whatever a record says, nothing else is ever taken away as an old result.
+/// Whatever a record states, nothing else is removed as an old result.
 #[test]
 fn names_of_results_are_known() {
     for (command, own, others) in [
@@ -133,7 +133,7 @@ fn old_results_go_unless_they_were_changed_and_what_else_is_there_stays() {
     ];
     place(&out, &edited);
     let before = contents(&out);
-    // Of the edited files none is in the way of what comes.
+    // None of the edited files is in the way of new ones.
     done(here, &words(&format!("{ANALYSE} --compact")));
     let after = contents(&out);
     let gone = |name: &str| before.contains_key(name) && !after.contains_key(name);
@@ -154,7 +154,7 @@ fn old_results_go_unless_they_were_changed_and_what_else_is_there_stays() {
     check(&out, &mine);
 }
 
-/// Records, and reports of old, can name anything with its checksum.
+/// Records and old reports can name any file with its checksum.
 #[test]
 fn forged_lists_get_nothing_of_the_users_away() {
     let desk = desk();
@@ -264,7 +264,7 @@ fn a_folder_of_another_command_is_refused_or_its_files_stay_beside() {
     refused(here, &words(ANALYSE), &["is a result of `tilebind yield`"]);
 }
 
-/// What is in the way is told before the computation, which would take minutes.
+/// Files in the way are reported before the computation, which would take minutes.
 #[test]
 fn what_is_in_the_way_is_refused_before_the_computation() {
     let desk = desk();
@@ -290,7 +290,7 @@ fn what_is_in_the_way_is_refused_before_the_computation() {
         (format!("{barrier} --pathway way.csv"), "way.csv"),
     ];
     for (line, name) in &lines {
-        // Of an option that is given twice the last one counts.
+        // If an option is given twice, the last one counts.
         let mut words = words(line);
         let last = |option: &str| words.iter().rposition(|word| *word == option);
         for option in ["--milestones", "--runs", "--length"] {

@@ -45,7 +45,7 @@ fn sweeps_in_one_folder_do_not_disturb_each_other() {
             let message = stderr(&output);
             assert_eq!(output.status.code(), Some(0), "round {round}: {message}");
         }
-        // What is there is what one of them alone would have written, and the points of all.
+        // The files are those that one of them alone would have written, and the points of all.
         let found = contents(&here.join("R"));
         let is_there = |(name, content)| found.get(name) == Some(content);
         assert!(
@@ -79,7 +79,7 @@ fn of_sets_that_come_at_once_one_is_there_as_a_whole() {
     }
 }
 
-/// Of different commands in one folder those that come second to a name are refused.
+/// If different commands write to one folder, the second one to use a name is refused.
 #[test]
 fn commands_that_clash_are_refused_and_others_stand_beside() {
     let desk = desk();
@@ -102,7 +102,7 @@ fn commands_that_clash_are_refused_and_others_stand_beside() {
     }
 }
 
-/// What a killed process left goes; what only looks like it stays.
+/// Leftovers of a killed process are removed; files that only look like them are kept.
 #[test]
 fn leftovers_of_killed_processes_go() {
     let desk = desk();

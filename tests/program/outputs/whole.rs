@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::*;
 
-/// Commands, and what makes their results others.
+/// Commands, and options that change their results.
 const COMMANDS: [(&str, &str); 5] = [
     (MAKE, "--kerf 0.0001"),
     (COMPARE, "--by bond_depth"),
@@ -13,7 +13,7 @@ const COMMANDS: [(&str, &str); 5] = [
     (ANALYSE, "--seed 2"),
 ];
 
-/// The results of a command; what is known of points is no part of a set.
+/// The results of a command; the records of points are not part of a set.
 fn results(out: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = contents(out);
     all.retain(|name, _| !name.starts_with("points/"));
@@ -78,7 +78,7 @@ impl Drop for Mounted<'_> {
     }
 }
 
-/// Fills the file system but for some bytes.
+/// Fills the file system except for some bytes.
 fn fill(file: &Path, room: u64) {
     use std::io::Write;
     let mut file = fs::File::create(file).unwrap();
@@ -115,8 +115,8 @@ fn on_a_full_disk_the_old_set_stays() {
     }
 }
 
-/// Killed at any moment; what is left can be replaced by the same command, whatever was in its place
-/// by then.
+/// Killed at any moment: the same command can replace the remaining files, whatever was in place by
+/// then.
 #[test]
 fn after_a_kill_the_same_command_goes_on() {
     use std::time::Duration;
@@ -149,8 +149,8 @@ fn after_a_kill_the_same_command_goes_on() {
     assert!(results(&out) == sets[0]);
 }
 
-/// A process that was killed after any number of renamings: the next one that looks at the folder
-/// puts the old files back, or the rest of the new ones in.
+/// A process that was killed after any number of renamings: the next process that opens the folder
+/// restores the old files, or completes the new ones.
 #[test]
 fn what_a_killed_process_left_is_settled() {
     let desk = desk();
@@ -197,7 +197,7 @@ fn what_a_killed_process_left_is_settled() {
         for (from, to) in &steps[..killed] {
             fs::rename(path(from), path(to)).unwrap();
         }
-        // A refused command looks, too.
+        // A refused command does this, too.
         let other = format!("{WORDS} --length 0");
         assert_ne!(run(here, &words(&other)).status.code(), Some(0));
         place(&out, &[("words.csv", "mine")]);

@@ -1,4 +1,4 @@
-//! The pictures of an analysis, drawn from data put together by hand.
+//! The pictures of an analysis, drawn from hand-made data.
 
 mod grids;
 mod paper_tile;

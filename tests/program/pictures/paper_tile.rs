@@ -1,4 +1,4 @@
-//! The paper's tiles with states and pathways put together by hand.
+//! The paper's tiles with hand-made states and pathways.
 
 use ordered_float::OrderedFloat;
 

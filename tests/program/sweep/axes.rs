@@ -1,4 +1,4 @@
-//! Values that a key of a design takes, as the user writes them.
+//! Values of a varied key, as the user writes them.
 
 use tilebind::sweep::{Axis, Value};
 

@@ -1,4 +1,4 @@
-//! A sweep that is stopped goes on where it was and ends in the same bytes.
+//! An interrupted sweep resumes and ends with the same bytes.
 
 #![cfg(unix)]
 
@@ -73,7 +73,7 @@ fn killed_and_resumed_it_ends_in_the_same_bytes() {
         assert_eq!(child.wait().unwrap().code(), None, "killed by a signal");
         assert!((count..POINTS).contains(&points(&broken).len()));
     }
-    // A file that is damaged, and one that was being written when the process was killed.
+    // A damaged file, and one that was being written when the process was killed.
     let before = points(&broken);
     let damaged = before.keys().next().unwrap();
     let content = std::fs::read(damaged).unwrap();

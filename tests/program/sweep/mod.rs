@@ -1,4 +1,4 @@
-//! `tilebind sweep` as its users see it: the same bytes however the work is divided or broken off.
+//! `tilebind sweep`: the same bytes however the work is divided or interrupted.
 
 mod axes;
 mod interruptions;
@@ -17,7 +17,7 @@ use crate::program::{command, stderr, stdout};
 const DESIGN: &str = "shapes/tab-20mm.toml";
 const DEPTH: &str = "fixed.faces.east.profile.depth";
 
-/// The least work that still finds the states.
+/// The smallest effort that still finds the states.
 const QUICK: [&str; 8] = [
     "--milestones",
     "500",
@@ -41,7 +41,7 @@ fn run(arguments: &[&str]) -> Output {
 fn done(arguments: &[&str]) -> String {
     let output = run(arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    // Where nobody watches, only long sweeps say now and then how far they are.
+    // If the output is not a terminal, only long sweeps report their progress now and then.
     let said = stderr(&output);
     assert!(said.lines().all(|line| line.contains(" points")), "{said}");
     stdout(&output)

@@ -1,4 +1,4 @@
-//! A sweep in parts and a sweep in one go.
+//! A sweep in parts gives the same as a whole sweep.
 
 use super::{DEPTH, DESIGN, QUICK, assert_same, done, run, text};
 use crate::folder::contents;
@@ -33,7 +33,7 @@ fn parts_merged_are_the_sweep_of_one_process_byte_for_byte() {
     for part in ["3/3", "1/3", "2/3"] {
         done(&["--run", plan, "--shard", part, "--threads", "1"]);
     }
-    // A part that is done has nothing left to do.
+    // A finished part has nothing left to do.
     done(&["--run", plan, "--shard", "1/3", "--threads", "1"]);
     assert_eq!(
         done(&["--status", plan]),

@@ -1,4 +1,4 @@
-//! Finished points that are damaged, or of another version, are worked on again and never merged.
+//! Finished points that are damaged or of another version are computed again and never merged.
 
 use std::fs;
 use std::path::{Path, PathBuf};

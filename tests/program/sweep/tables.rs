@@ -1,4 +1,4 @@
-//! What a sweep writes.
+//! The tables of a sweep.
 
 use serde_json::Value;
 
@@ -27,7 +27,7 @@ fn every_point_is_a_row_and_an_impossible_one_says_why() {
         assert_eq!(point["values"][DEPTH], depth);
         assert_eq!(point["values"]["magnet.remanence"], remanence);
     }
-    // Energies go with the square of the remanence.
+    // Energies are proportional to the square of the remanence.
     let bond = |k: usize| points[k]["quantities"]["bond_depth_J"].as_f64().unwrap();
     assert!((bond(1) / bond(0) - 4.0).abs() < 1e-6);
     for point in &points[2..] {
@@ -92,8 +92,8 @@ fn keys_of_all_faces_several_designs_and_words_can_be_varied() {
     }
 }
 
-/// All points are set against one that is named, and points are added where the figures bend; the
-/// same sweep again has nothing to do and ends in the same bytes.
+/// All points are compared with a named one, and points are added where the curves bend; the same
+/// sweep again has nothing to do and ends with the same bytes.
 #[test]
 fn points_are_set_against_one_and_added_where_figures_bend() {
     let folder = tempfile::tempdir().unwrap();

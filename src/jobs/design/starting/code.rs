@@ -1,7 +1,8 @@
-//! Codes to start from.
+//! Codes for new designs.
 
-/// The code whose strongest wrong match with its own mate is weakest: slid by k places, the places
-/// that attract less those that repel. Of several the first, `N` before `S`.
+/// The code whose strongest wrong match with its own mate is weakest, where a match slid by k
+/// places counts the attracting places minus the repelling ones. Of several such codes the first,
+/// `N` before `S`.
 pub fn code(magnets: usize) -> String {
     let worst = |bits: u32| {
         let slid = (1..magnets).map(|k| {
@@ -27,7 +28,7 @@ mod tests {
     #[test]
     fn codes_are_those_that_slide_least() {
         assert_eq!((code(1), code(4)), ("N".to_owned(), "NNNS".to_owned()));
-        // Barker's: no slide leaves more than one magnet's worth of attraction.
+        // Barker codes: at no slide the attraction exceeds that of one magnet.
         for magnets in [2, 3, 4, 5, 7, 11, 13] {
             let code: Vec<i32> = code(magnets)
                 .bytes()

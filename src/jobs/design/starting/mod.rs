@@ -1,4 +1,4 @@
-//! Designs to start from, written to measure: sound as they are.
+//! New designs made to given measures, valid as written.
 
 mod code;
 mod shape;
@@ -15,7 +15,7 @@ use code::code;
 pub use shape::Shape;
 pub use shop::ShopMagnet;
 
-/// Magnets that are sold (m): along the axis, along the face, through the thickness.
+/// Common magnets on the market (m): along the axis, along the face, through the thickness.
 const BLOCKS: [[f64; 3]; 5] = [
     [0.010, 0.010, 0.003],
     [0.008, 0.008, 0.003],
@@ -25,18 +25,18 @@ const BLOCKS: [[f64; 3]; 5] = [
 ];
 /// Widest spacing of magnets (m), that of the paper's tile.
 const WIDEST: f64 = 0.040;
-/// Least spacing, in widths of a magnet, and that of the smallest magnets: closer ones hardly tell
-/// one code from another.
+/// Least spacing, in widths of a magnet, also for the smallest magnets: with closer ones, codes
+/// hardly differ.
 const CLOSE: f64 = 2.0;
 const CLOSEST: f64 = 1.6;
-/// Length of a code over that of its side, as on the paper's tile, where the magnets' sizes leave
-/// the choice: from farther apart, single magnets catch what comes from elsewhere (a square with
-/// four magnets over three quarters of its side captures 24 % of far starts, over a quarter 44 %).
+/// Length of a code over that of its side, as on the paper's tile, if the magnets' sizes leave the
+/// choice: if they are farther apart, single magnets catch tiles from elsewhere (a square with four
+/// magnets over three quarters of its side captures 24 % of far starts, over a quarter 44 %).
 const COMPACT: f64 = 0.28;
-/// A code of fewer gaps than this is shorter.
+/// A code with fewer gaps than this is shorter.
 const GAPS: usize = 3;
-/// Least way from a tile's middle to its faces, in magnets: what lies on one face is not to act
-/// through the tile on others.
+/// Least distance from a tile's centre to its faces, in magnets, so that the magnets of one face
+/// hardly act through the tile.
 const ACROSS: f64 = 8.0;
 /// Largest radius of a tile (m).
 const LARGEST: f64 = 1.5;
@@ -44,12 +44,12 @@ const LARGEST: f64 = 1.5;
 const USED: f64 = 0.85;
 /// Mass of the paper's tile over its volume (kg / m^3).
 const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
-/// Most sides: with more, a tile is a disc, and its faces can hardly be told apart.
+/// Largest number of sides: with more, a tile is nearly a disc, and its faces hardly differ.
 const MOST_SIDES: u32 = 24;
-/// Most magnets: the codes for more are not searched here.
+/// Largest number of magnets: codes for more are not searched here.
 const MOST_MAGNETS: usize = 16;
 
-/// What a design to start from is to be like.
+/// The options of a new design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Sides of both tiles.
@@ -60,7 +60,7 @@ pub struct Start {
     pub magnets: usize,
     /// The line of the target faces.
     pub shape: Shape,
-    /// The magnets; of those that are sold the ones that fit best, where none are given.
+    /// The magnets; by default the best fitting ones on the market.
     pub magnet: Option<ShopMagnet>,
 }
 
@@ -76,7 +76,7 @@ impl Default for Start {
     }
 }
 
-/// Why there is no such design, and what to ask for instead.
+/// Why there is no such design, and what to request instead.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{wrong}\n  help: {fix}")]
 pub struct StartError {
@@ -92,11 +92,11 @@ fn wrong(wrong: impl Into<String>, fix: impl Into<String>) -> StartError {
 }
 
 impl Start {
-    /// The text of a design file called `name`: magnets spaced and sized about as on the paper's
-    /// tile, with the code that slides least into wrong places, on the target faces alone.
+    /// The text of a design file called `name`: magnets spaced and sized roughly as on the paper's
+    /// tile, with the code that has the weakest slid matches, only on the target faces.
     ///
     /// # Errors
-    /// Where there is no such tile or no room for the magnets.
+    /// If there is no such tile, or no room for the magnets.
     pub fn design(&self, name: &str) -> Result<String, StartError> {
         self.check()?;
         let mut last = None;
@@ -128,7 +128,7 @@ impl Start {
         let rows = blocks.flat_map(|block| {
             let room = (USED * self.side - block[1]) / gaps as f64;
             let least = CLOSEST * block[1];
-            // Closer ones keep clear of flanks, and so may wider ones.
+            // Closer ones, and perhaps wider ones, stay clear of flanks.
             let pitches = [1.0, 0.9, 0.8, 0.7, 1.2, 1.5];
             let pitches = pitches.map(|share| tenths(share * wanted.max(least)));
             let pitches = pitches.into_iter();
@@ -168,7 +168,7 @@ impl Start {
         Ok(())
     }
 
-    /// Of the circle through the corners (m).
+    /// The radius of the circle through the corners (m).
     fn radius(&self) -> f64 {
         self.side / (2.0 * libm::sin(PI / f64::from(self.sides)))
     }
@@ -266,7 +266,7 @@ model = \"cuboid\"                # blocks, as magnets are; \"dipole\": the pape
     }
 }
 
-/// Down to tenths of a millimetre.
+/// Rounds down to tenths of a millimetre.
 fn tenths(length: f64) -> f64 {
     four_digits((length * 1e4 + 1e-6).floor() / 1e4)
 }

@@ -1,8 +1,8 @@
-//! Lines that target faces follow.
+//! Face profiles for new designs.
 
 use crate::design::quantity::rounded_down;
 
-/// The line that the target faces follow.
+/// The profile of the target faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Straight.
@@ -27,8 +27,8 @@ impl Shape {
         ("triangle", Self::Triangle),
     ];
 
-    /// The profile on a face of the given length (m), as a design file has it, with what it is
-    /// called.
+    /// The profile for a face of the given length (m), in the notation of design files, with its
+    /// description.
     pub(super) fn profile(self, side: f64) -> Option<(String, &'static str)> {
         let part = |share: f64| rounded_down(side * share);
         let teeth = |form: &str| {

@@ -6,7 +6,7 @@ use physics::tile::grade::Grade;
 use physics::tile::magnet::Shape;
 use physics::tile::strength::Strength;
 
-/// A magnet of a shop.
+/// A magnet as sold in shops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShopMagnet {
     /// Along its magnetic axis, along the face, through the tile's thickness (m).
@@ -20,9 +20,9 @@ const HELP: &str = "write length x width x height as sold, magnetised along the 
     (\"1.8 kg\") or a remanence (\"1.2 T\")";
 
 impl ShopMagnet {
-    /// Reads the lengths of a block, of which the last is the one that shops' blocks are magnetised
-    /// through, or the diameter and the height of a disc, with a unit, and a grade, a pull or a
-    /// remanence behind or before them.
+    /// Reads the dimensions of a block (by the shops' convention it is magnetised through the last
+    /// one), or the diameter and height of a disc, with a unit, and a grade, a pull or a remanence
+    /// before or after them.
     ///
     /// ```
     /// use tilebind_jobs::design::ShopMagnet;
@@ -32,7 +32,7 @@ impl ShopMagnet {
     /// ```
     ///
     /// # Errors
-    /// Where it is no such description; the message says what is missing.
+    /// If it is not such a description; the message says what is missing.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = |what: &str| format!("{what}; {HELP}");
         let plain = plain(text);
@@ -40,7 +40,7 @@ impl ShopMagnet {
         let (last, before) = parts.split_last().unwrap_or((&"", &[]));
         let (last, unit, rest) = last_length(last)
             .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
-        // A unit of its own behind a length, or the one behind the last.
+        // A length has its own unit, or that of the last length.
         let length = |text: &&str| {
             let own = units::read(text, units::LENGTH);
             own.or_else(|| units::read(&format!("{text} {unit}"), units::LENGTH))
@@ -71,7 +71,7 @@ impl ShopMagnet {
         })
     }
 
-    /// The lines of a design file that say how large it is.
+    /// The lines of a design file for its size.
     pub(super) fn lengths(size: [f64; 3], shape: Shape) -> String {
         match (shape, size) {
             (Shape::Block, [a, b, c]) => format!(
@@ -84,7 +84,7 @@ impl ShopMagnet {
         }
     }
 
-    /// The line of a design file that says how strong it is.
+    /// The line of a design file for its strength.
     pub(super) fn strength(&self) -> String {
         match self.strength {
             Strength::Grade(grade) => format!("grade = \"{}\"", grade.name),
@@ -98,8 +98,8 @@ impl ShopMagnet {
     }
 }
 
-/// One way of writing for all: `x` between lengths, `in` for inches, the grade behind them, and no
-/// word that says what the number of lengths does.
+/// Normalises the notation: `x` between lengths, `in` for inches, the grade after them, and no
+/// redundant words for the form.
 fn plain(text: &str) -> String {
     let text = text
         .replace(['\u{d7}', 'X', '*'], "x")

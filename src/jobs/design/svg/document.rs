@@ -1,4 +1,4 @@
-//! An SVG file as the shapes that it draws, in metres.
+//! An SVG file as a list of shapes in metres.
 
 use std::collections::HashMap;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ use physics::tile::profile::CHORD_SHARE;
 const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 
-/// Elements that draw nothing where they stand: notes, and what others refer to.
+/// Elements that draw nothing themselves: notes, and definitions that others refer to.
 const NOT_DRAWN: [&str; 13] = [
     "title",
     "desc",
@@ -35,7 +35,7 @@ const NOT_DRAWN: [&str; 13] = [
     "view",
 ];
 
-/// Properties of a style sheet that shape, move or hide what is drawn.
+/// Properties of a style sheet that shape, move or hide elements.
 const TELLING: [&str; 19] = [
     "transform",
     "translate",
@@ -58,37 +58,38 @@ const TELLING: [&str; 19] = [
     "ry",
 ];
 
-/// How far a shape may stick out of its window and still be whole, as a share of the window's size:
-/// what six digits resolve.
+/// How far a shape may extend beyond its window and still count as complete, as a share of the
+/// window's size: the resolution of six digits.
 const WINDOW_SHARE: f64 = 1e-6;
 
-/// Most elements of a drawing.
+/// Largest number of elements of a drawing.
 const MOST_NODES: u32 = 200_000;
 
-/// Most points of a drawing's lines, curves drawn as chords.
+/// Largest number of points of a drawing's lines, with curves as chords.
 const MOST_POINTS: usize = 1_000_000;
 
-/// Farthest that a shape reaches from the drawing's origin (m): room for a tile in any plan.
+/// Largest distance of a shape from the drawing's origin (m): room for a tile anywhere in a large
+/// plan.
 const FARTHEST: f64 = 1e3;
 
-/// Most elements within one another: reading goes one call deeper with each.
+/// Deepest nesting of elements: reading recurses once per level.
 const MOST_NESTED: usize = 256;
 
-/// Largest distance of a chord from the curve that it stands for: as a share of the longer side of the
-/// box around the shape's control points (0.2 mm of a tile of 43 cm), of the shorter side (as
-/// [`CHORD_SHARE`] of a profile's depth), and of the longer side of the curve's own box, so that a small
-/// rounding keeps its shape.
+/// Largest distance of a chord from the curve it replaces: as a share of the longer side of the box
+/// around the shape's control points (0.2 mm of a tile of 43 cm), of the shorter side (as
+/// [`CHORD_SHARE`] of a profile's depth), and of the longer side of the curve's own box, so that a
+/// small rounding keeps its shape.
 const CHORD_SHARE_OF_SHAPE: f64 = 1.0 / 2150.0;
 const CHORD_SHARE_OF_CURVE: f64 = 1.0 / 32.0;
 
-/// What is taken for an arc leaves its circle by this share of what its chords may leave it.
+/// Largest deviation of an arc from its circle, as a share of the allowed deviation of its chords.
 const OFF_ARC_SHARE: f64 = 2e-3;
 
 /// A drawing, read.
 pub(super) struct Drawing {
     pub shapes: Vec<Shape>,
     pub skipped: Vec<Skipped>,
-    /// Whether it is known how long a user unit is; where not, it was read as a millimetre.
+    /// Whether the length of a user unit is known; if not, it was read as a millimetre.
     pub sized: bool,
     /// The name of its outermost element in the file.
     pub root: Span,
@@ -101,7 +102,7 @@ pub(super) struct Drawing {
 pub(super) struct Shape {
     /// The element's name.
     pub element: String,
-    /// Its own id, those of the groups that it is in, and of what draws it.
+    /// Its own id, those of the groups it is in, and of the elements that use it.
     pub ids: Vec<String>,
     /// The element's name in the file.
     pub span: Span,
@@ -116,7 +117,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// The shape with chords that leave its curves by another error (m).
+    /// The shape with chords of another largest distance (m) from its curves.
     pub fn with_chords(&self, chord_error: f64) -> Self {
         Self {
             lines: lines(&self.strokes, chord_error, usize::MAX).unwrap_or_default(),
@@ -138,7 +139,7 @@ pub(super) struct Line {
     pub start: [f64; 2],
     pub segments: Vec<Segment>,
     pub closed: bool,
-    /// Whether the last segment is none of the drawing's, but what closes the line.
+    /// Whether the last segment is not drawn but closes the line.
     pub closing: bool,
 }
 
@@ -167,11 +168,11 @@ impl Line {
     }
 }
 
-/// What is not read of a drawing: the place, and what is there.
+/// An ignored part of a drawing: its place and its name.
 pub(super) type Skipped = (Span, String);
 
-/// All shapes of a drawing, and what else is in it. `unit` is what the design says of the length
-/// (m) of a user unit.
+/// Reads all shapes of a drawing, and lists its ignored parts. `unit` is the length (m) of a user
+/// unit stated in the design.
 pub(super) fn read(source: Source, unit: Option<f64>) -> Result<Drawing> {
     let options = ParsingOptions {
         // OpenSCAD begins with one.
@@ -244,15 +245,15 @@ pub(super) fn read(source: Source, unit: Option<f64>) -> Result<Drawing> {
     })
 }
 
-/// What holds where an element stands.
+/// The context of an element.
 #[derive(Clone)]
 struct Context {
     /// To metres.
     map: Affine,
     viewport: Viewport,
-    /// Within how many elements.
+    /// The nesting depth.
     depth: usize,
-    /// The ids of these.
+    /// The ids of the enclosing elements.
     ids: Vec<String>,
     paint: Paint,
 }
@@ -274,7 +275,7 @@ impl Default for Paint {
 }
 
 impl Paint {
-    /// What an element's own properties make of what it inherits.
+    /// The paint of an element that inherits this one.
     fn of(self, node: Node) -> Self {
         let own = |name, inherited| match property(node, name) {
             None | Some("inherit") => inherited,
@@ -301,7 +302,7 @@ struct Reader<'a, 'd> {
 }
 
 impl<'d> Reader<'_, 'd> {
-    /// Reads what an element holds.
+    /// Reads the children of an element.
     fn children(&mut self, parent: Node<'d, 'd>, context: &Context) -> Result<()> {
         if context.depth > MOST_NESTED {
             let message = format!("more than {MOST_NESTED} elements are nested");
@@ -317,7 +318,7 @@ impl<'d> Reader<'_, 'd> {
             .children()
             .filter(|node| node.is_element() && is_svg(*node))
         {
-            // Of a choice, viewers draw the first that asks nothing of them.
+            // Of a `switch`, viewers draw the first child without requirements.
             let choice = parent.tag_name().name() == "switch";
             if choice
                 && ["requiredExtensions", "systemLanguage"]
@@ -374,7 +375,7 @@ impl<'d> Reader<'_, 'd> {
         }
     }
 
-    /// Reads what a `<use>` draws.
+    /// Reads the element that a `<use>` draws.
     fn used(&mut self, node: Node<'d, 'd>, mut context: Context) -> Result<()> {
         let link = node
             .attribute("href")
@@ -417,8 +418,8 @@ impl<'d> Reader<'_, 'd> {
         }
     }
 
-    /// Reads what a `<svg>` or `<symbol>` within the drawing holds, which is seen through a window
-    /// of its own. The size that `sized`, a `<use>` of it, gives it comes first.
+    /// Reads the contents of a nested `<svg>` or `<symbol>`, which has a viewport of its own. The
+    /// size given by `sized`, a `<use>` of it, takes precedence.
     fn viewport(
         &mut self,
         node: Node<'d, 'd>,
@@ -441,7 +442,7 @@ impl<'d> Reader<'_, 'd> {
         ];
         let whole = context.viewport.map_or([None; 2], |size| size.map(Some));
         let [w, h] = [0, 1].map(|k| own[k].or(other[k]).or(whole[k]));
-        // Without a view box, the size does no more than cut off.
+        // Without a view box, the size only clips.
         let (Some(w), Some(h)) = (w.or(view_box.map(|v| v.w)), h.or(view_box.map(|v| v.h))) else {
             return self.children(node, context);
         };
@@ -488,14 +489,14 @@ impl<'d> Reader<'_, 'd> {
         length.map_err(|fault| self.fault(node, fault))
     }
 
-    /// What is wrong with an attribute, at its place.
+    /// The fault of an attribute, at its place.
     fn fault(&self, node: Node, fault: Fault) -> DesignError {
         let place = node.attribute_node(fault.attribute);
         let place = place.map_or(span(node), |attribute| {
             let value = attribute.range_value();
             let written = &self.source.text[value.clone()];
             let at = fault.character.and_then(|character| {
-                // Past the end, the last character is to blame.
+                // Past the end, the last character is marked.
                 written.char_indices().take(character + 1).last()
             });
             match at {
@@ -545,8 +546,8 @@ impl<'d> Reader<'_, 'd> {
         Ok(())
     }
 
-    /// Refuses what lies too far out, before it is drawn as chords. Curves stay among their control
-    /// points.
+    /// Rejects shapes too far from the origin, before curves become chords. Curves stay within the
+    /// hull of their control points.
     fn check_extent(&self, node: Node, strokes: &[Stroke]) -> Result<()> {
         let pieces = strokes.iter().flat_map(|s| s.segments.iter().flatten());
         let farthest = pieces
@@ -584,7 +585,7 @@ impl<'d> Reader<'_, 'd> {
         Ok(Affine::new([a, b, c, d, e, f]))
     }
 
-    /// Refuses what would move a shape and is not read.
+    /// Rejects transforms that are not read.
     fn refuse_unread_transforms(&self, node: Node, root: bool) -> Result<()> {
         let help = "apply the transform in the drawing program";
         let transformed = node.has_attribute("transform");
@@ -602,7 +603,7 @@ impl<'d> Reader<'_, 'd> {
     }
 }
 
-/// How far chords may leave the curves (m) of what is drawn as one shape, by its size.
+/// The largest distance (m) of chords from the curves of one shape, by its size.
 pub(super) fn chord_error<'a>(strokes: impl IntoIterator<Item = &'a Stroke>) -> f64 {
     let segments = strokes.into_iter().flat_map(|stroke| &stroke.segments);
     let [longer, shorter] = sides(segments.flatten());
@@ -613,8 +614,8 @@ pub(super) fn chord_error<'a>(strokes: impl IntoIterator<Item = &'a Stroke>) -> 
     }
 }
 
-/// The lines of some strokes, curves as chords that leave them by no more than the error (m);
-/// `None` where they have more than `most` points.
+/// The lines of some strokes, with chords that are within the error (m) of the curves; `None` if
+/// they have more than `most` points.
 fn lines(strokes: &[Stroke], chord_error: f64, most: usize) -> Option<Vec<Line>> {
     let mut lines = Vec::with_capacity(strokes.len());
     let mut count = 0;
@@ -656,7 +657,7 @@ fn sides<'a>(segments: impl IntoIterator<Item = &'a PathSeg>) -> [f64; 2] {
     [sides[0].max(sides[1]), sides[0].min(sides[1])]
 }
 
-/// Whether an element is SVG's; a drawing without any namespace is taken for one.
+/// Whether an element belongs to SVG; a drawing without any namespace counts as SVG.
 fn is_svg(node: Node) -> bool {
     node.tag_name()
         .namespace()
@@ -669,7 +670,7 @@ fn text(node: Node) -> String {
     texts.filter_map(|text| text.text()).collect()
 }
 
-/// Whether a style sheet has none of the properties that shape, move or hide what is drawn.
+/// Whether a style sheet has none of the properties that shape, move or hide elements.
 fn moves_nothing(sheet: &str) -> bool {
     let mut plain = String::new();
     for (k, part) in sheet.split("/*").enumerate() {
@@ -700,7 +701,7 @@ fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         .or_else(|| node.attribute(name))
 }
 
-/// Why an element is not to be seen.
+/// Why an element is invisible.
 fn hidden(node: Node) -> Option<&'static str> {
     if property(node, "display") == Some("none") {
         return Some("not displayed");
@@ -709,7 +710,7 @@ fn hidden(node: Node) -> Option<&'static str> {
     invisible.then_some("hidden")
 }
 
-/// The byte of a position that the XML parser gives, row and column from 1.
+/// The byte of a position from the XML parser, with row and column from 1.
 fn byte_of(text: &str, position: roxmltree::TextPos) -> usize {
     let rows: usize = text
         .split_inclusive('\n')

@@ -1,5 +1,5 @@
-//! Lines joined where their ends meet: drawing programs draw an outline as one line, as a path of
-//! several, or as an element for each side, and leave gaps that no cutter shows.
+//! Joins lines where their ends meet: drawing programs draw an outline as one line, as a path of
+//! several, or as an element for each side, and leave gaps too small to see.
 
 use kurbo::{Point, Vec2};
 
@@ -9,20 +9,20 @@ use super::SAME_POINT;
 use super::document::{Line, Segment, Shape};
 use super::line::apart;
 
-/// Widest gap that is closed (m): half of what laser cutters take away.
+/// Widest gap that is closed (m): half the kerf of laser cutters.
 const WIDEST_GAP: f64 = 1e-4;
 
 /// The same as a share of the drawn lines' extent, for very small tiles.
 const WIDEST_SHARE: f64 = 0.01;
 
-/// Longest piece that closes a line and is taken for a gap, in sizes of the segments beside it.
+/// Longest closing piece that counts as a gap, relative to the adjacent segments.
 const SHORT: f64 = 0.1;
 
-/// Most lines that are joined: the ends of all may lie side by side.
+/// Largest number of lines that are joined: their ends may all be close together.
 const MOST_LINES: usize = 10_000;
 
-/// The lines of some shapes, joined where their ends meet, and how wide gaps may be (m). Gaps that
-/// show are closed with a doubt.
+/// The lines of some shapes, joined where their ends meet, and the allowed width of gaps (m).
+/// Visible gaps are closed with a warning.
 pub(super) fn joined(source: &Source, shapes: &[Shape]) -> (Vec<Line>, f64) {
     let all = || shapes.iter().flat_map(|shape| &shape.lines);
     let widest = WIDEST_GAP.min(WIDEST_SHARE * extent(all().flat_map(Line::points)));
@@ -58,7 +58,7 @@ pub(super) fn joined(source: &Source, shapes: &[Shape]) -> (Vec<Line>, f64) {
     (lines, widest)
 }
 
-/// The two ends of different lines that are nearest to each other: how far apart (m), and where.
+/// The two closest ends of different lines: their distance (m) and positions.
 pub(super) fn nearest_ends(lines: &[Line]) -> Option<(f64, [f64; 2])> {
     let few = &lines[..lines.len().min(1000)];
     let ends = |line: &Line| [line.start, line.end()];
@@ -94,7 +94,7 @@ pub(super) fn size(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     [high[0] - low[0], high[1] - low[1]].map(|x| x.max(0.0))
 }
 
-/// A line without the piece that closes it, where that is no more than a gap.
+/// A line without its closing piece, if that is only a gap.
 fn opened(line: &Line, widest: f64) -> Line {
     let mut line = line.clone();
     let [first, middle @ .., before, _] = &line.segments[..] else {
@@ -102,7 +102,7 @@ fn opened(line: &Line, widest: f64) -> Line {
     };
     let from = before.points.last().copied().unwrap_or(line.start);
     let gap = apart(from, line.start);
-    // A traced line closes with a step like its others.
+    // A traced line closes with a step similar to its others.
     let begun = middle.last().unwrap_or(first).points.last();
     let before = begun.into_iter().chain(&before.points).copied();
     let after = std::iter::once(line.start).chain(first.points.iter().copied());
@@ -114,8 +114,8 @@ fn opened(line: &Line, widest: f64) -> Line {
     line
 }
 
-/// For each end of each line (line k begins at end 2 k and ends at end 2 k + 1) the end that it meets.
-/// The nearest ends meet first, and each meets one.
+/// For each end of each line (line k begins at end 2 k and ends at end 2 k + 1) the end that it
+/// meets. The closest ends are matched first, and each meets one.
 fn links(lines: &[Line], widest: f64) -> Vec<Option<usize>> {
     let ends: Vec<[f64; 2]> = lines
         .iter()
@@ -128,7 +128,7 @@ fn links(lines: &[Line], widest: f64) -> Vec<Option<usize>> {
         let near = order[k + 1..].iter();
         for &b in near.take_while(|&&b| ends[b][0] - ends[a][0] <= widest) {
             let gap = apart(ends[a], ends[b]);
-            // A dash that is no longer than a gap does not close on itself.
+            // A dash not longer than a gap is not closed on itself.
             let own = a / 2 == b / 2 && extent(lines[a / 2].points()) <= 4.0 * widest;
             if gap <= widest && !own {
                 pairs.push((gap, a.min(b), a.max(b)));
@@ -145,8 +145,8 @@ fn links(lines: &[Line], widest: f64) -> Vec<Option<usize>> {
     links
 }
 
-/// The chains of lines that are linked. A closed one begins where its first line does, and runs
-/// along it.
+/// The chains of linked lines. A closed chain begins at the beginning of its first line and follows
+/// its direction.
 fn chained(lines: &[Line], links: &[Option<usize>], gaps: &mut Vec<(f64, [f64; 2])>) -> Vec<Line> {
     let mut used = vec![false; lines.len()];
     let mut chains = Vec::new();
@@ -225,7 +225,7 @@ fn directed(line: &Line, reversed: bool) -> Vec<Piece> {
     pieces
 }
 
-/// Lets the piece `next` begin where the one before it ends: the last one before the first.
+/// Makes the piece `next` begin where the previous one ends; the last piece comes before the first.
 fn close_gap(pieces: &mut [Piece], next: usize, gaps: &mut Vec<(f64, [f64; 2])>) {
     let n = pieces.len();
     let before = (next + n - 1) % n;
@@ -253,7 +253,8 @@ fn close_gap(pieces: &mut [Piece], next: usize, gaps: &mut Vec<(f64, [f64; 2])>)
     points[0] = meeting;
 }
 
-/// Where two pieces meet that end a gap apart: where straight ones cross if that is near, or midway.
+/// The point at which two pieces across a gap are joined: the intersection of straight ones if it
+/// is near, otherwise the midpoint.
 fn meeting(before: &[Point], next: &[Point], gap: f64) -> Point {
     let (end, start) = (before[before.len() - 1], next[0]);
     let middle = end.midpoint(start);

@@ -1,4 +1,4 @@
-//! A profile drawn as a line.
+//! A face profile drawn as a line.
 
 use nalgebra::Vector2;
 
@@ -12,7 +12,8 @@ use super::{SAME_POINT, only_line, with_shape};
 use physics::tile::outline::{Outline, OutlineError};
 use physics::tile::profile::{Arcs, Polyline};
 
-/// How far the ends may lie from one base line (m): what six digits of a tile in mm resolve.
+/// Largest distance (m) of the ends from a common base line: the resolution of six digits of a tile
+/// in mm.
 const SAME_HEIGHT: f64 = 1e-5;
 
 /// The line of a profile `shape = "svg"`, as points (s, h).
@@ -51,7 +52,7 @@ pub(in crate::design) fn read_line(section: &Section) -> Result<(Polyline, Arcs)
     Ok((line, arcs))
 }
 
-/// Where each arc of a line begins and ends.
+/// The ends of each arc of a line.
 fn arc_ends(line: &Line) -> Vec<[[f64; 2]; 2]> {
     let mut at = line.start;
     let mut ends = Vec::new();
@@ -90,7 +91,7 @@ fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>
 }
 
 /// The points from left to right, with the middle between the ends at s = 0 and the ends at h = 0;
-/// whether they were reversed for that, and by what they were moved.
+/// also whether they were reversed, and the translation.
 fn on_base_line(
     source: &Source,
     shape: &Shape,
@@ -139,10 +140,10 @@ fn on_base_line(
     Ok((points, reversed, [middle, height]))
 }
 
-/// Near where a line from left to right crosses or touches itself, or the base line to either side
-/// of it.
+/// A point near which a line from left to right crosses or touches itself, or the base line on
+/// either side of it.
 fn crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
-    // Far beyond the line: its outline with the base line and a tile below is closed.
+    // Closes the outline far beyond the line, with the base line and a tile below it.
     let reach = points
         .iter()
         .flatten()

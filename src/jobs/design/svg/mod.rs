@@ -1,39 +1,40 @@
 //! Lines and outlines drawn in SVG files, as drawing and CAD programs write them.
 //!
-//! A drawing is read in metres, y upwards. Its size comes from `width`, `height` and `viewBox` of
-//! the file, which must carry a physical unit, or from `unit` or `dpi` of the design, the length of a
-//! user unit; where both are there they must agree. `path`, `polygon`, `polyline`, `rect`, `circle`,
-//! `ellipse` and `line` are read, also by way of `use`, `symbol`, `switch` and nested `svg` with their
-//! view boxes; transforms are composed. Anything else that would be seen is named in a warning, style
-//! sheets that move or hide too, and what would move a shape without being read (a transform in an
-//! element's `style`, another origin of one) is refused.
+//! A drawing is read in metres, with y upwards. Its size comes from `width`, `height` and `viewBox`
+//! of the file, which must have a physical unit, or from `unit` or `dpi` of the design, the length
+//! of a user unit; if both are given they must agree. `path`, `polygon`, `polyline`, `rect`,
+//! `circle`, `ellipse` and `line` are read, also through `use`, `symbol`, `switch` and nested `svg`
+//! with their view boxes; transforms are composed. Warnings name any other visible elements, and
+//! style sheets that move or hide shapes. Transforms that are not read (in an element's `style`, or
+//! with another origin) are errors.
 //!
-//! The reader is our own because every fault and every doubt names an element and its line, and arcs
-//! stay arcs: `usvg` gives paths without places, in single precision, arcs as cubics, what it cannot
-//! read left out without a word.
+//! This module has its own reader so that every error and warning can name an element and its line,
+//! and arcs stay arcs: `usvg` returns paths without positions, in single precision, with arcs as
+//! cubics, and silently omits what it cannot read.
 //!
-//! Curves become chords, no chord farther from its curve than a share of the size of the curve and of
-//! all that is drawn as one shape ([`document::chord_error`]). Arcs go by way of cubics that leave them
-//! by a millionth of their radius, and the ends of their chords by less than a hundred-thousandth; which points lie
-//! on an arc is kept for the workshop. Of lines with very many points, as tracing programs draw them,
-//! the points are left out that lie within half the chord error of the others; curves then are drawn to
-//! within the other half.
+//! Curves become chords. The distance of a chord from its curve is limited to a share of the size
+//! of the curve and of its whole shape ([`document::chord_error`]). Arcs are approximated by cubics
+//! within a millionth of their radius, so that the ends of their chords are within a
+//! hundred-thousandth; which points lie on an arc is recorded for workshop files. Lines with very
+//! many points, such as those of tracing programs, are simplified: points within half the chord
+//! error of the rest are removed, and curves are drawn to within the other half.
 //!
-//! Lines whose ends meet are one line ([`join`]); gaps up to 0.1 mm are closed with a warning. Shapes
-//! without fill and stroke are left out, with a warning, where others have them.
+//! Lines whose ends meet are one line ([`join`]); gaps up to 0.1 mm are closed with a warning.
+//! Shapes without fill and stroke are ignored with a warning, if others have them.
 //!
-//! A drawing of several shapes needs `id`, that of the shape, or of the group that holds no more than
-//! its lines; the other shapes then are left out.
+//! A drawing with several shapes needs `id`: that of the shape, or of a group that contains only
+//! its lines. The other shapes are then ignored.
 //!
 //! - A *profile* ([`line`](mod@line)) is one line drawn as the graph of h over s: s to the right, h
-//!   upwards, either way along. Its ends are on the base line, and the middle between them is at
-//!   s = `offset`, 0 where not given. So a line traced from a tile seen from above is mirrored, as s
-//!   runs counter-clockwise. A closed line is taken for a piece that stands on the base line: its
-//!   lowest edge falls away.
-//! - An *outline* ([`outline`]) is one closed line, drawn as the tile is seen from above. The tile's
-//!   reference point is the centre of its area. Each drawn segment is a face, straight or curved,
-//!   counter-clockwise from the point where the line begins; or, with `corners`, what lies between
-//!   two corners is, counter-clockwise from the first one. The base line of a face is straight.
+//!   upwards, in either direction. Its ends are on the base line, and the middle between them is at
+//!   s = `offset` (default 0). A line traced from a tile seen from above is therefore mirrored, as
+//!   s runs counter-clockwise. A closed line is interpreted as a piece on the base line: its lowest
+//!   edge is removed.
+//! - An *outline* ([`outline`]) is one closed line, drawn as the tile is seen from above. The
+//!   tile's reference point is the centre of its area. Each drawn segment is a face, straight or
+//!   curved, counter-clockwise from the start of the line; with `corners`, each part between two
+//!   corners is a face, counter-clockwise from the first corner. The base line of a face is
+//!   straight.
 
 mod document;
 mod join;
@@ -60,13 +61,14 @@ use super::source::Source;
 use document::{Drawing, Shape, Skipped};
 use path::INCH;
 
-/// What two points that are meant to be one may lie apart (m): files give micrometres, if that.
+/// Largest distance (m) of two points that are meant to coincide: files are precise to micrometres
+/// at best.
 const SAME_POINT: f64 = 1e-6;
 
-/// Most kinds of what is not read that are told by name.
+/// Largest number of kinds of ignored elements that a warning names.
 const MOST_TOLD: usize = 8;
 
-/// Gives the drawing that `entry` names to `use_it`.
+/// Calls `use_it` with the drawing that `entry` names.
 fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> Result<T> {
     let name = entry.string()?;
     let Source {
@@ -91,7 +93,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
     })
 }
 
-/// Notes what of a drawing is not read.
+/// Warns of the ignored parts of a drawing.
 fn note_skipped(source: &Source, skipped: &[Skipped]) {
     if let Some((at, told)) = told(source, skipped) {
         source.drawings.note(source.doubt(
@@ -102,11 +104,11 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
     }
 }
 
-/// What is not read of a drawing, by name, and the first place of it.
+/// The names of a drawing's ignored parts, and the place of the first.
 fn told(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
     let &(first, _) = skipped.first()?;
     let line = |at: usize| source.text[..at].matches('\n').count() + 1;
-    // By their first places, each kind once.
+    // In the order of their first places, each kind once.
     let mut kinds: Vec<(&str, usize, usize)> = Vec::new();
     let mut numbers = HashMap::new();
     for (span, what) in skipped {
@@ -130,7 +132,7 @@ fn told(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
     Some((first, told.join(", ")))
 }
 
-/// The length (m) of a user unit that a section gives a drawing with `unit` or `dpi`.
+/// The length (m) of a user unit that a section states with `unit` or `dpi`.
 fn user_unit(section: &Section) -> Result<Option<f64>> {
     match (section.get("unit"), section.get("dpi")) {
         (Some(_), Some(dpi)) => Err(dpi.key_error(
@@ -146,8 +148,8 @@ fn user_unit(section: &Section) -> Result<Option<f64>> {
     }
 }
 
-/// Gives the shape that a section asks for with `file`, `unit`, `dpi` and `id` to `use_it`, with the
-/// drawing that it is in. Lines whose ends meet are one line of it.
+/// Calls `use_it` with the shape that a section names with `file`, `unit`, `dpi` and `id`, and its
+/// drawing. Lines whose ends meet are joined.
 fn with_shape<T>(
     section: &Section,
     use_it: impl FnOnce(&Source, &Shape) -> Result<T>,
@@ -164,7 +166,7 @@ fn with_shape<T>(
             return Err(unsized_error(source, &drawing, chosen));
         }
         let chosen: Vec<&Shape> = chosen?.iter().map(|&k| &drawing.shapes[k]).collect();
-        // Of the whole, which may be drawn in pieces.
+        // For the whole shape, which may be drawn in pieces.
         let error = document::chord_error(chosen.iter().flat_map(|shape| &shape.strokes));
         let drawn = |error| -> Vec<Shape> {
             let drawn = chosen.iter().map(|shape| shape.with_chords(error));
@@ -172,7 +174,7 @@ fn with_shape<T>(
         };
         let mut shapes = drawn(error);
         if shapes.iter().map(Shape::points).sum::<usize>() > simplify::MANY {
-            // What is left out of it must leave no curve by more than the chord error.
+            // Removing points must not exceed the chord error of any curve.
             shapes = drawn((1.0 - simplify::SHARE) * error);
         }
         let whole = Shape {
@@ -183,7 +185,7 @@ fn with_shape<T>(
     })
 }
 
-/// The numbers of the shapes that are meant: those with the id, or all that are painted.
+/// The indices of the selected shapes: those with the id, or all painted ones.
 fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<usize>> {
     let shapes = || drawing.shapes.iter().enumerate();
     if let Some(entry) = id {
@@ -281,8 +283,8 @@ fn merged(source: &Source, shapes: &[Shape]) -> Result<Shape> {
     })
 }
 
-/// The fault of a drawing that does not say how large it is, with the sizes that units make of what
-/// is meant, or of all that is drawn; it was read in mm.
+/// The fault of a drawing without a scale; it lists the sizes of the selected shape, or of the
+/// whole drawing, for possible units. The drawing was read in mm.
 fn unsized_error(source: &Source, drawing: &Drawing, chosen: &[usize]) -> DesignError {
     let shapes = &drawing.shapes;
     let meant = |k: &usize| chosen.is_empty() || chosen.contains(k);

@@ -1,4 +1,4 @@
-//! A tile's outline, drawn as a closed line.
+//! A tile's outline drawn as a closed line.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -19,28 +19,27 @@ use physics::tile::profile::{Arcs, Polyline};
 /// The keys of `outline`.
 pub(in crate::design) const OUTLINE_KEYS: [&str; 5] = ["file", "unit", "dpi", "id", "corners"];
 
-/// How far a corner may lie from the drawn point that is meant (m): a curved side moves the centre of
-/// the area.
+/// Largest distance (m) of a corner from the drawn point it names: a curved side moves the centre
+/// of the area.
 const NEAR: f64 = 1e-3;
 
 /// The same as a share of the outline's longer side.
 const NEAR_SHARE: f64 = 0.02;
 
-/// Most faces of a tile.
+/// Largest number of faces of a tile.
 const MOST_FACES: usize = 64;
 
-/// The drawn segments one after the other, counter-clockwise, closed. Each holds all its points,
-/// the last of which is the first of the next.
+/// The drawn segments in order, counter-clockwise and closed. Each has all its points; its last
+/// point is the first of the next segment.
 type Segments = Vec<Vec<Vector2<f64>>>;
 
-/// A corner, and the line of the face that begins there with the arcs of it.
+/// A corner, with the line and the arcs of the face that begins there.
 type Drawn = (Vector2<f64>, (Polyline, Arcs));
 
-/// Where an arc begins and ends.
+/// The ends of an arc.
 type Ends = [Vector2<f64>; 2];
 
-/// The corners of a drawn outline and, for each, the line of the face that begins there and the arcs
-/// of that.
+/// The corners of a drawn outline, each with the line and the arcs of the face that begins there.
 pub(in crate::design) fn read_outline(entry: &Entry) -> Result<Vec<Drawn>> {
     let section = entry.section("`outline`")?;
     section.allow(&OUTLINE_KEYS);
@@ -69,7 +68,7 @@ pub(in crate::design) fn read_outline(entry: &Entry) -> Result<Vec<Drawn>> {
         Ok((segments, arcs))
     })?;
     let face = |points: &Vec<Vector2<f64>>| {
-        // By their ends, which may be gone: of very many points some are left out.
+        // Arcs are found by their ends, which may have been removed by simplification.
         let place = |end: &Vector2<f64>| points.iter().position(|point| point == end);
         let arcs = arcs.iter().filter_map(|[first, last]| {
             let (first, last) = (place(first)?, points.iter().rposition(|p| p == last)?);
@@ -89,9 +88,9 @@ fn ring(segments: &Segments) -> Vec<Vector2<f64>> {
     points.copied().collect()
 }
 
-/// The segments of a shape's one closed line about the centre of its area, this centre in the
-/// drawing, and its arcs. Whether a line of very many points is an outline is left open: that is for what is
-/// left of it.
+/// The segments of a shape's only closed line relative to the centre of its area, this centre in
+/// the drawing, and its arcs. For a line with very many points, the check that it is a valid
+/// outline is left to its simplified form.
 fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec<Ends>)> {
     let line = only_line(source, shape)?;
     let fault = |message: String, help: &str| source.error(shape.span, message, help);
@@ -102,7 +101,7 @@ fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec
         let mut points = vec![at];
         points.extend(segment.points.iter().copied().map(Vector2::from));
         points.dedup_by(|a, b| (*a - *b).norm() <= SAME_POINT);
-        // A segment without length, such as the one that closes a line closed already.
+        // A segment without length, such as one that closes an already closed line.
         if let [_, .., end] = points[..] {
             at = end;
             segments.push(points);
@@ -238,7 +237,7 @@ fn joined(segments: &Segments, corners: &Entry) -> Result<Segments> {
         .collect())
 }
 
-/// The number of the segment that begins nearest to a point, and where it begins.
+/// The index of the segment that begins nearest to a point, and its start.
 fn nearest(segments: &Segments, [x, y]: [f64; 2]) -> (usize, [f64; 2]) {
     let distance = |start: &Vector2<f64>| libm::hypot(start.x - x, start.y - y);
     let starts = segments.iter().map(|segment| segment[0]).enumerate();
@@ -246,7 +245,7 @@ fn nearest(segments: &Segments, [x, y]: [f64; 2]) -> (usize, [f64; 2]) {
     nearest.map_or((0, [f64::NAN; 2]), |(k, start)| (k, [start.x, start.y]))
 }
 
-/// The points of a face's line in its frame; none where it is straight.
+/// The points of a face's line in its frame; empty if it is straight.
 fn in_face(points: &[Vector2<f64>]) -> Polyline {
     let [start, inner @ .., end] = points else {
         return Polyline::new();

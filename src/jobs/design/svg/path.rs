@@ -8,11 +8,11 @@ use svgtypes::{Length, LengthUnit, NumberListParser, PathParser, PathSegment};
 
 use super::pen::Pen;
 
-/// What is wrong with an attribute of a shape.
+/// The fault of an attribute of a shape.
 pub(super) struct Fault {
     /// The attribute.
     pub attribute: &'static str,
-    /// The character of its value, where it is known.
+    /// The character of its value, if known.
     pub character: Option<usize>,
     pub message: String,
 }
@@ -30,8 +30,7 @@ pub(super) const SHAPES: [&str; 7] = [
     "path", "polygon", "polyline", "rect", "circle", "ellipse", "line",
 ];
 
-/// The size of what a drawing, or a part of it, is seen through (user units), where it is known:
-/// lengths in percent are shares of it.
+/// The size of the viewport (user units), if known: lengths in percent refer to it.
 pub(super) type Viewport = Option<[f64; 2]>;
 
 /// Draws one of [`SHAPES`].
@@ -46,7 +45,7 @@ pub(super) fn draw(node: Node, viewport: Viewport, pen: &mut Pen) -> Result<(), 
     }
 }
 
-/// What reads a length of a shape in user units.
+/// A function that reads a length of a shape in user units.
 type Lengths<'a> = &'a dyn Fn(&'static str) -> Result<Option<f64>, Fault>;
 
 fn line(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
@@ -63,7 +62,7 @@ fn line(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
 }
 
 fn path(d: &str, pen: &mut Pen) -> Result<(), Fault> {
-    // The last control point, which smooth curves mirror.
+    // The last control point, which smooth curves reflect.
     let (mut cubic, mut quadratic): (Option<Point>, Option<Point>) = (None, None);
     for segment in PathParser::from(d) {
         let segment = segment.map_err(|error| malformed("d", d, &error))?;
@@ -123,7 +122,7 @@ fn path(d: &str, pen: &mut Pen) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A value that cannot be parsed, at the character where reading ended.
+/// The fault of a value that cannot be parsed, at the character where parsing ended.
 fn malformed(attribute: &'static str, value: &str, error: &svgtypes::Error) -> Fault {
     use svgtypes::Error;
     let position = match error {
@@ -173,7 +172,7 @@ fn polyline(node: Node, pen: &mut Pen) -> Result<(), Fault> {
 /// User units (CSS px) in one inch.
 const PX_PER_INCH: f64 = 96.0;
 
-/// A length of an element in user units; `None` where it is not given or `auto`.
+/// A length of an element in user units; `None` if it is not given or `auto`.
 pub(super) fn length(
     node: Node,
     attribute: &'static str,
@@ -223,7 +222,7 @@ pub(super) fn metres(unit: LengthUnit) -> Option<f64> {
     }
 }
 
-/// A rectangle, its corners rounded where `rx` or `ry` say so.
+/// A rectangle, with rounded corners if `rx` or `ry` are given.
 fn rect(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
     let (x, y) = (of("x")?.unwrap_or(0.0), of("y")?.unwrap_or(0.0));
     let (width, height) = (of("width")?.unwrap_or(0.0), of("height")?.unwrap_or(0.0));
@@ -240,7 +239,7 @@ fn rect(of: Lengths, pen: &mut Pen) -> Result<(), Fault> {
     );
     let radii = Vec2::new(rx, ry);
     let (right, bottom) = (x + width, y + height);
-    // Each corner, with where its rounding begins and ends.
+    // Each corner, with the ends of its rounding.
     let corners = [
         (Point::new(right - rx, y), Point::new(right, y + ry)),
         (

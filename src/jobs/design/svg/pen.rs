@@ -1,17 +1,17 @@
-//! The segments of a path, drawn one by one.
+//! Draws the segments of a path one by one.
 
 use kurbo::{
     Affine, Arc, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, SvgArc, Vec2, flatten,
 };
 
-/// What a pen draws without being lifted.
+/// A connected line.
 #[derive(Clone, Debug)]
 pub(super) struct Stroke {
     pub start: Point,
-    /// One for each drawn segment: an arc is several cubics, any other segment one piece.
+    /// One entry per drawn segment: an arc is several cubics, any other segment one piece.
     pub segments: Vec<Vec<PathSeg>>,
     pub closed: bool,
-    /// Whether the last segment is none of the drawing's, but what closes the stroke.
+    /// Whether the last segment is not drawn but closes the stroke.
     pub closing: bool,
 }
 
@@ -24,12 +24,12 @@ impl Stroke {
     }
 }
 
-/// Cubics that stand for an arc leave it by this share of its radius at most; of a short piece of a
-/// large circle by far less, as what they leave falls as the sixth power of its angle.
+/// Largest distance of the cubics from the arc they replace, as a share of its radius; it is far
+/// smaller for a short piece of a large circle, as it decreases with the sixth power of the angle.
 const ARC_SHARE: f64 = 1e-6;
 
-/// Largest radius of an arc, in units of the distance of its ends. Beyond, rounding moves the arc's
-/// points.
+/// Largest radius of an arc, in units of the distance of its ends. Beyond it, rounding errors move
+/// the arc's points.
 const LARGEST_RADIUS: f64 = 1e6;
 
 /// Draws absolute segments, in user units.
@@ -37,7 +37,7 @@ const LARGEST_RADIUS: f64 = 1e6;
 pub(super) struct Pen {
     strokes: Vec<Stroke>,
     at: Point,
-    /// Whether an arc was too large to be drawn; a line stands in its place.
+    /// Whether an arc was too large to be drawn and was replaced by a line.
     overdrawn: bool,
 }
 
@@ -51,7 +51,7 @@ impl Pen {
         self.overdrawn
     }
 
-    /// All strokes that are more than a point.
+    /// All strokes except single points.
     pub fn finish(self) -> Vec<Stroke> {
         let mut strokes = self.strokes;
         strokes.retain(|stroke| !stroke.segments.is_empty());
@@ -69,7 +69,7 @@ impl Pen {
     }
 
     fn push(&mut self, segment: Vec<PathSeg>, to: Point) {
-        // What is drawn after a path was closed begins where that path began.
+        // After a path is closed, drawing continues from its start.
         if self.strokes.last().is_none_or(|stroke| stroke.closed) {
             self.move_to(self.at);
         }
@@ -91,7 +91,7 @@ impl Pen {
         self.push(vec![CubicBez::new(self.at, first, second, to).into()], to);
     }
 
-    /// An elliptical arc, `rotation` in rad. Without radii it is a line, as SVG has it.
+    /// An elliptical arc, `rotation` in rad. Without radii it is a line, as SVG specifies.
     pub fn arc_to(&mut self, radii: Vec2, rotation: f64, (large, sweep): (bool, bool), to: Point) {
         let arc = Arc::from_svg_arc(&SvgArc {
             from: self.at,
@@ -105,7 +105,7 @@ impl Pen {
             return self.line_to(to);
         };
         let radius = arc.radii.x.abs().max(arc.radii.y.abs());
-        // Of what is large or small beyond all measure, there is no centre.
+        // Extremely large or small arcs have no computable centre.
         let is_placed = arc.center.is_finite() && (arc.start_angle + arc.sweep_angle).is_finite();
         if !is_placed || radius.is_nan() || radius > LARGEST_RADIUS * self.at.distance(to) {
             self.overdrawn = true;
@@ -117,7 +117,7 @@ impl Pen {
             cubics.push(CubicBez::new(from, first, second, end).into());
             from = end;
         });
-        // The last cubic ends where the arc is said to end, to the last bit.
+        // The last cubic ends exactly at the stated end of the arc.
         if let Some(PathSeg::Cubic(last)) = cubics.last_mut() {
             last.p3 = to;
         }
@@ -139,8 +139,7 @@ impl Pen {
     }
 }
 
-/// The points of a segment after its first, each curve as chords that leave it by no more than
-/// `chord_error`.
+/// The points of a segment after its first, with chords within `chord_error` of each curve.
 pub(super) fn points(segment: &[PathSeg], chord_error: f64) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     for piece in segment {
@@ -154,15 +153,15 @@ pub(super) fn points(segment: &[PathSeg], chord_error: f64) -> Vec<[f64; 2]> {
     points
 }
 
-/// Points of each piece of a segment at which [`is_arc`] looks.
+/// Number of points of each piece of a segment that [`is_arc`] checks.
 const LOOKS: u32 = 12;
 
-/// How far a curve may leave the circle that it is taken for, in heights of its arc: a quarter of a
-/// circle drawn as one cubic leaves it by 0.0009.
+/// Largest distance of a curve from the circle it is identified with, relative to the height of its
+/// arc: a quarter circle drawn as one cubic deviates by 0.0009.
 const OFF_ARC: f64 = 1e-3;
 
-/// Whether a segment is an arc of a circle: it leaves it by no more than `error`, or by what the curves
-/// do that drawing programs make of arcs.
+/// Whether a segment is an arc of a circle: its distance from the circle is at most `error`, or
+/// that of the curves with which drawing programs approximate arcs.
 pub(super) fn is_arc(segment: &[PathSeg], error: f64) -> bool {
     let Some(last) = segment.last() else {
         return false;

@@ -1,4 +1,4 @@
-//! How large a drawing is.
+//! The scale of a drawing.
 
 use std::str::FromStr;
 
@@ -10,10 +10,10 @@ use super::super::error::{Result, Span};
 use super::super::source::Source;
 use super::path::{INCH, metres};
 
-/// How much the scales along x and y, or two statements of the same scale, may differ.
+/// Largest relative difference of the scales along x and y, or of two statements of the same scale.
 const SAME_SCALE: f64 = 1e-4;
 
-/// The units that a design may give a drawing.
+/// The units that a design can state for a drawing.
 pub(in crate::design) const UNITS: [(&str, f64); 6] = [
     ("mm", 1e-3),
     ("cm", 1e-2),
@@ -23,8 +23,8 @@ pub(in crate::design) const UNITS: [(&str, f64); 6] = [
     ("px", INCH / 96.0),
 ];
 
-/// From user units, y down, to metres, y up; `None` where neither the drawing nor the design says
-/// how long a user unit is.
+/// The transform from user units, y down, to metres, y up; `None` if neither the drawing nor the
+/// design states the length of a user unit.
 pub(super) fn scale(source: Source, root: Node, unit: Option<f64>) -> Result<Option<Affine>> {
     let size = view_box(source, root)?.map(|view_box| [view_box.w, view_box.h]);
     let stated = stated_scale(source, root, size)?;
@@ -57,8 +57,8 @@ pub(super) fn view_box(source: Source, node: Node) -> Result<Option<ViewBox>> {
     read.transpose()
 }
 
-/// From what an element's view box shows to the place and size at which it is seen, as its
-/// `preserveAspectRatio` has it.
+/// The transform from an element's view box to its viewport, according to its
+/// `preserveAspectRatio`.
 pub(super) fn fitted(node: Node, view_box: ViewBox, [x, y, w, h]: [f64; 4]) -> Affine {
     let aspect = aspect(node).unwrap_or_default();
     let (sx, sy) = (w / view_box.w, h / view_box.h);
@@ -88,7 +88,7 @@ fn aspect(node: Node) -> Option<AspectRatio> {
     AspectRatio::from_str(node.attribute("preserveAspectRatio")?).ok()
 }
 
-/// The length (m) of a user unit along x and y where the drawing states it.
+/// The length (m) of a user unit along x and y, if the drawing states it.
 fn stated_scale(
     source: Source,
     root: Node,
@@ -122,7 +122,7 @@ fn stated_scale(
         _ => return Ok(None),
     };
     if agree(scales[0], scales[1]) {
-        // As far as a viewer goes: the whole drawing fits.
+        // As in viewers, the whole drawing fits.
         let fit = scales[0].min(scales[1]);
         return Ok(Some([fit, fit]));
     }

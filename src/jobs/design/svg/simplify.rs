@@ -1,35 +1,37 @@
-//! Fewer points for lines that are drawn with very many, as tracing programs draw them.
+//! Simplifies lines of very many points, such as tracing programs write.
 
 use super::super::error::Result;
 use super::super::quantity::four_digits;
 use super::super::source::Source;
 use super::document::Shape;
 
-/// Lines and outlines with more points than this are simplified: splitting an outline into convex
-/// parts takes time as the cube of its points.
+/// Lines and outlines with more points than this are simplified: the time to split an outline into
+/// convex parts grows with the cube of its points.
 pub(super) const MANY: usize = 256;
 
-/// Most points that are left of a line or an outline.
+/// Largest number of points of a simplified line or outline.
 const MOST_LEFT: usize = 500;
 
-/// Most points of a line or an outline before it is simplified.
+/// Largest number of points of a line or an outline before it is simplified.
 const MOST_DRAWN: usize = 100_000;
 
-/// How far what is drawn may lie from what is left of it, as a share of the shape's chord error. The
-/// other half is for the curves: such shapes are read with chords that leave them by no more than that.
+/// Largest distance of removed points from the simplified line, as a share of the shape's chord
+/// error. The rest is for the curves: the chords of such shapes are within that distance of the
+/// curves.
 pub(super) const SHARE: f64 = 0.5;
 
-/// Lines with the points taken away that lie within [`SHARE`] of the chord error of what is left; each keeps its
-/// ends. Where many are taken away, that is noted; few are left as they are.
+/// Removes the points of lines that are within [`SHARE`] of the chord error of the remaining line;
+/// each line keeps its ends. Lines with few points stay as they are. If many points are removed,
+/// there is a warning.
 ///
 /// # Errors
-/// Where there are too many points before, or still are after.
+/// If there are too many points before or after.
 pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     source: &Source,
     shape: &Shape,
     lines: Vec<Vec<P>>,
 ) -> Result<Vec<Vec<P>>> {
-    // Several lines lie around a tile, the end of each the beginning of the next.
+    // Several lines surround a tile, each ending where the next begins.
     let shared = usize::from(lines.len() > 1);
     let count = |lines: &[Vec<P>]| lines.iter().map(|l| l.len() - shared).sum::<usize>();
     let drawn = count(&lines);
@@ -65,10 +67,10 @@ pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     Ok(lines)
 }
 
-/// The points of a line that it takes to come within `tolerance` of all of them, its ends among
-/// them. Between two that are kept, no point is farther from the segment that joins these (D. H.
-/// Douglas and T. K. Peucker, *Algorithms for the reduction of the number of points required to
-/// represent a digitized line*, 1973); so every corner that shows is kept.
+/// The points of a line, including its ends, that are needed to approximate all of them within
+/// `tolerance`. Between two kept points, no point is farther from the segment that joins them (D.
+/// H. Douglas and T. K. Peucker, *Algorithms for the reduction of the number of points required to
+/// represent a digitized line*, 1973); so every visible corner is kept.
 fn within<P: Copy + Into<[f64; 2]>>(line: &[P], tolerance: f64) -> Vec<P> {
     let mut kept = vec![false; line.len()];
     let mut pieces = Vec::new();
@@ -128,7 +130,7 @@ mod tests {
             assert!(near.fold(f64::INFINITY, f64::min) <= tolerance, "{p:?}");
         }
         assert_eq!(within(&[[0.0; 2]; 1], tolerance).len(), 1);
-        // A closed line without any extent, and one that comes back.
+        // A closed line without any extent, and one that returns along itself.
         assert_eq!(within(&[[0.0; 2]; 9], tolerance).len(), 2);
         let back = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
         assert_eq!(within(&back, tolerance), back);

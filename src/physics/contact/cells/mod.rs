@@ -1,15 +1,16 @@
-//! Contact over a cell of configurations: proved overlapping throughout, or left with conditions
-//! that every free configuration of the cell satisfies.
+//! Contact over a cell of configurations: proves that the tiles overlap throughout the cell, or
+//! returns conditions that every free configuration of the cell satisfies.
 //!
 //! A point of one tile that stays, throughout the cell, inside the other tile by more than the
-//! tolerance proves the cell *blocked*, and so do convex parts of both that stay overlapped, as
-//! corners do that cross each other with no vertex inside. A vertex whose reachable disc meets the other outline in
-//! one edge only (or in the two edges of a notch) must, where the tiles are free, lie on the outer
-//! side of the edge's line: a *cut*. Only necessary conditions of freedom are used, so a bound
-//! over the cuts' side of a cell holds for all its free configurations.
+//! tolerance proves the cell *blocked*. So do convex parts of both tiles that overlap throughout,
+//! such as corners that cross each other with no vertex inside. If the reachable disc of a vertex
+//! meets the other outline in only one edge (or in the two edges of a notch), the vertex must be on
+//! the outer side of the edge's line wherever the tiles are free: a *cut*. Cuts are only necessary
+//! conditions of freedom, so a bound over the admissible part of a cell holds for all its free
+//! configurations.
 //!
-//! All claims hold for configurations in which no point of a tile and no convex part lies deeper
-//! than `relaxed` inside the other, which includes every configuration that counts as free.
+//! All claims hold for configurations in which no point or convex part of a tile is deeper than
+//! `relaxed` inside the other tile, which includes every configuration that counts as free.
 
 mod possible;
 mod side;
@@ -31,53 +32,53 @@ use side::{Side, Verdict};
 pub struct Cut {
     /// The signed distance (m), to second order.
     pub form: Quadratic,
-    /// By how much (m) `form` may be too low anywhere in the cell, at least 0.
+    /// Upper bound of how much (m) `form` is too low anywhere in the cell, at least 0.
     pub slack: f64,
 }
 
 impl Cut {
-    /// The one of a pair that is satisfied more easily, judged at the cell's centre.
+    /// The weaker one of a pair, judged at the cell's centre.
     fn easier([a, b]: &[Self; 2]) -> &Self {
         if a.form.value > b.form.value { a } else { b }
     }
 }
 
-/// What contact says about a cell that is not proved blocked: the free configurations satisfy every one
-/// of the cuts, and at least one of each pair at a corner.
+/// The conditions of a cell that is not proved blocked: the free configurations satisfy all of the
+/// cuts, and at least one of each pair at a corner.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cuts {
     /// Conditions that all hold.
     pub all: Vec<Cut>,
-    /// Pairs of conditions of which one holds at least.
+    /// Pairs of conditions of which at least one holds.
     pub corners: Vec<[Cut; 2]>,
-    /// How deep (m) a probed point lies inside the other tile at the centre, where no cut tells; 0 if
-    /// none does.
+    /// Depth (m) of a probed point inside the other tile at the centre, if no cut covers it; 0 if
+    /// there is none.
     pub depth: f64,
 }
 
 impl Cuts {
-    /// Those that all hold, and the easier one of each pair.
+    /// The conditions that all hold, and the weaker one of each pair.
     pub(crate) fn easiest(&self) -> impl Iterator<Item = &Cut> {
         self.all.iter().chain(self.corners.iter().map(Cut::easier))
     }
 
-    /// Whether contact says nothing of the cell.
+    /// Whether there are no conditions.
     pub fn is_none(&self) -> bool {
         self.all.is_empty() && self.corners.is_empty() && self.depth == 0.0
     }
 
-    /// Whether one of them holds nowhere in the cell.
+    /// Whether one of the conditions holds nowhere in the cell.
     fn is_violated(&self, cell: &Cell) -> bool {
         let violated = |cut: &Cut| cut.form.greatest(&cell.half) + cut.slack < 0.0;
         self.all.iter().any(violated) || self.corners.iter().any(|pair| pair.iter().all(violated))
     }
 }
 
-/// Of the points within a circle of this radius, as a share of how far they get in the cell, only
-/// one is looked at: the others would hardly say more.
+/// Only one of the points within a circle of this radius, as a fraction of their travel within the
+/// cell, is tested: the others would add little.
 const DENSE: f64 = 0.5;
 
-/// Contact of two outlines, cell by cell.
+/// Contact of two outlines over cells.
 #[derive(Clone)]
 pub struct ContactCells {
     contact: Contact,
@@ -101,13 +102,13 @@ impl ContactCells {
         2.0 * self.contact.touch()
     }
 
-    /// How many edges the two outlines have.
+    /// The number of edges of both outlines.
     pub fn edges(&self) -> usize {
         let of = |side: &Side| side.outline.vertices().len();
         of(&self.fixed) + of(&self.moving)
     }
 
-    /// What contact says about a cell; `None` where no configuration of it is free.
+    /// The conditions of a cell; `None` if no configuration of it is free.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
         let q = &cell.centre;
         let relaxed = self.relaxed();
@@ -116,7 +117,8 @@ impl ContactCells {
         if apart > cell.travel() + relaxed {
             return Some(Cuts::default());
         }
-        // No support of a part changes by more than its points move, nor does the overlap's depth.
+        // A support of a part changes by no more than its points move, and so does the overlap's
+        // depth.
         let farthest = cell.reach(moving.circumradius());
         if self.contact.is_clear_by(q, farthest + relaxed) {
             return Some(Cuts::default());
@@ -152,19 +154,19 @@ impl ContactCells {
     }
 }
 
-/// Looks at the points of one tile inside the other.
+/// Tests the points of one tile against the other.
 struct Sweeping<'a> {
     probes: &'a Side,
     other: &'a Side,
-    /// Where a point is at the cell's centre, in the frame of the other tile.
+    /// The position of a point at the cell's centre, in the frame of the other tile.
     place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
-    /// How far (m) a point anywhere in a circle gets from the circle's centre as placed.
+    /// Largest distance (m) of any point of a circle from the circle's placed centre.
     reach: &'a dyn Fn(Vector2<f64>, f64) -> f64,
     cut: &'a dyn Fn(Vector2<f64>, usize) -> Cut,
 }
 
 impl Sweeping<'_> {
-    /// Notes what the points say; false where the cell is blocked.
+    /// Collects the conditions; false if the cell is blocked.
     fn look(&self, cuts: &mut Cuts) -> bool {
         let blocks = |p: &Vector2<f64>| {
             self.other

@@ -1,17 +1,17 @@
-//! The contacts that the configurations of a cell may make, and how fast motions open them.
+//! The contacts that are possible within a cell of configurations, and bounds of how fast motions
+//! open them.
 //!
-//! Where two free tiles come to overlap, a convex vertex of one of them passes through an edge of
-//! the other: first contact is a convex vertex on an edge or on a vertex, and of two corners that
-//! meet the line of one of their edges separates. A motion that closes none of the gaps between a
-//! vertex and an edge that may touch leads from free configurations to free ones only.
+//! When two free tiles begin to overlap, a convex vertex of one of them passes through an edge of
+//! the other: first contact is a convex vertex on an edge or on a vertex, and two corners that meet
+//! are separated by the line of one of their edges. So a motion that closes none of the gaps
+//! between vertices and edges that may touch leads only from free configurations to free ones.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::side::Side;
 use super::{Cell, ContactCells};
 
-/// Share of the distances, and of a metre where the tile is the paper's, by which rounding is allowed
-/// for.
+/// Allowance for rounding errors, relative to the distances and, for the paper's tile, to a metre.
 const ROUNDING: f64 = 1e-12;
 
 /// A convex vertex of one tile and an edge of the other that may touch somewhere in a cell. The
@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 pub struct PossibleContact {
     /// At the cell's centre (m).
     pub gap: f64,
-    /// Of the gap at the centre, by x and y (1) and by theta (m/rad).
+    /// Gradient of the gap at the centre, by x and y (1) and by theta (m/rad).
     pub gradient: Vector3<f64>,
     /// The edge's outward normal at the centre.
     normal: Vector2<f64>,
@@ -45,8 +45,8 @@ impl PossibleContact {
         }
     }
 
-    /// By how much (m) the gap differs from that at the centre at most, over the box with these
-    /// half sizes.
+    /// Largest difference (m) of the gap from that at the centre, over the box with these half
+    /// sizes.
     fn spread(&self, half: &[f64; 3]) -> f64 {
         let (sin, versine) = turn(half[2]);
         let turning =
@@ -65,8 +65,8 @@ impl PossibleContact {
         self.gap - self.spread(half)
     }
 
-    /// By how much (m) the motion `step` opens the gap at least, if its rate is nowhere lower than
-    /// anywhere in the box with these half sizes about the centre.
+    /// Least opening (m) of the gap by the motion `step`, with the lowest rate over the box with
+    /// these half sizes around the centre.
     pub fn opening(&self, half: &[f64; 3], step: &Vector3<f64>) -> f64 {
         let (sin, versine) = turn(half[2]);
         let (way, turned) = (step.xy(), step.z.abs());
@@ -100,7 +100,7 @@ fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
 
 impl ContactCells {
     /// The contacts that free configurations of a cell may make: every convex vertex and every edge
-    /// of the other tile that may touch without overlap somewhere in it. `None` where there are more
+    /// of the other tile that may touch without overlap somewhere in it. `None` if there are more
     /// than `most` of them.
     pub fn possible(&self, cell: &Cell, most: usize) -> Option<Vec<PossibleContact>> {
         let q = &cell.centre;
@@ -148,20 +148,20 @@ impl ContactCells {
     }
 }
 
-/// The vertices of one tile against the edges of the other, seen in the other's frame.
+/// The vertices of one tile against the edges of the other, in the other's frame.
 struct Meeting<'a> {
     vertices: &'a Side,
     edges: &'a Side,
     place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
     direction: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
-    /// How far (m) a vertex gets from where it is at the cell's centre.
+    /// Largest distance (m) of a vertex from its position at the cell's centre.
     reach: &'a dyn Fn(Vector2<f64>) -> f64,
     /// The contact of a vertex with an edge of this normal and start.
     contact: &'a dyn Fn(Vector2<f64>, Vector2<f64>, Vector2<f64>) -> PossibleContact,
 }
 
 impl Meeting<'_> {
-    /// Adds what may touch; false where that makes more than `most`.
+    /// Adds the possible contacts; false if there are more than `most`.
     fn list(&self, half: &[f64; 3], most: usize, found: &mut Vec<PossibleContact>) -> bool {
         let outline = &self.vertices.outline;
         let corners = outline.vertices();
@@ -187,9 +187,9 @@ impl Meeting<'_> {
         })
     }
 
-    /// Whether a vertex at `at` that gets no farther than `reach` (m) may lie on an edge, its tile,
-    /// which leads away from it in the directions `sides` and turns by up to `turned` (rad), in
-    /// front of the edge's line.
+    /// Whether a vertex at `at` that moves by at most `reach` (m) can be on an edge, with its tile
+    /// in front of the edge's line; the tile extends from the vertex in the directions `sides` and
+    /// turns by up to `turned` (rad).
     fn may_touch(
         &self,
         at: Vector2<f64>,
@@ -229,7 +229,7 @@ mod tests {
         }
     }
 
-    /// How fast a step opens it there, at the step's own pace.
+    /// The rate at which a step opens the gap there.
     fn slope(contact: &PossibleContact, d: Vector3<f64>, step: &Vector3<f64>) -> f64 {
         let turned = |v: Vector2<f64>| {
             let v = Rotation2::new(d.z) * v;
@@ -262,7 +262,7 @@ mod tests {
                 least = least.min(gap(&contact, d));
                 slowest = slowest.min(slope(&contact, d, &step));
             }
-            // Both differ from what is attained by terms of the second order.
+            // Both differ from the attained values by terms of second order.
             let room = 6.0 * (half[2] * (half[0] + half[1]) + half[2] * half[2]);
             let bound = contact.least(&half);
             assert!(

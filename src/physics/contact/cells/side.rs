@@ -1,4 +1,4 @@
-//! One of two tiles, as the cells of a subdivision see it.
+//! One of the two tiles, prepared for the contact tests of cells.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -7,10 +7,10 @@ use crate::contact::tree::CircleTree;
 use crate::tile::Outline;
 use crate::tile::outline::distance_to_segment;
 
-/// Inner points that are tried as witnesses of overlap, at most.
+/// Largest number of inner points used as witnesses of overlap.
 const INNER: usize = 8;
 
-/// An edge, ready to be asked for its distance.
+/// An edge, prepared for distance queries.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     start: Vector2<f64>,
@@ -36,7 +36,7 @@ impl Segment {
     }
 }
 
-/// One tile, as the other one's cells see it.
+/// One tile, prepared for queries.
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     pub outline: Outline,
@@ -94,7 +94,7 @@ impl Side {
             && self.outline.contains(at)
     }
 
-    /// What a point at `at` that gets no farther than `reach` (m) says.
+    /// The condition of a point at `at` that moves by at most `reach` (m).
     pub fn verdict(&self, at: Vector2<f64>, reach: f64, vertex: bool) -> Verdict {
         let n = self.outline.vertices().len();
         let mut near = [0; 3];
@@ -134,11 +134,11 @@ impl Side {
     }
 }
 
-/// What one point of one tile says about a cell.
+/// The condition that one point of a tile implies for a cell.
 pub(super) enum Verdict {
     Nothing,
     Blocked,
-    /// Inside at the centre, this deep (m), but too near to several edges to say more.
+    /// Inside at the centre, at this depth (m), but too close to several edges for a condition.
     Inside(f64),
     /// Must be on the outer side of these edges (twice the same, if it is one).
     Edges([usize; 2]),

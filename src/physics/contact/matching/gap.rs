@@ -1,4 +1,4 @@
-//! The area that outlines in contact leave between them.
+//! The area left between two outlines in contact.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -10,8 +10,8 @@ use crate::scale::Scale;
 use crate::tile::Outline;
 use crate::tile::outline::signed_area;
 
-/// The area (m^2) between the tiles along their contact: of the convex hull of all stretches in
-/// contact (of such pairs of edges), what neither tile fills.
+/// The area (m^2) between the tiles along their contact: the part of the convex hull of all
+/// stretches in contact (of such pairs of edges) that neither tile fills.
 pub(super) fn gap_area(
     [fixed, moving]: [&Outline; 2],
     facing: &[Facing],
@@ -27,7 +27,7 @@ pub(super) fn gap_area(
     let placed = moving.vertices().iter().map(|p| q.transform(*p)).collect();
     let filled = area_within(fixed.vertices().to_vec(), &hull) + area_within(placed, &hull);
     let gap = signed_area(&hull) - filled;
-    // What rounding leaves of outlines that fit.
+    // Rounding errors of outlines that fit.
     if gap < touching * scale.length(TOUCHING.sqrt()) {
         0.0
     } else {
@@ -35,14 +35,15 @@ pub(super) fn gap_area(
     }
 }
 
-/// The area (m^2) of what a polygon has in a convex one, both counter-clockwise: clipped by side
-/// after side (Sutherland and Hodgman 1974). Edges that the clipping doubles enclose nothing.
+/// The area (m^2) of the intersection of a polygon with a convex one, both counter-clockwise, by
+/// clipping at each side (Sutherland and Hodgman 1974). Edges duplicated by clipping enclose no
+/// area.
 fn area_within(polygon: Vec<Vector2<f64>>, hull: &[Vector2<f64>]) -> f64 {
     let sides = (0..hull.len()).map(|i| [hull[i], hull[(i + 1) % hull.len()]]);
     signed_area(&sides.fold(polygon, |left, side| clipped(&left, side)))
 }
 
-/// What of a polygon lies left of the line from a to b.
+/// The part of a polygon to the left of the line from a to b.
 fn clipped(polygon: &[Vector2<f64>], [a, b]: [Vector2<f64>; 2]) -> Vec<Vector2<f64>> {
     let height = |p: &Vector2<f64>| (b - a).perp(&(p - a));
     let next = polygon.iter().cycle().skip(1);
@@ -68,7 +69,7 @@ fn hull(mut points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
     lower
 }
 
-/// The half of a hull to the right of the way along points in order, its last point left out.
+/// The half of a hull to the right of the path along ordered points, without its last point.
 fn half_hull<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<f64>> {
     let mut chain: Vec<Vector2<f64>> = Vec::new();
     for p in points {

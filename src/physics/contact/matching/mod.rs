@@ -1,11 +1,11 @@
-//! Rigid motions that bring two outlines, magnets aside, into long contact.
+//! Rigid motions that bring two outlines into long contact; magnets are ignored.
 //!
-//! Longest contacts are met where an edge of one outline lies flush on an edge of the other and a
-//! corner of one stops at a corner of the other: sliding along the common line changes the contact
-//! only at such places. So of every two edges the motions are tried that lay one on the other with
-//! any corner of the moving outline that lies on the common line, or beside it, at any of the fixed
-//! one; those that overlap are dropped. Turns at which too little of the edges is parallel for a
-//! contact worth the name are not tried.
+//! The longest contacts occur where an edge of one outline is flush with an edge of the other and a
+//! corner of one meets a corner of the other: sliding along the common line changes the contact
+//! only at such positions. So for every two edges, all motions are tried that place one on the
+//! other with a corner of the moving outline, on or beside the common line, at a corner of the
+//! fixed one; motions with overlap are discarded. Rotations at which too few edges are parallel for
+//! a relevant contact are skipped.
 
 mod gap;
 #[cfg(test)]
@@ -22,15 +22,14 @@ use crate::order::Order;
 use crate::parallel;
 use crate::tile::Outline;
 
-/// A motion and what it brings.
+/// A motion and its contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Of the moving tile.
+    /// The pose of the moving tile.
     pub pose: Configuration,
     /// Length along which the outlines touch (m).
     pub contact: f64,
-    /// Area that is neither tile's but between them: enclosed, or in the hull of the stretch of
-    /// contact (m^2).
+    /// Area between the tiles (m^2): enclosed, or in the hull of the stretch of contact.
     pub gap: f64,
 }
 
@@ -39,11 +38,11 @@ const TOUCHING: f64 = 1e-7;
 const PARALLEL: f64 = 1e-9;
 /// Motions closer than this (m, rad) are the same.
 const SAME: f64 = 1e-6;
-/// Contacts shorter than this share of the shorter outline are no matches.
+/// Least contact of a match, as a share of the shorter outline.
 pub const LEAST_SHARE: f64 = 0.01;
 
-/// The motions of longest contact, longest first, at most so many. Contacts shorter than
-/// [`LEAST_SHARE`] of the shorter outline are left out.
+/// The motions of longest contact, longest first, at most the given number. Contacts shorter than
+/// [`LEAST_SHARE`] of the shorter outline are omitted.
 pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
     let (fixed, moving) = (contact.fixed(), contact.moving());
     let same = contact.scaled(SAME);
@@ -60,7 +59,7 @@ pub fn matches(contact: &Contact, most: usize) -> Vec<Match> {
     });
     found.order_by_key(|(_, it)| {
         let q = it.pose;
-        // Lengths that differ by rounding are the same.
+        // Lengths that differ only by rounding are equal.
         let length = (it.contact / same).round();
         (
             OrderedFloat(-length),
@@ -97,17 +96,17 @@ fn length(outline: &Outline, i: usize) -> f64 {
     (end - start).norm()
 }
 
-/// A turn of the moving outline that makes edges of the two face each other.
+/// A rotation of the moving outline that makes edges of both outlines face each other.
 struct Turn {
     /// Edges of the fixed and of the moving outline that it makes parallel.
     laid: Vec<[usize; 2]>,
-    /// These, and those so nearly parallel that they touch all along where they touch.
+    /// These, and edges so nearly parallel that they touch along their whole overlap.
     facing: Vec<Facing>,
 }
 
-/// All turns that lay an edge on an edge and may give a contact of some length (m). At most of
-/// them, with curved outlines above all, few short edges meet, which bounds the contact before any
-/// motion is tried.
+/// All rotations that make an edge flush with an edge and may give a contact of at least the given
+/// length (m). For most of them, especially with curved outlines, few short edges meet, which
+/// bounds the contact before any motion is tried.
 fn turns([fixed, moving]: [&Outline; 2], least: f64, touching: f64) -> Vec<Turn> {
     let mut pairs: Vec<(f64, [usize; 2])> = (0..fixed.vertices().len())
         .flat_map(|a| (0..moving.vertices().len()).map(move |b| [a, b]))
@@ -156,17 +155,17 @@ fn parallel_within(length: f64, touching: f64) -> f64 {
     PARALLEL.max(touching / length)
 }
 
-/// The turn (rad) that lays a moving edge on a fixed one, face to face.
+/// The rotation (rad) that places a moving edge on a fixed one, face to face.
 fn turn_of([start, end]: [Vector2<f64>; 2], [from, to]: [Vector2<f64>; 2]) -> f64 {
     let (u, v) = (end - start, from - to);
     let theta = wrap_angle(libm::atan2(u.y, u.x) - libm::atan2(v.y, v.x));
-    // Half a turn is told one way, whatever rounding makes of it.
+    // Half a turn has one canonical value, independent of rounding.
     if theta < PARALLEL - PI { PI } else { theta }
 }
 
-/// Motions that lay edge b of the moving outline on edge a of the fixed one, face to face, with a
-/// corner of the one at a corner of the other along their common direction, and the length in
-/// contact; the gap is not yet looked at.
+/// Motions that place edge b of the moving outline on edge a of the fixed one, face to face, with a
+/// corner of one at a corner of the other along their common direction; with the length in contact.
+/// The gap is not yet computed.
 fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Match> {
     let (fixed, moving) = (contact.fixed(), contact.moving());
     let [same, touching] = [SAME, TOUCHING].map(|length| contact.scaled(length));
@@ -175,7 +174,7 @@ fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Matc
     let along = (end - start).normalize();
     let theta = turn_of([start, end], [from, to]);
     let turned = |p: Vector2<f64>| Configuration::new(0.0, 0.0, theta).transform(p);
-    // Places along the common line: of corners, from the edges' own.
+    // Positions of corners along the common line, relative to those of the edges.
     let place = |p: Vector2<f64>| p.dot(&along);
     let across = start - along * place(start) - (turned(to) - along * place(turned(to)));
     let corners: Vec<f64> = moving
@@ -183,7 +182,7 @@ fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Matc
         .iter()
         .map(|p| place(turned(*p)))
         .collect();
-    // The two edges overlap at slides between these only.
+    // The two edges overlap only at slides between these.
     let own = place(start) - place(turned(to));
     let (least, most) = (
         own - (to - from).norm(),
@@ -208,7 +207,7 @@ fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Matc
             gap: 0.0,
         })
         .collect();
-    // Edges along the common line touch all the way, others where they pass each other.
+    // Edges on the common line touch along their overlap, others where they pass each other.
     for facing in &turn.facing {
         let height = (across + facing.from - facing.start).dot(&facing.normal);
         let slope = along.dot(&facing.normal);
@@ -230,7 +229,7 @@ fn flush_motions(contact: &Contact, turn: &Turn, [a, b]: [usize; 2]) -> Vec<Matc
 
 /// An edge of the fixed outline and one of the moving outline, turned but not moved, that faces it.
 struct Facing {
-    /// Where the fixed edge starts, its direction, its outward normal and its length (m).
+    /// The start of the fixed edge, its direction, its outward normal and its length (m).
     start: Vector2<f64>,
     along: Vector2<f64>,
     normal: Vector2<f64>,
@@ -255,8 +254,8 @@ impl Facing {
         }
     }
 
-    /// The stretch along which the edges lie on each other, closer than `touching` (m), once the moving
-    /// one is shifted.
+    /// The stretch along which the edges are closer than `touching` (m), after the moving one is
+    /// shifted.
     fn stretch(&self, shift: Vector2<f64>, touching: f64) -> Option<[Vector2<f64>; 2]> {
         let [from, to] = [self.from, self.to].map(|p| p + shift - self.start);
         let near = |p: Vector2<f64>| p.dot(&self.normal).abs() < touching;

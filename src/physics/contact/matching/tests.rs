@@ -1,4 +1,4 @@
-//! Outlines, magnets aside.
+//! Tests of how outlines match.
 
 use nalgebra::Vector2;
 

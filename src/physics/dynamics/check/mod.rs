@@ -1,40 +1,41 @@
-//! A check of barriers from outside the roadmap: moving tiles must not contradict them.
+//! A check of barriers that is independent of the roadmap: trajectories of moving tiles must not
+//! contradict them.
 //!
-//! A barrier says: every free path from a state to another place reaches at least the saddle's
-//! energy. A tile without drag keeps its energy, so one that starts in the state's basin with less
-//! total energy (kinetic and potential) than that never gets to the other place, wherever knocks
-//! and turns take it. For each barrier three things are tried:
+//! A barrier states that every free path from a state to another place reaches at least the
+//! saddle's energy. A tile without drag conserves its energy, so one that starts in the state's
+//! basin with less total energy (kinetic and potential) never reaches the other place, whatever its
+//! collisions and rotations. Three tests are made for each barrier:
 //!
 //! - **Below.** Many trajectories with less total energy than the barrier's certified lower bound
-//!   ([`Below`]); none may cross. So that this could fail at all, some more start with as much
-//!   energy too much and are counted too ([`BarrierCheck::above`]).
-//! - **Sides.** Released at rest on the pathway before and behind the saddle, just below what is
-//!   certified, with light drag, the tile ends where the pathway comes from and where it leads
-//!   ([`Side`]).
-//! - **Kick.** The least of a ladder of kicks along the pathway's beginning that throws the tile
-//!   out has at least the barrier's energy ([`BarrierCheck::kick`]).
+//!   ([`Below`]); none may cross. As a control, further trajectories start with that much more
+//!   energy, and their crossings are counted as well ([`BarrierCheck::above`]).
+//! - **Sides.** A tile released at rest on the pathway on either side of the saddle, just below the
+//!   certified energy and with light drag, ends at the pathway's end on that side ([`Side`]).
+//! - **Kick.** The smallest of a series of kicks along the pathway's beginning that expels the tile
+//!   has at least the barrier's energy ([`BarrierCheck::kick`]).
 //!
 //! # What counts as below, and what as free
 //!
-//! Energy alone does not tell on which side of a barrier a configuration lies, and `free` is no
-//! level of energy: tiles just out of each other's reach still attract or repel by some µJ, so a
-//! barrier to `free` may lie below 0 and below the energy of far configurations. Therefore
+//! Energy alone does not determine on which side of a barrier a configuration lies, and `free` is
+//! not an energy level: tiles just out of each other's reach still attract or repel by some µJ, so
+//! a barrier to `free` may be below 0 and below the energy of far configurations. Therefore
 //!
-//! - a start lies on the pathway before it first reaches the start's total energy, so that it is
-//!   joined to the state by a free path below the barrier: it lies in the basin, not merely low;
-//! - `free` is the set that the roadmap and the certificate mean by it, the configurations whose
+//! - a start is on the pathway before it first reaches the start's total energy, so that it is
+//!   connected to the state by a free path below the barrier: it is in the basin, not merely low in
+//!   energy;
+//! - `free` is the same set as in the roadmap and the certificate: the configurations whose
 //!   reference points are at least [`free_distance`](crate::ConfigurationSpace::free_distance)
-//!   apart; a trajectory crosses when it enters that set, with whatever energy;
+//!   apart; a trajectory crosses when it enters that set, with any energy;
 //! - another state is entered when overdamped motion leads from the tile's configuration into its
-//!   minimum, which is a path that nowhere climbs (asked where a rough descent leads there too);
-//! - the rim keeps the reference point on the table, as in the certificate, and each knock takes
-//!   energy away, never adds any. A trajectory that the integration's error lifts to the barrier
-//!   proves nothing: it is counted as spoilt and replaced by another one.
+//!   minimum, along a path that never climbs (tested if a rough descent also leads there);
+//! - the rim keeps the reference point on the table, as in the certificate, and collisions only
+//!   dissipate energy. A trajectory that the integration error raises to the barrier proves
+//!   nothing: it is counted as spoilt and replaced.
 //!
 //! With these definitions a crossing is a path below the lower bound: either the bound or this
-//! simulation is wrong. Where a barrier has no certified bound, trajectories stay below its saddle
-//! energy less the fraction to which it was settled, and a crossing only shows that the estimate
-//! was too high ([`BarrierCheck::is_overestimated`]).
+//! simulation is wrong. If a barrier has no certified bound, trajectories stay below its saddle
+//! energy less its convergence tolerance, and a crossing only shows that the estimate was too high
+//! ([`BarrierCheck::is_overestimated`]).
 
 mod checker;
 
@@ -47,19 +48,19 @@ use crate::problem::Problem;
 use crate::units::si;
 use checker::Checker;
 
-/// Slow motions followed from each pathway, at most.
+/// Largest number of overdamped motions followed from each pathway.
 const SLOW: usize = 16;
 
-/// What the check does.
+/// The settings of the check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckSettings {
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// Trajectories below each barrier.
     pub runs: usize,
     /// Trajectories above each barrier.
     pub controls: usize,
-    /// Share of a barrier by which its saddle energy may be too high where it is not certified.
+    /// Share of a barrier by which its saddle energy may be too high if it is not certified.
     pub settled: f64,
 }
 
@@ -77,39 +78,39 @@ impl Default for CheckSettings {
 /// Trajectories with less total energy than a barrier.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Below {
-    /// How many there were.
+    /// Number of trajectories.
     pub runs: usize,
-    /// How many of them crossed.
+    /// Number of crossings.
     pub crossed: usize,
-    /// How many more proved nothing, lifted over the barrier by the integration's error.
+    /// Number of further trajectories that the integration error raised above the barrier.
     pub spoilt: usize,
     /// The start of one that crossed.
     pub example: Option<Motion>,
 }
 
-/// Where a trajectory from one side of a saddle ended.
+/// The end of a trajectory from one side of a saddle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Side {
-    /// `None` for no reported state, and where the integration's error lifted the tile over the
+    /// `None` for no reported state, and if the integration error raised the tile above the
     /// ceiling.
     pub ended: Option<Place>,
-    /// How the end fits the pathway.
+    /// The relation of the end to the pathway.
     pub verdict: SideVerdict,
 }
 
-/// Whether that is where the pathway comes from, or leads to.
+/// The relation of a trajectory's end to the pathway.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SideVerdict {
-    /// At the pathway's end on this side, or in a state that it passes on the way there.
+    /// At the pathway's end on this side, or in a state on the way there.
     OnThePathway,
-    /// In another place. From there the saddle is no lower: nothing is refuted.
+    /// In another place. The saddle is not lower from there, so nothing is refuted.
     Elsewhere,
-    /// At the pathway's other end, which lies behind the barrier. (States that it passes on the way
-    /// there need not: there may be a lower way to them.)
+    /// At the pathway's other end, behind the barrier. (States on the way there do not count: there
+    /// may be a lower path to them.)
     Opposite,
 }
 
-/// What moving tiles say of one barrier.
+/// The check of one barrier by moving tiles.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct BarrierCheck {
     /// The state that the pathway leaves.
@@ -117,24 +118,24 @@ pub struct BarrierCheck {
     /// The state that it leads to, or free tiles.
     pub to: Place,
     /// The energy (J) that trajectories stayed below: the barrier's certified lower bound, or the
-    /// saddle energy less what it may be off. Infinite where the state is proved caged.
+    /// saddle energy less its possible error. Infinite if the state is proved to be caged.
     pub ceiling: f64,
     /// Whether the ceiling is a certified bound, not an estimate.
     pub certified: bool,
     /// Trajectories with less energy than the ceiling.
     pub below: Below,
-    /// Trajectories that crossed with 0.1 to 2 barriers more energy than the pathway needs, and how
-    /// many there were.
+    /// Number of trajectories that crossed with 0.1 to 2 barriers more energy than the pathway
+    /// needs, and number of trajectories.
     pub above: (usize, usize),
-    /// From before and from behind the saddle. `None` where that is not asked: behind a saddle to
-    /// `free`, which may lie where the tiles part, with no slope behind it.
+    /// The ends from both sides of the saddle. `None` if not tested: behind a saddle to `free`,
+    /// which may be where the tiles separate, with no slope behind it.
     pub sides: [Option<Side>; 2],
-    /// Least energy (J) among those tried that kicked the tile out along the pathway; `None` where
-    /// none did, up to eight times the barrier.
+    /// Smallest tried kick energy (J) that expelled the tile along the pathway; `None` if none did,
+    /// up to eight times the barrier.
     pub kick: Option<f64>,
-    /// What the kick is held against (J): the ceiling, seen from the start.
+    /// Lower bound (J) of the kick energy: the ceiling, relative to the start.
     pub climb: f64,
-    /// Steps of all its trajectories.
+    /// Number of steps of all its trajectories.
     pub steps: usize,
 }
 
@@ -144,7 +145,7 @@ impl BarrierCheck {
         self.below.crossed > 0
     }
 
-    /// Whether a kick of less energy than the barrier threw the tile out.
+    /// Whether a kick with less energy than the barrier expelled the tile.
     pub fn is_kicked_over(&self) -> bool {
         self.kick.is_some_and(|kick| kick < self.climb)
     }
@@ -160,18 +161,17 @@ impl BarrierCheck {
         self.is_crossed() || self.is_kicked_over() || self.is_swapped()
     }
 
-    /// Whether what is proved of the barrier is refuted: either the proof or the simulation is
-    /// wrong.
+    /// Whether a proved bound is refuted: either the proof or the simulation is wrong.
     pub fn is_contradicted(&self) -> bool {
         self.certified && self.is_refuted()
     }
 
-    /// Whether an estimate, of which nothing is proved, is refuted: a lower way was found.
+    /// Whether an unproved estimate is refuted: a lower path was found.
     pub fn is_overestimated(&self) -> bool {
         !self.certified && self.is_refuted()
     }
 
-    /// What refutes the barrier, told loudly where it is a proof that is contradicted.
+    /// Describes what refutes the barrier, with emphasis if a proof is contradicted.
     pub fn describe(&self) -> String {
         let name = |place| match place {
             Place::State(id) => format!("state {id}"),
@@ -212,11 +212,11 @@ impl BarrierCheck {
 }
 
 /// Checks the barriers that lead out of a state: those with a pathway, and those proved to be
-/// without one. `done` is told after each how many are done, of how many.
+/// without one. `done` is called after each barrier with the number of finished ones and of all.
 ///
 /// The same arguments give the same result on any number of threads. A trajectory below a barrier
-/// takes some hundred steps: the way of 15 cm at the speed of a tile with the barrier's energy, in
-/// steps of at most 0.5 mm.
+/// takes a few hundred steps: 15 cm at the speed of a tile with the barrier's energy, in steps of
+/// at most 0.5 mm.
 pub fn check(
     problem: &Problem,
     body: Body,
@@ -242,7 +242,7 @@ pub fn check(
     })
 }
 
-/// The ways on which slow motion leads down from the pathways: trajectories end on the same ones.
+/// The overdamped motions down from the pathways: trajectories end on the same ones.
 fn slides_below(problem: &Problem, states: &[State], barriers: &[(usize, &Barrier)]) -> Known {
     let mut known = Known::minima(states.iter().map(|state| state.configuration));
     let points = barriers.iter().flat_map(|(_, barrier)| {

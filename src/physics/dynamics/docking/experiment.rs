@@ -1,4 +1,4 @@
-//! One docking experiment: a trajectory at a time, and what their ends are counted as.
+//! A docking experiment: runs its trajectories and counts how they end.
 
 use std::cmp::Reverse;
 
@@ -15,14 +15,14 @@ use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::Pair;
 
-/// Two resting places closer than this (m, metric of the space) lie in the same trap.
+/// Two positions of rest closer than this (m, metric of the space) are the same trap.
 const SAME_TRAP: f64 = 5e-3;
-/// Tiles that overlap a little are set apart by this much more than that (m).
+/// Slightly overlapping tiles are separated by this much more than the overlap (m).
 const CLEAR: f64 = 1e-6;
-/// Steps in contact between two looks at whether the tiles are matched.
+/// Number of steps in contact between two tests for a match.
 const STEPS_BETWEEN_LOOKS: usize = 5;
 
-/// What all trajectories of a docking experiment share.
+/// The data shared by all trajectories of a docking experiment.
 pub(super) struct Experiment<'a> {
     problem: &'a Problem,
     pub pair: &'a Pair,
@@ -31,7 +31,7 @@ pub(super) struct Experiment<'a> {
     rule: MatchRule,
 }
 
-/// A trajectory and, where it ended in no match but caught, the minimum below its end.
+/// A trajectory and, if it ended trapped, the minimum below its end.
 pub(super) type Ended = (DockingRun, Option<(Configuration, f64)>);
 
 impl<'a> Experiment<'a> {
@@ -53,7 +53,7 @@ impl<'a> Experiment<'a> {
         (self.settings.starts.draw(self.pair, &mut rng), rng)
     }
 
-    /// A trajectory until it is over. `look` is told now and again, and of its last moment, whether
+    /// Simulates a trajectory to its end. `look` is called regularly, and at the end, with whether
     /// the tiles are matched.
     pub fn watched(
         &self,
@@ -106,10 +106,10 @@ impl<'a> Experiment<'a> {
         (run, trap)
     }
 
-    /// Counts the ends, telling traps apart.
+    /// Counts the ends by trap.
     pub fn docking(&self, ended: Vec<Ended>, wall_s: f64) -> Docking {
         let n = ended.len();
-        // Minima with the numbers of the runs that ended there.
+        // Minima with the indices of the runs that ended there.
         let mut places: Vec<(Configuration, f64, Vec<usize>)> = Vec::new();
         let mut runs = Vec::with_capacity(n);
         for (number, (run, minimum)) in ended.into_iter().enumerate() {
@@ -153,7 +153,7 @@ impl<'a> Experiment<'a> {
     }
 }
 
-/// Where slow motion leads from `q`.
+/// The minimum that overdamped motion reaches from `q`.
 pub fn minimum_below(problem: &Problem, q: &Configuration, known: &Known) -> Option<Configuration> {
     match approach(problem, &out_of_contact(problem, q), known).outcome {
         Outcome::Minimum(found) => Some(found.point.q),
@@ -161,8 +161,8 @@ pub fn minimum_below(problem: &Problem, q: &Configuration, known: &Known) -> Opt
     }
 }
 
-/// A configuration, lifted out of contact where the tiles overlap by the little that turning within a
-/// step lets them.
+/// A configuration, lifted out of contact if the tiles overlap slightly, as rotation within a step
+/// permits.
 pub fn out_of_contact(problem: &Problem, q: &Configuration) -> Configuration {
     let Some(contact) = problem.contact.as_ref().filter(|c| !c.is_free(q)) else {
         return *q;

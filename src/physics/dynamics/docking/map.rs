@@ -1,4 +1,4 @@
-//! The chance of a match over orientation and speed: the paper's figure 6.
+//! The probability of a match over orientation and speed: the paper's figure 6.
 
 use super::Docking;
 use crate::landscape::Proportion;
@@ -10,11 +10,11 @@ pub struct MapCell {
     pub orientation: [f64; 2],
     /// Speed (m/s), lowest and highest.
     pub speed: [f64; 2],
-    /// How many of the starts in the cell matched.
+    /// Share of the starts in the cell that matched.
     pub matched: Proportion,
 }
 
-/// Chances of a match over relative orientation and speed at the start.
+/// Probabilities of a match over initial relative orientation and speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DockingMap {
     /// Cells along the orientation and along the speed.
@@ -24,8 +24,8 @@ pub struct DockingMap {
 }
 
 impl DockingMap {
-    /// The trajectories of an experiment sorted into `size` cells over the range of its starts: into one
-    /// where that is a single number.
+    /// The trajectories of an experiment sorted into `size` cells over the range of its starts: one
+    /// cell if the range is a single number.
     pub fn new(docking: &Docking, size: [usize; 2]) -> Self {
         let starts = &docking.settings.starts;
         let across = [-starts.orientation, starts.orientation];

@@ -1,4 +1,4 @@
-//! When the tiles are matched.
+//! The criterion by which two tiles count as matched.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -7,9 +7,9 @@ use super::DockingError;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
-/// A match as the paper declares it: every magnet of the target face is within a threshold of its
+/// A match in the paper's sense: every magnet of the target face is within a threshold of its
 /// partner on the other tile. Faces that a symmetry of the tiles maps onto the target faces count
-/// as much as these.
+/// as well.
 #[derive(Clone, Debug)]
 pub struct MatchRule {
     /// Largest distance of two partners' centres (m).
@@ -25,7 +25,7 @@ impl MatchRule {
     /// that distance and half a length.
     ///
     /// # Errors
-    /// Where one of the target faces has no magnets.
+    /// If one of the target faces has no magnets.
     pub fn new(problem: &Problem, threshold: Option<f64>) -> Result<Self, DockingError> {
         let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
         let on = |magnets: &'_ [crate::tile::Magnet], face: usize| -> Vec<_> {

@@ -1,4 +1,4 @@
-//! Docking: what becomes of tiles that are sent towards each other.
+//! Docking experiments: tiles launched towards each other, and how they end.
 
 mod experiment;
 mod map;
@@ -23,20 +23,20 @@ use crate::landscape::Proportion;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// All that decides a docking experiment, besides the problem.
+/// The settings of a docking experiment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct DockingSettings {
-    /// How many trajectories.
+    /// Number of trajectories.
     pub runs: usize,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// How long each trajectory lasts (s).
+    /// Duration of each trajectory (s).
     pub duration: f64,
-    /// How the starts are distributed.
+    /// The distribution of starts.
     pub starts: Starts,
-    /// How the tiles move.
+    /// The settings of the motion.
     pub motion: MotionSettings,
-    /// Threshold of a match (m); see [`MatchRule::new`] where `None`.
+    /// Threshold of a match (m); see [`MatchRule::new`] if `None`.
     pub threshold: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ pub enum DockingError {
     NoMagnets,
 }
 
-/// What became of one start.
+/// The outcome of one start.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum End {
     /// Matched since this time (s), and still so at the end.
@@ -72,26 +72,26 @@ pub enum End {
         /// The time (s) at which the match was declared.
         since: f64,
     },
-    /// Touching, unmatched, and too slow to come free; the number of the trap, where the tile's
-    /// slow motion leads to one. Friction may hold it short of the minimum, even of the bond's.
+    /// Touching, unmatched, and too slow to come free. Friction may stop the tile short of the
+    /// minimum, even of the bond's.
     Trapped {
-        /// The trap's number among [`Docking::traps`]; `None` where slow motion leads to none.
+        /// The trap's index in [`Docking::traps`]; `None` if overdamped motion leads to none.
         trap: Option<usize>,
     },
-    /// Neither: not in touch, or still fast enough to come free.
+    /// Neither: not in contact, or still fast enough to come free.
     Free,
 }
 
 /// One trajectory, in short.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct DockingRun {
-    /// The number of the run, from 0; it chooses the random stream.
+    /// The index of the run, from 0, which selects the random stream.
     pub index: usize,
-    /// Where and how it began.
+    /// The start.
     pub start: Start,
-    /// Where and how it ended.
+    /// The last snapshot.
     pub last: Snapshot,
-    /// What became of it.
+    /// The outcome.
     pub end: End,
     /// Steps of free flight.
     pub free_steps: usize,
@@ -106,38 +106,38 @@ impl DockingRun {
     }
 }
 
-/// The minimum below unmatched ends, symmetric copies counted as one. It may be the bond itself,
-/// where friction holds tiles short of it.
+/// The minimum below unmatched ends, with symmetric copies counted as one. It can be the bond
+/// itself, if friction stops tiles short of it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Trap {
-    /// Of the minimum.
+    /// The configuration of the minimum.
     pub configuration: Configuration,
     /// U (J).
     pub energy: f64,
-    /// How many of all runs ended there.
+    /// Share of all runs that ended there.
     pub caught: Proportion,
 }
 
 /// The outcome of a docking experiment.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Docking {
-    /// What the experiment was made with.
+    /// The settings of the experiment.
     pub settings: DockingSettings,
     /// The threshold of a match (m) that was used.
     pub threshold: f64,
-    /// Every trajectory, by its number.
+    /// All trajectories, in order.
     pub runs: Vec<DockingRun>,
-    /// How many ended matched.
+    /// Share that ended matched.
     pub bound: Proportion,
-    /// How many ended caught, unmatched.
+    /// Share that ended trapped.
     pub trapped: Proportion,
-    /// How many ended otherwise.
+    /// Share of other ends.
     pub free: Proportion,
-    /// Traps, that with most trajectories first.
+    /// Traps, most frequent first.
     pub traps: Vec<Trap>,
     /// Wall time (s).
     pub wall_s: f64,
-    /// On so many threads.
+    /// Number of threads.
     pub threads: usize,
 }
 
@@ -145,7 +145,7 @@ pub struct Docking {
 /// `done` is called after each trajectory.
 ///
 /// # Errors
-/// Where a setting makes no sense or no match can be declared.
+/// If a setting is invalid or the target has no magnets to match.
 pub fn dock(
     problem: &Problem,
     settings: &DockingSettings,

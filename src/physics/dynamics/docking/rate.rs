@@ -8,15 +8,14 @@ use crate::units::to_digits;
 
 /// The rate of attachment over a series of trials.
 ///
-/// The trajectories of an experiment are taken one after the other, each lasting until its match
-/// or to its end; the times between matches are then those of one pair of tiles that is set apart
-/// at random again and again. The rate is a Monte Carlo integral over the starts' distribution
-/// and depends on it.
+/// The trajectories of an experiment are concatenated, each until its match or its end; the times
+/// between matches are then those of one pair of tiles that is separated at random again and again.
+/// The rate is a Monte Carlo integral over the distribution of starts and depends on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnRate {
-    /// How many matches there were.
+    /// Number of matches.
     pub attachments: usize,
-    /// Time of all trials together (s).
+    /// Total time of all trials (s).
     pub time: f64,
     /// Attachments per second.
     pub rate: f64,
@@ -24,17 +23,16 @@ pub struct OnRate {
     pub interval: [f64; 2],
     /// Times between attachments (s).
     pub times: Vec<f64>,
-    /// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found,
-    /// `(D - 0.2/n) (sqrt n + 0.26 + 0.5 / sqrt n)` (Stephens 1974,
-    /// doi:10.1080/01621459.1974.10480196).
+    /// The Kolmogorov-Smirnov statistic for an exponential distribution with the mean found, `(D -
+    /// 0.2/n) (sqrt n + 0.26 + 0.5 / sqrt n)` (Stephens 1974, doi:10.1080/01621459.1974.10480196).
     pub statistic: f64,
 }
 
 impl OnRate {
-    /// Above this the statistic refutes an exponential distribution at the level of 5 %.
+    /// Above this value the statistic rejects an exponential distribution at the 5 % level.
     pub const CRITICAL: f64 = 1.094;
 
-    /// The rate of an experiment's matches, trials taken one after the other.
+    /// The rate of an experiment's matches.
     pub fn new(docking: &Docking) -> Self {
         Self::of_events(docking.runs.iter().map(|run| match run.end {
             End::Bound { since } => (since, true),
@@ -42,8 +40,8 @@ impl OnRate {
         }))
     }
 
-    /// The rate of what happens or not in trials that are taken one after the other: how long each
-    /// lasts (s), and whether it ends with what is counted.
+    /// The rate of events in concatenated trials: each has a duration (s), and whether it ends with
+    /// an event.
     pub fn of_events(trials: impl Iterator<Item = (f64, bool)>) -> Self {
         let mut times = Vec::new();
         let (mut time, mut since) = (0.0, 0.0);
@@ -71,15 +69,15 @@ impl OnRate {
     }
 }
 
-/// What lies beyond either end of an interval of 95 %.
+/// The probability beyond each end of a 95 % interval.
 const TAIL: f64 = 0.025;
 
-/// The 95 % interval of the mean of which a Poisson process gave the count n (Garwood 1936,
-/// doi:10.1093/biomet/28.3-4.437): the means at which so many or more, or so many or fewer, have a
-/// probability of 2.5 %. The n-th event comes at a time distributed by Gamma(n), so they are
-/// quantiles of Gamma(n) and of Gamma(n + 1). It holds the mean at least as often as it says, and
-/// begins at 0 for n = 0. To six digits: the system's functions, of which the quantiles are made,
-/// differ between machines in the last of sixteen.
+/// The 95 % interval of the mean of a Poisson process that gave the count n (Garwood 1936,
+/// doi:10.1093/biomet/28.3-4.437): the means at which n or more, or n or fewer, events have a
+/// probability of 2.5 %. The time of the n-th event has the distribution Gamma(n), so the ends are
+/// quantiles of Gamma(n) and of Gamma(n + 1). The interval contains the mean at least as often as
+/// stated, and starts at 0 for n = 0. It is rounded to six digits, since the system functions used
+/// for the quantiles differ between machines in the last of sixteen.
 pub fn poisson_interval(count: usize) -> [f64; 2] {
     let quantile = |events: usize, p: f64| {
         let time = Gamma::new(events as f64, 1.0);
@@ -88,8 +86,8 @@ pub fn poisson_interval(count: usize) -> [f64; 2] {
     [quantile(count, TAIL), quantile(count + 1, 1.0 - TAIL)]
 }
 
-/// The statistic of Kolmogorov and Smirnov for an exponential distribution of the mean found, see
-/// [`OnRate::statistic`]; 0 of no times.
+/// The Kolmogorov-Smirnov statistic for an exponential distribution with the mean found, see
+/// [`OnRate::statistic`]; 0 without times.
 pub fn exponential_statistic(times: &[f64]) -> f64 {
     if times.is_empty() {
         return 0.0;
@@ -137,7 +135,7 @@ mod tests {
                 );
             }
         }
-        // Of many, nearly normal: z and then (z^2 - 1) / 3.
+        // For large counts nearly normal: z, then (z^2 - 1) / 3.
         let [low, high] = poisson_interval(40_000);
         assert!(
             (low - 39_609.5).abs() < 1.0 && (high - 40_394.0).abs() < 1.5,

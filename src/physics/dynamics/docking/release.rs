@@ -8,19 +8,19 @@ use crate::dynamics::{Motion, Snapshot};
 use crate::parallel;
 use crate::problem::Problem;
 
-/// What became of one bound tile.
+/// The outcome of one bound tile.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Release {
-    /// When it left the bond for good (s), or how long it was watched.
+    /// The time at which it left the bond for good (s), or the duration of the observation.
     pub time: f64,
     /// Whether it left.
     pub left: bool,
 }
 
-/// Bound tiles that are shaken, each from rest in the bond with a thermal velocity, until they are
-/// free or their time is over; the starts of `settings` do not matter. A tile leaves the bond at the
-/// last moment at which it is matched (the rule of attachment) before it is far from the other
-/// one, or before its time is over.
+/// Simulates bound tiles that are shaken, each starting in the bond with a thermal velocity, until
+/// they are free or the time is over; the starts of `settings` are ignored. A tile leaves the bond
+/// at the last time at which it is matched (by the rule of attachment) before it is far from the
+/// other one, or before the time is over.
 ///
 /// # Errors
 /// As [`super::dock`].
@@ -59,8 +59,8 @@ pub fn releases(
     Ok(parallel::map(0..settings.runs, release))
 }
 
-/// The rate of detachment, with its interval and whether the times are exponential: the runs are
-/// taken one after the other, as for attachment.
+/// The detachment rate, with its interval and the test for exponential times: the runs are
+/// concatenated, as for attachment.
 pub fn off_rate(releases: &[Release]) -> OnRate {
     OnRate::of_events(releases.iter().map(|release| (release.time, release.left)))
 }

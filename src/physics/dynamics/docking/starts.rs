@@ -1,4 +1,4 @@
-//! Where docking trajectories start.
+//! The starting positions and velocities of docking trajectories.
 
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -9,21 +9,21 @@ use crate::dynamics::Motion;
 use crate::scale::Scale;
 use crate::tile::Pair;
 
-/// The distribution of starts; every range is drawn from uniformly.
+/// The distribution of starts, uniform in every range.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Starts {
     /// Distance of the moving tile's reference point from the fixed tile's (m).
     pub distance: [f64; 2],
-    /// Its direction differs from the fixed target face's by at most this (rad).
+    /// Largest angle (rad) between its direction and the fixed target face's.
     pub direction: f64,
-    /// Its orientation differs from the bound one by at most this (rad).
+    /// Largest difference (rad) of its orientation from the bound one.
     pub orientation: f64,
     /// Speed of its centre of mass (m/s).
     pub speed: [f64; 2],
-    /// The velocity's direction differs from that to the fixed tile's reference point by at most
-    /// this (rad).
+    /// Largest angle (rad) between the velocity and the direction to the fixed tile's reference
+    /// point.
     pub aim: f64,
-    /// Turning rate, either way (rad/s).
+    /// Largest angular velocity, either way (rad/s).
     pub spin: f64,
 }
 
@@ -42,10 +42,10 @@ impl Default for Starts {
     }
 }
 
-/// One start with the quantities it was drawn by.
+/// One start with its random quantities.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Start {
-    /// Where the tile is and how it moves.
+    /// The configuration and velocity of the tile.
     pub motion: Motion,
     /// Orientation relative to the bound one (rad).
     pub orientation: f64,
@@ -61,7 +61,7 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
 }
 
 impl Starts {
-    /// The usual ones for tiles of any size: as far away, in proportion, as the paper's.
+    /// The default starts scaled to tiles of any size.
     pub fn of(pair: &Pair) -> Self {
         let scale = Scale::of([pair.free_distance() / 2.0; 2]);
         let usual = Self::default();

@@ -1,11 +1,11 @@
-//! Gaps of functions and fluxes.
+//! Tests of the gap between the bounds of functions and of fluxes.
 
 use super::*;
 use crate::sample;
 
-/// What a function and a flux are apart by is known cell by cell and, otherwise, in all: of the
-/// mean time by what the flux costs and what the function holds, which is nothing less than 0 and
-/// the same only if the flux's source is where the load is. Here most of it is far from contact.
+/// The difference of a function and a flux is known by cells and, independently, in total: for the
+/// mean time from the flux's cost and the function's integral. It is at least 0, and both values
+/// agree only if the flux's source is where the load is. Here most of the load is far from contact.
 #[test]
 fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
     let problem = sample::one_face();

@@ -1,4 +1,4 @@
-//! The cells of a mesh as conductors of fluxes.
+//! The cells of a mesh as a network of conductors.
 
 use std::sync::PoisonError;
 
@@ -6,23 +6,23 @@ use super::Field;
 use crate::kinetics::mesh::{Network, Nodes, Profile, Resistance, Spread, spreads};
 use crate::parallel;
 
-/// Powers of e by which the density of a flux falls over a cell, at most: over more of them it would
-/// hardly follow.
+/// Largest decrease of the density of a flux over a cell, in powers of e: it would hardly follow a
+/// stronger one.
 const MOST: f64 = 4.0;
 
-/// What is known of fluxes in cells.
+/// Cached costs of fluxes in cells.
 #[derive(Default)]
 pub(super) struct Costs {
-    /// How e^(-U/kT) falls, from each cell.
+    /// The decay of e^(-U/kT) in each cell.
     own: Vec<Option<Spread>>,
-    /// How fluxes were spread last where that was the same for the whole mesh.
+    /// The last distribution of fluxes, if it was the same for the whole mesh.
     profile: Option<Profile>,
-    /// What fluxes cost in each cell (1/rad), spread so.
+    /// The cost of fluxes in each cell (1/rad), for a distribution.
     known: Vec<Option<(Spread, Box<Resistance>)>>,
 }
 
 impl Field<'_> {
-    /// How a function's flux along contact falls off with the distance, on average.
+    /// The average decay of a function's flux along contact with the distance.
     fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
         let (mut sum, mut all) = (0.0, 0.0);
         for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
@@ -40,8 +40,8 @@ impl Field<'_> {
         Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
     }
 
-    /// The cells as conductors between the places that corners belong to, and the rim, for fluxes
-    /// that follow e^(-U/kT) along s.
+    /// The cells as conductors between the places of corners and the rim, for fluxes that follow
+    /// e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
         let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
         costs.own.resize(self.mesh.leaves.len(), None);
@@ -50,7 +50,8 @@ impl Field<'_> {
         for (id, spread) in new.into_iter().zip(found) {
             costs.own[id] = spread;
         }
-        // A function that is 1 at a place's corners is so all over the cells that have no others.
+        // A function that is 1 at a place's corners is 1 throughout the cells that have no other
+        // corners.
         let place = |id: usize| -> Option<usize> {
             let corners = nodes.corners[id].iter();
             let sources = corners.flat_map(|&n| &nodes.sources[n as usize]);
@@ -62,13 +63,13 @@ impl Field<'_> {
         self.spread(&mut costs, &spreads, &place, &|_| false, rim)
     }
 
-    /// Undivided cells with free configurations of which something holds.
+    /// Undivided cells with free configurations that satisfy a condition.
     fn live(&self, holds: impl Fn(usize) -> bool) -> Vec<usize> {
         let cells = self.mesh.live().map(|(id, ..)| id);
         cells.filter(|&id| holds(id)).collect()
     }
 
-    /// The cells as conductors of fluxes that are spread so.
+    /// The cells as conductors of fluxes with a given distribution.
     fn spread(
         &self,
         Costs { known, .. }: &mut Costs,
@@ -90,7 +91,7 @@ impl Field<'_> {
         Network::new(&self.mesh, place, is_left_out, rim, known)
     }
 
-    /// How e^(-U/kT) falls along s in the middles of a cell's sides 2 to 5 and in its own.
+    /// The decay of e^(-U/kT) along s in the middles of a cell's sides 2 to 5 and in its centre.
     fn falls(&self, id: usize) -> Spread {
         let leaf = &self.mesh.leaves[id];
         let chart = &self.mesh.chart;
@@ -109,9 +110,8 @@ impl Field<'_> {
         }
     }
 
-    /// The cells as conductors between places given by the cells that they are made of, through none
-    /// of the cells left out, for fluxes like a function's; with how fluxes are spread, all over the
-    /// mesh in the same way.
+    /// The cells as conductors between places given by their cells, without the omitted cells, for
+    /// fluxes similar to a function's; fluxes have the same distribution over the whole mesh.
     pub fn network_between(
         &self,
         nodes: &Nodes,

@@ -7,35 +7,36 @@ use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 
-/// Halvings of a first cell, at most.
+/// Largest number of bisections of a first cell.
 pub(in crate::kinetics) const DEEPEST: u8 = 12;
 /// Smallest units in a first cell.
 pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 
-/// What rounding may make of a coordinate, as a share of the distance of the centres and of a radian.
+/// Rounding tolerance of coordinates, as a share of the distance of the centres and of a radian.
 const ROUNDING: f64 = 1e-12;
 
-/// How much wider than deep first cells are, in phi and theta, where a mesh begins at contact and ...
+/// Aspect ratio of first cells, in phi and theta, if a mesh begins at contact and ...
 const WIDER: [f64; 2] = [6.0, 3.0];
-/// ... symmetry makes fewer configurations than this one: there they are so many that they take what
-/// is needed near wells. Far from contact functions hardly change but by the distance. Of bounds on
-/// as many cells those of a pair without symmetry are half as far apart by it or less (against 4 and 2
-/// by a quarter on 60,000 corners and by half on 150,000; more cells along s gain nothing);
-/// with sixteen copies one that leaves a slid bond takes half as long again.
+/// ... symmetry identifies fewer configurations than this: otherwise first cells are so numerous
+/// that too few remain for the wells. Far from contact functions depend almost only on the
+/// distance. With equal numbers of cells, this makes the bounds of a pair without symmetry at least
+/// twice as narrow (against ratios of 4 and 2: by a quarter with 60,000 corners and by half with
+/// 150,000; more cells along s gain nothing); with sixteen copies, the exit from a slid bond would
+/// take half as long again.
 const FEW: usize = 4;
 
 /// Places in a mesh: (s, phi, theta) in its smallest units.
 pub(in crate::kinetics) type Place = [i64; 3];
 
 /// The configurations with centres at most `radius` apart, in the coordinates (s, phi, theta) with
-/// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g), of which only one of all that are
-/// equivalent under the symmetries of the pair is kept: phi in one turn of the fixed tile onto
-/// itself and theta in one of the moving tile. Going once round in phi turns theta on by the same
-/// turn. Where the wall g is that of contact all of it is free.
+/// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g), with only one of all configurations
+/// equivalent under the symmetries of the pair: phi within one rotation of the fixed tile onto
+/// itself and theta within one of the moving tile. One period in phi shifts theta by the same
+/// rotation. If the wall g is that of contact, the whole chart is free.
 #[derive(Clone)]
 pub(in crate::kinetics) struct Chart {
-    /// Where phi and theta (rad) begin: so that the bond, which contact holds by edges, lies on
-    /// sides of cells.
+    /// The origin of phi and theta (rad), chosen so that the bond, which is held by edge contact,
+    /// lies on sides of cells.
     origin: [f64; 3],
     /// Where s begins.
     wall: Wall,
@@ -45,15 +46,15 @@ pub(in crate::kinetics) struct Chart {
     pub cells: [i64; 3],
     /// Their size (1, rad, rad).
     step: [f64; 3],
-    /// First cells in theta by which a turn in phi turns theta on.
+    /// Shift of theta, in first cells, per period in phi.
     shift: i64,
-    /// How many configurations the chart shows as one.
+    /// The number of configurations that the chart identifies.
     pub copies: usize,
 }
 
 impl Chart {
-    /// Of the configurations of a problem out to `radius` (m), in first cells of about `size` (m);
-    /// from contact on if it is to be fitted to it and can be.
+    /// The chart of a problem's configurations up to `radius` (m), in first cells of about `size`
+    /// (m); starting at contact if that is requested and possible.
     pub fn new(problem: &Problem, radius: f64, size: f64, fitted: bool) -> Self {
         let of_fixed = |s: &&Symmetry| s.moving == 0.0;
         let of_moving = |s: &&Symmetry| s.fixed == 0.0;
@@ -73,7 +74,7 @@ impl Chart {
             Wall::Contact(_) => ((outside / along_r).round(), [1.0; 2]),
             _ => (whole, [1.0; 2]),
         };
-        // A turn of the fixed tile has to be a whole number of cells in theta.
+        // A rotation of the fixed tile must be a whole number of cells in theta.
         let whole = (fixed / greatest_common_divisor(fixed, moving)) as i64;
         let along_theta = count(periods[1] * problem.space.rho / turning);
         let along_theta = (along_theta + whole - 1) / whole * whole;
@@ -99,7 +100,7 @@ impl Chart {
         self.ray([0.0; 2]).radius(0.0)
     }
 
-    /// Whether all of it is free, for it begins at contact.
+    /// Whether all of it is free because it begins at contact.
     pub fn is_fitted(&self) -> bool {
         !matches!(self.wall, Wall::Circle(_))
     }
@@ -149,7 +150,7 @@ impl Chart {
         place
     }
 
-    /// How far it is once round, in smallest units; along s, to the end.
+    /// The periods, in smallest units; along s, the length.
     pub(super) fn period(&self) -> [f64; 3] {
         self.cells.map(|n| (n * UNITS) as f64)
     }
@@ -159,7 +160,7 @@ impl Chart {
         s == self.cells[0] * UNITS
     }
 
-    /// A whole place, folded; `None` beyond the ends of s, the outer one included where `closed` is
+    /// A whole place, folded; `None` beyond the ends of s, including the outer end if `closed` is
     /// false.
     pub fn fold(&self, place: Place, closed: bool) -> Option<Place> {
         let [s, phi, theta] = place;

@@ -1,14 +1,14 @@
-//! What is integrated over a cell: e^(-U/kT) times products of shape functions' gradients.
+//! Element integrals of a cell: e^(-U/kT) times products of the gradients of shape functions.
 
 use nalgebra::{Matrix3, Vector3};
 
 /// A point of an integral.
 pub(super) struct Point {
-    /// In parts of the cell's size.
+    /// Its position as a share of the cell's size.
     pub part: [f64; 3],
-    /// What gradients by the parts are multiplied with, but for the weight.
+    /// The metric for gradients by these shares, without the weight.
     pub metric: Matrix3<f64>,
-    /// The cell's volume if it were the same everywhere.
+    /// The cell's volume if the volume element were constant.
     pub volume: f64,
     /// Its share of the cell.
     pub share: f64,
@@ -21,26 +21,27 @@ pub(super) struct Point {
 /// The integrals over the free part of a cell, its eight corners numbered as in [`super::Leaf::corner`].
 #[derive(Clone, Debug)]
 pub(in crate::kinetics) struct Element {
-    /// Of w grad(i) . grad(j), the upper triangle row by row (rad), the weight w kept in bounds.
+    /// Integrals of w grad(i) . grad(j), the upper triangle row by row (rad), with the weight w
+    /// limited.
     pub stiffness: [f64; 36],
-    /// Of w, kept in bounds (m^2 rad).
+    /// Integral of the limited w (m^2 rad).
     pub weight: f64,
-    /// How much is free (m^2 rad).
+    /// The free volume (m^2 rad).
     pub free: f64,
-    /// Of w times each shape function (m^2 rad).
+    /// Integrals of w times each shape function (m^2 rad).
     pub load: [f64; 8],
     /// The least and the greatest U met (J).
     pub lowest: f64,
     pub highest: f64,
-    /// The mean of U over what is free (J).
+    /// The mean of U over the free part (J).
     pub mean: f64,
-    /// In the cell's middle the gradients of the parts of its size, as columns: along the ray from
-    /// the centre, across it and by theta.
+    /// The gradients, at the cell's centre, of the positions as shares of its size, as columns:
+    /// along the ray from the centre, across it and by theta.
     pub gradients: Matrix3<f64>,
 }
 
 impl Element {
-    /// Of which nothing has been integrated.
+    /// An element without any integrals yet.
     pub fn new(gradients: Matrix3<f64>) -> Self {
         Self {
             stiffness: [0.0; 36],
@@ -75,7 +76,7 @@ impl Element {
         }
     }
 
-    /// What of the load it holds (m^2 rad).
+    /// Its load (m^2 rad).
     pub fn held(&self) -> f64 {
         self.load.iter().sum()
     }
@@ -86,8 +87,8 @@ impl Element {
         self.stiffness[i * 8 - i * (i + 1) / 2 + j]
     }
 
-    /// How the load is tilted along phi and theta: as 1 + tilt (2 u - 1) at the part u of the size,
-    /// the mean of u as it is; no more than falls to 0.
+    /// The tilts of the load along phi and theta: a density 1 + tilt (2 u - 1) at the share u of
+    /// the size that gives the right mean of u, limited so that it is not negative.
     pub fn tilts(&self) -> [f64; 2] {
         let all = self.held();
         [1, 2].map(|axis| {

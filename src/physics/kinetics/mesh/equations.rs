@@ -1,40 +1,41 @@
-//! Sparse symmetric equations, and their solution by conjugate gradients.
+//! Sparse symmetric linear equations, solved by conjugate gradients.
 
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
 use crate::interruption;
 
-/// Solved when the preconditioned residual has shrunk to this share.
+/// Relative size of the preconditioned residual at which a system counts as solved.
 const SHRUNK: f64 = 1e-9;
 /// Steps of conjugate gradients at most.
 const MOST_STEPS: usize = 20_000;
 
-/// Calls with every entry (row, column, value) of a matrix; entries at one place add up.
+/// Calls a function with every entry (row, column, value) of a matrix; entries at one position are
+/// summed.
 pub(super) type Entries<'a> = dyn Fn(&mut dyn FnMut(usize, usize, f64)) + 'a;
 
-/// A positive matrix in which some values are given and the others are to be found, its rows and
-/// columns scaled so that the diagonal is 1.
+/// Equations with a positive definite matrix in which some values are given and the others unknown;
+/// rows and columns are scaled so that the diagonal is 1.
 pub(super) struct Equations {
-    /// The number of each value among the unknowns.
+    /// The index of each value among the unknowns.
     unknown: Vec<Option<u32>>,
     /// One over the root of each unknown's diagonal.
     scale: Vec<f64>,
-    /// The scaled matrix before its diagonal, row by row: where rows start, ...
+    /// The lower triangle of the scaled matrix, row by row: starts of rows, ...
     starts: Vec<u32>,
-    /// ... in which columns, ...
+    /// ... columns, ...
     columns: Vec<u32>,
-    /// ... and what stands there.
+    /// ... and values.
     entries_before: Vec<f64>,
 }
 
-/// The solution was not found.
+/// The solver did not converge.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("conjugate gradients did not converge")]
 pub struct Unsolved;
 
 impl Equations {
-    /// For so many values, of which some are to be found, with the matrix that is asked for its entries
-    /// again later.
+    /// Equations for a number of values, some of them unknown, with a matrix whose entries are
+    /// requested again later.
     pub fn new(count: usize, is_asked: &dyn Fn(usize) -> bool, entries: &Entries) -> Self {
         let mut diagonal = vec![0.0; count];
         entries(&mut |i, j, entry| {
@@ -71,16 +72,16 @@ impl Equations {
         }
     }
 
-    /// How many values are to be found.
+    /// The number of unknowns.
     pub fn len(&self) -> usize {
         self.scale.len()
     }
 
-    /// The given values with those that make the matrix times all of them equal `right` where
-    /// values are to be found, from a guess.
+    /// All values, with unknowns such that the matrix times the values equals `right` in the rows
+    /// of unknowns; starts from a guess.
     ///
     /// # Errors
-    /// Where they are not found.
+    /// If the solver does not converge.
     pub fn solve(
         &self,
         entries: &Entries,
@@ -114,10 +115,10 @@ impl Equations {
         Ok(values)
     }
 
-    /// Hestenes and Stiefel's method (1952), preconditioned by a symmetric sweep of Gauss and
-    /// Seidel's, (1 + L)(1 + L^T) for the matrix 1 + L + L^T. As Eisenstat (1981,
-    /// doi:10.1137/0902001) saw, the two halves of a sweep do the work of the product as well: with
-    /// `y = (1 + L^T)^-1 p` the preconditioned matrix times p is `y + (1 + L)^-1 (p - y)`.
+    /// Hestenes and Stiefel's method (1952), preconditioned by a symmetric Gauss-Seidel sweep, (1 +
+    /// L)(1 + L^T) for the matrix 1 + L + L^T. As Eisenstat (1981, doi:10.1137/0902001) showed, the
+    /// two halves of a sweep also give the matrix product: with `y = (1 + L^T)^-1 p` the
+    /// preconditioned matrix times p is `y + (1 + L)^-1 (p - y)`.
     fn conjugate_gradients(&self, right: &[f64], x: &mut [f64]) -> Result<(), Unsolved> {
         let mut swept = right.to_vec();
         self.forwards(&mut swept);
@@ -158,7 +159,7 @@ impl Equations {
         Err(Unsolved)
     }
 
-    /// What is left of the right side.
+    /// The residual.
     fn left(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
         let mut left: Vec<f64> = right.iter().zip(x).map(|(b, x)| b - x).collect();
         for i in 0..x.len() {

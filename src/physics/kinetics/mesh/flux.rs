@@ -1,5 +1,4 @@
-//! Fluxes through the sides of cells, and the least that they cost: what Thomson's principle asks
-//! for.
+//! Fluxes through the sides of cells, and the flux of least cost that Thomson's principle needs.
 //!
 //! In each cell the flux is linear between opposite sides (Raviart and Thomas 1977,
 //! doi:10.1007/BFb0064470, of the lowest order), through no side that contact closes. The flux of
@@ -7,8 +6,9 @@
 //! system (Arnold and Brezzi 1985, doi:10.1051/m2an/1985190100071).
 //!
 //! A flux J that leaves the place where h = 1 with the current I, and of which the amount d is lost
-//! or added on the way, gives `I - d <= -int J . grad h <= sqrt(C int J . M J / w)` for every
-//! committor 0 <= h <= 1 with the capacity C: a lower bound of C whatever is left to rounding.
+//! or added on the way, satisfies `I - d <= -int J . grad h <= sqrt(C int J . M J / w)` for every
+//! committor 0 <= h <= 1 with the capacity C: a lower bound of C that is valid despite rounding
+//! errors.
 
 use crate::parallel;
 use nalgebra::{Matrix6, Vector6};
@@ -20,35 +20,36 @@ use super::octree::Octree;
 use super::profile::{Resistance, Spread};
 use super::sides::{Side, sides};
 
-/// A cell with what flows out of it: `out = share * source - matrix * potentials` by sides.
+/// A cell as a conductor, with the outflow `out = share * source - matrix * potentials` by sides.
 struct Conductor {
     cell: usize,
     sides: [Side; 6],
     matrix: Matrix6<f64>,
     share: Vector6<f64>,
-    /// What it costs to let so much out (1/rad).
+    /// The cost of outflows (1/rad).
     cost: Matrix6<f64>,
-    /// What it costs besides to have a source of 1 where it is, together with what goes out through
-    /// each side and by itself (1/rad).
+    /// The additional cost of a unit source in the cell, combined with the flow through each side
+    /// and by itself (1/rad).
     placing: (Vector6<f64>, f64),
-    /// Where fluxes cross the sides on average, and where the source is, in parts of its size.
+    /// The mean positions at which fluxes cross the sides, and of the source, as shares of its
+    /// size.
     means: [[f64; 3]; 7],
 }
 
-/// The cells of a mesh whose chart begins at contact as conductors, between places whose potential is
-/// given.
+/// The cells of a mesh whose chart begins at contact as conductors between places with given
+/// potential.
 pub(in crate::kinetics) struct Network {
     conductors: Vec<Conductor>,
-    /// For each face the place that it is the end of.
+    /// For each face the place that it belongs to.
     ends: Vec<Option<usize>>,
     equations: Equations,
 }
 
 impl Network {
-    /// Between places given by the cells that they are made of, and the rim, which is the place `rim`,
-    /// through none of the cells that are left out; `None` where the chart holds what is blocked.
+    /// A network between places given by their cells, and the rim, which is the place `rim`,
+    /// without the omitted cells; `None` if the chart contains blocked configurations.
     ///
-    /// `costs` has how fluxes are spread in a cell, and what they cost so.
+    /// `costs` gives the distribution of fluxes in a cell, and their cost.
     pub fn new(
         mesh: &Octree,
         place: &dyn Fn(usize) -> Option<usize>,
@@ -91,17 +92,17 @@ impl Network {
         self.equations.solve(&entries, given, right, like)
     }
 
-    /// For each face 1 if it is the end of a place, and 0 otherwise.
+    /// For each face 1 if it belongs to a place, and 0 otherwise.
     pub fn given(&self, place: usize) -> Vec<f64> {
         let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
         self.ends.iter().map(one).collect()
     }
 
-    /// From a place to all others, found from a guess of the potentials. Its capacity (rad) is no
-    /// greater than theirs, but for the quadrature.
+    /// The flux from a place to all others, starting from a guess of the potentials. Its capacity
+    /// (rad) is a lower bound, up to the quadrature.
     ///
     /// # Errors
-    /// Where the linear system is not solved.
+    /// If the linear system cannot be solved.
     pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
         let given = self.given(place);
         let none = vec![0.0; given.len()];
@@ -109,12 +110,12 @@ impl Network {
         Ok(self.flux(&potentials, &|_| 0.0, &given))
     }
 
-    /// From a source in each cell to the places. Its cost is no less than the integral of the source
-    /// times the function that it belongs to, but for the quadrature and for how the source changes
-    /// within cells otherwise than its spread has it. Found from a guess of the potentials.
+    /// The flux from a source in each cell to the places, starting from a guess of the potentials.
+    /// Its cost is an upper bound of the integral of the source times its function, up to the
+    /// quadrature and the approximation of the source within cells.
     ///
     /// # Errors
-    /// Where the linear system is not solved.
+    /// If the linear system cannot be solved.
     pub fn of(
         &self,
         source: &(dyn Fn(usize) -> f64 + Sync),
@@ -142,7 +143,7 @@ impl Network {
         self.weighed(all.collect(), source, given)
     }
 
-    /// What flows out of the conductors' sides as a flux.
+    /// The flux given by the outflows of the conductors.
     pub fn weighed(
         &self,
         all: Vec<Vector6<f64>>,
@@ -181,7 +182,7 @@ impl Network {
         }
     }
 
-    /// What flows upwards through the six sides of each cell.
+    /// The upward flows through the six sides of each cell.
     pub fn upwards<'a>(&'a self, flux: &'a Flux) -> impl Iterator<Item = (usize, [f64; 6])> + 'a {
         let conductors = self.conductors.iter().zip(&flux.out);
         conductors.map(|(conductor, out)| {
@@ -292,7 +293,7 @@ impl Conductor {
         })
     }
 
-    /// What two fluxes out through the sides cost together, each with its source in the cell.
+    /// The mutual cost of two fluxes through the sides, each with its source in the cell.
     fn together(&self, (out, source): (&Vector6<f64>, f64), other: (&Vector6<f64>, f64)) -> f64 {
         let (beside, own) = &self.placing;
         out.dot(&(self.cost * other.0))
@@ -301,7 +302,7 @@ impl Conductor {
             + source * other.1 * own
     }
 
-    /// What flows out through the sides, with potentials on the faces and a source in the cell.
+    /// The flow out through the sides, with potentials on the faces and a source in the cell.
     fn out(&self, potentials: &[f64], source: f64) -> Vector6<f64> {
         let mean = Vector6::from_fn(|a, _| {
             let faces = self.sides[a].faces();
@@ -311,31 +312,32 @@ impl Conductor {
     }
 }
 
-/// Rounding of sums of fluxes, as a share of all that flows.
+/// Rounding error of sums of fluxes, as a share of the total flow.
 const ROUNDING: f64 = 1e-12;
 
 /// A flux of least cost.
 pub(in crate::kinetics) struct Flux {
     /// Out of each conductor's sides.
     pub out: Vec<Vector6<f64>>,
-    /// What is carried from the place where it begins, less all that is lost or added on the way.
+    /// The current from its place, less everything lost or added on the way.
     pub carried: f64,
-    /// What it costs.
+    /// Its cost.
     pub cost: f64,
-    /// What it says of the capacity from below; of fluxes from a place.
+    /// Its lower bound of the capacity; for fluxes from a place.
     pub capacity: f64,
 }
 
-/// A flux and a function that would be one if both were exact.
+/// A flux and a function that would correspond if both were exact.
 pub(in crate::kinetics) struct Gap<'a> {
     pub flux: &'a Flux,
     pub values: &'a [f64],
-    /// What flows out of each cell.
+    /// The source of each cell.
     pub source: &'a dyn Fn(usize) -> f64,
 }
 
-/// The integral of J . grad f over a cell: what f has at the sides, less what it has at the source.
-/// Where J crosses the sides on average and where the source is, is given in parts of the cell's size.
+/// The integral of J . grad f over a cell: the flow times f at the sides, less the source times f
+/// at the source. The mean positions of J on the sides and of the source are given as shares of the
+/// cell's size.
 fn carried(out: &Vector6<f64>, source: f64, values: &[f64; 8], means: &[[f64; 3]; 7]) -> f64 {
     let across = (0..6).map(|side| out[side] * value(means[side], values));
     across.sum::<f64>() - source * value(means[6], values)

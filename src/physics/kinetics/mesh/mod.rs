@@ -1,6 +1,6 @@
-//! Functions on a mesh of the folded configurations: an octree over (s, phi, theta), functions that
-//! are linear in each coordinate in each cell and continuous, integrals of e^(-U/kT) over what is
-//! free of each cell, and the linear systems that come of them.
+//! Finite elements on the configurations folded by symmetry: an octree over (s, phi, theta),
+//! continuous functions that are linear in each coordinate within each cell, integrals of e^(-U/kT)
+//! over the free part of each cell, and the resulting linear systems.
 
 mod chart;
 mod element;

@@ -1,4 +1,4 @@
-//! The corners of cells, and the values there of continuous functions.
+//! The corners of cells, and the values of continuous functions at them.
 
 use std::collections::HashMap;
 
@@ -7,13 +7,13 @@ use super::element::{shapes, value};
 use super::octree::Octree;
 use crate::configuration::Configuration;
 
-/// The corners of a mesh's cells. A corner that lies on the side of a larger cell *hangs*: its value
-/// follows from those of that cell's corners, which is what makes functions continuous.
+/// The corners of a mesh's cells. A corner on the side of a larger cell *hangs*: its value follows
+/// from those of that cell's corners, which makes functions continuous.
 pub(in crate::kinetics) struct Nodes {
     /// For each cell the numbers of its corners.
     pub corners: Vec<[u32; 8]>,
-    /// For each corner those that its value follows from, with their shares: itself alone where it
-    /// does not hang.
+    /// For each corner those that determine its value, with their weights: only itself if it does
+    /// not hang.
     pub sources: Vec<Vec<(u32, f64)>>,
 }
 
@@ -48,15 +48,15 @@ impl Nodes {
         self.sources[node][0].0 as usize != node
     }
 
-    /// Whether a cell had corners.
+    /// Whether a cell has corners.
     pub fn know(&self, cell: usize) -> bool {
         self.corners
             .get(cell)
             .is_some_and(|corners| *corners != [0; 8])
     }
 
-    /// For each corner the place in which its value is given: `rim` at the outer end, otherwise that
-    /// of the first cell about it that belongs to one.
+    /// For each corner the place where its value is given: `rim` at the outer end, otherwise the
+    /// place of the first adjacent cell that belongs to one.
     pub fn pins(
         &self,
         mesh: &Octree,
@@ -89,7 +89,7 @@ impl Nodes {
         0.25 * of_side.map(|corner| own[corner]).sum::<f64>()
     }
 
-    /// The value at a configuration; `None` where no cell with free configurations holds it.
+    /// The value at a configuration; `None` if no cell with free configurations contains it.
     pub fn at(&self, mesh: &Octree, values: &[f64], q: &Configuration) -> Option<f64> {
         let held = mesh.holding(q);
         let &cell = held.iter().find(|&&id| mesh.leaves[id].element.is_some())?;
@@ -124,7 +124,7 @@ impl Nodes {
 /// Shares of a cell's corners in a corner that hangs on it.
 type Hanging = (usize, [f64; 8]);
 
-/// The largest cell that a place lies on the side of without being its corner.
+/// The largest cell with the place on its side but not at a corner.
 fn hangs(mesh: &Octree, place: Place) -> Option<Hanging> {
     let mut largest: Option<(u8, Hanging)> = None;
     for octant in 0..8 {

@@ -9,20 +9,20 @@ use crate::configuration::Configuration;
 pub(in crate::kinetics) struct Leaf {
     /// Its lower corner.
     pub low: Place,
-    /// How often it was halved.
+    /// Its level of subdivision.
     pub level: u8,
-    /// The first of the eight cells, in the order of their corners, into which it is divided.
+    /// The first of its eight parts, in the order of corners.
     parts: Option<u32>,
-    /// What is integrated over it; `None` where no configuration is free.
+    /// The integrals over it; `None` if no configuration is free.
     pub element: Option<Box<Element>>,
-    /// Whether contact proves that none is.
+    /// Whether contact proves that none is free.
     pub blocked: bool,
     /// The cell it is a part of.
     pub parent: Option<u32>,
-    /// Whether it has been looked at.
+    /// Whether it has been evaluated.
     pub seen: bool,
-    /// By how much what is free of the cell that it is a part of may be wrong by now: the share by
-    /// which its integral changed as it was divided.
+    /// Estimated relative error of the integral over its parent: its relative change at the last
+    /// division.
     pub doubt: f64,
 }
 
@@ -98,7 +98,7 @@ impl Octree {
         }
     }
 
-    /// The undivided cell that holds the unit cell with this lower corner.
+    /// The undivided cell that contains the unit cell with this lower corner.
     pub fn find(&self, place: Place) -> Option<usize> {
         let place = self.chart.fold(place, false)?;
         let [_, across, turning] = self.chart.cells;
@@ -113,10 +113,10 @@ impl Octree {
         Some(id)
     }
 
-    /// The undivided cells that a configuration lies in or on the side of.
+    /// The undivided cells that contain a configuration, or have it on a side.
     pub fn holding(&self, q: &Configuration) -> Vec<usize> {
         let place = self.chart.place(q);
-        // A hair's breadth, in smallest units.
+        // A small tolerance, in smallest units.
         const HAIR: f64 = 1e-3;
         let mut found: Vec<usize> = (0..8)
             .filter_map(|corner| {
@@ -129,8 +129,7 @@ impl Octree {
         found
     }
 
-    /// Divides a cell, and first those beside it that would be more than twice as large as its
-    /// parts.
+    /// Divides a cell, after adjacent cells that would be more than twice as large as its parts.
     pub fn divide(&mut self, id: usize) {
         let (low, level) = (self.leaves[id].low, self.leaves[id].level);
         if !self.leaves[id].is_live() || level >= DEEPEST {
@@ -158,20 +157,20 @@ impl Octree {
         }
     }
 
-    /// The undivided cells that hold free configurations, with their numbers.
+    /// The undivided cells with free configurations, with their indices.
     pub fn live(&self) -> impl Iterator<Item = (usize, &Leaf, &Element)> {
         let live = self.leaves.iter().enumerate();
         let live = live.filter(|(_, leaf)| leaf.is_live());
         live.filter_map(|(id, leaf)| Some((id, leaf, leaf.element.as_deref()?)))
     }
 
-    /// The lowest energy (J) met in a cell; infinite where nothing is free.
+    /// The lowest energy (J) found in a cell; infinite if nothing is free.
     pub fn lowest(&self, id: usize) -> f64 {
         let element = self.leaves[id].element.as_ref();
         element.map_or(f64::INFINITY, |element| element.lowest)
     }
 
-    /// What a cell holds of the load (m^2 rad).
+    /// The load of a cell (m^2 rad).
     pub fn held(&self, id: usize) -> f64 {
         let element = self.leaves[id].element.as_ref();
         element.map_or(0.0, |element| element.held())

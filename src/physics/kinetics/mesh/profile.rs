@@ -1,28 +1,28 @@
-//! How fluxes are spread over the sides of cells.
+//! The distribution of a flux over the sides of cells.
 
 use nalgebra::SMatrix;
 
-/// Rates that differ by this share are much the same.
+/// Relative difference of rates that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// What flows along contact does so within the layer that e^(-U/kT) leaves: as `e^(-rate (s - start))`
-/// and, besides, evenly.
+/// A flux along contact is confined to the layer given by e^(-U/kT): its density is `e^(-rate (s -
+/// start))` plus a constant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinetics) struct Profile {
-    /// One over the decay length in s; below 0 where the density grows.
+    /// Inverse decay length in s; negative if the density grows.
     pub rate: f64,
-    /// Where the density is 1 and what is even.
+    /// The s at which the density is 1 plus the constant.
     start: f64,
-    /// What is even.
+    /// The constant part.
     even: f64,
 }
 
 impl Profile {
-    /// The density that is left far from contact where one profile serves for a whole mesh: beyond
-    /// four times the decay length, of which this is the part e^-4, fluxes are spread evenly.
+    /// The constant part if one profile is used for a whole mesh: beyond four decay lengths (this
+    /// is e^-4) fluxes are distributed evenly.
     pub(in crate::kinetics) const EVENLY: f64 = 0.018_315_638_888_734_18;
 
-    /// Of a layer about contact, for a whole mesh.
+    /// The profile of a layer at contact, for a whole mesh.
     pub fn layer(rate: f64) -> Self {
         Self {
             rate,
@@ -31,7 +31,7 @@ impl Profile {
         }
     }
 
-    /// From one s to another, between which the density falls by this power of e.
+    /// The profile between two s over which the density decreases by this power of e.
     pub fn falling(fall: f64, [from, to]: [f64; 2]) -> Self {
         Self {
             rate: fall / (to - from),
@@ -40,7 +40,7 @@ impl Profile {
         }
     }
 
-    /// Whether it is much the same as another: any profile gives bounds.
+    /// Whether it is nearly equal to another: any profile gives valid bounds.
     pub(in crate::kinetics) fn is_like(&self, other: &Self) -> bool {
         (self.rate - other.rate).abs() <= ALIKE * other.rate
     }
@@ -65,13 +65,14 @@ impl Profile {
         self.below(to) - self.below(from)
     }
 
-    /// The share of what flows between two s that does so below a third.
+    /// The share of the flow between two s that is below a third.
     pub fn share(&self, s: f64, [from, to]: [f64; 2]) -> f64 {
         let below = self.below(from);
         (self.below(s) - below) / (self.below(to) - below)
     }
 
-    /// The mean of where fluxes cross the sides of a cell between two s, as a part of its size.
+    /// The mean position at which fluxes cross the sides of a cell between two s, as a share of its
+    /// size.
     fn mean(&self, [from, to]: [f64; 2]) -> f64 {
         let size = to - from;
         let points = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -80,17 +81,18 @@ impl Profile {
     }
 }
 
-/// How fluxes are spread over the sides of one cell, and a source in it over the cell. Sides 2 i and
-/// 2 i + 1 are the lower and upper ones along coordinate i; through those along s fluxes are even.
+/// The distribution of fluxes over the sides of one cell, and of a source within it. Sides 2 i and
+/// 2 i + 1 are the lower and upper ones along coordinate i; fluxes through those along s are
+/// uniform.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinetics) struct Spread {
-    /// Through sides 2 to 5, and, last, along s of the source.
+    /// The profiles of sides 2 to 5, and last that of the source along s.
     pub profiles: [Profile; 5],
     /// Along phi and theta the source has the density 1 + tilt (2 u - 1) at the part u of the size.
     pub tilts: [f64; 2],
 }
 
-/// What is integrated over a cell for products of fluxes: six sides, and the source.
+/// The integrals over a cell of products of fluxes: six sides and the source.
 pub(in crate::kinetics) type Resistance = SMatrix<f64, 7, 7>;
 
 impl Spread {
@@ -107,11 +109,12 @@ impl Spread {
         &self.profiles[side - 2]
     }
 
-    /// At a point of a cell between two s, given in parts of the cell's size, the fluxes along s, phi
-    /// and theta that are 1 through one of the six sides and 0 through the others, all counted
-    /// upwards. What a side's profile has otherwise than the source's flows along s within the cell,
-    /// so that all that is lost or added is so as the source's profile has it. Last what carries a
-    /// source of 1 from evenly over phi and theta to where its tilts have it, through no side.
+    /// The fluxes along s, phi and theta, at a point of a cell between two s (given as shares of
+    /// the cell's size), that are 1 through one of the six sides and 0 through the others, all
+    /// counted upwards. The difference between a side's profile and the source's flows along s
+    /// within the cell, so that losses and gains follow the source's profile. The last flux carries
+    /// a unit source from a uniform distribution over phi and theta to one with its tilts, through
+    /// no side.
     pub fn fluxes(&self, part: [f64; 3], ends: [f64; 2]) -> SMatrix<f64, 3, 7> {
         let [from, to] = ends;
         let s = from + part[0] * (to - from);
@@ -133,8 +136,8 @@ impl Spread {
         fluxes
     }
 
-    /// The means of where fluxes cross the sides of a cell between two s, and, last, of where its
-    /// source is, as parts of its size.
+    /// The mean positions at which fluxes cross the sides of a cell between two s, and last that of
+    /// its source, as shares of its size.
     pub fn means(&self, ends: [f64; 2]) -> [[f64; 3]; 7] {
         let depth = self.profiles.map(|profile| profile.mean(ends));
         std::array::from_fn(|side| {
@@ -162,7 +165,7 @@ impl Spread {
 mod tests {
     use super::*;
 
-    /// What goes through the sides comes from the source, where that is: by differences.
+    /// The flow through the sides comes from the source, at its position: tested by differences.
     #[test]
     fn fluxes_have_no_sources_but_the_one_that_they_are_told() {
         let ends = [0.2, 0.3];
@@ -199,7 +202,8 @@ mod tests {
             let found: f64 = (0..3).map(slope).sum();
             assert!((found - source(part, of_sides)).abs() < 1e-6, "{found}");
         }
-        // Through a side goes what is told, spread as its profile has it, whatever else flows.
+        // The flow through a side is the given one, with its profile, independent of the other
+        // flows.
         for side in 2..6 {
             let mut part = [0.37; 3];
             part[side / 2] = (side % 2) as f64;

@@ -1,5 +1,6 @@
-//! Integrals over what is free of a cell: line by line along s, where contact is found to a hair and
-//! the steps follow the energy, and between the lines as finely as they differ.
+//! Integrals over the free part of a cell. Lines along s are integrated one by one: contact is
+//! located very precisely and the steps adapt to the energy. The lines are as dense as their
+//! differences require.
 
 use nalgebra::Matrix3;
 
@@ -13,29 +14,29 @@ use crate::contact::cells::ContactCells;
 use crate::interruption;
 use crate::problem::Problem;
 
-/// Weights are kept between these powers of e about the level of the barriers: below them no flux
-/// goes, and above them all is in equilibrium anyway.
+/// Weights are limited to this power of e around the level of the barriers: smaller weights carry
+/// no flux, and regions with larger ones are in equilibrium anyway.
 const GREATEST: f64 = 16.0;
 const LEAST: f64 = -32.0;
-/// Powers of e beyond which loads, which nothing holds in bounds, are no numbers any more.
+/// Powers of e beyond which loads, which are not limited, would overflow.
 const FARTHEST: f64 = 700.0;
 
 /// The two points of Gauss on [0, 1].
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-/// Change of U/kT across a panel of a line, at most ...
+/// Largest change of U/kT across a panel of a line ...
 const PANEL: f64 = 1.2;
-/// ... unless there would be more panels.
+/// ... unless this would need more panels than this.
 const PANELS: f64 = 24.0;
-/// Part of a cell's face is halved where the integrals along its lines differ by more than this
+/// Part of a cell's face is bisected if the integrals along its lines differ by more than this
 /// power of e ...
 const UNEVEN: f64 = 1.0;
-/// ... so often at most in cells of the smallest sizes and less often in larger ones, which will be
-/// divided where it matters, or so often where some of the lines are blocked, ...
+/// ... at most this often in the smallest cells and less often in larger ones, which will be
+/// divided where it matters, or this often if some of the lines are blocked, ...
 const MOST_HALVED: usize = 6;
 const MOST_CUT: usize = 3;
-/// Halvings before lines that are all blocked are believed.
+/// Number of bisections before a face with only blocked lines is accepted as blocked.
 const LEAST_CUT: usize = 2;
-/// ... and where the mean weight or load along one of them is above this.
+/// ... and if the mean weight or load along one of them is above this.
 const MATTERS: f64 = 1e-3;
 
 /// Integrates over cells at one temperature.
@@ -72,7 +73,7 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// The integrals over a cell, and whether it is proved blocked.
+    /// Computes the integrals over a cell, and whether it is proved blocked.
     pub fn integrate(&self, chart: &Chart, leaf: &Leaf) -> (Option<Box<Element>>, bool) {
         interruption::check();
         let contact = self.contact.as_ref().filter(|_| !chart.is_fitted());
@@ -97,12 +98,12 @@ impl<'a> Integrator<'a> {
         ((element.weight > 0.0).then(|| Box::new(element)), false)
     }
 
-    /// The power of e that the weight at an energy (J) is, kept in bounds.
+    /// The limited weight at an energy (J), as a power of e.
     pub fn power(&self, energy: f64) -> f64 {
         ((self.level - energy) / self.kt).clamp(LEAST, GREATEST)
     }
 
-    /// The integral of the load (m^2 rad) over where U in a cell is below a limit (J).
+    /// The integral of the load (m^2 rad) over the part of a cell where U is below a limit (J).
     pub fn held_below(&self, chart: &Chart, leaf: &Leaf, limit: f64) -> f64 {
         let mut held = 0.0;
         let mut lines = Lines::new(self, chart, leaf, !chart.is_fitted());
@@ -114,8 +115,8 @@ impl<'a> Integrator<'a> {
         held
     }
 
-    /// What it costs (1/rad) to let fluxes through the six sides of a cell of a fitted chart, where
-    /// they are spread so.
+    /// The cost (1/rad) of fluxes through the six sides of a cell of a fitted chart, for a given
+    /// distribution.
     pub fn resistance(&self, chart: &Chart, leaf: &Leaf, spread: &Spread) -> Resistance {
         let mut lines = Lines::new(self, chart, leaf, false);
         let ends = leaf.along(chart);
@@ -131,12 +132,12 @@ impl<'a> Integrator<'a> {
     }
 }
 
-/// The lines through a cell over which integrals are taken.
+/// The lines through a cell along which integrals are computed.
 struct Lines<'a> {
     of: &'a Integrator<'a>,
     chart: &'a Chart,
     leaf: &'a Leaf,
-    /// Whether contact may block some of it.
+    /// Whether contact may block part of the cell.
     cut: bool,
     /// The least and the greatest U met (J).
     range: [f64; 2],
@@ -281,8 +282,8 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// The coordinate, phi or theta, along which four lines differ too much to stand for all between
-/// them.
+/// The coordinate, phi or theta, along which four lines differ too much to represent all lines
+/// between them.
 fn uneven(lines: &[Line; 4], cut: bool, level: u8, halved: usize) -> Option<usize> {
     if cut && halved < LEAST_CUT && lines.iter().all(|line| line.points.is_empty()) {
         return Some(halved % 2);

@@ -1,9 +1,9 @@
-//! The sides of cells, and the faces that they are made of.
+//! The sides of cells, and the faces they consist of.
 
 use super::octree::Octree;
 use super::profile::{Resistance, Spread};
 
-/// What lies beyond a cell's side.
+/// The neighbourhood of a cell's side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Side {
     /// Nothing.
@@ -26,7 +26,7 @@ impl Side {
     }
 }
 
-/// For each cell its sides, and for each face whether it is an end: those at the rim are.
+/// For each cell its sides, and for each face whether it is an end, as those at the rim are.
 pub(super) fn sides(
     mesh: &Octree,
     rim: usize,
@@ -83,9 +83,9 @@ pub(super) fn sides(
     (sides, ends)
 }
 
-/// How fluxes are spread over the sides of each cell: over one that two cells share as the larger of
-/// them has it, or the lower. `own` says how that is from a cell itself, by its sides 2 to 5 and its
-/// middle.
+/// The distribution of fluxes over the sides of each cell; for a shared side that of the larger
+/// cell, or else the lower one. `own` gives the distribution of a cell itself, for its sides 2 to 5
+/// and its centre.
 pub(in crate::kinetics) fn spreads(mesh: &Octree, own: &[Option<Spread>]) -> Vec<Spread> {
     let mut spreads = vec![Spread::default(); mesh.leaves.len()];
     for (id, leaf, _) in mesh.live() {

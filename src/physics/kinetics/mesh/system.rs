@@ -1,10 +1,10 @@
-//! The linear system of a mesh's corners.
+//! The linear system for the values at the corners of a mesh.
 
 use super::equations::{Equations, Unsolved};
 use super::nodes::Nodes;
 use super::octree::Octree;
 
-/// The stiffness of the corners whose values are to be found.
+/// The stiffness matrix of the corners with unknown values.
 pub(in crate::kinetics) struct System<'a> {
     mesh: &'a Octree,
     nodes: &'a Nodes,
@@ -13,7 +13,7 @@ pub(in crate::kinetics) struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// With the values given at corners that belong to a place.
+    /// The system with given values at corners that belong to a place.
     pub fn new(mesh: &'a Octree, nodes: &'a Nodes, pins: &'a [Option<usize>]) -> Self {
         let is_asked = |node: usize| !nodes.is_hanging(node) && pins[node].is_none();
         let equations = Equations::new(nodes.len(), &is_asked, &entries(mesh, nodes));
@@ -25,15 +25,16 @@ impl<'a> System<'a> {
         }
     }
 
-    /// How many values are to be found.
+    /// The number of unknowns.
     pub fn len(&self) -> usize {
         self.equations.len()
     }
 
-    /// The function that is 1 in a place and 0 in the others, found from a guess, if there is one.
+    /// The function that is 1 in a place and 0 in the others, starting from a guess if there is
+    /// one.
     ///
     /// # Errors
-    /// Where it is not found.
+    /// If the solver does not converge.
     pub fn committor(&self, place: usize, guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
         let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
         let given: Vec<f64> = self.pins.iter().map(one).collect();
@@ -43,7 +44,7 @@ impl<'a> System<'a> {
     /// The function that is 0 in all places, with this load at each corner.
     ///
     /// # Errors
-    /// Where it is not found.
+    /// If the solver does not converge.
     pub fn loaded(&self, load: &[f64], guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
         self.solve(&vec![0.0; self.pins.len()], load, guess)
     }
@@ -62,7 +63,7 @@ impl<'a> System<'a> {
         Ok(values)
     }
 
-    /// What flows into each of so many places (rad).
+    /// The flow into each place (rad).
     pub fn flows(&self, values: &[f64], places: usize) -> Vec<f64> {
         // Out of each corner that does not hang: the stiffness times the values.
         let mut out = vec![0.0; values.len()];
@@ -77,7 +78,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// Calls with every entry that a cell adds to the stiffness of corners that do not hang.
+/// Calls a function with every entry that a cell adds to the stiffness of corners that do not hang.
 fn entries(mesh: &Octree, nodes: &Nodes) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) {
     move |call| {
         for (id, _, element) in mesh.live() {
@@ -96,7 +97,7 @@ fn entries(mesh: &Octree, nodes: &Nodes) -> impl Fn(&mut dyn FnMut(usize, usize,
     }
 }
 
-/// What the loads of cells that are not `left_out` add up to at each corner that does not hang.
+/// The sum of the loads of cells that are not `left_out` at each corner that does not hang.
 pub(in crate::kinetics) fn loads(mesh: &Octree, nodes: &Nodes, left_out: &[bool]) -> Vec<f64> {
     let mut sums = vec![0.0; nodes.len()];
     for (id, _, element) in mesh.live().filter(|(id, ..)| !left_out[*id]) {

@@ -1,4 +1,4 @@
-//! Where the configurations of a chart begin.
+//! The inner boundary of a chart: the distance at which contact ends in each direction.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -6,20 +6,19 @@ use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::problem::Problem;
 
-/// Step (rad) over which the wall's slopes are taken.
+/// Step (rad) for the differences that give the wall's slopes.
 const STEP: f64 = 1e-6;
-/// Contact is nowhere steeper along phi than by this lever (m): beyond it walls run along rays to
-/// rounding.
+/// Smallest lever (m) of contact along phi: below it walls are parallel to rays within rounding.
 const LEAST_LEVER: f64 = 1e-3;
 
 /// The least distance of the centres, over (phi, theta).
 #[derive(Clone)]
 pub(in crate::kinetics) enum Wall {
-    /// The same everywhere (m); some of what lies outside may be blocked.
+    /// A constant (m); configurations outside may be blocked.
     Circle(f64),
-    /// The same everywhere (m), and nothing is blocked.
+    /// A constant (m), with nothing blocked outside.
     Open(f64),
-    /// That of tiles in contact, outside which nothing is blocked.
+    /// The distance of tiles in contact, outside which nothing is blocked.
     Contact(Box<Contact>),
 }
 
@@ -37,7 +36,7 @@ pub(in crate::kinetics) struct Ray {
 }
 
 impl Wall {
-    /// Contact, if it is asked for and every ray leaves it for good; the circle (m) otherwise.
+    /// Contact, if requested and if every ray leaves it once and for all; the circle (m) otherwise.
     pub fn new(problem: &Problem, circle: f64, fitted: bool) -> Self {
         let Some(contact) = &problem.contact else {
             return Self::Open(circle);

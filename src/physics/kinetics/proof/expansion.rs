@@ -6,7 +6,7 @@ use std::ops::{Add, Mul, Sub};
 /// cosines and exponentials that are right to 8 units in the last place.
 const ROUNDING: f64 = 4e-15;
 
-/// A function of d in [-1, 1]^3 that lies within `rest` of `value + slopes . d`, rounding included.
+/// A function of d in [-1, 1]^3 that is within `rest` of `value + slopes . d`, including rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Expansion {
     pub value: f64,
@@ -31,23 +31,23 @@ impl Expansion {
         out
     }
 
-    /// How far the linear part gets from `value`.
+    /// Largest deviation of the linear part from `value`.
     fn sway(&self) -> f64 {
         self.slopes.iter().map(|slope| slope.abs()).sum()
     }
 
-    /// How far it gets from `value` at most.
+    /// Upper bound of its deviation from `value`.
     pub fn spread(&self) -> f64 {
         (self.sway() + self.rest) * (1.0 + ROUNDING)
     }
 
-    /// Its least and its greatest value at most.
+    /// Bounds of its values.
     pub fn range(&self) -> [f64; 2] {
         let spread = self.spread() + ROUNDING * self.value.abs();
         [self.value - spread, self.value + spread]
     }
 
-    /// With so much more on either side.
+    /// Increases its remainder.
     pub fn widened(mut self, by: f64) -> Self {
         self.rest += by;
         self
@@ -90,7 +90,7 @@ impl Expansion {
         self.through(sin, cos, 1.0)
     }
 
-    /// One over it; `None` where it is not proved positive.
+    /// One over it; `None` if it is not proved positive.
     pub fn inverse(self) -> Option<Self> {
         let least = self.range()[0];
         (least > 0.0).then(|| {
@@ -99,7 +99,7 @@ impl Expansion {
         })
     }
 
-    /// Its root; `None` where it is not proved positive.
+    /// Its root; `None` if it is not proved positive.
     pub fn root(self) -> Option<Self> {
         let least = self.range()[0];
         (least > 0.0).then(|| {

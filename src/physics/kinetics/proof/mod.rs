@@ -1,31 +1,31 @@
-//! Proved bounds of capacities: Dirichlet's and Thomson's principles with integrals that are
-//! enclosed, between sets that are told by energies and not by a mesh.
+//! Proved bounds of capacities: Dirichlet's and Thomson's principles with enclosed integrals,
+//! between sets that are defined by energies and not by a mesh.
 //!
 //! # The statement
-//! A is what of U < a joins a configuration (where that is held by contact: the place on contact
-//! nearest to it, nm away), B what of U < b joins others, all up to the pair's
-//! symmetries, and free tiles are those with centres R apart. The capacity of A against B and free
-//! tiles is the least integral of e^(-U/kT) |grad h|^2 over the configurations at which the tiles do
-//! not overlap, h = 1 on A and 0 on the others. Every such h bounds it from above. A flux J from A
-//! to the others, which nothing leaves through contact and which loses d of its current I on the
-//! way, bounds it from below: `(I - d)^2 <= C int e^(U/kT) |J|^2`, for 0 <= h <= 1.
+//! A is the part of U < a connected to a configuration (if that is held by contact: to the nearest
+//! position at contact, nm away), B the part of U < b connected to others, all up to the pair's
+//! symmetries, and tiles are free if their centres are R apart. The capacity of A against B and
+//! free tiles is the minimum of the integral of e^(-U/kT) |grad h|^2 over the configurations at
+//! which the tiles do not overlap, with h = 1 on A and 0 on the others. Every such h gives an upper
+//! bound. A flux J from A to the others, with no flow through contact and a loss d of its current I
+//! on the way, gives a lower bound: `(I - d)^2 <= C int e^(U/kT) |J|^2`, for 0 <= h <= 1.
 //!
 //! # How it is proved
-//! - *Contact.* The mesh begins where two convex tiles touch, so that its cells hold all free
-//!   configurations and no others. Where that is, along a ray, and with which slopes, is enclosed
-//!   over boxes of rays ([`wall`]).
-//! - *Sets.* Cells that may reach into a set, found from one to the next by the least that U may be
-//!   in each, are all set to the set's value; fluxes begin and end in cells proved to lie in it.
-//! - *Integrals.* Over a piece of a cell the exponent is a linear function of the place but for a
-//!   remainder enclosed by the energy's bounds ([`crate::potential::CellBounds`]); what is squared
-//!   is linear but for one enclosed by first-order expansions. The integrals of e^(linear) times
-//!   squares of linear functions are known in closed form ([`moments`]). Pieces are halved where
-//!   bounds are apart.
-//! - *Sources.* In the mesh's coordinates a flux that is linear between opposite sides has a constant
-//!   divergence, whatever the wall. What cells and faces lose is summed up and taken off.
-//! - *Rounding* widens every remainder by 4e-15 of what was computed with, moments by 1e-12 and sums
-//!   by 1e-11. Assumed, not proved, as for the certificates of barriers: the platform's sines,
-//!   cosines and exponentials are right to 8 units in the last place.
+//! - *Contact.* The mesh begins where two convex tiles touch, so that its cells contain all free
+//!   configurations and no others. The distance of contact along a ray, and its slopes, are
+//!   enclosed over boxes of rays ([`wall`]).
+//! - *Sets.* All cells that may extend into a set, found by flooding with the lower bounds of U in
+//!   each cell, have the set's value; fluxes begin and end in cells proved to lie in the set.
+//! - *Integrals.* Over a piece of a cell the exponent is a linear function of the position plus a
+//!   remainder enclosed by the energy's bounds ([`crate::potential::CellBounds`]); the squared
+//!   functions are linear plus a remainder enclosed by first-order expansions. The integrals of
+//!   e^(linear) times squares of linear functions have closed forms ([`moments`]). Pieces are
+//!   bisected where the bounds are wide.
+//! - *Sources.* In the mesh's coordinates a flux that is linear between opposite sides has a
+//!   constant divergence, for any wall. The losses of cells and faces are summed and subtracted.
+//! - *Rounding* widens every remainder by 4e-15 of the operands, moments by 1e-12 and sums by
+//!   1e-11. It is assumed, not proved, as for the certificates of barriers, that sines, cosines and
+//!   exponentials are accurate to 8 units in the last place.
 
 mod expansion;
 mod moments;
@@ -46,43 +46,42 @@ pub(super) use sums::Closeness;
 use sums::{Load, Role, bounded};
 use wall::Wall;
 
-/// Relative margin of what follows, for slivers and roundings that are in no sum.
+/// Relative margin of the results, for slivers and rounding errors not covered by the sums.
 const MARGIN: f64 = 1e-9;
-/// Divisions of the cells about a set's configuration, at most, until one lies in the set.
+/// Largest number of divisions of the cells around a set's configuration, until one lies in the
+/// set.
 const DIVISIONS: usize = 8;
-/// Halvings of a cell that tell whether rays through it have a length.
+/// Number of bisections of a cell to decide whether rays through it have a positive length.
 const NARROW: usize = 6;
-/// Halvings of a cell that tell how low U gets in it.
+/// Number of bisections of a cell for the lower bound of U.
 const HALVINGS: usize = 6;
 
-/// A set: what of U below a limit (J) is joined to a configuration.
+/// A set: the part of U below a limit (J) that is connected to a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Set {
     pub at: Configuration,
     pub below: f64,
-    /// A trial committor may be that of a wider set, below this (J): it bounds the capacity all the
-    /// same.
+    /// Energy limit (J) of a wider set for the trial committor, which bounds the capacity as well.
     pub wide: f64,
 }
 
-/// A capacity between proved bounds, with what its set holds: of one of all that the pair's
-/// symmetries map onto each other.
+/// Proved bounds of a capacity and of the occupation of its set, for one of its symmetric copies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capacity {
     /// The set is where U is below this (J), joined to its configuration.
     pub below: f64,
-    /// Bounds of the capacity C (rad) against the other sets and free tiles, weights counted from
-    /// the energy that loads are counted from.
+    /// Bounds of the capacity C (rad) against the other sets and free tiles, with weights relative
+    /// to the reference energy of loads.
     pub capacity: [f64; 2],
-    /// Bounds of the integral Z of e^(-U/kT) over the set (m^2 rad), so counted, too.
+    /// Bounds of the integral Z of e^(-U/kT) over the set (m^2 rad), relative to the same energy.
     pub held: [f64; 2],
-    /// A bound from above of the same integral over all that is neither in another set nor free.
+    /// An upper bound of the same integral over everything that is neither in another set nor free.
     pub around: f64,
 }
 
 impl Capacity {
-    /// Bounds of C / Z (1/m^2): times D, how often a tile leaves the set for another or free ones,
-    /// not to come back before, by the time that it is in the set.
+    /// Bounds of C / Z (1/m^2): times D, the rate, per time spent in the set, at which a tile
+    /// leaves the set and reaches another set or becomes free before it returns.
     pub fn leaving(&self) -> [f64; 2] {
         [
             self.capacity[0] / self.held[1],
@@ -90,11 +89,11 @@ impl Capacity {
         ]
     }
 
-    /// Bounds of the mean time T, times D (m^2), until a tile that sets out where it leaves the set
-    /// for another or free ones, as often as it does so there, reaches these: T D is the integral of
-    /// h e^(-U/kT) over C, and h is 1 on the set and no greater elsewhere (Bovier, Eckhoff, Gayrard
-    /// and Klein 2004, doi:10.4171/JEMS/14). Near each other where this set holds next to all that no
-    /// other does; where most is held outside of them, the upper one says little.
+    /// Bounds of the mean time T, times D (m^2), until a tile reaches another set or is free, if it
+    /// starts on the set's boundary with the distribution of its last exits: T D is the integral of
+    /// h e^(-U/kT) over C, and h is 1 on the set and at most 1 elsewhere (Bovier, Eckhoff, Gayrard
+    /// and Klein 2004, doi:10.4171/JEMS/14). The bounds are narrow if nearly all of the occupation
+    /// outside of other sets is in this set; otherwise the upper bound is poor.
     pub fn mean_exit(&self) -> [f64; 2] {
         [
             self.held[0] / self.capacity[1],
@@ -103,20 +102,20 @@ impl Capacity {
     }
 }
 
-/// Cells of a set: those that may reach into it, or into the wider one, and those that lie in it.
+/// Cells of a set: those that may extend into it, or into the wider one, and those that lie in it.
 struct Cells {
     wide: Vec<bool>,
     outer: Vec<bool>,
     inner: Vec<bool>,
 }
 
-/// Proved bounds of the capacity of the first set against the others and free tiles, the bounds of
-/// the integrals that are asked for this close together; `None` where nothing can be proved on this
-/// mesh. Divides cells.
+/// Proved bounds of the capacity of the first set against the others and free tiles, with the
+/// requested accuracy of the integrals; `None` if nothing can be proved on this mesh. Divides
+/// cells.
 pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Option<Capacity> {
     let problem = field.problem;
     let bounds = problem.bounds().ok()?;
-    // The centre of mass is the reference point, or coordinates are not upright.
+    // The centre of mass must be the reference point, otherwise the coordinates are not orthogonal.
     let metric = problem.mass_metric(0.0);
     let is_upright = metric[(0, 2)].abs().max(metric[(1, 2)].abs()) < 1e-11 * problem.space.rho;
     if !is_upright || !field.mesh.chart.is_fitted() {
@@ -160,7 +159,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     }
     let nodes = &Nodes::new(mesh);
     let rim = sets.len();
-    // Where contact reaches to where tiles are free, as at corners, both are done without.
+    // Pieces in which contact extends to free tiles, as at corners, are omitted from both.
     let is_narrow = |id: usize| {
         let leaf = &mesh.leaves[id];
         leaf.is_live() && is_narrow(&even, Piece::whole(id, leaf), leaf, NARROW)
@@ -215,7 +214,8 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     let held = load(&|id| cells[0].inner[id]);
     let around = load(&|id| !is_others(id));
     let scale = libm::exp((field.ground() - level) / kt);
-    // Where the set holds little of what is around, that is of little use, and so is its closeness.
+    // If the set has little of the occupation around it, that bound is of little use, and so is its
+    // accuracy.
     let of_use = (held / around).min(1.0);
     let sizes = [
         field.energy(nodes, &trial),
@@ -236,7 +236,7 @@ pub(super) fn capacity(field: &mut Field, sets: &[Set], asked: Closeness) -> Opt
     (found.capacity[1].is_finite() && found.held[0] > 0.0).then_some(found)
 }
 
-/// The least and the greatest U in each cell (J), as close as sets ask for.
+/// Bounds of U in each cell (J), as accurate as sets require.
 fn energies(field: &Field, ground: &Ground, sets: &[Set]) -> Vec<Range> {
     let leaves = &field.mesh.leaves;
     let of = |id: usize| {
@@ -277,7 +277,7 @@ fn range(
     [a.min(c).max(found[0]), b.max(d).min(found[1])]
 }
 
-/// Whether rays through a piece may have no length, looked at in so many halvings.
+/// Whether rays through a piece may have no length, tested with a number of bisections.
 fn is_narrow(ground: &Ground, piece: Piece, leaf: &Leaf, halvings: usize) -> bool {
     let place = ground.place(&piece, leaf);
     let is_clear = place.as_ref().is_some_and(|place| !place.is_narrow());

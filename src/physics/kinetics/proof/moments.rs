@@ -1,10 +1,10 @@
 //! Integrals of e^(a . d) times polynomials over the box [-1, 1]^3.
 
-/// Exponents up to which power series are summed; closed forms lose digits there.
+/// Largest exponent for power series; closed forms lose digits there.
 const SERIES: f64 = 2.0;
 /// Terms of the series.
 const TERMS: usize = 16;
-/// Bound of the relative rounding of a moment against those without cancellation.
+/// Bound of the rounding error of a moment, relative to the moments without cancellation.
 const ROUNDING: f64 = 1e-12;
 
 /// Means over the box of e^(a . d) times 1, d_i and d_i d_j, all over e^(|a|), |a| the sum of the
@@ -24,7 +24,7 @@ impl Moments {
         }
     }
 
-    /// Of 1, rounded up.
+    /// The integral of 1, rounded up.
     pub fn whole(&self) -> f64 {
         self.product([0; 3]) * (1.0 + ROUNDING)
     }
@@ -33,7 +33,7 @@ impl Moments {
         (0..3).map(|i| self.of[i][powers[i]]).product()
     }
 
-    /// Of the square of `value + slopes . d`: a lower and an upper bound.
+    /// Lower and upper bounds of the integral of the square of `value + slopes . d`.
     pub fn square(&self, value: f64, slopes: [f64; 3]) -> [f64; 2] {
         let mut sum = value * value * self.product([0; 3]);
         for i in 0..3 {

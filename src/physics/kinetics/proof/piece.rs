@@ -1,4 +1,4 @@
-//! Integrals over a part of a mesh's cell, bounded.
+//! Bounds of integrals over a part of a mesh cell.
 
 use super::expansion::Expansion;
 use super::moments::Moments;
@@ -10,10 +10,10 @@ use crate::potential::CellBounds;
 
 /// Relative rounding of sums of a few dozen terms.
 const ROUNDING: f64 = 1e-13;
-/// Functions on the mesh, of values between 0 and 1, are continuous but for this.
+/// Rounding error of the continuity of functions on the mesh, with values between 0 and 1.
 const JUMP: f64 = 1e-14;
 
-/// What integrals are taken of.
+/// The data of the integrands.
 pub(super) struct Ground<'a> {
     pub bounds: &'a dyn CellBounds,
     pub wall: &'a Wall,
@@ -23,7 +23,7 @@ pub(super) struct Ground<'a> {
     pub level: f64,
     /// Radius of gyration (m).
     pub rho: f64,
-    /// How fluxes are spread over sides.
+    /// The distribution of fluxes over sides.
     pub profile: Profile,
 }
 
@@ -55,8 +55,8 @@ impl Piece {
     }
 }
 
-/// A piece's place: the exponent (level - U) / kT, which lies within `off` of `value + slopes . d`,
-/// and what lengths there are.
+/// A piece with its data: the exponent (level - U) / kT, which is within `off` of `value + slopes .
+/// d`, and lengths.
 pub(super) struct Place {
     value: f64,
     slopes: [f64; 3],
@@ -66,23 +66,23 @@ pub(super) struct Place {
     r: Expansion,
     length: Expansion,
     by: [Expansion; 2],
-    /// Where it lies in its cell, in parts of that one's size.
+    /// Its position in its cell, as shares of the cell's size.
     within: [Expansion; 3],
-    /// Half its sizes by s, phi and theta, and its edges (m), by which it is halved.
+    /// Half its sizes in s, phi and theta, and its edge lengths (m), which determine its bisection.
     half: [f64; 3],
     edges: [f64; 3],
     /// Its part of its cell.
     share: f64,
 }
 
-/// Bounds of an integral of something that is not negative.
+/// Bounds of an integral of a non-negative function.
 pub(super) type Range = [f64; 2];
 
-/// Nothing is known but that it is not negative.
+/// Nothing is known except that it is not negative.
 pub(super) const UNKNOWN: Range = [0.0, f64::INFINITY];
 
 impl Ground<'_> {
-    /// Where a piece of a cell lies; `None` where it is too large to tell.
+    /// The data of a piece of a cell; `None` if it is too large.
     pub fn place(&self, piece: &Piece, leaf: &Leaf) -> Option<Place> {
         let middle = std::array::from_fn(|i| piece.low[i] + piece.size[i] / 2.0);
         let [s, phi, theta] = self.chart.coordinates(middle);
@@ -213,8 +213,8 @@ impl Ground<'_> {
         parts().map_or(UNKNOWN, |parts| place.squares(&parts, -1.0, volume))
     }
 
-    /// Of what flows between the ends of a cell: the share below s, and the density by the part of
-    /// the cell's size, see [`Profile`].
+    /// The flow between the ends of a cell: the share below s, and the density relative to the
+    /// cell's size, see [`Profile`].
     fn spread(&self, s: Expansion, ends: [f64; 2]) -> [Expansion; 2] {
         let Profile { rate, .. } = self.profile;
         let whole = self.profile.between(ends);
@@ -243,7 +243,7 @@ impl Ground<'_> {
 }
 
 impl Place {
-    /// The least and the greatest U in a piece (J), given kT and level (J).
+    /// Bounds of U in a piece (J), given kT and level (J).
     pub fn energies(&self, kt: f64, level: f64) -> [f64; 2] {
         let sway: f64 = self.slopes.iter().map(|slope| slope.abs()).sum();
         let least = self.value - sway + self.off[0];
@@ -256,7 +256,7 @@ impl Place {
         8.0 * self.half.iter().product::<f64>()
     }
 
-    /// Whether rays may have no length: contact may reach to where tiles are free.
+    /// Whether rays may have no length: contact may extend to free tiles.
     pub fn is_narrow(&self) -> bool {
         self.length.range()[0] <= 0.0
     }

@@ -1,4 +1,4 @@
-//! What a set holds of the cells that lie in it in part.
+//! The share of a set in the cells that belong to it only in part.
 
 use super::Cells;
 use super::piece::{Ground, Piece};
@@ -8,12 +8,11 @@ use crate::parallel;
 
 /// Parts of such a cell along each axis, ...
 const PARTS: [usize; 4] = [8, 4, 2, 1];
-/// ... as many as there may be in all.
+/// ... with at most this many in total.
 const MOST: usize = 1 << 20;
 
-/// The parts of the cells that a set reaches into without holding them: those proved to lie in it,
-/// joined to cells or to other parts that do, count, and of the others what may lie below its limit
-/// (J).
+/// The parts of the cells that belong to a set only in part: parts proved to lie in the set and
+/// connected to it count fully, the others only by what may be below the limit (J).
 pub(super) fn pieces(
     mesh: &Octree,
     ground: &Ground,
@@ -47,7 +46,7 @@ pub(super) fn pieces(
     };
     let count = rim.len() * all;
     let low: Vec<bool> = parallel::map(0..count, lies_below);
-    // The middles of a part's sides, seen from beyond, in whole units: parts of the smallest cells
+    // The middles of a part's sides, just beyond them, in whole units: parts of the smallest cells
     // have none.
     let beside = |at: usize| {
         let piece = part(at);

@@ -1,4 +1,4 @@
-//! Bounds of sums over a mesh's cells, divided where they are apart.
+//! Bounds of sums over the cells of a mesh, subdivided where the bounds are wide.
 
 use std::cmp::Reverse;
 
@@ -10,45 +10,45 @@ use crate::kinetics::mesh::Octree;
 use crate::order::Order;
 use crate::parallel;
 
-/// What of a load is asked.
+/// The requested part of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Load {
     /// All of it.
     All,
-    /// What may lie below an energy (J), from above only.
+    /// An upper bound of the part below an energy (J).
     Below(f64),
 }
 
-/// What is asked of a piece of a cell.
+/// The requested integrals of a piece of a cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Role {
-    /// The values of a function at its corners, of which the energy is asked.
+    /// The values of a function at its corners, for the energy.
     pub values: Option<[f64; 8]>,
-    /// Fluxes upwards through its sides, of which the cost is asked.
+    /// Upward fluxes through its sides, for the cost.
     pub fluxes: Option<[f64; 6]>,
-    /// Whether its load is asked.
+    /// Whether its load is requested.
     pub load: Option<Load>,
-    /// Whether its load is asked as one of all that lies outside other sets.
+    /// Whether its load counts as outside of other sets.
     pub around: bool,
 }
 
-/// Of energies, costs, loads and loads outside other sets.
+/// The sums: energies, costs, loads and loads outside of other sets.
 pub(super) const SUMS: usize = 4;
 
-/// How closely sums are asked for, and how many pieces of cells there may be.
+/// The requested accuracy of sums, and the largest number of pieces of cells.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::kinetics) struct Closeness {
-    /// How far apart the bounds of the sums may be, as shares of them, added up.
+    /// Allowed total of the relative widths of the sums' bounds.
     pub apart: f64,
     /// Pieces at most.
     pub pieces: usize,
 }
 
-/// Share of what bounds are apart in the pieces that are halved.
+/// Share of the width of the bounds in the pieces that are bisected.
 const HALVED: f64 = 0.8;
 /// Times that pieces are halved at most.
 const ROUNDS: usize = 100;
-/// Sums this many times as far apart as is asked are far from the goal.
+/// Sums with this multiple of the allowed width are far from the goal.
 const FAR: f64 = 8.0;
 /// Relative rounding of the sums.
 const ROUNDING: f64 = 1e-11;
@@ -61,7 +61,7 @@ struct Part {
     axis: usize,
 }
 
-/// Bounds of the sums over pieces. `sizes` are about what the sums are.
+/// Bounds of the sums over pieces. `sizes` are approximate values of the sums.
 pub(super) fn bounded(
     ground: &Ground,
     mesh: &Octree,
@@ -78,7 +78,7 @@ pub(super) fn bounded(
         let load = |asked: Load| {
             of(&|place| match asked {
                 Load::All => ground.load(place),
-                // That is as near as it comes.
+                // This is the best accuracy possible.
                 Load::Below(limit) if place.energies(ground.kt, ground.level)[0] < limit => {
                     [ground.load(place)[1]; 2]
                 }
@@ -97,7 +97,7 @@ pub(super) fn bounded(
         let longest = (0..3).max_by(|a, b| piece.size[*a].total_cmp(&piece.size[*b]));
         Part {
             role: number,
-            // What is not asked is nothing.
+            // Integrals that are not requested are zero.
             sums: sums.map(Option::unwrap_or_default),
             axis: place.as_ref().map_or(longest.unwrap_or(0), Place::axis),
             piece,
@@ -129,7 +129,7 @@ pub(super) fn bounded(
             });
         }
         gaps.order_by_key(|&(at, gap)| (Reverse(OrderedFloat(gap)), at));
-        // At first those of which nothing is known; far from the goal all that is more than its
+        // At first the pieces without any bound; far from the goal all pieces with more than their
         // share of it.
         let least = match all.is_finite() {
             true => asked.apart / parts.len() as f64,
@@ -153,7 +153,7 @@ pub(super) fn bounded(
             let halves = whole.piece.halves(whole.axis);
             halves.map(|half| {
                 let mut half = part((whole.role, half));
-                // Nothing is negative: a half has no more than the whole.
+                // Nothing is negative, so a half is at most the whole.
                 for (range, [_, most]) in half.sums.iter_mut().zip(whole.sums) {
                     range[1] = range[1].min(most);
                 }

@@ -1,4 +1,4 @@
-//! Enclosures against what they enclose, and bounds against capacities that are known.
+//! Tests of enclosures against the values they enclose, and of bounds against known capacities.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,5 @@
-//! Where configurations begin along rays from the centre, with its slopes, enclosed over boxes of
-//! directions and angles.
+//! Enclosures, over boxes of directions and angles, of the distance at which contact ends along
+//! rays from the centre, and of its slopes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,19 +9,19 @@ use super::expansion::Expansion;
 use crate::contact::Contact;
 use crate::tile::Outline;
 
-/// Arms that differ by less than this share of the longest within a box are one: between them lie
-/// slivers of some 1e-11 rad at most, which is far below the stated margin.
+/// Arms that differ by less than this share of the longest within a box count as one: the slivers
+/// between them are at most about 1e-11 rad wide, far below the stated margin.
 const TIE: f64 = 4e-12;
 /// Edges times vertices at most.
 const MOST: usize = 4096;
-/// Rays whose angle to an edge's normal has a smaller cosine are taken to run along the edge.
+/// Rays whose angle to an edge's normal has a smaller cosine count as parallel to the edge.
 const ALONG: f64 = 0.05;
 
 /// The centre-to-centre distance g(phi, theta) of two convex tiles in contact: where the ray at phi
-/// leaves the set of positions at which they overlap, Minkowski's sum of the one and the other
-/// turned about. Each of its edges is an edge of one tile moved out by the vertex of the other that
-/// reaches farthest beyond it. There `g = (height + max arm cos(theta + shift)) / cos(u)` with u
-/// the ray's angle to the edge's normal (de Berg et al., *Computational Geometry*, section 13.3).
+/// leaves the set of positions at which they overlap, the Minkowski sum of one tile and the
+/// reflected other. Each of its edges is an edge of one tile, offset by the vertex of the other
+/// that extends farthest beyond it. There `g = (height + max arm cos(theta + shift)) / cos(u)` with
+/// u the ray's angle to the edge's normal (de Berg et al., *Computational Geometry*, section 13.3).
 pub(super) enum Wall {
     /// The same everywhere (m).
     Circle(f64),
@@ -32,7 +32,7 @@ pub(super) enum Wall {
 pub(super) struct Edge {
     /// Distance of its line from the own centre (m).
     height: f64,
-    /// Of the other tile's vertices: distance from the centre (m), shift (rad).
+    /// The other tile's vertices: distance from the centre (m), shift (rad).
     arms: Vec<[f64; 2]>,
     /// Direction of the normal out of the overlapping positions, at theta = 0 (rad).
     normal: f64,
@@ -56,7 +56,7 @@ struct Over<'a> {
     surface: Surface,
     /// g at least, by the ranges of what it is made of (m).
     least: f64,
-    /// The farthest arm at the box's middle, and whether it is so all over the box.
+    /// The farthest arm at the box's middle, and whether it is the farthest over the whole box.
     arm: [f64; 2],
     alone: bool,
 }
@@ -76,8 +76,8 @@ fn greatest_cos([from, to]: [f64; 2]) -> f64 {
 }
 
 impl Wall {
-    /// Of two tiles; a circle (m) where there is no contact. `None` where the outlines are not
-    /// convex around their centres or have too many corners.
+    /// The wall of two tiles; a circle (m) without contact. `None` if the outlines are not convex
+    /// around their centres or have too many corners.
     pub fn new(contact: Option<&Contact>, circle: f64) -> Option<Self> {
         let Some(contact) = contact else {
             return Some(Self::Circle(circle));
@@ -101,7 +101,7 @@ impl Wall {
                     };
                     [length, shift]
                 };
-                // Seen from the fixed tile the moving one's edges lie turned about by half a turn.
+                // In the fixed tile's frame the moving tile's edges are rotated by half a turn.
                 let about = if turns { PI } else { 0.0 };
                 Edge {
                     height: n.dot(&start).max(n.dot(&end)),
@@ -118,7 +118,7 @@ impl Wall {
         Some(Self::Edges(edges))
     }
 
-    /// g over a box of rays; `None` where the box is too large to tell.
+    /// g over a box of rays; `None` if the box is too large to tell.
     pub fn over(&self, phi: Expansion, theta: Expansion) -> Option<Surface> {
         let edges = match self {
             Self::Circle(radius) => {
@@ -130,7 +130,7 @@ impl Wall {
             Self::Edges(edges) => edges,
         };
         let mut all: Vec<Over> = Vec::new();
-        // The least that is known of edges that rays may run along.
+        // The lower bound from edges that may be parallel to rays.
         let mut steep = f64::INFINITY;
         for edge in edges {
             match edge.over(phi, theta) {
@@ -170,8 +170,8 @@ impl Wall {
 }
 
 impl Edge {
-    /// g as this edge alone has it: `Ok(None)` where no ray of the box crosses its line, and what is
-    /// known of it from below where some may run along it.
+    /// g for this edge alone: `Ok(None)` if no ray of the box crosses its line, and only a lower
+    /// bound if some may be parallel to it.
     fn over(&self, phi: Expansion, theta: Expansion) -> Result<Option<Over<'_>>, f64> {
         let turned = if self.turns { phi - theta } else { phi };
         let angle = turned - Expansion::constant(self.normal);
@@ -231,7 +231,7 @@ impl Edge {
         }))
     }
 
-    /// Whether all rays of a box leave through this edge, moved out by this arm.
+    /// Whether all rays of a box leave through this edge, offset by this arm.
     fn holds(&self, [length, shift]: [f64; 2], phi: Expansion, theta: Expansion) -> bool {
         // Angles of the ray and of the arm from the normal, on which the edge's ends lie fixed.
         let turned = if self.turns { phi - theta } else { phi };

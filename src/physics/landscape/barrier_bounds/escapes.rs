@@ -1,5 +1,5 @@
-//! The way out of a state leads to the first of all places that lie lower, not only to the one that
-//! the roadmap suggests.
+//! Escape barriers: the lowest way out of a state leads to the nearest of all lower places, which
+//! need not be the one that the roadmap suggests.
 
 use super::{BEND, shortest};
 use crate::configuration::Configuration;
@@ -11,9 +11,8 @@ use crate::problem::Problem;
 /// Cells spent on all ways out of a state together.
 const CELLS: usize = 50_000;
 
-/// The bracket of the escape for which a barrier stands, over the ways to all states that are lower
-/// and to `free`. With it comes, where a lower pathway than the barrier's was found, the barrier to
-/// where that leads.
+/// The bracket of the escape that a barrier represents, over the paths to all lower states and to
+/// `free`. If a pathway lower than the barrier's was found, also the barrier to its end.
 pub fn bracket(
     problem: &Problem,
     certifier: &mut Certifier,

@@ -1,4 +1,4 @@
-//! Certified ways joined at the states that they share.
+//! Certified pathways joined at the states they share.
 
 use petgraph::algo::{astar, min_spanning_tree};
 use petgraph::data::FromElements;
@@ -12,13 +12,13 @@ use crate::landscape::results::{Barrier, Pathway, Place};
 /// Places, joined by barriers of these upper bounds (J) and numbers.
 type Places = UnGraph<Place, (f64, usize)>;
 
-/// Gives barriers the pathway of other barriers over states between their ends, where that is
-/// proved to be lower by more than `gain` (J), and to `free` by more than far configurations are let
-/// differ.
+/// Replaces the pathways of barriers by chains of other barriers over states between their ends, if
+/// these are proved to be lower by more than `gain` (J), and for `free` by more than the tolerance
+/// of far configurations.
 ///
 /// The minimax energy from A to C is at most the greater of those from A to B and from B to C, and
 /// so is the bound of the two pathways, one after the other: both are proved from and to B itself,
-/// whatever the descents that found it leave between their ends. `free` stands for many
+/// independent of gaps between the ends of the descents that found it. `free` stands for many
 /// configurations: a chain may end there, but not lead through it.
 pub fn take_over_chains(space: &ConfigurationSpace, catalogue: &mut Catalogue, gain: f64) {
     let before = catalogue.barriers.clone();
@@ -79,8 +79,8 @@ fn node(places: &Places, place: Place) -> NodeIndex {
     }
 }
 
-/// The greatest upper bound (J) on the way through a tree, and the pathway; `None` where there is
-/// no way, or its pathways do not end where the next ones begin.
+/// The greatest upper bound (J) on the way through a tree, and the pathway; `None` if there is no
+/// way, or its pathways do not end where the next ones begin.
 fn chain(
     space: &ConfigurationSpace,
     tree: &Places,
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// A barrier whose way leads over a point of a height of its own, and through it at `upper`.
+    /// A barrier whose path leads over a point of its own height, and through it at `upper`.
     fn barrier(from: usize, to: Option<usize>, upper: f64) -> Barrier {
         let place = to.map_or(Place::Free, Place::State);
         let (start, end) = (from as f64, to.map_or(9.0, |id| id as f64));

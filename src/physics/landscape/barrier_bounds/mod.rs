@@ -1,4 +1,4 @@
-//! Certified bounds for the barriers of an catalogue.
+//! Certified bounds for the barriers of a catalogue.
 
 mod escapes;
 mod joined;
@@ -18,19 +18,19 @@ use crate::problem::Problem;
 
 pub use schedule::widths;
 
-/// Bounds are narrowed once more where no more than this share of a width is wanted after all.
+/// Bounds are narrowed once more if the requested width has shrunk to this fraction.
 const LESS: f64 = 0.75;
 
 /// Energy tolerance of pathways, as a fraction of the bond's depth.
 const BEND: f64 = 1e-3;
 
-/// How barriers are certified.
+/// Settings of the certification.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CertificationSettings {
-    /// Width (J) to which bounds are narrowed; where `None`, a hundredth of the bond or a twentieth
-    /// of the barrier, whichever is less.
+    /// Target width (J) of bounds; if `None`, a hundredth of the bond or a twentieth of the
+    /// barrier, whichever is smaller.
     pub tolerance: Option<f64>,
-    /// What may be spent on all of it; where it ends the bounds known by then are kept.
+    /// The limit of the total work; bounds known when it ends are kept.
     pub allowed: Allowance,
     /// Cells spent on the bounds of one barrier at most.
     pub cells: usize,
@@ -38,8 +38,8 @@ pub struct CertificationSettings {
     pub claims: Claims,
 }
 
-/// The barriers of which more is claimed than the roadmap's estimate: they are certified, and
-/// checked by moving tiles where that is asked for.
+/// The barriers with claims beyond the roadmap's estimate: they are certified and, if requested,
+/// checked by moving tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Claims {
     /// All that are reported.
@@ -49,7 +49,7 @@ pub enum Claims {
 }
 
 impl Claims {
-    /// Whether a barrier of an catalogue is among them.
+    /// Whether a barrier of a catalogue is among them.
     pub fn include(self, barrier: &Barrier, catalogue: &Catalogue) -> bool {
         let is_from = |kind| {
             let first = catalogue.first(kind).map(|state| Place::State(state.id));
@@ -60,27 +60,27 @@ impl Claims {
     }
 }
 
-/// What certifying took.
+/// The work of a certification.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certified {
     /// Cells assessed.
     pub cells: usize,
-    /// What ended it before all bounds were as narrow as was asked for; `None` where nothing did but
-    /// the cells that one barrier is worth.
+    /// The reason for ending before all bounds were as narrow as requested; `None` if it was only
+    /// the limit of cells per barrier.
     pub ended: Option<Ended>,
 }
 
-/// Brackets every barrier of an catalogue between two bounds that hold for the model, and takes
-/// over pathways of the certificate that lie lower. Where the bound state has no way to `free`, a
-/// proof is tried that there is none.
+/// Brackets every barrier of a catalogue between two bounds that hold for the model, and takes over
+/// lower pathways of the certificate. If the bound state has no path to `free`, tries to prove that
+/// there is none.
 ///
-/// Brackets are narrowed [step by step](widths), and the best bounds seen are kept: more work never
-/// makes one wider, and where one width is asked for of all, neither does a smaller width.
+/// Brackets are narrowed [step by step](widths), and the best bounds are kept: more work never
+/// widens them and, if one width is requested for all, neither does a smaller width.
 ///
-/// The results are the same on every machine, unless a clock ends the work.
+/// The results are the same on every machine, unless a time limit ends the work.
 ///
 /// # Errors
-/// Where nothing is certified; the catalogue is then left as it is.
+/// If nothing is certified; the catalogue is then unchanged.
 pub fn certify(
     problem: &Problem,
     catalogue: &mut Catalogue,
@@ -111,7 +111,7 @@ pub fn certify(
             Some((start, known, tolerance))
         });
         certifier.foresee(&foreseen.collect::<Vec<_>>());
-        // Barriers that turned out so much lower that more is wanted of their bounds.
+        // Barriers that turned out so much lower that narrower bounds are requested.
         let mut lowered = Vec::new();
         for number in numbers {
             observer.part("certificate", done, count);
@@ -160,7 +160,7 @@ pub fn certify(
         }
     }
     raise(&certifier, catalogue, &most);
-    // What was found beside a barrier stands beside it.
+    // Barriers added meanwhile are sorted in.
     catalogue.barriers.order_by_key(|barrier| barrier.from);
     Ok(Certified {
         cells: certifier.assessed(),
@@ -168,8 +168,8 @@ pub fn certify(
     })
 }
 
-/// Raises lower bounds to what follows from all that was proved, after they were narrowed too, but none
-/// above the `most` (J) that may be said of its barrier.
+/// Raises lower bounds to what follows from everything proved, including later proofs, but not
+/// above the limit `most` (J) of each barrier.
 fn raise(certifier: &Certifier, catalogue: &mut Catalogue, most: &[f64]) {
     for (number, most) in most.iter().enumerate() {
         let barrier = &catalogue.barriers[number];
@@ -182,13 +182,13 @@ fn raise(certifier: &Certifier, catalogue: &mut Catalogue, most: &[f64]) {
     }
 }
 
-/// What narrowing the bounds of a barrier came to.
+/// The result of narrowing the bounds of a barrier.
 struct Narrowed {
     /// Cells that it took.
     cells: usize,
     /// The barrier to another place that was found to be lower, if any.
     beside: Option<Barrier>,
-    /// The lower bound (J) may not be said to be higher.
+    /// Largest allowed lower bound (J).
     most: f64,
 }
 
@@ -220,7 +220,7 @@ fn narrow(
                 barrier.bounds.tighten(escape.bounds);
                 return narrowed;
             }
-            // There is a lower way that cannot be told: the escape is no higher.
+            // There is a lower path that cannot be reported: the escape is not higher than it.
             None => narrowed.most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
             Some(way) if way.to == barrier.to => {
                 take_over(problem, barrier, &escape, bend);
@@ -241,7 +241,7 @@ fn narrow(
     narrowed
 }
 
-/// Where a barrier's ways start and end, and the one that is known, the end included.
+/// The start and end of a barrier's paths, and the known path including its end.
 fn ends(
     catalogue: &Catalogue,
     barrier: &Barrier,
@@ -274,8 +274,8 @@ fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: 
     }
 }
 
-/// A pathway of the certificate, which leads through the middles of its cells, made short, if it does
-/// not rise above `upper` (J).
+/// A pathway of the certificate, which leads through the middles of its cells, shortened, if it
+/// does not rise above `upper` (J).
 fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
     let limits = Limits::below(upper, problem);
     let direct = pathway::shortened(problem, points, &limits);

@@ -1,4 +1,4 @@
-//! In which order barriers are certified, and how narrowly.
+//! The order in which barriers are certified, and how narrow their bounds become.
 
 use std::cmp::Reverse;
 
@@ -6,35 +6,34 @@ use super::CertificationSettings;
 use crate::landscape::catalogue::Catalogue;
 use crate::landscape::results::{Barrier, Place};
 
-/// Bounds are narrowed to this share of the bond's depth first.
+/// Bounds are first narrowed to this fraction of the bond's depth.
 const FIRST: f64 = 0.01;
-/// Where no width is asked for, bounds are narrowed to this share of the barrier, but not below that
-/// share of the bond's depth.
+/// If no width is requested, bounds are narrowed to this fraction of the barrier, but not below
+/// this fraction of the bond's depth.
 const SHARE_OF_BARRIER: f64 = 0.05;
 const LEAST_SHARE: f64 = 1e-5;
-/// Cells spent on narrowing a barrier's bounds further than to the first width, where no width is
-/// asked for.
+/// Cells spent on narrowing a barrier's bounds beyond the first width, if no width is requested.
 const MORE_CELLS: usize = 20_000;
 /// Traps whose barriers come first: the deepest, and those that capture most.
 const FOREMOST: usize = 4;
 
-/// The widths (J) to which bounds are narrowed one after the other: from a hundredth of `depth` (J)
-/// down, each half the last, until one is no wider than `wanted` (J).
+/// The widths (J) to which bounds are narrowed in turn: from a hundredth of `depth` (J) down, each
+/// half the last, until one is at most `wanted` (J).
 ///
-/// They do not depend on what is wanted but in where they end: what is done for a narrow bracket
-/// begins with all that is done for a wide one, which is why the narrow one is never the worse.
+/// Only the last one depends on the requested width: the work for a narrow bracket begins with all
+/// the work for a wide one, so that the narrow one is never worse.
 pub fn widths(depth: f64, wanted: f64) -> impl Iterator<Item = f64> {
     let halved = move |width: &f64| (*width > wanted).then_some(width / 2.0);
     std::iter::successors(Some(FIRST * depth), halved)
 }
 
-/// Rounds of certification: a width (J), and the numbers of the barriers that are narrowed to it,
-/// if more is not wanted of them.
+/// Rounds of certification: a width (J), and the indices of the barriers to narrow to it, unless a
+/// narrower one is requested for them.
 ///
 /// Barriers that a summary lists come before the others: those of the bond, of the deepest trap and
-/// of the traps that capture most. Where a width is asked for, all barriers are narrowed to each width
-/// before any is to the next; otherwise the foremost are narrowed as far as is worth while before the
-/// others are looked at.
+/// of the traps that capture most. If a width is requested, all barriers are narrowed to each width
+/// before any to the next; otherwise the foremost are narrowed as far as worthwhile before the
+/// others.
 pub fn rounds(
     catalogue: &Catalogue,
     settings: &CertificationSettings,
@@ -76,8 +75,8 @@ fn by_rank(catalogue: &Catalogue, settings: &CertificationSettings) -> [Vec<usiz
     [first, rest].map(|group| group.into_iter().map(|(number, _)| number).collect())
 }
 
-/// The width (J) to which a barrier's bounds are to be narrowed: one that tells something of a
-/// barrier much smaller than the bond, too.
+/// The target width (J) of a barrier's bounds, such that it is also meaningful for a barrier much
+/// smaller than the bond.
 pub fn wanted(barrier: &Barrier, settings: &CertificationSettings, depth: f64) -> f64 {
     settings.tolerance.unwrap_or_else(|| {
         let of_barrier = (SHARE_OF_BARRIER * barrier.forward()).max(LEAST_SHARE * depth);
@@ -85,8 +84,8 @@ pub fn wanted(barrier: &Barrier, settings: &CertificationSettings, depth: f64) -
     })
 }
 
-/// The width (J) of the next bracket of a barrier of which no more than `wanted` (J) is: a step of the
-/// ladder where one width is asked for of all.
+/// The width (J) of the next bracket of a barrier for which `wanted` (J) is requested: a step of
+/// the sequence if one width is requested for all.
 pub fn step(width: f64, wanted: f64, settings: &CertificationSettings) -> f64 {
     match settings.tolerance {
         Some(_) => width,

@@ -1,13 +1,13 @@
-//! Kinds of states: what symmetries map onto each other, taken together.
+//! Kinds of states: groups of states that symmetries map onto each other.
 
 use ordered_float::OrderedFloat;
 
 use crate::landscape::results::{Proportion, SAME_ENERGY, State, StateKind};
 use crate::order::Order;
 
-/// What people call the kinds of states, in the order in which they are given: `A` is the bond, then
-/// come the traps from the deepest on, `B`, `C`, ... `Z`, `AA`, ... Kinds as deep as each other (the
-/// mirror twins of a slid bond, say) share a letter: `B`, `B'`, `B''`.
+/// The letters of the kinds of states, in the given order: `A` is the bond, then come the traps,
+/// deepest first, `B`, `C`, ... `Z`, `AA`, ... Kinds of equal depth (such as the mirror twins of a
+/// slid bond) share a letter: `B`, `B'`, `B''`.
 pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
     let mut names = vec![String::new(); kinds.len()];
     let mut traps: Vec<usize> = (0..kinds.len()).filter(|&k| !kinds[k].is_bond()).collect();
@@ -15,7 +15,7 @@ pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
     traps.order_by_key(|&k| OrderedFloat(energy(k)));
     let as_deep = |&a: &usize, &b: &usize| energy(b) - energy(a) <= SAME_ENERGY * energy(a).abs();
     for (twins, rank) in traps.chunk_by(as_deep).zip(1..) {
-        // Among them the order of the states counts, not what rounding makes of their energies.
+        // Among them the order of the states counts, independent of rounding of their energies.
         let mut twins = twins.to_vec();
         twins.sort_unstable();
         for (primes, k) in twins.into_iter().enumerate() {
@@ -45,12 +45,12 @@ pub struct Kind<'a> {
 }
 
 impl<'a> Kind<'a> {
-    /// The state that stands for all: the one closest to the bound configuration.
+    /// The representative state: the one closest to the bound configuration.
     pub fn first(&self) -> &'a State {
         &self.states[0]
     }
 
-    /// Whether it is the wanted bond.
+    /// Whether it is the bond.
     pub fn is_bond(&self) -> bool {
         self.first().kind == StateKind::Bond
     }
@@ -60,7 +60,7 @@ impl<'a> Kind<'a> {
         self.states.len()
     }
 
-    /// Share of the far starts that end in any of them; of none where they were not counted.
+    /// Share of the far starts that end in any of them; of zero starts if they were not counted.
     pub fn captured(&self) -> Proportion {
         let counted = || self.states.iter().filter_map(|state| state.capture);
         let of = counted().map(|capture| capture.of).next().unwrap_or(0);

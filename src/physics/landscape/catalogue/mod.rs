@@ -1,8 +1,8 @@
-//! The catalogue of a surveyed landscape: its states in order, and the barriers and pathways that
+//! The catalogue of a surveyed landscape: its states in order, with the barriers and pathways that
 //! are reported.
 //!
-//! Each barrier is stored once, from the first state of a kind; the escape of a state refers to
-//! one of them, and what a symmetry makes of it is computed when asked for.
+//! Each barrier is stored once, from the first state of a kind; the escape of a state refers to one
+//! of them, and its symmetric image is computed on demand.
 
 mod kind;
 mod reader;
@@ -19,10 +19,9 @@ use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
 use ordered_float::OrderedFloat;
 
-/// Configurations closer than this (m, metric of the space) are taken for the same state.
+/// Configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 1e-4;
-/// How much lower a barrier must be than another one to stand for it, as a fraction of the
-/// problem's depth.
+/// How much lower a barrier must be to replace another one, as a fraction of the problem's depth.
 pub(super) const LEAST_GAIN: f64 = 1e-6;
 
 /// States, barriers and pathways, in the order in which they are reported.
@@ -30,20 +29,20 @@ pub(super) const LEAST_GAIN: f64 = 1e-6;
 pub struct Catalogue {
     /// The bond first, then by energy; the states of a kind next to each other.
     pub states: Vec<State>,
-    /// Barriers from the first state of each kind: its way out as the roadmap has it, those to the
-    /// bond and to `free`.
+    /// Barriers from the first state of each kind: its escape according to the roadmap, and those
+    /// to the bond and to `free`.
     pub barriers: Vec<Barrier>,
     /// Pathways by other costs than the highest energy.
     pub alternatives: Vec<Alternative>,
-    /// The state in which the tiles are bound, if the bond holds at all.
+    /// The bound state, if the bond is stable.
     pub bound_state: Option<usize>,
-    /// Minima left out because less than the least depth keeps them apart from a lower one.
+    /// Number of minima omitted because their escape barriers are below the least depth.
     pub shallow: usize,
 }
 
 impl Catalogue {
-    /// Takes the catalogue of a survey. Minima are left out whose escape barrier is below
-    /// `least_depth`, a fraction of the deepest energy.
+    /// The catalogue of a survey, without minima whose escape barrier is below `least_depth`, a
+    /// fraction of the deepest energy.
     pub fn of_survey(survey: &Exploration, least_depth: f64) -> Self {
         Reader {
             survey,
@@ -58,8 +57,8 @@ impl Catalogue {
         kinds.map(|states| Kind { states })
     }
 
-    /// What people call the states: `A` for the bond, `B` for the deepest trap and so on, mirror
-    /// twins `B` and `B'`; copies of the first state of a kind have a number: `B.2`.
+    /// The names of the states: `A` for the bond, `B` for the deepest trap and so on, mirror twins
+    /// `B` and `B'`; copies of the first state of a kind have a number: `B.2`.
     pub fn names(&self) -> Vec<String> {
         let kinds: Vec<Kind> = self.kinds().collect();
         let of_kind = |(kind, name): (&Kind, String)| {
@@ -71,7 +70,7 @@ impl Catalogue {
         kinds.iter().zip(names).flat_map(of_kind).collect()
     }
 
-    /// What people call a place: `bond A`, `trap B.2`, `free`.
+    /// The name of a place: `bond A`, `trap B.2`, `free`.
     pub fn name_of(&self, place: Place) -> String {
         let Place::State(id) = place else {
             return "free".to_owned();
@@ -88,8 +87,8 @@ impl Catalogue {
         self.states.iter().find(|state| state.kind == kind)
     }
 
-    /// The barrier from a state to the nearest lower one or to `free`: the lowest that is known, or
-    /// one over which no way is known. `None` where nothing is known of its ways out.
+    /// The barrier from a state to the nearest lower one or to `free`: the lowest known one, or one
+    /// without a known path. `None` if nothing is known of its exits.
     pub fn escape(&self, problem: &Problem, id: usize) -> Option<Barrier> {
         let class = self.states[id].class;
         let escape = self.escape_of_kind(problem, class)?;
@@ -104,8 +103,8 @@ impl Catalogue {
         Some(self.image(problem, escape, id, symmetry))
     }
 
-    /// The escape of the first state of a kind. The barrier that the roadmap found for it stands
-    /// first; another one stands for it only where it is clearly lower.
+    /// The escape of the first state of a kind. The roadmap's barrier comes first; another one
+    /// replaces it only if it is clearly lower.
     pub fn escape_of_kind(&self, problem: &Problem, class: usize) -> Option<&Barrier> {
         let from = &self.states[class];
         let below = from.energy - SAME_ENERGY * from.energy.abs();
@@ -121,7 +120,7 @@ impl Catalogue {
         lowest.filter(is_lower).or(Some(known))
     }
 
-    /// The barrier from the bond to `free`, where the bond holds.
+    /// The barrier from the bond to `free`, if the bond is stable.
     pub fn way_out_of_the_bond(&self) -> Option<&Barrier> {
         let from = Place::State(self.bound_state?);
         let mut barriers = self.barriers.iter();
@@ -155,9 +154,8 @@ impl Catalogue {
         }
     }
 
-    /// Leaves out the traps that a known way leads out of with less than `least_depth`, a fraction
-    /// of the deepest energy: where the certificate found such a way they were no traps, whatever
-    /// the roadmap made of them.
+    /// Removes traps with a known exit below `least_depth`, a fraction of the deepest energy: if
+    /// the certificate found such an exit they are not traps, whatever the roadmap's estimate.
     pub fn leave_out_shallow(&mut self, problem: &Problem, least_depth: f64) {
         let deepest = self.states.iter().map(|state| state.energy.abs());
         let least = least_depth * deepest.fold(0.0, f64::max);
@@ -175,7 +173,7 @@ impl Catalogue {
         }
     }
 
-    /// Keeps the states with these ids, ascending, under new ones, and what joins them.
+    /// Keeps the states with these ids (ascending), renumbered, and the barriers between them.
     fn keep(&mut self, kept: &[usize]) {
         let new_id = |id: usize| kept.binary_search(&id).ok();
         let place = |place: Place| match place {
@@ -198,8 +196,7 @@ impl Catalogue {
             .retain_mut(|way| renamed(&mut way.from, &mut way.to));
     }
 
-    /// Counts in which states far starts ended and fills in the capture shares; the others are
-    /// returned.
+    /// Counts the ends of far starts by state and sets the capture shares; returns the other ends.
     pub fn count_captures(
         &mut self,
         problem: &Problem,
@@ -226,9 +223,9 @@ impl Catalogue {
     }
 
     /// Estimate of the share of far starts that would end in a kind of state that none has ended in
-    /// yet: n1 / n, n1 the number of kinds in which just one of n starts ended (Turing's formula, Good
-    /// 1953, doi:10.1093/biomet/40.3-4.237), with the interval of a proportion. It says nothing of
-    /// states that hardly catch anything. Needs [`count_captures`](Self::count_captures).
+    /// yet: n1 / n, n1 the number of kinds in which just one of n starts ended (Turing's formula,
+    /// Good 1953, doi:10.1093/biomet/40.3-4.237), with the interval of a proportion. It does not
+    /// cover states that capture almost nothing. Needs [`count_captures`](Self::count_captures).
     pub fn unseen(&self) -> Proportion {
         let captured: Vec<Proportion> = self.kinds().map(|kind| kind.captured()).collect();
         let single = captured.iter().filter(|share| share.count == 1).count();
@@ -241,7 +238,7 @@ impl Catalogue {
         images.any(|image| self.state_at(problem, &image).is_some())
     }
 
-    /// Adds a barrier, or what it knows of one that is there; returns whether it was added.
+    /// Adds a barrier, or merges it with an existing one; returns whether it was added.
     pub(super) fn add_way(&mut self, way: Barrier) -> bool {
         let is_there = |b: &&mut Barrier| (b.from, b.to) == (way.from, way.to);
         match self.barriers.iter_mut().find(is_there) {
@@ -267,7 +264,7 @@ impl Catalogue {
             .map(|(_, id)| id)
     }
 
-    /// Widens the spread of each barrier by what another run found for it.
+    /// Widens the spread of each barrier by the result of another run.
     pub fn widen_spread(&mut self, problem: &Problem, other: &Self) {
         let same_place = |a: Place, b: Place| match (a, b) {
             (Place::Free, Place::Free) => true,

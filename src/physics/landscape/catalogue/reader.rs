@@ -1,4 +1,4 @@
-//! Reading states, escapes, barriers and pathways off a surveyed network.
+//! Reads states, escapes, barriers and pathways from a surveyed network.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -17,15 +17,15 @@ use crate::order::Order;
 use crate::parallel;
 
 /// A state this close (m, metric of the space) to the bound configuration is the bound one: the
-/// bond may settle a little beside the configuration in which the faces coincide.
+/// minimum may be slightly beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
-/// Places this far apart (m, and rad) can be told from each other.
+/// Configurations this far apart (m, and rad) are distinguishable.
 const TELLABLE: f64 = 1e-6;
 
 pub(super) struct Reader<'a> {
     pub survey: &'a Exploration<'a>,
-    /// Least escape barrier of what is reported, as a fraction of the deepest energy.
+    /// Least escape barrier of reported states, as a fraction of the deepest energy.
     pub least_depth: f64,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Reader<'a> {
 /// the one closest to the bound configuration.
 type Class = Vec<usize>;
 
-/// What is reported of the nodes of states.
+/// The reported ids of state nodes.
 type Ids = HashMap<usize, usize>;
 
 impl Reader<'_> {
@@ -77,8 +77,8 @@ impl Reader<'_> {
         pair.map_or(f64::INFINITY, |pair| distance(&pair.bound))
     }
 
-    /// Classes of states deep enough to be reported: the bound one first, then by energy. And the
-    /// number of states left out.
+    /// Classes of states deep enough to be reported, the bound one first, then by energy; and the
+    /// number of omitted states.
     fn deep_classes(&self) -> (Vec<Class>, usize) {
         let mut of_class: BTreeMap<usize, Class> = BTreeMap::new();
         for (found, state) in self.survey.states.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Reader<'_> {
                 OrderedFloat(distance),
             )
         });
-        // What rounding makes of the energies of twins is no order.
+        // Rounding of the energies of twins must not determine their order.
         let as_deep = |a: &Class, b: &Class| {
             let [a, b] = [a, b].map(|class| self.energy(class[0]));
             (a - b).abs() <= SAME_ENERGY * a.abs()
@@ -141,8 +141,8 @@ impl Reader<'_> {
         nodes
     }
 
-    /// The nodes of the other states by whose energies' differences, as shares of this one's, they
-    /// are wanted.
+    /// The nodes of other states selected by their energy difference, relative to this state's
+    /// energy.
     fn nodes(&self, is_wanted: impl Fn(f64) -> bool, found: usize) -> HashSet<usize> {
         let energy = self.energy(found);
         let states = self.survey.states.iter().enumerate();
@@ -162,7 +162,7 @@ impl Reader<'_> {
             .then_some(sideways)
     }
 
-    /// The states of a class. What symmetries keep is the first one's.
+    /// The states of a class. Properties invariant under symmetry are taken from the first one.
     fn states(&self, class: &Class, ids: &Ids, is_bound: bool) -> Vec<State> {
         let first = class[0];
         let pair = self.survey.problem.pair.as_deref();
@@ -226,8 +226,8 @@ impl Reader<'_> {
         Some(barrier)
     }
 
-    /// From the first state of each class: its escape, the way to the bound state, and to `free`,
-    /// also where none is known for the bond, or no way out at all.
+    /// Barriers from the first state of each class: its escape, to the bound state, and to `free`;
+    /// also if no path is known for the bond, or no exit at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
         parallel::flat_map(classes, of_class)
@@ -318,7 +318,7 @@ impl Reader<'_> {
     }
 }
 
-/// What is reported of a node.
+/// The place of a node in reports.
 fn place(node: usize, ids: &Ids) -> Place {
     ids.get(&node).copied().map_or(Place::Free, Place::State)
 }

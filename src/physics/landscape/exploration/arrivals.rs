@@ -1,4 +1,4 @@
-//! Ways in from far apart, as overdamped motion takes them: they never climb.
+//! Pathways into states from far apart along overdamped motion, which never climbs.
 
 use std::collections::HashMap;
 
@@ -9,9 +9,9 @@ use crate::landscape::stationary::Stationary;
 use crate::parallel;
 use crate::roadmap::Point;
 
-/// Ways that are followed into one state.
+/// Number of paths followed into one state.
 const FOLLOWED: usize = 3;
-/// Ways that are followed into the bound configuration, of which one is the way tiles dock.
+/// Number of paths followed into the bound configuration, one of which is the docking motion.
 const FOLLOWED_INTO_BOND: usize = 12;
 /// A start that is known to end this close (m, metric of the space) to a state ends in it.
 const SAME: f64 = 1e-4;
@@ -19,8 +19,8 @@ const SAME: f64 = 1e-4;
 const BOUND: f64 = 5e-3;
 
 impl Exploration<'_> {
-    /// Adds the minima that far starts are known to come to rest in, below an energy (J), and that
-    /// are no states yet.
+    /// Adds minima below an energy (J) in which far starts are known to end and that are not yet
+    /// states.
     pub fn add_rests(&mut self, ends: &[Option<Configuration>], below: f64) {
         let same = self.problem.scaled(SAME);
         let is_new = |end: &&Configuration| self.state_at(end, same).is_none();
@@ -37,8 +37,8 @@ impl Exploration<'_> {
         }
     }
 
-    /// Adds the descents of some far starts to the network, each given with where it is known to
-    /// end: the first ones of those that end in a state.
+    /// Adds the descents of some far starts, each given with its known end, to the network: the
+    /// first ones of those that end in a state.
     pub fn add_arrivals(&mut self, far: &[(Configuration, Configuration)]) {
         let problem = self.problem;
         let mut followed: HashMap<usize, usize> = HashMap::new();
@@ -55,7 +55,7 @@ impl Exploration<'_> {
         let known = self.known();
         let descents: Vec<_> = parallel::map(&starts, |q| approach(problem, q, &known));
         for mut descent in descents {
-            // What lies behind is free as well.
+            // Configurations behind it are free as well.
             let is_far = |point: &Point| problem.space.is_far(&point.q);
             let last = descent.way.iter().rposition(is_far);
             let (Some(last), Outcome::Minimum(_)) = (last, &descent.outcome) else {

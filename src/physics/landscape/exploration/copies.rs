@@ -1,4 +1,4 @@
-//! What is known of one of a class of states, for the others of the class.
+//! Carries results for one state of a symmetry class over to the others.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,17 +8,17 @@ use crate::landscape::transition_network::{Merge, Route};
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::EdgeCosts;
 
-/// A way that is no lower than this share of its energy is as low as another one.
+/// Relative difference of energies below which paths count as equally low.
 const AS_LOW: f64 = 1e-9;
 
 impl Exploration<'_> {
-    /// Of each class of states the lowest merge with another state of the class, and the lowest with
-    /// any other or `free`, ascending.
+    /// For each class of states the lowest merge with another state of the class, and the lowest
+    /// with any other or `free`, in ascending order.
     pub(super) fn lowest_merges(&self) -> Vec<Merge> {
         lowest_of(self.merges(), &self.classes())
     }
 
-    /// Leads out of all states of a class as low as out of the one from which the lowest way is known:
+    /// Gives all states of a class an exit as low as that of the state with the lowest known one,
     /// along its images.
     pub(super) fn share(&mut self) {
         let problem = self.problem;
@@ -57,7 +57,7 @@ impl Exploration<'_> {
         self.network.span();
     }
 
-    /// The states, by their places in the list, of which the others are images.
+    /// The indices of the states of which the others are images.
     pub(super) fn firsts(&self) -> impl Iterator<Item = usize> {
         let numbered = self.states.iter().enumerate();
         numbered
@@ -110,7 +110,7 @@ impl Exploration<'_> {
     }
 }
 
-/// Those of some symmetries that make different configurations of one.
+/// The symmetries that map a configuration to distinct ones.
 pub(super) fn distinct<'a>(
     problem: &Problem,
     symmetries: &'a [Symmetry],
@@ -128,7 +128,7 @@ pub(super) fn distinct<'a>(
     symmetries.iter().filter(is_new).collect()
 }
 
-/// Of merges, ascending, the first of each kind.
+/// The first of each kind of merges, which are ascending.
 fn lowest_of(mut merges: Vec<Merge>, class_of: &HashMap<usize, usize>) -> Vec<Merge> {
     let mut seen = HashSet::new();
     merges.retain(|merge| seen.insert(kind(class_of, merge)));

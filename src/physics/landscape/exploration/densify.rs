@@ -1,4 +1,4 @@
-//! More milestones where a survey has to know better.
+//! Adds milestones where a survey needs more detail.
 
 use std::collections::HashMap;
 
@@ -15,16 +15,15 @@ use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{Point, edge};
 
-/// Milestones are added within this much (m, metric of the space) of where ways meet, at least and at
-/// most.
+/// Smallest and largest distance (m, metric of the space) of added milestones from the pass.
 const RADII: [f64; 2] = [2e-3, 0.03];
 /// The same around states, each (m).
 const AROUND_STATES: [f64; 3] = [1e-3, 1e-2, 3e-2];
 
 impl Exploration<'_> {
-    /// Joins a state's node to the network by milestones around it, where none of its copies is
-    /// joined. Where energies are dear, of very many magnets, straight motions to other states and to
-    /// `free` have to do.
+    /// Connects a state's node to the network by milestones around it, if none of its copies is
+    /// connected. With very many magnets, for which energies are expensive, only straight motions
+    /// to other states and to `free` are used.
     pub(super) fn join(&mut self, node: usize) {
         let settings = self.settings;
         let Some((centre, energy)) = self.network.nodes[node] else {
@@ -47,8 +46,8 @@ impl Exploration<'_> {
         }
     }
 
-    /// Adds milestones around the meeting places that are still no transition states, and notes
-    /// how far that has moved them.
+    /// Adds milestones around passes that are not yet transition states, and records the change of
+    /// their energies.
     pub(super) fn densify(&mut self, open: &[Merge], round: u64) {
         let before: HashMap<usize, Merge> =
             self.merges().into_iter().map(|m| (m.upper, m)).collect();
@@ -126,7 +125,7 @@ struct Place {
     radius: f64,
     /// New milestones lie below this energy (J).
     highest: f64,
-    /// Tells the random streams of places apart.
+    /// Distinguishes the random streams of places.
     number: u64,
 }
 

@@ -1,5 +1,5 @@
-//! Where minima may be expected besides where the roadmap has them: siblings of those known, where
-//! magnets come to lie opposite each other as faces slide, and where the outlines fit.
+//! Guesses for minima that the roadmap may have missed: siblings of known minima, faces slid until
+//! magnets lie opposite each other, and poses in which the outlines fit.
 
 use ordered_float::OrderedFloat;
 
@@ -11,20 +11,20 @@ use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::Point;
 
-/// No minimum is looked for closer than this (m) to a known one.
+/// No minimum is searched closer than this (m) to a known one.
 const KNOWN: f64 = 1e-4;
-/// So many of the outlines' longest contacts are looked at.
+/// Number of longest contacts of the outlines that are tried.
 const MOST_MATCHES: usize = 100;
-/// Meetings that are looked at for each kind of states that is to be kept, the lowest.
+/// Number of contacts tried for each kind of states to be kept, lowest first.
 const MEETINGS_A_KIND: usize = 3;
-/// Meetings above this share of the bond's depth (below 0) hold nothing.
+/// Contacts shallower than this share of the bond's depth hold nothing.
 const HELD: f64 = 1e-3;
-/// Of very many magnets no meeting is looked at so close to a lower one, in pitches.
+/// With very many magnets, contacts this close to a lower one (in pitches) are skipped.
 const AROUND: f64 = 0.75;
 
 impl Exploration<'_> {
-    /// Looks for minima where those known so far, but for the first few, would be on other pairs of
-    /// faces or in the mirror, until there are no more.
+    /// Searches minima at the siblings of known ones (except for the first few), on other pairs of
+    /// faces and mirrored, until there are no more.
     pub(super) fn find_siblings(&mut self, mut known: usize) {
         while known < self.states.len() {
             let fresh = self.states[known..].iter().map(|state| {
@@ -37,8 +37,8 @@ impl Exploration<'_> {
         }
     }
 
-    /// Looks for minima where faces slide along each other, and where the outlines lie on each other
-    /// along much of their length, on faces or elsewhere.
+    /// Searches minima along sliding faces, and where the outlines are in contact along much of
+    /// their length, on faces or elsewhere.
     pub(super) fn find_meetings(&mut self) {
         let problem = self.problem;
         let known = self.states.len();
@@ -63,7 +63,7 @@ impl Exploration<'_> {
         self.find_siblings(known);
     }
 
-    /// Follows the energy down from places that are not near known minima.
+    /// Descends from configurations that are not near known minima.
     fn look_near(&mut self, places: Vec<Configuration>) {
         let places: Vec<Configuration> = places
             .into_iter()
@@ -80,8 +80,7 @@ impl Exploration<'_> {
     }
 }
 
-/// Those of some places that have none with a lower energy (J) within `radius` (m, metric of the
-/// space), from the lowest on.
+/// The configurations without a lower one within `radius` (m, metric of the space), lowest first.
 fn lowest_around(
     problem: &Problem,
     mut places: Vec<(f64, Configuration)>,

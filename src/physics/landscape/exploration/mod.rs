@@ -1,22 +1,21 @@
 //! The survey of a landscape: from a roadmap to states, transition states and a network in which
 //! the ways between them are known accurately.
 //!
-//! The roadmap finds out which basins there are and roughly where they meet. Then, in rounds, each
-//! place where two basins meet is looked at more closely:
+//! The roadmap shows which basins there are and roughly where they meet. Then, in rounds, each pass
+//! between two basins is refined:
 //!
-//! 1. Newton's method looks for the transition state there; descents on either side of it tell
-//!    which states it joins.
-//! 2. Where that fails or does not join the two basins, the roadmap is densified around the place,
+//! 1. Newton's method searches the transition state there; descents on both sides of it show which
+//!    states it connects.
+//! 2. If that fails or does not connect the two basins, the roadmap is densified around the pass,
 //!    with new milestones on the contact surface wherever they would overlap.
 //!
-//! until every meeting place is a transition state, or its energy moves by less than a set
-//! fraction of the barrier from round to round. Before that, states are joined straight to those
-//! closest to them, and what nothing joins to `free` is withdrawn straight from what it touches.
+//! until every pass is a transition state, or its energy changes by less than a given fraction of
+//! the barrier from round to round. Before that, states are connected by straight motions to the
+//! nearest ones, and states without a connection to `free` are withdrawn straight from contact.
 //!
-//! What is found once is known of all copies that the problem's symmetries make of it: every state
-//! is a node together with its images, and so is every transition state with the ways on its sides.
-//! So where two basins meet is looked at for one of the copies, that from which the lowest way is
-//! known, and at last its way is led out of all others.
+//! Every result holds for all symmetric copies: every state is a node together with its images, and
+//! so is every transition state with the paths on its sides. So the pass between two basins is
+//! refined only for the copy with the lowest known path, which is then mapped to all others.
 
 mod arrivals;
 mod copies;
@@ -42,26 +41,26 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
-/// Of very many magnets, milestones above this share of the bond's depth (below 0) lead nowhere: what is
-/// shallower is not listed.
+/// With very many magnets, milestones shallower than this share of the bond's depth are ignored:
+/// shallower states are not listed.
 const HELD: f64 = 1e-4;
-/// Descents that are followed at once.
+/// Number of descents in parallel.
 const TOGETHER: usize = 64;
 
-/// How closely the meeting places of basins are looked at.
+/// Settings of the exploration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExplorationSettings {
-    /// How the links are weighed.
+    /// Settings of the cost of links.
     pub edge: EdgeSettings,
-    /// A barrier is settled when it moves by less than this fraction from round to round.
+    /// A barrier has converged when it changes by less than this fraction from round to round.
     pub settled: f64,
-    /// So many kinds of states are looked at closely, the deepest; all where `None`.
+    /// Number of kinds of states to analyse, deepest first; all if `None`.
     pub most_kinds: Option<usize>,
-    /// Milestones added around a meeting place in each round.
+    /// Milestones added around a pass in each round.
     pub added_milestones: usize,
-    /// Rounds after which what is not settled stays so.
+    /// Largest number of rounds.
     pub most_rounds: usize,
-    /// Of all random numbers.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -76,7 +75,7 @@ pub struct FoundState {
     pub class: usize,
 }
 
-/// Kinds of states that were found, and not looked at as there are many.
+/// Kinds of states that were found but not analysed, as there are too many.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LeftOut {
     /// How many there are.
@@ -85,9 +84,9 @@ pub struct LeftOut {
     pub lowest: f64,
 }
 
-/// What a survey found.
+/// The state and the results of a survey.
 pub struct Exploration<'a> {
-    /// Whose landscape it is.
+    /// The problem.
     pub problem: &'a Problem,
     settings: ExplorationSettings,
     /// All motions that were found free, with their costs.
@@ -98,9 +97,9 @@ pub struct Exploration<'a> {
     pub free: usize,
     /// Transition states, with the link of each.
     pub transition_states: Vec<(Stationary, usize)>,
-    /// Meeting places that are not transition states: link and the last change of its energy (J).
+    /// Passes that are not transition states: link and the last change of its energy (J).
     pub unpolished: HashMap<usize, f64>,
-    /// Kinds of states that were found and not looked at closely, and the energy (J) of the deepest.
+    /// Kinds of states that were found but not analysed, and the energy (J) of the deepest.
     pub left_out: Option<LeftOut>,
 }
 
@@ -108,7 +107,7 @@ impl<'a> Exploration<'a> {
     /// Finds states, transition states and ways from the roadmap, and from guesses besides.
     pub fn explore(&mut self, guesses: &[Configuration]) {
         let problem = self.problem;
-        // Every configuration is as low as every other: none is a state.
+        // All configurations have the same energy: none is a state.
         if problem.is_inert() {
             self.network.span();
             return;
@@ -123,7 +122,7 @@ impl<'a> Exploration<'a> {
         self.settle(0);
     }
 
-    /// Adds minima that were found otherwise, and how they are joined to the others.
+    /// Adds minima found in another way, and their connections.
     pub fn add(&mut self, minima: &[Stationary]) {
         let fresh = self.states.len();
         for minimum in minima {
@@ -133,14 +132,14 @@ impl<'a> Exploration<'a> {
         self.settle(fresh);
     }
 
-    /// Looks more closely, in rounds, at where basins meet. States from `fresh` on are new.
+    /// Refines passes between basins, in rounds. States from `fresh` on are new.
     fn settle(&mut self, fresh: usize) {
         self.join_neighbours(fresh);
         self.withdraw(fresh);
         self.network.span();
         let mut tried = HashSet::new();
         for round in 0..self.settings.most_rounds {
-            // A transition state that is found from one copy only is found for all.
+            // A transition state found from one copy is found for all.
             let merges = if self.problem.is_dear() {
                 self.lowest_merges()
             } else {
@@ -158,7 +157,7 @@ impl<'a> Exploration<'a> {
         self.share();
     }
 
-    /// The roadmap as it is, nothing looked at more closely yet.
+    /// The roadmap without any refinement.
     pub fn of_roadmap(
         problem: &'a Problem,
         roadmap: Roadmap,
@@ -196,7 +195,7 @@ impl<'a> Exploration<'a> {
             let is_asked = !problem.is_dear() || energy < -HELD * problem.depth();
             (is_asked && !problem.space.is_far(&q)).then_some((Some(node), q))
         }));
-        // What some find the next ones need not verify.
+        // Later descents need not verify minima found by earlier ones.
         for some in starts.chunks(TOGETHER) {
             let known = self.known();
             let descents: Vec<Descent> =
@@ -215,7 +214,7 @@ impl<'a> Exploration<'a> {
         }
     }
 
-    /// Leaves out all but the deepest kinds of states, so many.
+    /// Keeps only the given number of the deepest kinds of states.
     fn keep_deepest(&mut self, most: usize) {
         let mut deepest: Vec<usize> = self.firsts().collect();
         deepest.order_by_key(|&first| OrderedFloat(self.states[first].minimum.point.energy));
@@ -228,7 +227,7 @@ impl<'a> Exploration<'a> {
         });
         deepest.truncate(most);
         self.states.retain(|state| deepest.contains(&state.class));
-        // A kind's states lie together, the first of them first.
+        // A kind's states are adjacent, starting with its first.
         let mut first = 0;
         for number in 1..=self.states.len() {
             let is_next = |states: &[FoundState]| states[number].class != states[first].class;
@@ -246,7 +245,7 @@ impl<'a> Exploration<'a> {
         Known::minima(self.states.iter().map(|state| state.minimum.point.q))
     }
 
-    /// The node in which a descent ended, made if need be.
+    /// The node in which a descent ended, created if necessary.
     pub fn arrive(&mut self, descent: &Descent) -> Option<usize> {
         match &descent.outcome {
             Outcome::Minimum(minimum) => Some(self.state_node(minimum)),
@@ -260,7 +259,7 @@ impl<'a> Exploration<'a> {
         }
     }
 
-    /// The node of a minimum. One that is new becomes a state with all its images.
+    /// The node of a minimum. A new minimum becomes a state with all its images.
     fn state_node(&mut self, minimum: &Stationary) -> usize {
         let problem = self.problem;
         let q = minimum.point.q;

@@ -1,5 +1,4 @@
-//! Siblings of minima: the same meeting of two faces, on all other pairs of faces and in the
-//! mirror.
+//! Siblings of minima: the same contact of two faces, on all other pairs of faces and mirrored.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -13,18 +12,18 @@ use crate::tile::{Face, face_to_face};
 pub(super) const SAME: f64 = 1e-3;
 /// Faces turned away from each other by more than this (rad) do not meet.
 const TURNED: f64 = 0.8;
-/// A place where the energy is less than this share of the minimum's is none: faces without the
-/// magnets that hold there have no such meeting, and of a polygon's pairs of faces most may be bare.
+/// Guesses with less than this share of the minimum's energy are dropped: faces without the
+/// relevant magnets have no such contact, and most pairs of a polygon's faces may be bare.
 const HELD: f64 = 0.1;
 
-/// How the moving tile's face stands to the fixed one's: its middle's place along that face and
-/// out of it (m), and by how much it is turned against lying flush (rad).
+/// The position of the moving tile's face relative to the fixed one's: its middle along that face
+/// and out of it (m), and its rotation from flush (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
     pub slide: f64,
     pub gap: f64,
     pub tilt: f64,
-    /// Of the minimum (J).
+    /// Energy of the minimum (J).
     pub energy: f64,
 }
 
@@ -67,8 +66,8 @@ impl Meeting {
     }
 }
 
-/// Where siblings of some minima, given with their energies (J), may be expected, themselves not left
-/// out.
+/// The expected siblings of some minima, given with their energies (J), including the minima
+/// themselves.
 pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Vec<Configuration> {
     let [of_fixed, of_moving] = problem.faces();
     let size = problem.space.rho;

@@ -1,5 +1,5 @@
-//! Faces that slide along each other: where magnets of both come to lie opposite, or beside, minima
-//! are to be expected, often tilted ones that hold on one corner.
+//! Guesses for minima along sliding faces: where magnets of both faces lie opposite or beside each
+//! other, often tilted so that one corner touches.
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -10,15 +10,15 @@ use crate::order::Order;
 use crate::problem::Problem;
 use crate::tile::{Face, Tile, face_to_face};
 
-/// Slides are tried up to so many steps from where two magnets are opposite ...
+/// Slides are tried up to this many steps from the position in which two magnets are opposite ...
 const STEPS: i32 = 6;
 /// ... each this share of the closest magnets' distance (the pitch), ...
 const STEP: f64 = 0.25;
-/// ... flush and with the ends of the moving face so much nearer and farther, in pitches.
+/// ... flush and with the ends of the moving face nearer and farther by these amounts, in pitches.
 const TILTS: [f64; 5] = [0.0, 0.25, -0.25, 0.5, -0.5];
 
-/// Slid meetings of all pairs of faces, of those that symmetry maps onto each other one, drawn apart
-/// until the tiles do not overlap.
+/// Slid contacts of all pairs of faces, one of each set of symmetric ones, drawn apart until the
+/// tiles do not overlap.
 pub(super) fn slid_meetings(problem: &Problem) -> Vec<Configuration> {
     let Some(pair) = &problem.pair else {
         return Vec::new();

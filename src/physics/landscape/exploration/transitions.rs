@@ -1,4 +1,4 @@
-//! Transition states between states, and the ways on their sides.
+//! Transition states between states, and the ways down from them on both sides.
 
 use std::collections::HashSet;
 
@@ -19,8 +19,7 @@ use crate::roadmap::Point;
 const OFF_SADDLE: f64 = 2e-4;
 
 impl Exploration<'_> {
-    /// Looks for the transition states of meeting places and adds those found, with their
-    /// symmetric images.
+    /// Searches the transition states of passes and adds those found, with their symmetric images.
     pub(super) fn polish(&mut self, open: &[Merge], tried: &mut HashSet<usize>) {
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
@@ -30,8 +29,8 @@ impl Exploration<'_> {
         self.add_transition_states_near(&places, &self.problem.symmetries);
     }
 
-    /// Looks for the transition states near some places, each given with the direction in which it
-    /// is to be passed, and adds those found, with what the symmetries make of them.
+    /// Searches transition states near some configurations, each given with its direction of
+    /// passage, and adds those found, with their symmetric images.
     pub fn add_transition_states_near(
         &mut self,
         places: &[(Configuration, Vector3<f64>)],
@@ -82,7 +81,7 @@ impl Exploration<'_> {
         self.transition_states.push((saddle, link));
     }
 
-    /// The highest configuration of a link and the direction in which the link passes it.
+    /// The highest configuration of a link and the direction of the link there.
     pub(super) fn meeting_place(&self, number: usize) -> Option<(Configuration, Vector3<f64>)> {
         let q = self.network.peak_configuration(number)?;
         let along = match self.network.way(number) {

@@ -1,5 +1,5 @@
-//! Straight ways that sampled milestones cannot meet: out of states that the roadmap does not reach,
-//! and from state to state.
+//! Straight ways that sampled milestones are unlikely to find: out of states that the roadmap does
+//! not reach, and from state to state.
 
 use std::collections::BTreeSet;
 
@@ -14,18 +14,18 @@ use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{EdgeCosts, Point, edge};
 
-/// Straight ways lead from a state to so many others no farther away than this (m, metric of the
-/// space).
+/// Number of neighbouring states that a state is joined to by straight motions, and the largest
+/// distance (m, metric of the space).
 const MOST_OTHERS: usize = 4;
 const FARTHEST: f64 = 0.05;
-/// Where a state is withdrawn to is joined to so many milestones.
+/// Number of milestones that the end of a withdrawal is joined to.
 const MOST_MILESTONES: usize = 6;
 /// Contacts within this distance (m) count as closed.
 const CLOSED: f64 = 1e-6;
 
 impl Exploration<'_> {
-    /// Joins states, those from `fresh` on and others, to those closest to them where a straight motion
-    /// is free: a passage without play beside a state may lead on to a lower one.
+    /// Joins the states from `fresh` on to the closest states by straight motions, where these are
+    /// free: a passage without play beside a state may lead to a lower one.
     pub(super) fn join_neighbours(&mut self, fresh: usize) {
         let problem = self.problem;
         let at = |state: usize| self.states[state].minimum.point.q;
@@ -62,8 +62,9 @@ impl Exploration<'_> {
     }
 
     /// Joins states to `free` by straight motions away from what they touch, where nothing else
-    /// does; of very many magnets, which nothing joined to milestones, all from `fresh` on. Shapes
-    /// that fit without play leave a tile a single direction, which sampled milestones cannot meet.
+    /// does; for very many magnets, where nothing joined them to milestones, all states from
+    /// `fresh` on. Shapes that fit without play leave a tile a single direction, which sampled
+    /// milestones cannot meet.
     pub(super) fn withdraw(&mut self, fresh: usize) {
         let problem = self.problem;
         let joined = self.network.joined_to(self.free);
@@ -98,8 +99,8 @@ impl Exploration<'_> {
         self.join_to_milestones(known);
     }
 
-    /// Joins nodes, those from `fresh` on, to the milestones nearest to them: from where one state is
-    /// withdrawn to the way to another.
+    /// Joins the nodes from `fresh` on to their nearest milestones, so that the end of one
+    /// withdrawal connects to other paths.
     fn join_to_milestones(&mut self, fresh: usize) {
         let problem = self.problem;
         let at = |node: usize| self.network.nodes[node].map(|known| known.0);
@@ -156,7 +157,7 @@ fn directions(problem: &Problem, q: &Configuration) -> Vec<Vector2<f64>> {
     normals
 }
 
-/// The first far configuration in a direction; `None` where it is not on the table.
+/// The first far configuration in a direction; `None` if it is not on the table.
 fn farthest(
     space: &ConfigurationSpace,
     q: &Configuration,

@@ -14,31 +14,31 @@ use crate::landscape::results::Uncertified;
 use crate::parallel;
 use crate::potential::CellBounds;
 
-/// A pathway's energy is bounded to this share of the tolerance.
+/// A pathway's energy is bounded to within this fraction of the tolerance.
 pub(super) const SHARPNESS: f64 = 0.05;
 
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: usize = 3;
 
-/// First cells and known pathways that are dealt with between two looks at what is left of the work: not
-/// by how many threads, so that these decide nothing.
+/// Number of first cells and known pathways processed between two checks of the remaining effort.
+/// It does not depend on the number of threads, so the results do not either.
 const AT_ONCE: usize = 64;
 
-/// Certifies barriers of one landscape. What one query finds out about the landscape serves the
-/// next ones.
+/// Certifies barriers of one landscape. Each query reuses what earlier ones found out about the
+/// landscape.
 pub struct Certifier<'a> {
     pub(super) bounded: Bounded<'a>,
     pub(super) store: Store,
     pub(super) ends: Ends,
     pub(super) assessed: usize,
     budget: Budget,
-    /// Pathways that were proved ahead, or that it is known cannot be.
+    /// Pathways that were proved in advance, or are known not to be provable.
     foreseen: Vec<Foreseen>,
     pub(super) proofs: Proofs,
     ways: Ways,
 }
 
-/// A pathway, the tolerance (J) of its proof, and what came of that.
+/// A pathway, the tolerance (J) of its proof, and the outcome.
 struct Foreseen {
     path: Vec<Configuration>,
     tolerance: f64,
@@ -57,8 +57,8 @@ impl<'a> Certifier<'a> {
         unlimited.expect("work without end")
     }
 
-    /// The same, for all of whose queries together so much may be spent: no less than the bounds over
-    /// the first, large cells take, which of very many magnets may be much.
+    /// The same with a limit on the effort of all queries together. The bounds over the first,
+    /// large cells are always computed, which may take long for very many magnets.
     ///
     /// # Errors
     /// [`Uncertified::Unasked`] and [`Uncertified::Ended`].
@@ -101,15 +101,15 @@ impl<'a> Certifier<'a> {
         self.budget.spend(units);
     }
 
-    /// What ends the work here, if anything does.
+    /// The reason to stop here, if there is one.
     pub fn ended(&mut self) -> Option<Ended> {
         self.bounded.pay(&mut self.budget);
         self.budget.ended()
     }
 
-    /// Proves known pathways from their starts on, each to the tolerance (J) with which it is going to
-    /// be asked for: side by side, which queries one after the other cannot. What was proved so
-    /// before is forgotten; what comes after the work has ended is left to the queries.
+    /// Proves known pathways in parallel, which sequential queries cannot; each to the tolerance
+    /// (J) of its later query. Results of an earlier call are discarded; pathways left when the
+    /// effort is spent are proved by the queries.
     pub fn foresee(&mut self, paths: &[(Configuration, Vec<Configuration>, f64)]) {
         self.foreseen.clear();
         for paths in paths.chunks(AT_ONCE) {
@@ -129,7 +129,7 @@ impl<'a> Certifier<'a> {
         }
     }
 
-    /// What comes of proving a known pathway for a query with a tolerance (J).
+    /// The result of proving a known pathway for a query with a tolerance (J).
     pub(super) fn known_path(&self, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
         let is_it = |known: &&Foreseen| known.tolerance == tolerance && known.path == path;
         match self.foreseen.iter().find(is_it) {
@@ -138,7 +138,7 @@ impl<'a> Certifier<'a> {
         }
     }
 
-    /// Takes note of a proved pathway, from end to end.
+    /// Records a proved pathway, from end to end.
     pub(super) fn note_way(&mut self, points: &[Configuration]) {
         if self.ways.include(points) {
             return;
@@ -149,8 +149,8 @@ impl<'a> Certifier<'a> {
         self.ways.add(&self.store, start, &way);
     }
 
-    /// The leaves that proved pathways run through and at which energy (J) they do, where their
-    /// middles would not tell that they can be passed.
+    /// The leaves crossed by proved pathways, with the energy (J) there, if their midpoints would
+    /// not show that they can be passed.
     pub(super) fn passable(&mut self) -> Vec<(u32, f64)> {
         let store = &self.store;
         let is_misjudged = |id: u32| store.leaf(id).known.is_overlapping();
@@ -163,8 +163,8 @@ impl<'a> Certifier<'a> {
         self.assessed
     }
 
-    /// Subdivides leaves, going on where a part may still be passed at `level` (J); returns how
-    /// many of them could be subdivided.
+    /// Subdivides leaves, and their parts as long as these may be passed at `level` (J); returns
+    /// how many leaves could be subdivided.
     pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
         let divided: Vec<_> = parallel::map(ids, |&id| {
             let leaf = self.store.leaf(id);

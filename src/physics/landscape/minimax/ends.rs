@@ -1,4 +1,4 @@
-//! The leaves that hold the ends of queries, known from one round to the next.
+//! The leaves that contain the ends of queries, kept from one round to the next.
 
 use std::collections::HashMap;
 
@@ -10,8 +10,8 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::bounded::Bounded;
 use crate::order::Order;
 
-/// The leaves of a store that hold something, by their numbers; only leaves that were added since
-/// the last look are looked at.
+/// The leaves of a store that hold something, by their numbers; only leaves added since the last
+/// call are examined.
 #[derive(Default)]
 struct Holders<T> {
     known: Vec<(u32, T)>,
@@ -33,7 +33,7 @@ impl<T: Copy> Holders<T> {
 /// Where the ends of queries lie in a store.
 #[derive(Default)]
 pub(super) struct Ends {
-    /// By the bits of a configuration.
+    /// Keyed by the bits of a configuration.
     at: HashMap<[u64; 3], Holders<()>>,
     /// With the energy (J) there.
     far: Holders<f64>,
@@ -57,7 +57,7 @@ impl Ends {
         if goal.free {
             to.extend(self.far(store, bounded));
         }
-        // Of a leaf that holds several, what comes first.
+        // If a leaf holds several, the first of them.
         to.order_by_key(|(id, _)| *id);
         to.dedup_by_key(|(id, _)| *id);
         Seeds { from, to }

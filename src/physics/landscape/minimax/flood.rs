@@ -1,4 +1,4 @@
-//! Floods over the leaves of a subdivision.
+//! Flood fill over the leaves of a subdivision.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -6,18 +6,18 @@ use std::collections::BinaryHeap;
 use super::level::{Seeds, ordered};
 use super::store::Store;
 
-/// What a flood from one end of a query finds on its way to the other.
+/// The result of a flood from one end of a query to the other.
 pub(super) struct Watershed {
-    /// Leaves that keep the two ends apart: without them no chain of passable leaves joins them.
-    /// Empty if none does anyway.
+    /// Leaves that separate the two ends: without them, no chain of passable leaves joins the ends.
+    /// Empty if no chain does anyway.
     pub divide: Vec<u32>,
     /// The chain of leaves over the lowest pass, from end to end, and its highest estimate (J).
     pub pass: Option<(f64, Vec<u32>)>,
-    /// Leaves flooded, those that were taken back too.
+    /// Number of flooded leaves, including those taken back.
     pub flooded: usize,
 }
 
-/// What a flood knows of a leaf: whether it is joined to the other end below the divide,
+/// Flags of a leaf in a flood: joined to the other end below the divide,
 const BEYOND: u8 = 1;
 /// in the divide,
 const DIVIDE: u8 = 2;
@@ -26,16 +26,17 @@ const GOAL: u8 = 4;
 /// or cannot be passed below the level.
 const BARRED: u8 = 8;
 
-/// In place of the leaf before one in which the flood starts, and before one that it has not touched.
+/// Stands for the previous leaf of a start of the flood and of an untouched leaf.
 const NONE: u32 = u32::MAX;
 const DRY: u32 = u32::MAX - 1;
 
-/// A leaf that a known way runs through is one to be passed, whatever its middle says, if the way lies
-/// below the level by more than the leaf's lower bound lies below the way, by this factor. In larger
-/// ones there is more than the way, and a flood would leak through.
+/// A leaf crossed by a known path counts as passable, whatever its midpoint suggests, if the path
+/// lies below the level by more than this factor times the distance of the leaf's lower bound below
+/// the path. Larger leaves contain more than the path, and a flood would leak through.
 const SETTLED: f64 = 16.0;
 
-/// A leaf as a flood sees it. What is asked for together lies together: floods wait for memory.
+/// A leaf's data for a flood. Values used together are stored together, because floods are limited
+/// by memory latency.
 struct Ground {
     rank: f64,
     /// The leaf from which the flood touched it first.
@@ -43,19 +44,18 @@ struct Ground {
     state: u8,
 }
 
-/// A leaf to spread to: its rank, its number, and the leaf before it. In this order they decide
-/// which comes first.
+/// A leaf to spread to: its rank, its number, and the previous leaf, compared in this order.
 type Entry = Reverse<(u64, u32, u32)>;
 
 /// A flood that rises from one end over the passable leaves, those with a lower bound of at most
 /// `level`, in the order of their rank.
 ///
-/// Where it has spilt over the lowest pass that is left it runs down the other side. When it comes to
-/// the other end there, or to where an earlier spill has been, the highest leaf on its way, the last
-/// at which it rose, becomes part of the divide, and all that it flooded since is taken back: it lies
+/// After it spills over the lowest remaining pass it runs down the other side. When it reaches the
+/// other end there, or the track of an earlier spill, the highest leaf on its path (the last at
+/// which it rose) becomes part of the divide, and everything flooded since is taken back: it lies
 /// beyond. The divide is the one at which two floods from both ends would meet (Meyer's flooding;
-/// Beucher and Meyer 1993), while of the land beyond it no more is looked at than the ways down to
-/// the end: states that are left over low passes are many, and their basins small.
+/// Beucher and Meyer 1993), but beyond it only the paths down to the end are examined: there are
+/// many states with low passes, and their basins are small.
 struct Flood<'a> {
     store: &'a Store,
     ground: Vec<Ground>,
@@ -70,9 +70,9 @@ struct Flood<'a> {
     found: Watershed,
 }
 
-/// What keeps the ends of a query apart below a level (J), where `known` leaves can be passed at an
-/// energy (J). Of a divide of more than `most` leaves (at least one) those of the lowest passes are
-/// found.
+/// The leaves that separate the ends of a query below a level (J), where `known` leaves can be
+/// passed at an energy (J). If the divide has more than `most` leaves (at least one), those of the
+/// lowest passes are returned.
 pub(super) fn watershed(
     store: &Store,
     seeds: &Seeds,
@@ -84,7 +84,7 @@ pub(super) fn watershed(
         let Some(Reverse((rank, id, before))) = flood.queue.pop() else {
             break;
         };
-        // Of what was taken back nothing is to be done.
+        // Leaves that were taken back need no processing.
         if flood.ground[id as usize].before == before {
             flood.step(rank, id);
         }
@@ -161,7 +161,7 @@ impl<'a> Flood<'a> {
         self.ground[id as usize].state
     }
 
-    /// The energy (J) known of the other end in a leaf that holds it.
+    /// The known energy (J) of the other end in a leaf that holds it.
     fn goal(&self, id: u32) -> f64 {
         self.goals[self.goals.partition_point(|goal| goal.0 < id)].1
     }
@@ -194,8 +194,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Takes back all since the summit, from which the flood has come to this leaf, which holds the
-    /// other end or touches the leaf `beyond`.
+    /// Takes back everything flooded since the summit when the flood reaches this leaf, which holds
+    /// the other end or touches the leaf `beyond`.
     fn divide(&mut self, id: u32, beyond: Option<u32>) {
         if self.found.pass.is_none() {
             self.found.pass = Some(self.chain(id, beyond));
@@ -217,8 +217,8 @@ impl<'a> Flood<'a> {
         self.found.divide.push(summit);
     }
 
-    /// The chain of leaves from end to end, and its highest estimate (J). Only before anything else
-    /// is beyond does it end where the other end is.
+    /// The chain of leaves from end to end, and its highest estimate (J). It reaches the other end
+    /// itself only while nothing else is beyond.
     fn chain(&self, id: u32, beyond: Option<u32>) -> (f64, Vec<u32>) {
         let parents = std::iter::successors(Some(id), |&id| {
             Some(self.ground[id as usize].before).filter(|before| *before != NONE)
@@ -243,8 +243,8 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// The least of the highest ranks on chains of passable leaves from end to end that keep off
-    /// some leaves, by Dijkstra's way; of the ends their energies count.
+    /// The minimax rank over chains of passable leaves from end to end that avoid some leaves, by
+    /// Dijkstra's algorithm; the ends count with their energies.
     fn minimax(store: &Store, seeds: &Seeds, level: f64, off: &[u32]) -> Option<f64> {
         let passable = |id: u32| store.lower(id) <= level && !off.contains(&id);
         let goal = |id: u32| seeds.to.iter().find(|seed| seed.0 == id).map(|seed| seed.1);

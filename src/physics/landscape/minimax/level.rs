@@ -1,19 +1,19 @@
-//! The least level at which the ends of a query are joined, and energies as ordered numbers.
+//! The lowest level at which the ends of a query are connected; energies as ordered numbers.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::store::Store;
 
-/// The leaves that contain either end of a query, with the lowest energy (J) known of the end in
+/// The leaves that contain either end of a query, with the lowest known energy (J) of the end in
 /// them.
 pub(super) struct Seeds {
     pub from: Vec<(u32, f64)>,
     pub to: Vec<(u32, f64)>,
 }
 
-/// The least level (J) at which a chain of touching leaves with lower bounds of at most that level
-/// joins the ends: no free path between them stays below it. Infinite where no chain does.
+/// The lowest level (J) at which a chain of touching leaves with lower bounds of at most that level
+/// joins the ends: no free path between them stays below it. Infinite if there is no chain.
 pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut seen = vec![false; store.len()];
     let mut goal = vec![false; store.len()];

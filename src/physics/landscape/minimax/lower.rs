@@ -1,4 +1,4 @@
-//! The lower bound of the energy over the free part of one cell.
+//! A lower bound of the energy over the free part of a cell.
 
 use ordered_float::OrderedFloat;
 
@@ -7,7 +7,7 @@ use crate::contact::cells::{Cut, Cuts};
 use crate::landscape::bounded::Bounded;
 use crate::potential::bounds::Enclosure;
 
-/// What is known of a cell that is not proved blocked.
+/// Bounds and estimates of a cell that is not proved blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Assessment {
     /// No free configuration of the cell has a lower energy (J).
@@ -15,15 +15,15 @@ pub(crate) struct Assessment {
     /// A guess of the energy (J) at the free configuration nearest to the centre; it steers the
     /// search and proves nothing.
     pub estimate: f64,
-    /// How deep the tiles overlap at the centre, as a share of how far the cell moves them; 0 where
-    /// they do not, plus the cell's size as a share of the tile's. Another guess that only steers:
-    /// the rank in a flood that looks for any free way at all.
+    /// Overlap of the tiles at the centre, as a fraction of how far the cell moves them (0 without
+    /// overlap), plus the cell's size as a fraction of the tile's. Also a guess that only steers:
+    /// the rank in a flood that searches for any free path.
     pub overlap: f64,
     /// The coordinate along which to halve the cell.
     pub axis: usize,
 }
 
-/// How much a cell's uncertainty counts in its rank.
+/// Weight of a cell's uncertainty in its rank.
 const UNCERTAINTY: f64 = 0.3;
 
 impl Assessment {
@@ -34,12 +34,12 @@ impl Assessment {
         self.estimate + UNCERTAINTY * (self.estimate - self.lower)
     }
 
-    /// Whether the estimate is but that of a cell whose middle lies deep in overlap.
+    /// Whether the estimate is the placeholder of a cell whose midpoint overlaps deeply.
     pub fn is_overlapping(&self) -> bool {
         self.estimate >= OVERLAPPING
     }
 
-    /// This of a part of a cell of which `whole` is known.
+    /// This assessment of a part, improved by that of the `whole` cell.
     pub fn within(self, whole: &Self) -> Self {
         Self {
             lower: self.lower.max(whole.lower),
@@ -48,20 +48,20 @@ impl Assessment {
     }
 }
 
-/// Estimate of a cell whose centre lies deep in overlap: above every energy, the more so the
-/// deeper it lies.
+/// Estimate of a cell whose centre overlaps deeply: above all energies, and higher for deeper
+/// overlap.
 const OVERLAPPING: f64 = 1e30;
 
 impl Bounded<'_> {
-    /// Assesses a cell; `None` where it is proved blocked.
+    /// Assesses a cell; `None` if it is proved blocked.
     pub(super) fn assess(&self, cell: &Cell) -> Option<Assessment> {
         let cuts = self.classify(cell)?;
         Some(assess(&self.enclose(cell), &cuts, self.lever, cell))
     }
 }
 
-/// Assesses a cell of whose energy and contact this is known. `lever` (m) says how far a turn by one
-/// radian moves the tile.
+/// Assesses a cell with this enclosure of the energy and these contacts. `lever` (m) is how far a
+/// turn of one radian moves the tile.
 pub(crate) fn assess(enclosure: &Enclosure, cuts: &Cuts, lever: f64, cell: &Cell) -> Assessment {
     let tight = Lagrangian::tightest(enclosure, &cell.half, cuts);
     let gaps = cuts.easiest().map(|cut| cut.form.value);
@@ -79,8 +79,8 @@ pub(crate) fn assess(enclosure: &Enclosure, cuts: &Cuts, lever: f64, cell: &Cell
     }
 }
 
-/// Change of the energy (J), to first order, on the shortest way from the centre to where the
-/// most violated cut is satisfied.
+/// Change of the energy (J), to first order, on the shortest path from the centre to where the most
+/// violated cut is satisfied.
 fn pushed_out(energy: &Quadratic, cuts: &Cuts, lever: f64) -> f64 {
     let worst = cuts
         .easiest()
@@ -95,7 +95,7 @@ fn pushed_out(energy: &Quadratic, cuts: &Cuts, lever: f64) -> f64 {
     -cut.form.value * product(&energy.gradient, &out) / product(&out, &out)
 }
 
-/// The coordinate that lowers the bound most.
+/// The coordinate that loosens the bound most.
 fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> usize {
     let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
     let total: f64 = sizes.iter().sum();
@@ -118,7 +118,7 @@ fn widest(form: &Quadratic, enclosure: &Enclosure, cell: &Cell, lever: f64) -> u
 /// Rounding: the energy's own is subtracted with the sizes its terms have before the cuts are
 /// taken off. The cuts' slack has a spare 1e-9 m, a million times the rounding of their terms.
 pub(in crate::landscape) struct Lagrangian {
-    /// Of the energy (J) where the cuts hold.
+    /// Lower bound of the energy (J) where the cuts hold.
     pub lower: f64,
     form: Quadratic,
 }

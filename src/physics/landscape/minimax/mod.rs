@@ -1,40 +1,43 @@
-//! Certified barriers: the minimax energy between two configurations, between two bounds that
-//! cannot be wrong.
+//! Certified barriers: proved lower and upper bounds of the minimax energy between two
+//! configurations.
 //!
 //! ```text
-//! lower <= least possible highest energy of a free path <= upper
+//! lower <= lowest maximum energy over all free paths <= upper
 //! ```
 //!
 //! **Upper bound.** A pathway is lifted off contact and cut into straight stretches. Each stretch
-//! is proved free by separating lines of convex parts that hold all along it, and its energy is
-//! bounded by the enclosure of a cell around it; nothing is sampled.
+//! is proved free by lines that separate convex parts along all of it, and its energy is bounded by
+//! the enclosure of a cell around it; nothing is sampled.
 //!
-//! **Lower bound.** The configuration space is covered by closed cells. For each cell either no
-//! configuration of it is free, or a number is known that the energy of no free configuration of it
-//! falls below: a Taylor form with a bound of its remainder, minimised over the part of the cell
-//! that contact leaves. A path is covered by a chain of touching cells, so if every chain of cells
-//! from end to end has one with a lower bound above E, the barrier is above E.
+//! **Lower bound.** The configuration space is covered by closed cells. Each cell either has no
+//! free configuration, or a lower bound of the energy of its free configurations is known: a Taylor
+//! form with a bounded remainder, minimised over the part of the cell that contact allows. A path
+//! is covered by a chain of touching cells, so if every chain of cells from end to end has one with
+//! a lower bound above E, the barrier is above E.
 //!
 //! **Search.** A flood rises from one end over the cells with lower bounds of at most E, the target
-//! just below the best upper bound. Where it would spill over to the other end is a divide, and
-//! only its cells are subdivided (see `flood`): wrong guesses cost time, never the proof. The lowest
-//! pass suggests a pathway; where one along it can be proved, the upper bound falls.
-//! Where no chain is left at E = infinity the start is caged.
+//! just below the best upper bound. The cells where it would spill over to the other end form a
+//! divide, and only its cells are subdivided (see `flood`): wrong guesses cost time, never the
+//! proof. The lowest pass suggests a pathway; if one along it can be proved, the upper bound
+//! decreases. If no chain is left at E = infinity, the start is caged.
 //!
 //! # What is proved, and what is assumed
 //!
 //! For the model potential and the two outlines as given, with the reference point on the table:
 //!
-//! - `lower` holds for every path on which no point of a tile gets deeper than
-//!   [`relaxed`](crate::contact::cells::ContactCells::relaxed) (2e-9 m of the paper's tile) into the other, more than every free one;
-//! - `upper` is that of the returned pathway, on no stretch of which the tiles overlap by more than
-//!   [`touch`](crate::contact::Contact::touch) (1e-9 m of the paper's tile), which counts as touching;
+//! - `lower` holds for every path on which no point of a tile enters the other deeper than
+//!   [`relaxed`](crate::contact::cells::ContactCells::relaxed) (2e-9 m for the paper's tile), which
+//!   includes every free path;
+//! - `upper` holds for the returned pathway, on which the tiles nowhere overlap by more than
+//!   [`touch`](crate::contact::Contact::touch) (1e-9 m for the paper's tile), which counts as
+//!   touching;
 //! - rounding errors are included, see [`crate::potential::bounds`], [`crate::cell`] and
-//!   [`crate::contact::cells`]. Assumed is that f64 arithmetic is IEEE 754's, and that the
-//!   platform's sine, cosine, arc and exponential functions are right to 8 units in the last place.
+//!   [`crate::contact::cells`]. It is assumed that f64 arithmetic follows IEEE 754, and that the
+//!   platform's sine, cosine, arc and exponential functions are accurate to 8 units in the last
+//!   place.
 //!
-//! The same query to the same certifier gives the same bracket on any number of threads, unless
-//! a clock cuts it short. A bracket that was cut short is as true, only wider.
+//! The same query to the same certifier gives the same bracket on any number of threads, unless a
+//! time limit ends it early. A bracket that ended early is also valid, only wider.
 
 mod certifier;
 mod ends;
@@ -71,27 +74,28 @@ impl End {
     }
 }
 
-/// How narrow a bracket is wanted, and how much work it is worth.
+/// The desired width of a bracket, and the effort allowed for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Width (J) at which to stop.
     pub tolerance: f64,
-    /// Cells assessed in this query, about, at which to stop with what is known.
+    /// Approximate number of cells assessed in this query at which to stop with the current
+    /// bracket.
     pub cells: usize,
 }
 
 /// Bounds of a barrier's highest energy, and the pathway that proves the upper one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bracket {
-    /// What is proved.
+    /// The proved bounds.
     pub bounds: SaddleBounds,
     /// The proved pathway, from end to end; empty where none is known. Straight in x, y and theta
     /// between its points.
     pub pathway: Vec<Configuration>,
     /// The highest point met on the pathway.
     pub saddle: Option<Configuration>,
-    /// Whether the pathway is the certificate's own, lower than the one it was given or in place
-    /// of one that could not be proved.
+    /// Whether the pathway was found by the certificate: lower than the given one, or instead of
+    /// one that could not be proved.
     pub improved: bool,
     /// Cells assessed for this query.
     pub cells: usize,
@@ -99,7 +103,7 @@ pub struct Bracket {
     pub rounds: usize,
 }
 
-/// Which of two barriers is proved the higher one.
+/// Which of two barriers is proved to be higher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ordering {
     /// The first one.
@@ -112,7 +116,7 @@ pub enum Ordering {
 
 impl SaddleBounds {
     /// Whether this barrier's highest energy is proved higher or lower than the other's. A barrier
-    /// with no way over it is higher than one with a way.
+    /// that no path crosses is higher than one that a path crosses.
     ///
     /// ```
     /// use tilebind_physics::landscape::SaddleBounds;
@@ -132,7 +136,7 @@ impl SaddleBounds {
 }
 
 /// Which of two numbers, each known by a proved lower bound and, where there is one, a proved upper
-/// bound, is the higher one; decided only where the bounds do not overlap.
+/// bound, is higher; decided only if the bounds do not overlap.
 ///
 /// ```
 /// use tilebind_physics::landscape::minimax::{Ordering, order};
@@ -152,7 +156,7 @@ pub fn order(a: (f64, Option<f64>), b: (f64, Option<f64>)) -> Ordering {
 /// Why nothing could be certified.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CertifyError {
-    /// An end of the path is no free configuration.
+    /// An end of the path is not a free configuration.
     #[error("the tiles overlap at ({}, {}, {})", .0.x, .0.y, .0.theta)]
     NotFree(Configuration),
     /// An end of the path is off the table.

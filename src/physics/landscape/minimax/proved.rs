@@ -1,8 +1,8 @@
-//! What queries proved of minimax energies, and what follows for the next ones.
+//! Bounds of minimax energies proved by earlier queries, and what they imply for later ones.
 //!
-//! A path from A over B to C is no higher than the higher of its halves, so that minimax energies are
-//! an ultrametric: of the three between A, B and C the two highest are equal. What leads from A to the
-//! first of some places leads to none of them lower.
+//! A path from A over B to C is no higher than the higher of its halves, so that minimax energies
+//! are an ultrametric: of the three between A, B and C the two highest are equal. A lower bound for
+//! paths from A to the first of several places also holds for each of them.
 
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
@@ -12,7 +12,7 @@ use crate::landscape::results::SaddleBounds;
 pub(super) struct Goal {
     /// At any of these,
     pub places: Vec<Configuration>,
-    /// or, if so, with the tiles far apart.
+    /// or, if true, with the tiles far apart.
     pub free: bool,
 }
 
@@ -24,7 +24,7 @@ impl Goal {
         }
     }
 
-    /// The only place, if there is one only.
+    /// The place, if there is exactly one.
     pub fn only(&self) -> Option<&Configuration> {
         match &self.places[..] {
             [place] if !self.free => Some(place),
@@ -32,28 +32,28 @@ impl Goal {
         }
     }
 
-    /// Whether what is said of this is said of all that another one consists of, too.
+    /// Whether this goal includes every place of another one.
     fn includes(&self, other: &Self) -> bool {
         self.free >= other.free && other.places.iter().all(|q| self.places.contains(q))
     }
 }
 
-/// What is known between a configuration and the first of some places.
+/// Bounds between a configuration and the first of some places.
 struct Proved {
     from: Configuration,
     to: Goal,
     /// No path is lower (J).
     lower: f64,
-    /// A path to this configuration is no higher (J).
+    /// A path to this configuration is at most this high (J).
     way: Option<(Configuration, f64)>,
 }
 
-/// All that was proved.
+/// All proved bounds.
 #[derive(Default)]
 pub(super) struct Proofs(Vec<Proved>);
 
 impl Proofs {
-    /// Notes the bounds of a query, and the end of the way that proves the upper one.
+    /// Records the bounds of a query, and the end of the path that proves the upper one.
     pub fn add(
         &mut self,
         from: &Configuration,
@@ -69,10 +69,10 @@ impl Proofs {
         });
     }
 
-    /// What follows for the paths from a configuration to a goal: none is lower (J).
+    /// The implied lower bound (J) for paths from a configuration to a goal.
     pub fn least(&self, from: &Configuration, goal: &Goal) -> f64 {
         let direct = self.between(from, goal);
-        // Over a place to which a way is known to lie lower than what leads on from there.
+        // Via a place with a known path to it that is lower than every path from there.
         let known = self.0.iter().filter(|proved| proved.from == *from);
         let over = known.filter_map(|proved| {
             let (place, upper) = proved.way?;

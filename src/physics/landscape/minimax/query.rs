@@ -1,4 +1,4 @@
-//! One query: the search for a pathway and for the proof that none lies much lower.
+//! One query: the search for a pathway, and for the proof that no pathway is much lower.
 
 use super::certifier::{Certifier, SHARPNESS, from_its_start};
 use super::ends::far_end;
@@ -11,21 +11,21 @@ use crate::configuration::Configuration;
 use crate::interruption;
 use crate::landscape::results::SaddleBounds;
 
-/// Leaves subdivided in one round: at least this many, and this share of those that the query added.
-/// A share of all would make much of the first guesses, which are the worst, where many queries share
-/// a store.
+/// Leaves subdivided in one round: at least this many, and this fraction of those that the query
+/// added. A fraction of all leaves would give too much weight to the first guesses, which are the
+/// worst, when many queries share a store.
 const SPLITS: usize = 256;
 const SPLIT_SHARE: usize = 16;
 
-/// Leaves subdivided between two looks at what is left of the work.
+/// Leaves subdivided between two checks of the remaining effort.
 const BATCH: usize = 512;
 
-/// Units of work that a flood takes for each leaf there is, and for each that it floods.
+/// Units of work of a flood for each existing leaf, and for each flooded one.
 const LEAF: u64 = 2;
 const FLOODED: u64 = 50;
 
-/// A new pathway is looked for where the pass lies below the best one by the first share of the
-/// tolerance, and taken where it is lower by the second.
+/// A new pathway is searched for if the pass lies below the best one by the first fraction of the
+/// tolerance, and accepted if it is lower by the second.
 const WORTHWHILE: f64 = 0.25;
 const GAIN: f64 = 0.1;
 
@@ -44,7 +44,7 @@ impl Certifier<'_> {
     /// is known; it need not be exactly free, as it is lifted off contact where it touches.
     ///
     /// # Errors
-    /// Where an end is not free or not on the table.
+    /// If an end is not free or not on the table.
     pub fn bracket(
         &mut self,
         from: &Configuration,
@@ -59,7 +59,7 @@ impl Certifier<'_> {
     /// `known` is a pathway to one of them, its end included, if one is known.
     ///
     /// # Errors
-    /// Where the start or a goal is not free or not on the table.
+    /// If the start or a goal is not free or not on the table.
     pub fn escape(
         &mut self,
         from: &Configuration,
@@ -71,7 +71,7 @@ impl Certifier<'_> {
         self.run(from, &Goal { places, free: true }, known, effort)
     }
 
-    /// What follows from all that was proved so far (J): no path between two ends is lower.
+    /// The lower bound (J) of paths between two ends implied by everything proved so far.
     pub fn proved(&self, from: &Configuration, to: &End) -> f64 {
         self.proofs.least(from, &to.into())
     }
@@ -106,16 +106,15 @@ struct Query<'q, 'a> {
     effort: Effort,
     assessed_before: usize,
     leaves_before: usize,
-    /// Energy (J) that every path reaches: the ends do, which are on it, and what was proved before
-    /// says so.
+    /// Energy (J) that every path reaches, because of its ends and of earlier proofs.
     floor: f64,
     best: Option<ProvedPath>,
     improved: bool,
     caged: bool,
     rounds: usize,
-    /// Whether what was proved before is enough.
+    /// Whether earlier proofs suffice.
     is_known: bool,
-    /// Whether floods rise from the end, which lies higher: its basin is the smaller one.
+    /// Whether floods rise from the far end, because it lies higher and its basin is smaller.
     from_behind: bool,
 }
 
@@ -196,7 +195,7 @@ impl<'q, 'a> Query<'q, 'a> {
         self.conclude()
     }
 
-    /// The energy (J) above which the barrier has to be proved to lie.
+    /// The energy (J) that is to be proved a lower bound of the barrier.
     fn level(&self) -> f64 {
         self.best
             .as_ref()
@@ -223,7 +222,8 @@ impl<'q, 'a> Query<'q, 'a> {
         count
     }
 
-    /// Tries to prove a lower pathway along a chain of leaves; else says which leaves are to blame.
+    /// Tries to prove a lower pathway along a chain of leaves; otherwise returns the leaves that
+    /// prevent it.
     fn improve(&mut self, chain: &[u32]) -> Result<(), Vec<u32>> {
         let (path, owners) = self.path_along(chain);
         let ceiling = self.level() + (1.0 - GAIN) * self.effort.tolerance;
@@ -244,7 +244,7 @@ impl<'q, 'a> Query<'q, 'a> {
     }
 
     /// A polyline along a chain of leaves: from end to end through the leaves' centres and the
-    /// middles of what consecutive ones have in common. With each point comes its leaf.
+    /// midpoints of the intersections of consecutive ones. Each point comes with its leaf.
     fn path_along(&self, chain: &[u32]) -> (Vec<Configuration>, Vec<u32>) {
         let store = &self.certifier.store;
         let cell = |id: u32| store.cell(&store.leaf(id).key);
@@ -265,7 +265,7 @@ impl<'q, 'a> Query<'q, 'a> {
         path.into_iter().unzip()
     }
 
-    /// A known pathway, from end to end; `None` where it does not lead to the end.
+    /// A known pathway, from end to end; `None` if it does not lead to the end.
     fn joined_to_the_ends(&self, known: &[Configuration]) -> Option<Vec<Configuration>> {
         let last = known.last()?;
         let mut path = from_its_start(self.from, known);

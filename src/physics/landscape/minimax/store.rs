@@ -1,4 +1,4 @@
-//! The leaves of a subdivision of the configuration space, and which of them touch.
+//! The leaves of a subdivision of the configuration space, and which of them are adjacent.
 
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ pub(super) struct Key {
 }
 
 impl Key {
-    /// The two halves along a coordinate; `None` where the cell cannot be halved.
+    /// The two halves along a coordinate; `None` if the cell cannot be halved.
     pub fn halves(&self, axis: usize) -> Option<[Self; 2]> {
         if self.size[axis] < 2 {
             return None;
@@ -60,16 +60,16 @@ pub(super) struct Leaf {
     pub known: Assessment,
     /// Whether it still is a leaf.
     pub live: bool,
-    /// The leaf that it was cut from; itself, if it is one of the first.
+    /// The leaf that it is a part of; itself for a first cell.
     pub whole: u32,
 }
 
-/// The leaves. Those of the table's whole configuration space that are not among them are blocked.
+/// The leaves. All other parts of the table's configuration space are blocked.
 #[derive(Clone, Debug)]
 pub(super) struct Store {
     half_size: [f64; 2],
     leaves: Vec<Leaf>,
-    // What the floods look at most, side by side.
+    // The data that floods use most are stored side by side.
     neighbours: Vec<Vec<u32>>,
     pub lowers: Vec<f64>,
     /// The rank of each leaf in a flood by energy,
@@ -124,7 +124,7 @@ impl Store {
         }
     }
 
-    /// Where a configuration lies, in units of each coordinate, to less than one.
+    /// A configuration in units of each coordinate, accurate to less than one unit.
     pub fn place(&self, q: &Configuration) -> [f64; 3] {
         let [x, y] = self.half_size;
         [q.x / x, q.y / y, q.theta / PI].map(|share| (share + 1.0) * f64::from(UNITS / 2))
@@ -144,7 +144,7 @@ impl Store {
         self.lowers[id as usize]
     }
 
-    /// Number of leaves that are or ever were.
+    /// Number of leaves, including former ones.
     pub fn len(&self) -> usize {
         self.leaves.len()
     }
@@ -159,7 +159,7 @@ impl Store {
         self.add(None, cells, &[]);
     }
 
-    /// Puts the parts of a leaf that are not blocked in its place.
+    /// Replaces a leaf by its parts that are not blocked.
     pub fn replace(&mut self, id: u32, parts: &[(Key, Assessment)]) {
         self.leaves[id as usize].live = false;
         let around = std::mem::take(&mut self.neighbours[id as usize]);
@@ -198,7 +198,7 @@ impl Store {
         }
     }
 
-    /// The middle of what two touching leaves have in common.
+    /// The midpoint of the intersection of two touching leaves.
     pub fn between(&self, a: u32, b: u32) -> Configuration {
         let (a, b) = (self.cell(&self.leaf(a).key), self.cell(&self.leaf(b).key));
         let step = a.centre.step_to(&b.centre);
@@ -225,7 +225,7 @@ pub(super) mod tests {
         axis: 0,
     };
 
-    /// The first cells of a table, nothing known of any.
+    /// The first cells of a table, not yet assessed.
     pub fn first_cells() -> Store {
         let space = ConfigurationSpace {
             half_size: [1.0, 0.7],

@@ -1,4 +1,5 @@
-//! The upper bound: a pathway proved free and bounded in energy between its points too.
+//! The upper bound: a pathway that is proved free, with its energy bounded between its points as
+//! well.
 
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;
@@ -12,11 +13,12 @@ use crate::landscape::bounded::Bounded;
 /// them does not cut into it.
 const LIFT: f64 = 1e-6;
 
-/// How far around (m) contacts are heeded where a point is lifted off contact: where corners are near,
-/// not all that are within a millimetre can be kept open at once, or only far away.
+/// Contacts within this distance (m) are considered when a point is lifted off contact. Near
+/// corners, not all contacts within a millimetre can be kept open at the same time, or only far
+/// away.
 const AROUND: [f64; 2] = [1e-3, 10.0 * LIFT];
 
-/// A point that is lifted no farther (m) than this need not be lifted otherwise.
+/// A point lifted by at most this (m) need not be lifted in another way.
 const SHORT: f64 = 10.0 * LIFT;
 
 /// A stretch is halved at most this often to prove it free.
@@ -41,7 +43,7 @@ impl Bounded<'_> {
     /// exceeds the highest energy met by no more than `tolerance` (J).
     ///
     /// # Errors
-    /// The number of a point before which the pathway cannot be proved free, or rises above
+    /// The index of a point before which the pathway cannot be proved free, or rises above
     /// `give_up` (J).
     pub fn prove(
         &self,
@@ -74,8 +76,8 @@ impl Bounded<'_> {
         })
     }
 
-    /// Appends a proved free way from the last point to `to` or, unless it is the `end`, to where
-    /// `to` is lifted off contact.
+    /// Appends a proved free path from the last point to `to` or, unless it is the `end`, to `to`
+    /// lifted off contact.
     fn extend(&self, points: &mut Vec<Configuration>, to: &Configuration, end: bool) -> Option<()> {
         if self.is_free(points.last()?, to) {
             points.push(*to);
@@ -92,7 +94,7 @@ impl Bounded<'_> {
         None
     }
 
-    /// Appends a proved free way from the last point to `to`, bent off contact where needed.
+    /// Appends a proved free path from the last point to `to`, bent off contact where needed.
     fn join(
         &self,
         points: &mut Vec<Configuration>,
@@ -113,7 +115,7 @@ impl Bounded<'_> {
         self.join(points, to, depth - 1)
     }
 
-    /// Whether the straight way is proved free throughout.
+    /// Whether the straight path is proved free throughout.
     fn is_free(&self, from: &Configuration, to: &Configuration) -> bool {
         self.contact
             .is_none_or(|contact| contact.stays_separated(from, to, contact.touch()))
@@ -137,7 +139,7 @@ impl Bounded<'_> {
         let lifted = first.into_iter().chain(second);
         lifted
             .min_by_key(|at| OrderedFloat(moved(at)))
-            // In a slot without play there is no room to be lifted into.
+            // A slot without play leaves no room to lift the tile.
             .or_else(|| self.lifted_by(contact, q, (0.0, close)))
     }
 

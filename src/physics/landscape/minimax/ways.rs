@@ -1,4 +1,4 @@
-//! The leaves that proved pathways run through.
+//! The leaves crossed by proved pathways.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -6,17 +6,17 @@ use std::ops::Range;
 use super::store::{Key, Store};
 use crate::configuration::Configuration;
 
-/// Pathways, and the leaves that they run through, known from one round to the next.
+/// Pathways and the leaves that they cross, kept from one round to the next.
 #[derive(Default)]
 pub(super) struct Ways {
-    /// The points of all of them, with about what the energy (J) is there.
+    /// The points of all pathways, with their approximate energies (J).
     points: Vec<(Configuration, f64)>,
-    /// Where the points of each are among them.
+    /// The range of points of each pathway.
     each: Vec<Range<usize>>,
-    /// The stretches, by the numbers of their first points, that run through each leaf, and the
-    /// highest energy (J) on them there, as straight lines between the points have it.
+    /// The stretches that cross each leaf, as indices of their first points, and the highest energy
+    /// (J) on them there, interpolated linearly between the points.
     leaves: BTreeMap<u32, (Vec<u32>, f64)>,
-    /// Leaves that were there when it was looked last.
+    /// Number of leaves at the last call.
     seen: u32,
 }
 
@@ -51,13 +51,13 @@ impl Ways {
         }
     }
 
-    /// The leaves they run through now, with the highest energy (J) on them there.
+    /// The leaves crossed now, with the highest energy (J) on the pathways there.
     pub fn leaves(&mut self, store: &Store) -> impl Iterator<Item = (u32, f64)> {
         self.follow(store);
         self.leaves.iter().map(|(&id, &(_, energy))| (id, energy))
     }
 
-    /// Looks at the leaves that were added since.
+    /// Examines the leaves added since the last call.
     fn follow(&mut self, store: &Store) {
         for id in self.seen..store.len() as u32 {
             if let Some((stretches, _)) = self.leaves.get(&store.leaf(id).whole) {
@@ -70,7 +70,7 @@ impl Ways {
         self.leaves.retain(|&id, _| store.leaf(id).live);
     }
 
-    /// Notes a stretch that runs through a leaf; false where it does not.
+    /// Records a stretch that crosses a leaf; false if it does not.
     fn note(&mut self, store: &Store, id: u32, stretch: u32) -> bool {
         let k = stretch as usize;
         let [(from, a), (to, b)] = [self.points[k], self.points[k + 1]];
@@ -88,14 +88,14 @@ impl Ways {
     }
 }
 
-/// The part of a straight stretch that lies in a leaf's cell, as shares of its length; `None` where
+/// The part of a straight stretch that lies in a leaf's cell, as shares of its length; `None` if
 /// none does.
 fn within(store: &Store, key: &Key, [from, to]: [&Configuration; 2]) -> Option<[f64; 2]> {
     let cell = store.cell(key);
     let (start, step) = (cell.centre.step_to(from), from.step_to(to));
     let mut part = [0.0f64, 1.0f64];
     for i in 0..3 {
-        // The angle in the turn that comes nearest to the cell in the middle of the stretch.
+        // The angle, up to whole turns, that is closest to the cell in the middle of the stretch.
         let turns = if i == 2 {
             let middle = start[2] + step[2] / 2.0;
             std::f64::consts::TAU * (middle / std::f64::consts::TAU).round()
@@ -126,7 +126,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Some steps on, the energy being x, over the turn at the half circle.
+    /// A few steps, across theta = pi, with x as the energy.
     fn way(rng: &mut ChaCha8Rng) -> Vec<(Configuration, f64)> {
         let mut at = Configuration::new(0.3, -0.2, 2.9);
         let steps = (0..12).map(|k| {
@@ -138,7 +138,7 @@ mod tests {
         steps.collect()
     }
 
-    /// The leaves that hold points of the ways, close by each other, and the highest energy there.
+    /// The leaves that hold closely sampled points of the paths, and the highest energy there.
     fn held(store: &Store, ways: &[Vec<(Configuration, f64)>]) -> BTreeMap<u32, f64> {
         let mut held: BTreeMap<u32, f64> = BTreeMap::new();
         let stretches = ways.iter().flat_map(|way| way.windows(2));
@@ -178,7 +178,7 @@ mod tests {
             }
             let found: BTreeMap<u32, f64> = ways.leaves(&store).collect();
             let held = held(&store, &all);
-            // Leaves whose corners are cut hold no sampled point.
+            // Leaves crossed only at a corner hold no sampled point.
             assert!(held.keys().all(|id| found.contains_key(id)));
             assert!(
                 found.len() <= held.len() + 12,

@@ -1,4 +1,4 @@
-//! What is proved of one cell: that nothing in it can be a trap of its own.
+//! The proof for one cell: that it contains no trap.
 
 use nalgebra::{Matrix3, Vector3};
 use ordered_float::OrderedFloat;
@@ -11,45 +11,45 @@ use crate::landscape::bounded::Bounded;
 use crate::landscape::minimax::lower::Lagrangian;
 use crate::potential::bounds::Enclosure;
 
-/// Cells in which more contacts than these may be made are subdivided first.
+/// Cells with more possible contacts than this are subdivided first.
 const MOST_CONTACTS: usize = 600;
-/// Units of work that is done for a contact that may be made.
+/// Units of work of a possible contact.
 const A_CONTACT: u64 = 400;
-/// Longest component of a step downhill, in units of the cell's half size along it: of one that is
-/// judged by the energy's values, and of one that is judged by its slopes.
+/// Longest component of a step downhill, in units of the cell's half size along it: for a step
+/// judged by the energy's values, and for one judged by its slopes.
 const FALL: f64 = 1.0;
 const SHORT_FALL: f64 = 1.0 / 16.0;
-/// The same of steps off contact, which have to clear the whole cell; a peg in a hole turns far.
+/// The same for steps off contact, which have to clear the whole cell; a peg in a hole turns far.
 const WAYS_OUT: [f64; 2] = [6.0, 60.0];
 /// Sides this much shorter than the longest are not halved.
 const NARROW: f64 = 8.0;
-/// A projected force shorter than this share of the whole one is taken for none.
+/// A projected force shorter than this fraction of the whole one counts as zero.
 const HELD: f64 = 1e-6;
-/// A step out of contact is to clear all by this much (m).
+/// A step out of contact must clear everything by this distance (m).
 const SPARE: f64 = 1e-9;
-/// Tries to make a step open all contacts throughout a cell.
+/// Number of attempts to make a step open all contacts throughout a cell.
 const TRIES: usize = 4;
 
-/// What is proved of the free configurations of a cell.
+/// The proved property of a cell's free configurations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Verdict {
-    /// There are none, or none below the level.
+    /// There are no free configurations, or none below the level.
     Nothing,
     /// A step leads from each of them to a free one of lower energy.
     Falls,
-    /// A step leads from each of them into a wholly free box, on which the energy exceeds the cell's
-    /// least by at most the allowed rise.
+    /// A step leads from each of them into a wholly free box, on which the energy exceeds the
+    /// cell's lowest by at most the allowed rise.
     Opens(Opened),
-    /// None of this; what each coordinate's size costs, by which it should be halved.
+    /// Nothing is proved. The loss due to each coordinate's size determines how to halve the cell.
     Open { lowest: f64, losses: [f64; 3] },
 }
 
 /// Proves cells.
 pub(super) struct CellProof<'a> {
     pub bounded: &'a Bounded<'a>,
-    /// Configurations above this energy (J) are of no concern.
+    /// Configurations above this energy (J) are ignored.
     pub level: f64,
-    /// Highest rise (J) on the way out of what is no trap.
+    /// Highest rise (J) on the way out of a configuration that is not a trap.
     pub rise: f64,
 }
 
@@ -76,7 +76,7 @@ impl CellProof<'_> {
         opens.next().unwrap_or(open)
     }
 
-    /// The contacts that may be made in a cell, if they are not too many.
+    /// The possible contacts in a cell, if they are not too many.
     fn possible(&self, cell: &Cell) -> Option<Vec<PossibleContact>> {
         let Some(contact) = &self.bounded.cells else {
             return Some(Vec::new());
@@ -96,7 +96,7 @@ impl CellProof<'_> {
         ))
     }
 
-    /// What steps are long or short by (m).
+    /// The unit of steps' lengths (m).
     fn unit(&self) -> f64 {
         self.bounded.scale().length(1.0)
     }
@@ -107,8 +107,9 @@ impl CellProof<'_> {
         [x, y, self.bounded.lever * theta]
     }
 
-    /// What each coordinate's size costs of the fall (J) along a step: by how much it changes there,
-    /// and of what `room` leaves open; nothing where the cell is much longer elsewhere.
+    /// The loss (J) of the fall along a step due to each coordinate's size: its change along the
+    /// coordinate, and the part that `room` leaves open; zero if the cell is much longer in another
+    /// coordinate.
     fn losses(&self, cell: &Cell, room: &Enclosure, step: &Vector3<f64>) -> [f64; 3] {
         let sizes = self.sizes(cell);
         let total: f64 = sizes.iter().sum();
@@ -122,15 +123,15 @@ impl CellProof<'_> {
         })
     }
 
-    /// Whether one step leads downhill from every free configuration of the cell; if the one that is
-    /// tried does not, what each coordinate's size costs. Short ones show the most, where the
-    /// energy's slope is bounded; `room` is known of all that they sweep.
+    /// Whether one step leads downhill from every free configuration of the cell; if the tried step
+    /// does not, the loss due to each coordinate's size. Short steps are most conclusive if the
+    /// energy's slope is bounded; `room` is the enclosure of all that they sweep.
     fn falls(&self, cell: &Cell, room: &Enclosure, cuts: &Cuts) -> Option<Result<(), [f64; 3]>> {
         let is_smooth = room.slope.is_finite();
         let longest = if is_smooth { SHORT_FALL } else { FALL };
         let out = self.pushed_out(cell, cuts);
         let gradient = slope(&room.form, &out);
-        // A step costs at least a third of what its components cost one by one.
+        // The loss of a step is at least a third of the sum over its components.
         let gains = |i: usize| {
             let mut step = Vector3::zeros();
             step[i] = longest * cell.half[i];
@@ -157,7 +158,7 @@ impl CellProof<'_> {
         let lowers = |known: &Enclosure, from: &Vector3<f64>, swept: &Cell| {
             self.is_lowered(cell, &step, (known, from, swept), cuts)
         };
-        // What is within a short step is known already, and so is that the step closes nothing.
+        // The surroundings within a short step are already known, and that the step closes nothing.
         let falls = if is_smooth {
             lowers(room, &Vector3::zeros(), &widened(cell, longest))
         } else {
@@ -168,7 +169,8 @@ impl CellProof<'_> {
         Some(if falls { Ok(()) } else { losses })
     }
 
-    /// The offset from the centre, within the cell, of about the nearest free configuration.
+    /// The offset from the centre, within the cell, of approximately the nearest free
+    /// configuration.
     fn pushed_out(&self, cell: &Cell, cuts: &Cuts) -> Vector3<f64> {
         let rows: Vec<Constraint> = cuts
             .easiest()
@@ -183,8 +185,8 @@ impl CellProof<'_> {
         Vector3::from_fn(|i, _| push[i].clamp(-cell.half[i], cell.half[i]))
     }
 
-    /// A step near `wanted` that opens every possible contact by at least what `least` asks, from
-    /// everywhere in the cell.
+    /// A step near `wanted` that opens every possible contact by at least `least`, from everywhere
+    /// in the cell.
     fn opening_step(
         &self,
         cell: &Cell,
@@ -214,15 +216,15 @@ impl CellProof<'_> {
         None
     }
 
-    /// Whether a step closes no contact that can be made in the box that it sweeps.
+    /// Whether a step closes no possible contact in the box that it sweeps.
     fn closes_nothing(&self, swept: &Cell, step: &Vector3<f64>) -> bool {
         let contacts = self.possible(swept);
         contacts.is_some_and(|all| all.iter().all(|c| c.opening(&swept.half, step) >= 0.0))
     }
 
-    /// Whether the step lowers the energy from everywhere in the cell, with no more than the allowed
-    /// rise on the way; by what is known of a box that holds all that it sweeps, in which the cell's
-    /// centre lies at `from`.
+    /// Whether the step lowers the energy from everywhere in the cell, with no more than the
+    /// allowed rise on the way; given the enclosure of a box that contains all that it sweeps, in
+    /// which the cell's centre lies at `from`.
     fn is_lowered(
         &self,
         cell: &Cell,
@@ -231,7 +233,7 @@ impl CellProof<'_> {
         cuts: &Cuts,
     ) -> bool {
         let change = change(&known.form, from, step);
-        // The greatest change is minus the least of its negative.
+        // The greatest change is minus the minimum of its negative.
         let negative = Enclosure {
             form: Quadratic::default().minus(1.0, &change),
             ..Enclosure::default()
@@ -239,7 +241,7 @@ impl CellProof<'_> {
         let greatest = -Lagrangian::tightest(&negative, &cell.half, cuts).lower;
         let slack = known.change(step, &swept.half) + 2.0 * known.form.rounding(&swept.half);
         let bend = quadratic(&known.form, step);
-        // A part t of the step changes the form by t times its change, less t (1 - t) / 2 times
+        // A part t of the step changes the form by t times its change, minus t (1 - t) / 2 times
         // the bend.
         let risen = greatest.max(0.0) + (-bend).max(0.0) / 8.0 + slack;
         greatest + slack < 0.0 && risen <= self.rise
@@ -285,7 +287,7 @@ fn row(contact: &PossibleContact, gap: f64) -> Constraint {
     }
 }
 
-/// A direction made so long that its longest component is `most` half sizes.
+/// A direction scaled so that its longest component is `most` half sizes.
 fn fitted(direction: &Vector3<f64>, half: &[f64; 3], most: f64) -> Vector3<f64> {
     let longest = (0..3).map(|i| direction[i].abs() / half[i]);
     let longest = longest.max_by_key(|&x| OrderedFloat(x)).unwrap_or(1.0);
@@ -327,7 +329,7 @@ fn change(form: &Quadratic, from: &Vector3<f64>, step: &Vector3<f64>) -> Quadrat
     }
 }
 
-/// A cell with the share `more` of its half sizes added on all sides.
+/// A cell with the fraction `more` of its half sizes added on all sides.
 fn widened(cell: &Cell, more: f64) -> Cell {
     Cell {
         centre: cell.centre,

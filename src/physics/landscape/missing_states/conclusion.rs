@@ -1,4 +1,4 @@
-//! What a search has proved of a list of states.
+//! The proved statement about a list of states.
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -16,9 +16,9 @@ use crate::observer::Silent;
 const CELLS: usize = 50_000;
 
 impl Search<'_> {
-    /// What is proved of the listed states. Minima that are not listed must have a way on to a listed
-    /// one, or to `free`; cells below whose least energy that rises too far are looked at again, as
-    /// smaller ones are better known.
+    /// The proved statement about the listed states. Minima that are not listed must have a path on
+    /// to a listed one, or to `free`. Cells from whose lowest energy this path rises too far are
+    /// examined again, because bounds of smaller cells are tighter.
     pub fn conclude(mut self, survey: &Exploration, listed: &Catalogue) -> Completeness {
         let (mut judged, mut closed) = (BTreeSet::new(), Vec::new());
         loop {
@@ -55,7 +55,7 @@ impl Search<'_> {
         let mut open = regions::of_cells(&self.problem.space, &self.open);
         open.extend(closed);
         Completeness {
-            // A sum of nothing is minus zero.
+            // An empty sum is minus zero.
             share: volume / self.volume + 0.0,
             below: self.below,
             escape: self.exits.rise,
@@ -65,9 +65,9 @@ impl Search<'_> {
         }
     }
 
-    /// Proved highest energy (J) of a way from a minimum that is not listed to a listed one, or to
-    /// `free`, where it rises no more than is allowed: of that which the survey knows, or of one that
-    /// the certificate finds.
+    /// Proved highest energy (J) of a path from a minimum that is not listed to a listed one, or to
+    /// `free`, if it does not rise more than allowed: a path known from the survey, or one that the
+    /// certificate finds.
     fn way_on(&self, survey: &Exploration, listed: &Catalogue, ending: usize) -> Option<f64> {
         let problem = self.problem;
         let minimum = self.exits.endings[ending].minimum.point;
@@ -87,7 +87,7 @@ impl Search<'_> {
     }
 }
 
-/// The lowest way that a survey knows from a minimum to a listed one, or to `free`.
+/// The lowest path of a survey from a minimum to a listed one, or to `free`.
 fn known_way(
     survey: &Exploration,
     listed: &Catalogue,

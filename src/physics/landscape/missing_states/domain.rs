@@ -1,4 +1,5 @@
-//! The part of the space that is searched: its images under the problem's symmetries cover all.
+//! The part of the space that is searched; its images under the problem's symmetries cover the
+//! whole space.
 
 use std::f64::consts::PI;
 
@@ -8,16 +9,16 @@ use crate::problem::{Problem, Symmetry};
 
 /// Cells along theta at the start.
 const SLICES: u32 = 8;
-/// Rounding of coordinates is less than this share of the largest of them.
+/// Rounding of coordinates is less than this fraction of the largest of them.
 const ROUNDING: f64 = 1e-12;
 
-/// A wedge of the plane and a sector of theta. Turns of the moving tile onto itself by a whole
-/// `1/n` leave the n-th part of theta, those of the fixed one the n-th part of the plane.
+/// A wedge of the plane and a sector of theta. An n-fold symmetry of the moving tile leaves the
+/// n-th part of theta, one of the fixed tile the n-th part of the plane.
 pub(super) struct Domain {
     half_size: [f64; 2],
     /// Turns of the moving tile onto itself.
     of_moving: u32,
-    /// Sine and cosine of half the wedge's angle; `None` where it is the whole plane.
+    /// Sine and cosine of half the wedge's angle; `None` if it is the whole plane.
     wedge: Option<(f64, f64)>,
 }
 
@@ -29,7 +30,7 @@ impl Domain {
         };
         let of_fixed = count(&|s| s.moving);
         let [x, y] = problem.space.half_size;
-        // A turned table is another one, unless the tiles do not reach its rim.
+        // A turned table is a different one, unless the tiles do not reach its rim.
         let is_wide = x.min(y) >= problem.space.free_distance;
         Self {
             half_size: [x, y],
@@ -38,12 +39,12 @@ impl Domain {
         }
     }
 
-    /// What rounding may make of a coordinate (m).
+    /// The rounding of a coordinate (m).
     fn rounding(&self) -> f64 {
         ROUNDING * self.half_size[0].max(self.half_size[1])
     }
 
-    /// The cells that the search begins with.
+    /// The cells at the start of the search.
     pub fn first_cells(&self) -> Vec<Cell> {
         let slice = PI / f64::from(self.of_moving * SLICES);
         let rounding = self.rounding();
@@ -67,7 +68,7 @@ impl Domain {
         let Some((sin, cos)) = self.wedge else {
             return true;
         };
-        // The farthest to the inner side of either of the wedge's lines.
+        // The corner farthest to the inner side of either of the wedge's lines.
         [cos, -cos].into_iter().all(|cos| {
             let centre = sin * cell.centre.x + cos * cell.centre.y;
             centre + sin * cell.half[0] + cos.abs() * cell.half[1] >= -self.rounding()

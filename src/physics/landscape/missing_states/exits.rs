@@ -1,4 +1,5 @@
-//! Ways out of the places where no step leads downhill from everywhere: proved pathways to minima.
+//! Ways out of regions where no single step leads downhill from every configuration: proved
+//! pathways to minima.
 
 use std::sync::Arc;
 
@@ -14,21 +15,21 @@ use crate::problem::Problem;
 
 /// Two minima closer than this (m, metric of the space) are the same.
 pub(super) const SAME: f64 = 1e-5;
-/// A descent that got stuck this close (m) to a minimum is led on into it: where corners of both
-/// tiles meet, the last verification may fail beside it.
+/// A descent that got stuck this close (m) to a minimum is continued into it: where corners of both
+/// tiles meet, the last verification may fail nearby.
 const STUCK: f64 = 1e-4;
-/// Exits tried from one place.
+/// Number of exits tried from one place.
 const TRIED: usize = 3;
-/// Descents made at once, before the other places are tried again from where they started.
+/// Number of descents made together, before the remaining places try their starts as exits.
 const TOGETHER: usize = 16;
-/// A pathway's bound exceeds its highest energy by no more than this share of the allowed rise.
+/// A pathway's bound exceeds its highest energy by at most this fraction of the allowed rise.
 pub(super) const SHARP: f64 = 0.1;
 
-/// A wholly free box about `at`: where a step leads from all of a cell.
+/// A wholly free box about `at`, to which a step leads from all of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Opened {
     pub at: Configuration,
-    /// The least energy (J) in the cell.
+    /// The lowest energy (J) in the cell.
     pub lowest: f64,
 }
 
@@ -36,7 +37,7 @@ pub(super) struct Opened {
 #[derive(Clone, Debug)]
 pub(super) struct Ending {
     pub minimum: Stationary,
-    /// Highest energy (J) on the proved way on to a listed state, where it is known not to be one
+    /// Highest energy (J) on the proved path on to a listed state, if it is known not to be listed
     /// itself; minus infinity otherwise.
     pub beyond: f64,
     /// Whether the survey had not found it.
@@ -46,12 +47,13 @@ pub(super) struct Ending {
 /// Where a pathway to a minimum starts.
 struct Exit {
     at: Configuration,
-    /// Proved highest energy (J) on the way, to a listed state where that is known not to be one.
+    /// Proved highest energy (J) on the path, up to a listed state if the minimum is known not to
+    /// be listed.
     highest: f64,
     ending: usize,
 }
 
-/// The exits known so far, and the minima in which they end.
+/// The known exits, and the minima in which they end.
 pub(super) struct Exits<'a> {
     problem: &'a Problem,
     pub bounded: Arc<Bounded<'a>>,
@@ -81,7 +83,7 @@ impl<'a> Exits<'a> {
         }
     }
 
-    /// For each place the ending to which a way out of it is proved.
+    /// For each place, the ending to which a path is proved.
     pub fn find(&mut self, places: &[Opened]) -> Vec<Option<usize>> {
         let mut found = vec![None; places.len()];
         let mut left: Vec<usize> = (0..places.len()).collect();
@@ -116,7 +118,7 @@ impl<'a> Exits<'a> {
         found
     }
 
-    /// Makes all exits to an ending lead on over this energy (J).
+    /// Extends all exits to an ending by a path over this energy (J).
     pub fn lead_on(&mut self, ending: usize, beyond: f64) {
         self.endings[ending].beyond = beyond;
         for exit in self.exits.iter_mut().filter(|exit| exit.ending == ending) {
@@ -139,7 +141,7 @@ impl<'a> Exits<'a> {
         exit.map(|exit| exit.ending)
     }
 
-    /// The minimum in which a descent ends, and the proved highest energy (J) on the way.
+    /// The minimum in which a descent ends, and the proved highest energy (J) on the path.
     fn descent(&self, place: &Opened) -> Option<(Stationary, f64)> {
         let descent = descend(self.problem, &place.at);
         let mut way: Vec<Configuration> = descent.way.iter().map(|point| point.q).collect();
@@ -156,7 +158,7 @@ impl<'a> Exits<'a> {
         Some((minimum, highest))
     }
 
-    /// The proved highest energy (J) of a pathway, where it is not above `allowed`.
+    /// The proved highest energy (J) of a pathway, if it is not above `allowed`.
     pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
         let proved = self.bounded.prove(way, SHARP * self.rise, allowed);
         proved.ok().map(|proved| proved.upper)

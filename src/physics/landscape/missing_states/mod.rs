@@ -1,38 +1,38 @@
-//! Proof that a list of states is complete: that besides them no configuration below an energy
+//! Proof that a list of states is complete: besides these states, no configuration below an energy
 //! `-E` is trapped by more than `e`.
 //!
 //! The space is covered by closed cells (boxes of x, y and theta), which are subdivided until each
 //! of them is one of these:
 //!
 //! - **empty**: no configuration in it is free, or none lies below `-E` (bounds of the energy over
-//!   the part of the cell that contact leaves, as for the barriers' certificates);
-//! - **falling**: one step `w` leads from every free configuration of the cell to another free
-//!   one that is lower by at least some `d > 0`. Free throughout: no gap that a vertex and an edge
-//!   can close in the box that the step sweeps closes along it. Lower: the energy's second-order
-//!   form changes along `w` by `g w + w H d + w H w / 2`, bounded over the cell, plus what the
-//!   enclosure leaves open of the slope along a short step (of the values along a long one, where
-//!   the slope has no bound), which is also about all that the energy may rise on the way;
+//!   the part of the cell that contact allows, as for the barriers' certificates);
+//! - **falling**: one step `w` leads from every free configuration of the cell to another free one
+//!   that is lower by at least some `d > 0`. Free throughout: no gap between a vertex and an edge
+//!   that can close in the box swept by the step closes along it. Lower: the energy's second-order
+//!   form changes along `w` by `g w + w H d + w H w / 2`, bounded over the cell, plus the
+//!   uncertainty of the slope along a short step (of the values along a long one, if the slope has
+//!   no bound), which is also about the most that the energy may rise on the way;
 //! - **explained**: one step leads from every free configuration of the cell into a box without
 //!   contact, and from there a proved pathway to a known minimum, all of it no more than `e` above
 //!   the cell's lowest energy;
 //! - **open**: none of these was proved.
 //!
-//! From any free configuration below `-E` steps lead through falling cells. They come to an end,
-//! as each lowers the energy by at least the least of finitely many `d`, and the energy is bounded
-//! below. The end is not in an empty cell, so it is in an explained one, or in an open one. Where
-//! no cell is open, every configuration below `-E` is therefore joined to a known minimum by a way
-//! that rises by no more than `e`: no trap is missing. Each minimum found on the way that the
-//! survey had missed is added to its states. Those that are left out of the list as too shallow need
-//! a proved way on to a listed one; cells explained by them that lie more than `e` below the highest
-//! point of that way are looked at again.
+//! From any free configuration below `-E`, steps lead through falling cells. They end, because each
+//! lowers the energy by at least the smallest of finitely many `d`, and the energy is bounded
+//! below. The end is not in an empty cell, so it is in an explained or an open one. If no cell is
+//! open, every configuration below `-E` is therefore joined to a known minimum by a path that rises
+//! by at most `e`: no trap is missing. Each minimum found in this way that the survey had missed is
+//! added to its states. Minima omitted from the list as too shallow need a proved path on to a
+//! listed one; cells explained by them that lie more than `e` below the highest point of that path
+//! are examined again.
 //!
-//! Stronger than a proof of basins by flows (outer approximations, Morse decompositions), no cell's
-//! neighbours need be known, and cells of any size stand beside each other.
+//! Unlike a proof of basins by flows (outer approximations, Morse decompositions), this does not
+//! need the neighbours of a cell, and adjacent cells may have any sizes.
 //!
-//! What is proved holds for the model potential and the outlines as given, for configurations in
-//! which the tiles' interiors are disjoint, with the reference point on the table; the pathways let
-//! overlaps of [`touch`](crate::contact::Contact::touch) pass. Rounding is included as in the barriers'
-//! certificates ([`super::minimax`]).
+//! The statement holds for the model potential and the outlines as given, for configurations in
+//! which the tiles' interiors are disjoint, with the reference point on the table; the pathways
+//! allow overlaps of [`touch`](crate::contact::Contact::touch). Rounding is included as in the
+//! barriers' certificates ([`super::minimax`]).
 
 mod cell;
 mod conclusion;
@@ -46,35 +46,34 @@ use crate::budget::{Allowance, Ended};
 pub use regions::OpenRegion;
 pub use search::Search;
 
-/// What is to be proved, and how much work it is worth.
+/// The statement to be proved, and the effort allowed for it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CompletenessSettings {
-    /// Configurations deeper than this share of the depth are looked at.
+    /// Configurations deeper than this fraction of the depth are considered.
     pub below: f64,
-    /// Traps that need more than this share of the depth to leave must be listed.
+    /// Traps with an escape barrier of more than this fraction of the depth must be listed.
     pub escape: f64,
-    /// Cells assessed, about, after which those that are left stay open.
+    /// Approximate number of assessed cells after which the remaining ones stay open.
     pub cells: usize,
-    /// What may be spent on the search, after which they do too.
+    /// The effort allowed for the search, after which they also stay open.
     pub allowed: Allowance,
 }
 
-/// What is known of the states that a list may lack.
+/// The proved statement about states missing from a list.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Completeness {
     /// Below this energy (J) ...
     pub below: f64,
-    /// ... no configuration but those of the listed states' basins needs more than this (J) to
-    /// leave, ...
+    /// ... no configuration outside the listed states' basins has an escape barrier of more than
+    /// this (J), ...
     pub escape: f64,
-    /// ... except in these regions, if anywhere: the one that can hide the lowest energy first.
+    /// ... except possibly in these regions, the one that can hide the lowest energy first.
     pub open: Vec<OpenRegion>,
-    /// Their share of the space.
+    /// Their fraction of the space.
     pub share: f64,
-    /// Cells assessed.
+    /// Number of assessed cells.
     pub cells: usize,
-    /// What ended the search before all cells were looked at; `None` where nothing did but the number
-    /// of cells.
+    /// The reason for ending the search early, other than the number of cells.
     pub ended: Option<Ended>,
 }
 
@@ -84,7 +83,7 @@ impl Completeness {
         self.open.is_empty()
     }
 
-    /// What the list may lack lies above this (J), whether it is complete or not.
+    /// States missing from the list lie above this energy (J), whether it is complete or not.
     pub fn lowest(&self) -> f64 {
         let open = self.open.iter().map(|region| region.lowest);
         open.fold(self.below, f64::min)

@@ -1,4 +1,4 @@
-//! Cells about which nothing is proved, taken together where they lie close to each other.
+//! Cells about which nothing is proved, grouped where they lie close to each other.
 
 use std::collections::BTreeMap;
 
@@ -9,21 +9,21 @@ use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::order::Order;
 
-/// A part of the space of which nothing is proved.
+/// A part of the space about which nothing is proved.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct OpenRegion {
-    /// Where the lowest energy may be.
+    /// The configuration where the lowest energy may be.
     pub pose: Configuration,
-    /// Of its cells (m^2 rad).
+    /// Volume of its cells (m^2 rad).
     pub volume: f64,
-    /// The least energy (J) that it can hide.
+    /// The lowest energy (J) that it can hide.
     pub lowest: f64,
 }
 
-/// Cells closer than this share of the distance at which tiles are free belong together.
+/// Cells closer than this fraction of the distance at which tiles are free belong together.
 const TOGETHER: f64 = 1.0 / 32.0;
 
-/// A region in the making.
+/// A region under construction.
 struct Part {
     region: OpenRegion,
     /// The box around it.
@@ -61,7 +61,7 @@ impl Part {
     }
 }
 
-/// The regions of some cells with the least energy (J) that each can hide, the lowest first.
+/// The regions of some cells with the lowest energy (J) that each can hide, the lowest first.
 pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec<OpenRegion> {
     let size = TOGETHER * space.free_distance;
     let gap = [size, size, size / space.rho];
@@ -69,7 +69,7 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
         let at = cell.centre.to_array();
         [0, 1, 2].map(|i| (at[i] / gap[i]).floor() as i64)
     };
-    // First what lies in one place, then what lies side by side.
+    // First cells at one place, then adjacent ones.
     let mut places: BTreeMap<[i64; 3], Part> = BTreeMap::new();
     for (cell, lowest) in cells {
         let part = Part::of_cell(cell, *lowest);
@@ -121,7 +121,7 @@ mod tests {
         };
         let gap = TOGETHER * space.free_distance;
         let regions = |cells: &[(Cell, f64)]| of_cells(&space, cells);
-        // Boxes whose sides are a little less, and a little more, than the gap apart.
+        // Boxes whose sides are slightly less, and slightly more, than the gap apart.
         for (apart, count) in [(gap + 0.0019, 1), (gap + 0.0021, 2)] {
             let beside = [(cell(0.3, 0.2), -2.0), (cell(0.3 + apart, 0.2), -3.0)];
             let found = regions(&beside);

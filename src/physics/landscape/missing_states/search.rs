@@ -1,4 +1,4 @@
-//! The search, cell by cell.
+//! The search over cells.
 
 use std::sync::Arc;
 
@@ -19,10 +19,10 @@ use crate::problem::Problem;
 use crate::scale::Scale;
 use crate::subdivision::Waiting;
 
-/// Sides smaller than this (half a side in rad, or in m for the paper's tile) are not halved: below it
-/// rounding rules.
+/// Sides smaller than this (half a side in rad, or in m for the paper's tile) are not halved,
+/// because rounding dominates below it.
 const SMALLEST: f64 = 1e-9;
-/// Cells assessed between two looks at what is left of the work.
+/// Number of cells assessed between two checks of the remaining effort.
 const BATCH: usize = 4096;
 
 /// A search for states that may be missing.
@@ -32,20 +32,19 @@ pub struct Search<'a> {
     budget: Budget,
     pub(super) exits: Exits<'a>,
     pub(super) below: f64,
-    /// Cells of which nothing is proved, with the least energy (J) that each may hold.
+    /// Cells about which nothing is proved, with the lowest energy (J) that each may hold.
     pub open: Vec<(Cell, f64)>,
-    /// Cells explained by a way to a minimum: the number of that ending.
+    /// Cells explained by a path to a minimum, with the index of that ending.
     pub(super) explained: Vec<(Cell, f64, usize)>,
-    /// Of the part of the space that is searched (m^2 rad).
+    /// Volume of the searched part of the space (m^2 rad).
     pub(super) volume: f64,
     pub(super) cells: usize,
-    /// What has ended the search.
+    /// The reason for ending the search.
     pub(super) ended: Option<Ended>,
 }
 
-/// Cells to be looked at, each with the least energy (J) that it may hold: those halved least before
-/// the others, as there is no end of small ones where a tile has no play; of each size the lowest
-/// first.
+/// Cells to examine, each with the lowest energy (J) that it may hold: larger ones first, because
+/// the number of small ones is unlimited where a tile has no play; for each size the lowest first.
 pub(super) type Queue = Waiting<(i32, OrderedFloat<f64>), (Cell, f64)>;
 
 pub(super) fn push(queue: &mut Queue, cell: Cell, lowest: f64) {
@@ -54,12 +53,12 @@ pub(super) fn push(queue: &mut Queue, cell: Cell, lowest: f64) {
 }
 
 impl<'a> Search<'a> {
-    /// Searches the whole space, besides the minima of a survey.
+    /// Searches the whole space for traps besides the minima of a survey.
     ///
-    /// It is the same on every machine, unless a clock ends it.
+    /// The result is the same on every machine, unless a time limit ends it.
     ///
     /// # Errors
-    /// Where the energy has no bounds over cells, or nothing may be spent.
+    /// If the energy has no bounds over cells, or no effort is allowed.
     pub fn run(
         problem: &'a Problem,
         survey: &Exploration,
@@ -94,7 +93,7 @@ impl<'a> Search<'a> {
         Ok(search)
     }
 
-    /// Proves cells and their parts, until there are none left or the work is done that was allowed.
+    /// Proves cells and their parts until none are left or the allowed effort is spent.
     pub(super) fn look_through(&mut self, mut queue: Queue, observer: &dyn Observer) {
         let bounded = self.exits.bounded.clone();
         let proof = CellProof {
@@ -125,8 +124,8 @@ impl<'a> Search<'a> {
         self.open.extend(queue.into_cells());
     }
 
-    /// Cells of which nothing is proved, with the least energy (J) that each may hold and what each
-    /// coordinate's size costs.
+    /// Cells about which nothing is proved, with the lowest energy (J) that each may hold and the
+    /// loss due to each coordinate's size.
     fn unproved(
         &mut self,
         proof: &CellProof,
@@ -157,7 +156,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The halves of a cell along the coordinate whose size costs most; `None` where it is too small.
+/// The halves of a cell along the coordinate with the largest loss; `None` if it is too small.
 fn halves(cell: &Cell, losses: &[f64; 3], scale: Scale) -> Option<[Cell; 2]> {
     let axis = (0..3).max_by_key(|&i| OrderedFloat(losses[i]))?;
     let size = cell.half[axis];

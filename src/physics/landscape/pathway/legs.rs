@@ -1,6 +1,6 @@
-//! Legs: the straight motions (linear in x, y and theta, theta the shorter way round) between the
-//! points of a pathway. The pathway *is* these motions, not a curve of which its points are samples:
-//! each is proved free, and its highest point is one of the pathway's points.
+//! The legs of a pathway: straight motions between its points (linear in x, y and theta, theta the
+//! shorter way round). The pathway *is* these motions, not a curve sampled at its points: each leg
+//! is proved free, and its highest point is one of the pathway's points.
 
 use super::push;
 use crate::configuration::Configuration;
@@ -11,16 +11,16 @@ use crate::roadmap::knot::Knot;
 use crate::roadmap::profile::Profile;
 use crate::roadmap::{Point, ProfileTolerance};
 
-/// Overlap (m) let pass between two points that touch: a straight motion between them cuts into a
-/// surface that the tiles turn on. Between two such points nothing gets deeper than a tenth of a
-/// micrometre more.
+/// Overlap (m) allowed between two points that touch, because a straight motion between them cuts
+/// into a surface that the tiles turn on. The overlap between two such points exceeds this by at
+/// most a tenth of a micrometre.
 pub(super) const OVERLAP: f64 = 4e-7;
 /// Longest leg (m, metric of the space).
 const LONGEST: f64 = 5e-3;
 /// Shortest leg that is halved because the energy bends (m).
 const SHORTEST: f64 = 2e-4;
-/// A middle that had to settle farther than this from either end, as a share of the leg, is no
-/// middle: halving would not end.
+/// A midpoint that settled farther than this from either end, as a fraction of the leg, is
+/// rejected, because halving would not end.
 const LONGEST_HALF: f64 = 0.8;
 /// A leg is halved at most this often until it is free.
 const DEEPEST: u32 = 16;
@@ -28,7 +28,7 @@ const DEEPEST: u32 = 16;
 const PUSHED: u32 = 5;
 /// How closely the energy is followed along a leg, as a fraction of `bend`.
 const CLOSELY: f64 = 1e-3;
-/// The same of very many magnets, as a fraction of the bond's depth.
+/// The same for very many magnets, as a fraction of the bond's depth.
 const DEARLY: f64 = 1e-5;
 /// A dip that is less deep than this fraction of `bend` is left out: where tiles turn in contact
 /// each leg has one, as it cuts into the surface.
@@ -58,8 +58,8 @@ pub(super) fn of_milestones(problem: &Problem, all: &[Point], bend: f64) -> Path
     pathway
 }
 
-/// Through the configurations, with as many more between them as it takes for each straight motion
-/// to be free; `None` where halving does not get there.
+/// A polyline through the configurations, with more points where needed for each straight motion to
+/// be free; `None` if halving does not achieve this.
 fn free_polyline(problem: &Problem, all: &[Point]) -> Option<Vec<Point>> {
     let mut corners: Vec<Point> = all.first().copied().into_iter().collect();
     for next in all.iter().skip(1) {
@@ -68,7 +68,8 @@ fn free_polyline(problem: &Problem, all: &[Point]) -> Option<Vec<Point>> {
     Some(corners)
 }
 
-/// Appends a free way from the last corner to `to`, its middle pushed out of overlap where needed.
+/// Appends a free path from the last corner to `to`, with its midpoint pushed out of overlap if
+/// needed.
 fn join(problem: &Problem, corners: &mut Vec<Point>, to: &Point, depth: u32) -> Option<()> {
     let ends = [&corners.last()?.q, &to.q];
     if problem.motion_overlaps_at_most(ends[0], ends[1], problem.scaled(OVERLAP)) {
@@ -81,10 +82,9 @@ fn join(problem: &Problem, corners: &mut Vec<Point>, to: &Point, depth: u32) -> 
     join(problem, corners, to, depth - 1)
 }
 
-/// The middle of a motion, or thereabouts, pushed out of overlap. How far it may be pushed is widened
-/// step by step from how deep the tiles overlap there: where more is allowed, edges count that are
-/// farther off, and a corner that is to be pushed back over one of its edges is pushed over the other
-/// as well.
+/// The approximate midpoint of a motion, pushed out of overlap. The allowed distance starts at the
+/// depth of the overlap and grows step by step: with a larger distance, edges farther away count,
+/// and a corner pushed back over one of its edges is pushed over the other as well.
 fn middle(problem: &Problem, from: &Configuration, to: &Configuration) -> Option<Configuration> {
     let length = problem.space.distance(from, to);
     let settled = |share: f64| {
@@ -136,8 +136,8 @@ fn add_leg(problem: &Problem, pathway: &mut Pathway, [a, b]: [&Point; 2], bend: 
     leg.refine(pathway, last, (b.q, b.energy));
 }
 
-/// How closely (J) the energy is followed along a leg: of very many magnets as closely as along the
-/// motions of a roadmap.
+/// How closely (J) the energy is followed along a leg; for very many magnets as closely as along
+/// the motions of a roadmap.
 fn closeness(problem: &Problem, bend: f64) -> f64 {
     let closely = CLOSELY * bend;
     if problem.is_dear() {
@@ -155,7 +155,7 @@ struct Leg<'a> {
     bend: f64,
 }
 
-/// A point of a way, with its energy (J).
+/// A point of a path, with its energy (J).
 type At = (Configuration, f64);
 
 impl Leg<'_> {
@@ -177,7 +177,7 @@ impl Leg<'_> {
             .then_some(pushed)
     }
 
-    /// The middle one of three knots where it is a summit, or a dip that counts: the share of the leg
+    /// The middle one of three knots if it is a summit, or a dip that counts: the share of the leg
     /// behind it, and the energy (J).
     fn extreme(&self, [before, here, after]: [&Knot; 3]) -> Option<(f64, f64)> {
         let rises = [here.energy - before.energy, here.energy - after.energy];
@@ -205,8 +205,8 @@ impl Leg<'_> {
         best
     }
 
-    /// Appends the points after `a` up to `b`, both on the leg, close enough for the energy to be as
-    /// good as linear between them.
+    /// Appends the points after `a` up to `b`, both on the leg, close enough for the energy to be
+    /// nearly linear between them.
     fn refine(&self, pathway: &mut Pathway, a: At, b: At) {
         let length = self.problem.space.distance(&a.0, &b.0);
         if length > self.problem.scaled(SHORTEST) {

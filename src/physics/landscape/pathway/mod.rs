@@ -1,5 +1,5 @@
-//! Pathways: a route through the network as a sequence of configurations joined by straight motions
-//! that are proved free.
+//! Pathways: sequences of configurations through the network, joined by straight motions that are
+//! proved free.
 
 mod legs;
 mod shortcut;
@@ -21,19 +21,19 @@ pub use shortcut::{Limits, shortened};
 /// gyration).
 const SAME: f64 = 5e-7;
 
-/// How much higher a way to `free` may rise than the lowest one, as a fraction of the barrier and not
-/// above 0: far configurations are all free, but their energies differ a little.
+/// How much higher a path to `free` may rise than the lowest one, as a fraction of the barrier and
+/// not above 0: far configurations are all free, but their energies differ a little.
 pub(super) const AMONG_FAR: f64 = 0.01;
 
 /// A pathway with shortcuts that rises higher by this fraction of the depth than the network holds
-/// is not taken unseen.
+/// is not accepted without a check.
 const HIGHER: f64 = 1e-7;
 
-/// The minimax pathway from a node to the nearest of the `goals`: of those with the least possible
-/// highest energy the one with the least work to one of the `ends`, and of those the shortest. Steps
-/// are halved until the energy between two points is linear to within `bend` (J); energies are
-/// measured by `depth` (J). The node that it reaches, and the pathway, never empty: where detours could
-/// be cut short, it may lie below what the network holds.
+/// The minimax pathway from a node to the nearest of the `goals`: among those with the lowest
+/// maximum energy the one with the least work to one of the `ends`, and among those the shortest.
+/// Steps are halved until the energy between two points is linear to within `bend` (J); energies
+/// are measured by `depth` (J). Returns the node that it reaches and the pathway, which is never
+/// empty; if detours could be cut short, it may lie below the paths of the network.
 pub fn lowest(
     network: &Network,
     from: usize,
@@ -57,8 +57,8 @@ pub fn lowest(
     (!pathway.is_empty()).then_some((end, pathway))
 }
 
-/// The highest energy (J) that a way from a node to the nearest of the `goals` may have: the least
-/// possible, but for rounding.
+/// The highest energy (J) allowed on a path from a node to the nearest of the `goals`: the minimax
+/// energy, apart from rounding.
 fn highest(network: &Network, from: usize, goals: &HashSet<usize>, depth: f64) -> Option<f64> {
     let least = network.minimax(from, goals)?;
     let rounding = 1e-12 * depth;
@@ -70,7 +70,7 @@ fn highest(network: &Network, from: usize, goals: &HashSet<usize>, depth: f64) -
     Some((least + rounding.max(AMONG_FAR * (least - start))).min(0.0))
 }
 
-/// A pathway gone backwards.
+/// A pathway in reverse.
 pub fn reversed(pathway: &Pathway) -> Pathway {
     let length = pathway.last().map_or(0.0, |last| last.s);
     let back = |point: &PathwayPoint| PathwayPoint {
@@ -80,8 +80,8 @@ pub fn reversed(pathway: &Pathway) -> Pathway {
     pathway.iter().rev().map(back).collect()
 }
 
-/// Two pathways, one after the other; `None` where the second does not begin where the first one
-/// ends. An empty first one may end anywhere.
+/// Two pathways, one after the other; `None` if the second does not begin where the first one ends.
+/// An empty first one may end anywhere.
 pub fn joined(space: &ConfigurationSpace, mut first: Pathway, second: Pathway) -> Option<Pathway> {
     let (Some(end), Some(start)) = (first.last().copied(), second.first()) else {
         return Some(if first.is_empty() { second } else { first });
@@ -136,7 +136,7 @@ fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, 
 
 enum Stretch {
     Straight(Vec<Configuration>),
-    /// Along which the energy is known.
+    /// A path along which the energy is known.
     Way(Vec<Point>),
 }
 

@@ -1,4 +1,4 @@
-//! Detours cut short.
+//! Shortens pathways by cutting off detours.
 
 use super::legs::OVERLAP;
 use crate::configuration::Configuration;
@@ -10,44 +10,44 @@ use crate::roadmap::{Point, ProfileTolerance};
 
 /// Longest step (m, metric of the space) between two points from which a detour may be cut short.
 const STEP: f64 = 0.02;
-/// So often the points are looked at anew, a kink that is left being the end of no shortcut.
+/// Number of passes over the points. A remaining kink is not the end of a shortcut.
 const PASSES: usize = 2;
-/// So often each point is pulled towards the middle between its neighbours.
+/// How often each point is pulled towards the midpoint of its neighbours.
 const PULLS: usize = 2;
-/// A point nearer (m, metric of the space) to that middle is left where it is.
+/// A point closer (m, metric of the space) to that midpoint is not moved.
 const KINK: f64 = 1e-3;
 
-/// What a metre of the way counts as much as, as a fraction of the depth by which energies are
-/// measured: of ways with as little work the shorter one is taken.
+/// Cost of a metre of path, as a fraction of the depth by which energies are measured: among paths
+/// with equal work the shortest is taken.
 const PER_METRE: f64 = 1e-3;
 /// How closely energies along shortcuts are known, as a fraction of the depth.
 const CLOSELY: f64 = 1e-5;
 
-/// Bypasses taken on one way at most; points of it that are looked at for one, and pairs of them that
-/// are tried.
+/// Maximum number of bypasses on one path, of its points that are considered for one, and of pairs
+/// that are tried.
 const BYPASSES: usize = 4;
 const LOOKED_AT: usize = 32;
 const TRIED: usize = 200;
-/// A bypass is looked for where it may save as much as so many metres of the way.
+/// A bypass is searched for if it may save the cost of this length of path (m).
 const WORTHWHILE: f64 = 0.1;
 
-/// So many places of a motion are asked before it is followed, in this order.
+/// Number of places of a motion that are evaluated, in this order, before it is followed.
 const GLANCES: usize = 7;
 const COARSE_FIRST: [usize; GLANCES] = [4, 2, 6, 1, 3, 5, 7];
 
-/// What a shortcut has to keep to.
+/// Conditions for a shortcut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// It rises nowhere above this (J).
+    /// Its highest energy (J).
     pub highest: f64,
-    /// Energy (J) that a metre of the way counts as much as.
+    /// Cost of a metre of path (J).
     pub per_metre: f64,
-    /// How closely energies along it have to be known (J).
+    /// Accuracy of the energies along it (J).
     pub tolerance: f64,
 }
 
 impl Limits {
-    /// Ways between such tiles that rise nowhere above `highest` (J).
+    /// Limits for paths of these tiles that stay at or below `highest` (J).
     pub fn below(highest: f64, problem: &Problem) -> Self {
         let depth = problem.depth();
         Self {
@@ -59,7 +59,7 @@ impl Limits {
 }
 
 /// A polyline with the detours cut out that a direct motion can replace: one that is free, keeps
-/// below the highest energy, and takes no more work, each metre counted as work too. What is left is
+/// below the highest energy, and takes no more work, each metre counted as work too. The result is
 /// pulled tight.
 pub fn shortened(
     problem: &Problem,
@@ -78,7 +78,7 @@ pub fn shortened(
 }
 
 /// Pulls a polyline tight like a rubber band: point by point towards the middle between its two
-/// neighbours, out of overlap where it gets into it, as long as that costs less.
+/// neighbours, out of overlap if needed, as long as that costs less.
 fn tighten(problem: &Problem, points: &mut [Configuration], limits: &Limits) {
     let price = |way: [&Configuration; 3]| {
         let milestones = way.map(|q| Point::new(problem, *q));
@@ -126,9 +126,9 @@ fn subdivided(problem: &Problem, points: &[Configuration]) -> Vec<Configuration>
     fine
 }
 
-/// A polyline with those dips and detours bypassed that cost more than a straight motion between two
-/// points of it, the worst first: a route goes along whole links of a network, down to a state and up
-/// again, where it might have left the one for the other half-way.
+/// A polyline with those dips and detours bypassed that cost more than a straight motion between
+/// two points of it, the worst first: a route follows whole links of a network, down to a state and
+/// up again, even if it could have changed from one to the other half-way.
 pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &Limits) -> Vec<Point> {
     for _ in 0..BYPASSES {
         let Some((from, to)) = worst_detour(problem, &milestones, limits) else {
@@ -139,7 +139,7 @@ pub fn bypassed(problem: &Problem, mut milestones: Vec<Point>, limits: &Limits) 
     milestones
 }
 
-/// Two points of a polyline between which a straight motion saves most, as far as was looked.
+/// The two points of a polyline between which a straight motion saves most, among those examined.
 fn worst_detour(
     problem: &Problem,
     milestones: &[Point],
@@ -204,8 +204,8 @@ fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Ve
     kept
 }
 
-/// Whether a straight motion is free, keeps to the limits and costs no more than `most` (J). What a few
-/// places of it tell is asked first: of a rough landscape most motions end there.
+/// Whether a straight motion is free, keeps to the limits and costs no more than `most` (J). A few
+/// places of it are checked first: on a rough landscape most motions fail there.
 fn is_motion_within(problem: &Problem, ends: [&Point; 2], limits: &Limits, most: f64) -> bool {
     let [a, b] = ends.map(|end| &end.q);
     let mut energies = [0.0; GLANCES];

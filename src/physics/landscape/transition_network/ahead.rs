@@ -1,10 +1,10 @@
-//! What a route still costs at least, so that searches look towards their goals first.
+//! Lower bounds of the remaining cost of a route, which direct searches towards their goals.
 //!
-//! A* needs a bound that no link undercuts: what is ahead of a link's start is no more than the link
-//! and what is ahead of its end together (Hart, Nilsson and Raphael, *A formal basis for the heuristic
-//! determination of minimum cost paths*, IEEE Trans. SSC 4, 1968). Bounds here are by the distance d
-//! and the climb D of the way: climbs add up to D at least, lengths to d, and -ln of transition
-//! probabilities as [`improbability_at_least`] says.
+//! A* needs a consistent bound: the bound at a link's start is at most the cost of the link plus
+//! the bound at its end (Hart, Nilsson and Raphael, *A formal basis for the heuristic determination
+//! of minimum cost paths*, IEEE Trans. SSC 4, 1968). The bounds here use the distance d and the
+//! difference in energy D: climbs add up to at least D, lengths to at least d, and -ln of
+//! transition probabilities to at least [`improbability_at_least`].
 
 use std::collections::HashSet;
 
@@ -12,31 +12,30 @@ use super::Network;
 use crate::configuration::Configuration;
 use crate::roadmap::edge::improbability_at_least;
 
-/// By which cost paths are compared.
+/// The cost by which paths are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {
     /// Mechanical work against the energy (J).
     Work,
     /// -ln of the transition probabilities.
     Probability,
-    /// Work, and the given energy (J) for each metre of the way, over links whose peak does not
-    /// exceed `highest` (J).
+    /// Work plus a given energy (J) per metre, over links whose peak does not exceed `highest` (J).
     Below {
         /// No link's peak on the path may exceed this (J).
         highest: f64,
-        /// Energy (J) for each metre of the way.
+        /// Energy (J) per metre.
         per_metre: f64,
     },
 }
 
-/// Between which nodes a search goes.
+/// The start and the goals of a search.
 #[derive(Clone, Copy)]
 pub(super) struct Ends<'a> {
     pub from: usize,
     pub goals: &'a HashSet<usize>,
 }
 
-/// In which direction links are gone that a search finds one after the other.
+/// The direction in which the links found by a search are traversed.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Gone {
     Forwards,
@@ -46,17 +45,17 @@ pub(super) enum Gone {
 /// A place where a search may end.
 enum Goal {
     At(Configuration, f64),
-    /// Far apart: the least and the highest energy (J) there.
+    /// Far apart: the lowest and the highest energy (J) there.
     Free([f64; 2]),
 }
 
-/// What is ahead of each node.
+/// Lower bounds of the remaining cost of each node.
 pub(super) struct Ahead<'a> {
     network: &'a Network<'a>,
     pub cost: Cost,
     pub gone: Gone,
     goals: Vec<Goal>,
-    /// By node, once it was asked for.
+    /// By node, filled on demand.
     known: Vec<Option<f64>>,
 }
 
@@ -75,7 +74,7 @@ impl<'a> Ahead<'a> {
         }
     }
 
-    /// What is ahead of a node at least.
+    /// The lower bound of a node's remaining cost.
     pub fn of(&mut self, node: usize) -> f64 {
         if let Some(known) = self.known[node] {
             return known;
@@ -85,7 +84,7 @@ impl<'a> Ahead<'a> {
     }
 
     fn least(&self, node: usize) -> f64 {
-        // Free tiles: which of their configurations is not told.
+        // Free tiles, in an unspecified configuration.
         let Some((q, energy)) = self.network.nodes[node] else {
             return 0.0;
         };
@@ -108,7 +107,8 @@ impl<'a> Ahead<'a> {
 }
 
 impl Network<'_> {
-    /// What a way of at least this length (m) that leads up by `climb` (J) costs at least.
+    /// The lower bound of the cost of a path of at least this length (m) that leads up by `climb`
+    /// (J).
     pub(super) fn least_cost(&self, cost: Cost, length: f64, climb: f64) -> f64 {
         match cost {
             Cost::Work => climb.max(0.0),
@@ -117,7 +117,7 @@ impl Network<'_> {
         }
     }
 
-    /// The least and the highest energy (J) of the far configurations.
+    /// The lowest and the highest energy (J) of the far configurations.
     fn far_energies(&self) -> [f64; 2] {
         let far = self
             .nodes

@@ -1,4 +1,4 @@
-//! Which links minimax paths use, and where basins meet.
+//! The links that minimax paths use, and where basins meet.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -10,7 +10,7 @@ use super::ahead::Ends;
 use super::{Link, Network, Route};
 use crate::parallel;
 
-/// Links that are looked at for those that can be weighed at once.
+/// Number of links examined for those that can be weighed in parallel.
 const LOOKED_AT: usize = 32;
 
 /// Two basins that meet, in ascending order of the energy at which they do.
@@ -24,31 +24,31 @@ pub struct Merge {
     pub upper: usize,
 }
 
-/// A link by its peak (J) and, of equal ones, its length (m), which tells what it takes to weigh it, and
-/// its number.
+/// A link ordered by its peak (J), then by its length (m), which determines the work to weigh it,
+/// then by its number.
 type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 
 impl Network<'_> {
-    /// Works out which motions minimax paths use, so that merges need to look at later links only: the
-    /// minimum spanning forest by peak. Links without motion are left out, as no route leads through
-    /// `free`. Between any two nodes, the path in it has the lowest possible highest peak. Links of equal
-    /// peak are taken by their lengths and numbers, so that there is one such forest only, and links
-    /// that were not in it before are not in it later.
+    /// Determines the motions that minimax paths use, so that merges need only examine later links:
+    /// the minimum spanning forest by peak. Links without motion are left out, because no route
+    /// leads through `free`. Between any two nodes, the path in the forest has the lowest possible
+    /// highest peak. Links of equal peak are ordered by their lengths and numbers, so the forest is
+    /// unique, and links that were not in it before are not in it later.
     pub fn span(&mut self) {
         let links = self.hung();
         self.span_by(Vec::new(), links);
     }
 
-    /// The same of a network that was never spanned.
+    /// The same for a network that was never spanned.
     pub(super) fn span_first(&mut self) {
         let tree = self.descents();
         self.span_by(tree, (0..self.links.len() as u32).collect());
     }
 
-    /// Goes on from a part of the forest, `tree`, with some links.
+    /// Extends a part of the forest, `tree`, by some links.
     ///
-    /// Kruskal's algorithm: links wait by their peaks, those that are not weighed by what these are
-    /// at least, and only those that might join something are weighed. Blocked ones join nothing.
+    /// Kruskal's algorithm: links are queued by their peaks, unweighed ones by lower bounds of
+    /// these, and only those that might join two parts are weighed. Blocked links join nothing.
     fn span_by(&mut self, mut tree: Vec<u32>, links: Vec<u32>) {
         let is_same = |number: &u32| self.is_same(*number as usize);
         let (same, mut left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
@@ -64,8 +64,9 @@ impl Network<'_> {
         let by_peak = |number| self.by_peak(number);
         let by_peak = parallel::map(&left, |&number| Reverse(by_peak(number)));
         let mut waiting = BinaryHeap::from(by_peak);
-        // Once a link has to be weighed, others that follow and join other parts of the forest; all
-        // that are looked at meanwhile, and the parts that they touch.
+        // Together with a link that has to be weighed, later ones that join other parts of the
+        // forest are weighed; this collects the links examined meanwhile, and the parts that they
+        // touch.
         let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
         loop {
             let next = waiting.pop();
@@ -112,8 +113,9 @@ impl Network<'_> {
         links
     }
 
-    /// For each node the shortest link that leads down all the way, where there is one. It peaks at the
-    /// node, as low as any that leads there, and is the first such one: it is in the spanning forest.
+    /// For each node the shortest link that leads down all the way, where there is one. Its peak is
+    /// at the node, which no link there undercuts, and it is the first of these: it is in the
+    /// spanning forest.
     fn descents(&mut self) -> Vec<u32> {
         let energy = |node: u32| self.nodes[node as usize].map(|known| known.1);
         let mut below: Vec<Vec<(OrderedFloat<f64>, u32)>> = vec![Vec::new(); self.nodes.len()];
@@ -126,7 +128,7 @@ impl Network<'_> {
         parallel::for_each(&mut below, |links| links.sort_unstable());
         let mut found = Vec::with_capacity(self.nodes.len());
         let mut open: Vec<usize> = (0..self.nodes.len()).collect();
-        // A look at the next link of each node, all of them side by side.
+        // The next link of each node, all in parallel.
         for turn in 0.. {
             open.retain(|node| turn < below[*node].len());
             if open.is_empty() {
@@ -156,7 +158,7 @@ impl Network<'_> {
         OrderedFloat(self.costs(link).length)
     }
 
-    /// Those of them that span the network, `free` and all, ascending.
+    /// The links around the nodes that span the network including `free`, ascending.
     fn spanning_links(&self) -> Vec<u32> {
         let mut ascending = self.hung();
         ascending.sort_by_cached_key(|&number| self.by_peak(number));
@@ -188,7 +190,7 @@ impl Network<'_> {
     /// route. Links that were added since the network was spanned count.
     pub fn lowest(&self, from: usize, goals: &HashSet<usize>) -> Option<(f64, Route)> {
         let ends = Ends { from, goals };
-        // The highest energy on the way to a node, and the link that was gone last.
+        // The highest energy on the path to a node, and its last link.
         let mut reached: Vec<Option<(f64, Option<u32>)>> = vec![None; self.nodes.len()];
         let mut waiting =
             BinaryHeap::from([Reverse((OrderedFloat(f64::NEG_INFINITY), None, from))]);

@@ -1,11 +1,11 @@
-//! The network that is asked for barriers: milestones, states and transition states as nodes, and
-//! the ways between them as links. It holds the roadmap and everything that was found by following
+//! The transition network that answers barrier queries: milestones, states and transition states as
+//! nodes, the ways between them as links. It contains the roadmap and everything found by following
 //! the energy from it.
 //!
-//! A straight motion that the roadmap left untried costs at least what its ends tell: it peaks no
-//! lower than the higher one, and climbs no less than from the one to the other. Searches go by that,
-//! and only of those motions that come out best it is found out whether they are free, and what they
-//! cost (edges whose evaluation is dear: Dellin and Srinivasa, *A unifying formalism for shortest path
+//! The ends of a straight motion that the roadmap did not try give a lower bound of its cost: its
+//! peak is at least the higher end, and its climb at least the difference between them. Searches
+//! use these bounds, and only the motions that turn out best are checked for contact and weighed
+//! (expensive edge evaluations: Dellin and Srinivasa, *A unifying formalism for shortest path
 //! problems with expensive edge evaluations via lazy best-first search over paths with edge
 //! selectors*, ICAPS 2016).
 
@@ -33,20 +33,20 @@ use crate::problem::{Problem, Symmetry};
 use crate::roadmap::edge::{EdgeCosts, costs_of_energies};
 use crate::roadmap::{Edge, EdgeSettings, Point, Roadmap};
 
-/// What joins two nodes.
+/// A link between two nodes.
 #[derive(Clone, Debug)]
 pub struct Link {
     /// The node it leaves.
     pub from: u32,
     /// The node it reaches.
     pub to: u32,
-    /// Of going from the one to the other, and back; empty until it is weighed, and
-    /// [`EdgeCosts::BLOCKED`] where it then turns out not to be free.
+    /// The costs in both directions; empty until the link is weighed, and [`EdgeCosts::BLOCKED`] if
+    /// it is then found not to be free.
     costs: OnceLock<EdgeCosts>,
 }
 
 impl Link {
-    /// The node that a link joins to one of its own.
+    /// The node at the other end of a link.
     fn other_end(&self, node: u32) -> u32 {
         if node == self.from {
             self.to
@@ -56,36 +56,38 @@ impl Link {
     }
 }
 
-/// Nodes and links. A link takes 88 bytes, its part in the graph included; few have a way that is
+/// Nodes and links. A link takes 88 bytes including its part in the graph; few have a path that is
 /// not straight.
 #[derive(Clone)]
 pub struct Network<'a> {
-    /// Of which the nodes are configurations.
+    /// The problem whose configurations the nodes are.
     pub problem: &'a Problem,
     /// Configuration and energy (J) of every node; `None` for the node that stands for `free`.
     pub nodes: Vec<Option<(Configuration, f64)>>,
-    /// Of the first ones, the roadmap's milestones, the energy's gradient and what contact knows.
+    /// For the first nodes, the roadmap's milestones: the energy's gradient and what is known about
+    /// contact.
     of_milestones: Vec<(Vector3<f64>, Option<Known>)>,
-    /// What joins nodes.
+    /// The links.
     pub links: Vec<Link>,
-    /// Those that are weighed, but for what searches have weighed: they run side by side, and none may
-    /// know of what another one has done.
+    /// The weighed links, except those weighed by searches: these run in parallel, and none may
+    /// depend on what another has done.
     settled: FixedBitSet,
     /// How links are weighed.
     settings: EdgeSettings,
-    /// How many links are motions of the roadmap; they come first.
+    /// Number of links that are motions of the roadmap; they come first.
     of_roadmap: usize,
-    /// The points of those links, from the first node to the second, that are no straight motions.
+    /// The points, from the first node to the second, of links that are not straight motions.
     ways: HashMap<usize, Vec<Point>>,
-    /// Its edges have the numbers of the links.
+    /// The graph; its edges are numbered like the links.
     graph: UnGraph<(), (), u32>,
-    /// Of each node the motions that minimax paths use, the links without motion, and all links that
-    /// were added since the network was spanned.
+    /// For each node, the motions that minimax paths use, the links without motion, and all links
+    /// added since the network was spanned.
     around: Vec<Vec<u32>>,
 }
 
 impl<'a> Network<'a> {
-    /// The milestones become nodes and the motions between them links, first those that are weighed.
+    /// The network whose nodes are the milestones and whose links are the motions between them,
+    /// weighed ones first.
     pub fn new(problem: &'a Problem, roadmap: Roadmap, settings: &EdgeSettings) -> Self {
         let nodes = roadmap.milestones.len();
         let links = roadmap.edges.len() + roadmap.untried.len();
@@ -115,7 +117,7 @@ impl<'a> Network<'a> {
         network
     }
 
-    /// Adds a node that nothing joins yet, `None` for free tiles; its number.
+    /// Adds a node without links, `None` for free tiles; returns its number.
     pub fn add_node(&mut self, node: Option<(Configuration, f64)>) -> usize {
         self.nodes.push(node);
         self.around.push(Vec::new());
@@ -127,7 +129,7 @@ impl<'a> Network<'a> {
         self.add_link(from as u32, to as u32, OnceLock::from(costs))
     }
 
-    /// Adds a straight motion that is looked at when it is asked for.
+    /// Adds a straight motion that is weighed on demand.
     pub fn add_untried(&mut self, from: usize, to: usize) -> usize {
         self.add_link(from as u32, to as u32, OnceLock::new())
     }
@@ -146,7 +148,7 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// Whether a link is none of a motion: one of its nodes stands for `free`.
+    /// Whether a link involves no motion: one of its nodes stands for `free`.
     pub fn is_same(&self, link: usize) -> bool {
         let Link { from, to, .. } = &self.links[link];
         [from, to]
@@ -163,7 +165,7 @@ impl<'a> Network<'a> {
         self.links.len() - 1
     }
 
-    /// Adds what a symmetry makes of a link between two nodes, the images of its own.
+    /// Adds the image of a link under a symmetry between two nodes, the images of its own.
     pub fn add_image(&mut self, link: usize, [from, to]: [usize; 2], symmetry: &Symmetry) {
         let costs = self.links[link].costs.clone();
         let number = self.add_link(from as u32, to as u32, costs);
@@ -173,13 +175,13 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// What a link costs, or what it costs at least as long as it is not weighed.
+    /// The costs of a link, or lower bounds of them as long as it is not weighed.
     pub fn costs(&self, link: usize) -> EdgeCosts {
         let costs = self.links[link].costs.get();
         costs.copied().unwrap_or_else(|| self.costs_at_least(link))
     }
 
-    /// What a straight motion between a link's nodes costs at least.
+    /// Lower bounds of the costs of a straight motion between a link's nodes.
     fn costs_at_least(&self, link: usize) -> EdgeCosts {
         let Link { from, to, .. } = self.links[link];
         let ends = [from, to].map(|node| self.nodes[node as usize]);
@@ -194,7 +196,7 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// The same of its peak alone (J).
+    /// The same for its peak alone (J).
     fn peak(&self, link: usize) -> f64 {
         match self.links[link].costs.get() {
             Some(costs) => costs.peak,
@@ -209,7 +211,7 @@ impl<'a> Network<'a> {
         energies.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Adds a link that takes a far configuration, with its energy (J), and `free` for one.
+    /// Adds a link that identifies a far configuration with this energy (J) with `free`.
     pub fn add_same(&mut self, node: usize, free: usize, energy: f64) -> usize {
         let costs = EdgeCosts {
             peak: energy,
@@ -218,7 +220,7 @@ impl<'a> Network<'a> {
         self.add_motion(node, free, costs)
     }
 
-    /// The points of a link, where it is no straight motion between its nodes, nor none.
+    /// The points of a link that is neither a straight motion between its nodes nor without motion.
     pub fn way(&self, link: usize) -> Option<&[Point]> {
         self.ways.get(&link).map(Vec::as_slice)
     }
@@ -241,13 +243,13 @@ impl<'a> Network<'a> {
         number
     }
 
-    /// Nodes from which no link leads down all the way: where a descent is worth following.
+    /// Nodes from which no link leads downhill all the way, and a descent is worth following.
     pub fn local_minima(&self) -> Vec<usize> {
         let mut lowest = vec![true; self.nodes.len()];
         for link in &self.links {
             let (from, to) = (link.from as usize, link.to as usize);
-            // Where one of its links leads down, one that spans the network does: it peaks at the
-            // node, as low as any.
+            // If any of its links leads downhill, one of the spanning forest does: it peaks at the
+            // node, which none undercuts.
             let Some(costs) = link.costs.get() else {
                 continue;
             };
@@ -266,7 +268,7 @@ impl<'a> Network<'a> {
             .collect()
     }
 
-    /// Where the highest energy of a link is reached; `None` for a link without motion.
+    /// The configuration of a link's highest energy; `None` for a link without motion.
     pub fn peak_configuration(&self, link: usize) -> Option<Configuration> {
         if let Some(points) = self.way(link) {
             let highest = points.iter().max_by_key(|p| OrderedFloat(p.energy));

@@ -1,4 +1,4 @@
-//! Routes from node to node.
+//! Routes between nodes of the network.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -12,12 +12,12 @@ use super::Network;
 use super::ahead::{Ahead, Cost, Ends, Gone};
 use crate::roadmap::edge::EdgeCosts;
 
-/// A path through the network: links with the direction in which each is gone.
+/// A path through the network: links, each with its direction.
 pub type Route = Vec<(usize, bool)>;
 
 impl Network<'_> {
-    /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. Of
-    /// equally cheap ones always the same.
+    /// The cheapest route from a node to any of the `goals`: its end, its cost and its links. The
+    /// choice among equally cheap routes is always the same.
     pub fn cheapest(
         &self,
         from: usize,
@@ -28,8 +28,8 @@ impl Network<'_> {
         self.search(ends, cost, Gone::Forwards)
     }
 
-    /// The cheapest route from a node to another, looked for from its end: the sooner found where
-    /// less is around that, as around a state beside `free`.
+    /// The cheapest route from a node to another, searched from its end: faster if there are fewer
+    /// links around the end, as around a state beside `free`.
     pub fn cheapest_into(&self, from: usize, to: usize, cost: Cost) -> Option<(f64, Route)> {
         let goals = &HashSet::from([from]);
         let (_, total, mut route) = self.search(Ends { from: to, goals }, cost, Gone::Backwards)?;
@@ -40,9 +40,9 @@ impl Network<'_> {
         Some((total, route))
     }
 
-    /// A* ([`Ahead`]). A link that is not weighed waits by what it costs at least and is weighed when
-    /// its turn comes; where it costs more, it waits again. So only links that might be the best way to
-    /// some node are weighed, the same ones whatever other searches weigh meanwhile.
+    /// A* ([`Ahead`]). A link that is not weighed is queued by its lower bound, weighed when its
+    /// turn comes, and queued again if it costs more. So only links that might be the best to some
+    /// node are weighed, and the same ones whatever other searches weigh meanwhile.
     fn search(&self, ends: Ends, cost: Cost, gone: Gone) -> Option<(usize, f64, Route)> {
         if ends.goals.is_empty() {
             return None;
@@ -52,7 +52,7 @@ impl Network<'_> {
         let mut waiting = BinaryHeap::new();
         let mut ahead = Ahead::new(self, ends, cost, gone);
         let mut weighed = self.settled.clone();
-        // What weighed links that wait offer.
+        // Offers of queued links that are weighed.
         let mut offered = vec![f64::INFINITY; self.nodes.len()];
         let mut here = ends.from;
         while !ends.goals.contains(&here) {
@@ -79,7 +79,7 @@ impl Network<'_> {
         Some((here, reached[here]?.0, route))
     }
 
-    /// The route that ends at a node, where it is known by which link it came to each.
+    /// The route that ends at a node, given the link by which each node was reached.
     pub(super) fn route(&self, mut here: usize, last: impl Fn(usize) -> Option<u32>) -> Route {
         let mut route = Route::new();
         while let Some(number) = last(here) {
@@ -91,7 +91,7 @@ impl Network<'_> {
         route
     }
 
-    /// Reaches the node that is reached best by a link that waits.
+    /// Settles the node that a queued link reaches best.
     fn best_of(
         &self,
         waiting: &mut BinaryHeap<Waiting>,
@@ -123,7 +123,7 @@ impl Network<'_> {
         }
     }
 
-    /// What a link costs, if a search has `weighed` it.
+    /// The costs of a link, if a search has `weighed` it.
     fn known_costs(&self, weighed: &FixedBitSet, number: usize) -> Option<&EdgeCosts> {
         let costs = &self.links[number].costs;
         costs.get().filter(|_| weighed.contains(number))
@@ -140,8 +140,8 @@ impl Network<'_> {
     }
 
     /// Whether a route between these ends may use a link: one without motion only where it starts
-    /// or ends at the node that stands for `free`. Far configurations are one place to come from
-    /// and to go to, but to pass from one to another takes a motion.
+    /// or ends at the node that stands for `free`. Far configurations are one place as a start or
+    /// an end, but passing from one to another takes a motion.
     pub(super) fn is_motion(&self, number: usize, Ends { from, goals }: Ends) -> bool {
         let link = &self.links[number];
         !self.is_same(number)
@@ -151,9 +151,9 @@ impl Network<'_> {
                 .any(|free| *free == from || goals.contains(free))
     }
 
-    /// What it costs to go along a link from one of its ends, or, `Backwards`, to there; at least, where
-    /// it is not weighed. A motion never costs less than that, be it by a rounding: a search would find
-    /// another of two as good routes where somebody else had weighed the link before.
+    /// The cost of a link from one of its ends or, for `Backwards`, to it; a lower bound if it is
+    /// not weighed. A motion never costs less than its bound, not even by rounding: otherwise a
+    /// search could choose another of two equally good routes depending on what was weighed before.
     fn cost(
         &self,
         weighed: &FixedBitSet,
@@ -179,9 +179,9 @@ impl Network<'_> {
     }
 }
 
-/// What a route costs at least that goes on by a link, to its end and to the link's, the link, and
-/// the node it is gone from.
+/// Lower bounds of the cost of a route that continues by a link, to its goal and to the link's end;
+/// the link; and the node where the link starts.
 type Waiting = Reverse<([OrderedFloat<f64>; 2], u32, u32)>;
 
-/// What it costs to reach a node, and the link that was gone last, once it is reached.
+/// The cost of reaching a node, and the last link on the way, once it is reached.
 type Reached = Option<(f64, Option<u32>)>;

@@ -1,4 +1,4 @@
-//! Which motions are free, and what they cost: found out once somebody asks.
+//! Which motions are free and what they cost, computed on first use.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ use crate::parallel;
 use crate::roadmap::Point;
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
 
-/// Links that are weighed at once are dealt out in so many parts, but not of fewer than these.
+/// Links weighed together are distributed in this many parts, each with at least this many links.
 const PARTS: usize = 2;
 const FEW: usize = 16;
 
@@ -21,7 +21,7 @@ impl Network<'_> {
         self.links[link].costs.get() == Some(&EdgeCosts::BLOCKED)
     }
 
-    /// How many motions of the roadmap are free, those among them that nobody asked for.
+    /// How many motions of the roadmap are free, including those that no search needed.
     pub fn motions(&self) -> usize {
         let (weighed, open): (Vec<usize>, Vec<usize>) =
             (0..self.of_roadmap).partition(|link| self.is_weighed(*link));
@@ -39,7 +39,7 @@ impl Network<'_> {
                 .count()
     }
 
-    /// Weighs those of some links that are not, side by side.
+    /// Weighs those of some links that are not yet weighed, in parallel.
     pub(super) fn weigh(&mut self, links: &[usize]) {
         let open = links.iter().copied();
         let open: Vec<usize> = open.filter(|number| !self.is_weighed(*number)).collect();
@@ -52,13 +52,13 @@ impl Network<'_> {
         }
     }
 
-    /// Weighs a link for a search, unless any has.
+    /// Weighs a link for a search, unless another one has.
     pub(super) fn weighed(&self, number: usize) {
         let weigh = || self.costs_of_straight(&[number])[0];
         self.links[number].costs.get_or_init(weigh);
     }
 
-    /// What straight motions cost, all at once.
+    /// The costs of straight motions, computed together.
     fn costs_of_straight(&self, links: &[usize]) -> Vec<EdgeCosts> {
         let mut costs = vec![EdgeCosts::BLOCKED; links.len()];
         let mut left = Halves::default();

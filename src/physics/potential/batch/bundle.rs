@@ -1,10 +1,10 @@
-//! Several vectors side by side.
+//! Several SIMD vectors processed together.
 
 use super::lanes::Arithmetic;
 
-/// `M` times `N` vectors on which every operation is done in turn. A vector operation takes
-/// several cycles but another one can start in each; so of a long chain of them, several
-/// independent ones are interleaved, which is more than the CPU finds out by itself.
+/// `M` times `N` vectors on which every operation is done in turn. A vector operation takes several
+/// cycles, but another one can start in each. Interleaving several independent chains of operations
+/// therefore uses the CPU better than its own reordering does.
 #[derive(Clone, Copy)]
 pub struct Bundle<L, const N: usize, const M: usize>(pub L);
 

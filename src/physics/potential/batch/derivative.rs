@@ -1,4 +1,5 @@
-//! Bounds of the energy's derivatives along motions, the dipoles of one tile in the lanes.
+//! Bounds of the energy's derivatives along motions, with the dipoles of one tile in the SIMD
+//! lanes.
 
 use nalgebra::Vector2;
 
@@ -12,12 +13,12 @@ use crate::potential::patches::square::{NEAR, POWERS, Spread};
 use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
-/// less `reach`; infinite where an r is not positive.
+/// minus `reach`; infinite if an r is not positive.
 pub struct DerivativeBound<'a, const TERMS: usize> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
     pub reach: f64,
-    /// The polynomial's coefficients, that of the highest power first.
+    /// The polynomial's coefficients, highest power first.
     pub terms: [f64; TERMS],
 }
 
@@ -42,10 +43,10 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
     }
 }
 
-/// What the pairs are summed to.
+/// The sums over pairs.
 struct Sums<F> {
     bound: F,
-    /// The smallest distance less the reach (m).
+    /// The smallest distance minus the reach (m).
     nearest: F,
 }
 
@@ -69,7 +70,7 @@ impl<F: Copy> Sums<F> {
     }
 }
 
-/// `r^-3` times the polynomial at the way d less the reach, and that distance r.
+/// `r^-3` times the polynomial for the displacement d shortened by the reach, and the distance r.
 #[inline(always)]
 fn bound<A: Arithmetic>(a: A, terms: &[f64], d: [A::F; 2], reach: f64) -> (A::F, A::F) {
     let r2 = a.mul_add(d[0], d[0], a.mul(d[1], d[1]));
@@ -126,7 +127,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
     }
 }
 
-/// Groups no larger than so many times their distance are asked as one.
+/// Groups no larger than this fraction of their distance are evaluated as one.
 const SMALL: f64 = 1.0 / 16.0;
 
 /// A bound of the same sum for a moving tile that lies within reach of the table of the fixed one's
@@ -179,8 +180,8 @@ impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
 }
 
 impl<const TERMS: usize> TabulatedBound<'_, TERMS> {
-    /// Adds what dipoles of some magnitude at a place meet that go no farther than their reach, of
-    /// near dipoles; and returns what they meet of others.
+    /// For dipoles of some magnitude at a place that move no farther than their reach, adds the
+    /// terms of near dipoles and returns those of the others.
     #[inline(always)]
     fn add<L: Lanes>(
         &self,

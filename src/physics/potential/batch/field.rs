@@ -1,12 +1,11 @@
-//! The arithmetic of the kernel, written once for every instruction set.
+//! The arithmetic of the dipole kernel, written once for all instruction sets.
 //!
-//! The energy is that of the moving tile's dipoles in the field of the fixed tile's. For a moving
-//! dipole of moment `m` at the place `p`, `U = m . A(p)` with
-//! `A(p) = sum_j r^-3 [m_j - 3 (m_j.d) d / r^2]`, `d = p - p_j`, `r = |d|` (minus the flux density,
-//! the moments being scaled by `sqrt(mu0 / 4 pi)`). A is summed over the fixed dipoles one after
-//! the other; what is in the lanes is the places, be it one dipole of several configurations or
-//! several dipoles of one. Either way a place's field comes out of the same operations in the same
-//! order, so it has the same bits.
+//! The energy of the moving tile's dipoles in the field of the fixed tile's. For a moving dipole of
+//! moment `m` at the place `p`, `U = m . A(p)` with `A(p) = sum_j r^-3 [m_j - 3 (m_j.d) d / r^2]`,
+//! `d = p - p_j`, `r = |d|` (minus the flux density, the moments being scaled by `sqrt(mu0 / 4
+//! pi)`). A is summed over the fixed dipoles in sequence; the lanes hold the places, either one
+//! dipole of several configurations or several dipoles of one. In both cases a place's field is
+//! computed by the same operations in the same order, so it has the same bits.
 
 use super::bundle::Bundle;
 use super::lanes::Arithmetic;
@@ -33,7 +32,7 @@ impl From<&Dipole> for Source {
     }
 }
 
-/// The field A at some places, with its derivatives if they are asked for.
+/// The field A at some places, with its derivatives if requested.
 #[derive(Clone, Copy)]
 pub struct Field<F> {
     pub x: F,
@@ -43,7 +42,7 @@ pub struct Field<F> {
 }
 
 impl<F: Copy> Field<F> {
-    /// Together with another share of the same field.
+    /// The sum with another part of the same field.
     #[inline(always)]
     pub fn add<L: Arithmetic<F = F>, const SLOPE: bool>(&self, l: L, other: &Self) -> Self {
         let mut sum = Self {
@@ -60,7 +59,7 @@ impl<F: Copy> Field<F> {
     }
 }
 
-/// How many sources are taken at once; the number of sources must be a multiple of it.
+/// Number of sources processed together; the number of all sources must be a multiple of it.
 pub const TOGETHER: usize = 2;
 
 /// The field of the sources at `N` vectors of places.
@@ -145,7 +144,7 @@ pub fn field_of_each<L: Arithmetic, const SLOPE: bool>(
     sums.field(l)
 }
 
-/// What a source gives, in the words of [`field`]; `w3` is `r^-3`, `s3` is `3 s`.
+/// The contribution of a source, in the notation of [`field`]; `w3` is `r^-3`, `s3` is `3 s`.
 struct Share<F> {
     w2: F,
     w3: F,
@@ -270,15 +269,14 @@ impl<F: Copy> Frame<F> {
     }
 }
 
-/// What the moving dipoles' shares are summed to. With complex numbers for vectors, and `m` a
-/// moment in the moving tile's frame, `along + i across = sum m conj(A)`; the energy is then the
-/// real part of `exp(i theta)` times it, and its derivative by the moments' direction minus the
-/// imaginary part.
+/// Sums of the moving dipoles' contributions. With complex numbers for vectors, and `m` a moment in
+/// the moving tile's frame, `along + i across = sum m conj(A)`; the energy is then the real part of
+/// `exp(i theta)` times it, and its derivative by the moments' direction minus the imaginary part.
 #[derive(Clone, Copy)]
 pub struct Shares<F> {
     along: F,
     across: F,
-    /// dU/dx, dU/dy, and the part of dU/dtheta that comes from the dipoles' motion.
+    /// dU/dx, dU/dy, and the part of dU/dtheta due to the dipoles' motion.
     slope: [F; 3],
 }
 
@@ -312,8 +310,8 @@ impl<F: Copy> Shares<F> {
         Self::from_array(sum)
     }
 
-    /// Adds the share of the dipole of the given moment (in the moving tile's frame) at `place`,
-    /// where the field is `field`.
+    /// Adds the contribution of the dipole of the given moment (in the moving tile's frame) at
+    /// `place`, where the field is `field`.
     #[inline(always)]
     pub fn gather<L: Arithmetic<F = F>, const SLOPE: bool>(
         &mut self,

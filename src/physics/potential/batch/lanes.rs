@@ -1,15 +1,15 @@
-//! Vectors of f64 lanes, whatever the instruction set, and their functions.
+//! Vectors of f64 lanes, independent of the instruction set, and their functions.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, PI, SQRT_2};
 
-/// How many f64 lanes a vector has, with every instruction set: so all sum in one order and give the
-/// same bits.
+/// Number of f64 lanes of a vector, the same with every instruction set, so that all sum in one
+/// order and give the same bits.
 pub const WIDTH: usize = 8;
 
 /// The largest angle (rad) that [`Lanes::sin_cos`] takes.
 pub const MAX_ANGLE: f64 = 1e5;
 
-/// See [`Arithmetic::reciprocal_sqrt_guess`]; of all it leaves the least error.
+/// See [`Arithmetic::reciprocal_sqrt_guess`]; of all constants it gives the smallest error.
 pub const GUESS: i64 = 0x5FE6_E8B0_C7B5_37A9;
 
 /// The cubic of [`Arithmetic::reciprocal_sqrt`], lowest power first.
@@ -27,7 +27,7 @@ const NEAREST: [f64; 4] = [
 /// operands alone. Every operation is rounded as IEEE 754 says, so that its bits are the same with
 /// each instruction set and on each maker's processors.
 ///
-/// All functions are `#[inline(always)]`, and so must be all that uses them, for only what is
+/// All functions are `#[inline(always)]`, and everything that uses them must be, too: only code
 /// inlined into [`Task::run`] is compiled for the instruction set. That excludes closures on
 /// vectors, and `map` on arrays of them.
 pub trait Arithmetic: Copy {
@@ -48,18 +48,19 @@ pub trait Arithmetic: Copy {
     fn neg_mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// The smaller of two numbers; `b` where either is NaN.
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
-    /// For positive numbers, the number whose bits are [`GUESS`] less half those of `a`: `1 / sqrt(a)`
-    /// to 3.5 %, as halving a number's bits halves its exponent.
+    /// For positive numbers, the number whose bits are [`GUESS`] minus half those of `a`: `1 /
+    /// sqrt(a)` to 3.5 %, as halving a number's bits halves its exponent.
     fn reciprocal_sqrt_guess(self, a: Self::F) -> Self::F;
     /// `1 / a` in single precision.
     fn reciprocal_single(self, a: Self::F) -> Self::F;
 
     /// `1 / sqrt(a)` to a relative error of 4e-16, for positive normal `a`; at 0 a number above 1e150.
     ///
-    /// The processors' own estimates of it differ between makers, so it starts from a guess `y` with,
-    /// `e = 1 - a y^2`, `|e| <= 0.0682`, of which `a^(-1/2) = y (1 - e)^(-1/2)`. A first step takes
-    /// the cubic in e that is nearest to `(1 - e)^(-1/2)` there (by Remez' algorithm: 7.4e-7); then
-    /// e is at most 1.5e-6, and the series `1 + e/2 + 3 e^2/8 + ...` goes on with 1e-18.
+    /// The processors' own estimates differ between makers, so the iteration starts from a guess
+    /// `y` with, `e = 1 - a y^2`, `|e| <= 0.0682`, of which `a^(-1/2) = y (1 - e)^(-1/2)`. A first
+    /// step takes the cubic in e that is nearest to `(1 - e)^(-1/2)` there (by Remez' algorithm:
+    /// 7.4e-7); then e is at most 1.5e-6, and the series `1 + e/2 + 3 e^2/8 + ...` goes on with
+    /// 1e-18.
     #[inline(always)]
     fn reciprocal_sqrt(self, a: Self::F) -> Self::F {
         reciprocal_sqrt(self, a)
@@ -92,15 +93,15 @@ pub(super) fn reciprocal_sqrt<L: Arithmetic>(l: L, a: L::F) -> L::F {
     l.mul_add(l.mul(y, e), p, y)
 }
 
-/// A vector of an instruction set: arithmetic on its [`WIDTH`] lanes, and their way in and out.
+/// A vector of an instruction set: arithmetic, loads and stores of its [`WIDTH`] lanes.
 pub trait Lanes: Arithmetic {
-    /// How many vectors' operations the registers have room to interleave: 1 or 2. Results do not
-    /// depend on it.
+    /// Number of vectors whose operations can be interleaved in the registers: 1 or 2. Results do
+    /// not depend on it.
     const AT_ONCE: usize;
 
     /// The first [`WIDTH`] values of a slice, which must have that many.
     fn load(self, values: &[f64]) -> Self::F;
-    /// Into the first [`WIDTH`] places of a slice, which must have that many.
+    /// Stores into the first [`WIDTH`] places of a slice, which must have that many.
     fn store(self, lanes: Self::F, values: &mut [f64]);
     /// `a / b`.
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
@@ -115,12 +116,12 @@ pub trait Lanes: Arithmetic {
     }
     /// For a positive normal number `m 2^e` with m in [1, 2): m and e.
     fn mantissa_and_exponent(self, a: Self::F) -> (Self::F, Self::F);
-    /// The sine and cosine of an angle, given those of the angle less a number of quarter turns.
-    /// That number, an integer, is `quarters` less 1.5 * 2^52, so that it can be read from the low
+    /// The sine and cosine of an angle, given those of the angle minus a number of quarter turns.
+    /// That number, an integer, is `quarters` minus 1.5 * 2^52, so that it can be read from the low
     /// bits.
     fn turn(self, quarters: Self::F, sin: Self::F, cos: Self::F) -> (Self::F, Self::F);
-    /// The least of the lanes, each of the upper half against its fellow in the lower half until
-    /// one is left; none may be NaN.
+    /// The minimum of the lanes: the upper half is compared with the lower half until one is left;
+    /// none may be NaN.
     fn least(self, lanes: Self::F) -> f64;
     /// The sum of the lanes: the upper half is added to the lower half until one is left.
     fn sum(self, lanes: Self::F) -> f64;
@@ -146,12 +147,11 @@ pub trait Lanes: Arithmetic {
     }
 }
 
-/// Something to be computed with whichever instruction set there is. See [`Lanes`] for what must
-/// be inlined.
+/// A computation that runs with any instruction set. See [`Lanes`] for what must be inlined.
 pub trait Task {
-    /// What comes of it.
+    /// Its result.
     type Output;
-    /// Does it, with the vectors of `lanes`.
+    /// Runs it with the vectors of `lanes`.
     fn run<L: Lanes>(self, lanes: L) -> Self::Output;
 }
 
@@ -180,7 +180,7 @@ pub fn sin_cos<L: Lanes>(lanes: L, angle: L::F) -> (L::F, L::F) {
     lanes.turn(shifted, sin, cos)
 }
 
-/// `c[0] + c[1] x + ... + c[6] x^6`, in a form that needs few operations one after the other.
+/// `c[0] + c[1] x + ... + c[6] x^6`, in a form with a short chain of dependent operations.
 #[inline(always)]
 fn polynomial_of_seven<L: Arithmetic>(l: L, x: L::F, c: &[f64; 7]) -> L::F {
     let x2 = l.mul(x, x);
@@ -243,7 +243,7 @@ const ATAN: [f64; 12] = [
 /// Keeps the angle of the zero vector from being 0 / 0.
 const SMALLEST: f64 = 1e-300;
 
-/// `c[0] + c[1] x + ...`, even and odd powers apart: two chains half as long.
+/// `c[0] + c[1] x + ...`, even and odd powers separately: two chains of half the length.
 #[inline(always)]
 fn polynomial<L: Lanes, const N: usize>(l: L, x: L::F, c: &[f64; N]) -> L::F {
     let x2 = l.mul(x, x);

@@ -8,7 +8,7 @@ use super::portable::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 
-/// An instruction set this machine has. Results are the same bits with each.
+/// An instruction set of this machine. Results are the same bits with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Kind);
 
@@ -24,11 +24,11 @@ enum Kind {
 /// The environment variable that names the level to use.
 const VARIABLE: &str = "TILEBIND_KERNEL";
 
-/// The words for the levels there, fastest first.
+/// The names of the levels in it, fastest first.
 const WORDS: [&str; 3] = ["avx512", "avx2", "portable"];
 
 impl Level {
-    /// What this machine has, slowest first; plain Rust is everywhere.
+    /// The levels of this machine, slowest first; plain Rust is always available.
     pub fn available() -> Vec<Self> {
         let mut levels = vec![Self(Kind::Portable(Portable))];
         #[cfg(target_arch = "x86_64")]
@@ -39,12 +39,12 @@ impl Level {
         levels
     }
 
-    /// What the environment variable `TILEBIND_KERNEL` asks for (`avx512`, `avx2` or `portable`),
-    /// or the fastest this machine has.
+    /// The level requested by the environment variable `TILEBIND_KERNEL` (`avx512`, `avx2` or
+    /// `portable`), or the fastest of this machine.
     ///
     /// # Errors
-    /// What is wrong with the variable, and how to fix it: another word, or a level that this
-    /// processor lacks.
+    /// If the variable has an unknown value or names a level that this processor lacks; the text
+    /// says how to fix it.
     pub fn chosen() -> Result<Self, String> {
         let mut levels = Self::available().into_iter().rev();
         let Some(word) = std::env::var_os(VARIABLE) else {
@@ -69,8 +69,8 @@ impl Level {
         }
     }
 
-    /// The [chosen](Self::chosen) level, asked for once a process. Where that is an error (which
-    /// the program and the Python package report before they compute anything) the fastest: the
+    /// The [chosen](Self::chosen) level, determined once per process. If that is an error (which
+    /// the program and the Python package report before they compute anything), the fastest: the
     /// results are the same.
     pub fn best() -> Self {
         static BEST: LazyLock<Level> = LazyLock::new(|| {
@@ -80,7 +80,7 @@ impl Level {
         *BEST
     }
 
-    /// The word for it in the environment variable.
+    /// Its name in the environment variable.
     pub fn word(self) -> &'static str {
         match self.0 {
             #[cfg(target_arch = "x86_64")]

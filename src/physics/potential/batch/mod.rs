@@ -1,15 +1,15 @@
-//! The hot kernel: the interaction energy of two sets of point dipoles, for many configurations
-//! at once or for one, with whichever instruction set the CPU has.
+//! The dipole kernel, where most time is spent: the interaction energy of two sets of point
+//! dipoles, for one configuration or many at once, with the best instruction set of the CPU.
 //!
-//! One configuration has its moving dipoles in the lanes, many configurations have one
-//! configuration in each lane; either way each configuration's numbers come out of the same
-//! operations in the same order. So energies and gradients are the same bits whichever function
-//! gives them, whatever else is in a batch and wherever in it a configuration stands; and as all
-//! instruction sets have eight lanes, and operations that IEEE 754 rounds, on every machine. They
-//! differ by at most some 1e-13 of the sum of the pairs' magnitudes from the scalar formula of
+//! For a single configuration the lanes hold its moving dipoles; for many configurations each lane
+//! holds one of them. In both cases a configuration's numbers are computed by the same operations
+//! in the same order. So energies and gradients are the same bits whichever function computes them,
+//! and independent of the rest of a batch and of the position in it. They are also the same on
+//! every machine, as all instruction sets have eight lanes and operations rounded by IEEE 754. They
+//! differ by at most about 1e-13 of the sum of the pairs' magnitudes from the scalar formula of
 //! [`super::dipole`].
 //!
-//! Edges: where dipoles coincide (or are within 1e-19 m) the energy is plus infinity and the
+//! Special cases: if dipoles coincide (or are within 1e-19 m), the energy is plus infinity and the
 //! gradient zero. Poses beyond 1e18 m are not supported.
 
 mod bundle;
@@ -56,21 +56,21 @@ pub struct DipolePotential {
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
     lever: Lever,
-    /// Of both tiles, where there are so many dipoles that they are worth it; `sources` and
-    /// `moving` are then those of the trees.
+    /// Trees of both tiles, if there are enough dipoles to benefit; `sources` and `moving` are then
+    /// those of the trees.
     many: Option<Many>,
 }
 
-/// What is known of very many dipoles.
+/// Data for very many dipoles.
 #[derive(Clone, Debug)]
 struct Many {
     groups: [Vec<Group>; 2],
-    /// The field of the fixed tile's.
+    /// The field of the fixed tile's dipoles.
     patches: Arc<Patches>,
 }
 
 impl Many {
-    /// Whether all moving dipoles, and all that stand for others, are within reach of the table.
+    /// Whether all moving dipoles, and all that represent groups, are within reach of the table.
     fn is_tabulated(&self, q: &Configuration) -> bool {
         q.position().norm() + self.groups[1][0].lever <= self.patches.reach()
     }
@@ -84,7 +84,7 @@ impl Many {
 /// (sqrt(J m^3)).
 #[derive(Clone, Debug)]
 struct Moving {
-    /// How many there are before the filling.
+    /// Their number without the padding.
     count: usize,
     x: Vec<f64>,
     y: Vec<f64>,
@@ -94,12 +94,12 @@ struct Moving {
 }
 
 impl DipolePotential {
-    /// Of two tiles' magnets, for the fastest instruction set of this machine.
+    /// The potential of two tiles' magnets, for the fastest instruction set of this machine.
     pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
         Self::with_level(&dipoles(fixed), &dipoles(moving), Level::best())
     }
 
-    /// Of two sets of dipoles, for the given instruction set.
+    /// The potential of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         if are_many(fixed.len(), moving.len()) {
             let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, WIDTH)];
@@ -122,7 +122,7 @@ impl DipolePotential {
         }
     }
 
-    /// Every pair by itself, however many there are.
+    /// The potential that evaluates every pair, however many there are.
     fn one_by_one(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         let sources = scaled_and_filled(fixed, TOGETHER);
         let lanes = scaled_and_filled(moving, WIDTH);
@@ -185,8 +185,8 @@ impl DipolePotential {
 }
 
 /// Dipoles with their moments scaled by `sqrt(mu0 / 4 pi)`, so that products of two are in J m^3,
-/// filled up to a multiple of `group` with copies of the last one that have no moment. (A copy is
-/// where a dipole is anyway, so no energy becomes infinite for it.)
+/// padded to a multiple of `group` with copies of the last one without moment. (A copy is at the
+/// place of a dipole, so it adds no infinite energy.)
 fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
     let scale = MU0_OVER_4PI.sqrt();
     let scaled = |dipole: &Dipole, scale| Dipole {

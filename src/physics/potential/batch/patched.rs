@@ -1,7 +1,7 @@
 //! The energy of many dipoles in a tabulated field, and the field where it is tabulated.
 //!
-//! For each moving dipole the powers of its place in a patch are in the lanes, and so are the fixed
-//! dipoles near the patch; its field comes as shares of the lanes, which are summed at the end.
+//! For each moving dipole the lanes hold the powers of its place in a patch, and the fixed dipoles
+//! near the patch; its field is a sum over lanes, which is taken at the end.
 
 use arrayvec::ArrayVec;
 use nalgebra::{Vector2, Vector3};
@@ -14,10 +14,10 @@ use crate::configuration::Configuration;
 use crate::potential::patches::polynomial::{ORDER, Polynomial};
 use crate::potential::patches::square::{NEAR, Near, Patch};
 
-/// How many vectors a row of coefficients takes.
+/// Number of vectors in a row of coefficients.
 const VECTORS: usize = ORDER / WIDTH;
 
-/// So many dipoles are asked together.
+/// Number of dipoles evaluated together.
 const TOGETHER: usize = 16;
 
 /// One configuration, whose moving dipoles all lie within reach of the table of the fixed ones.
@@ -45,7 +45,7 @@ impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
                 open.extend(group.parts.iter().flatten());
                 continue;
             };
-            // Patches first: so none waits for another's memory.
+            // Patches are looked up first, so that their memory accesses overlap.
             let is_filling = |i: &usize| moving.magnitude[*i] == 0.0;
             let mut rest = some.clone().filter(|i| !is_filling(i)).peekable();
             while rest.peek().is_some() {
@@ -67,7 +67,7 @@ impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
     }
 }
 
-/// The field at a place in a patch, as shares of the lanes.
+/// The field at a place in a patch, as partial sums in the lanes.
 #[inline(always)]
 fn field_in<L: Lanes, const SLOPE: bool>(l: L, patch: &Patch, place: [f64; 2]) -> Field<L::F> {
     let mut field = far::<L, SLOPE>(l, &patch.far, place);
@@ -78,7 +78,7 @@ fn field_in<L: Lanes, const SLOPE: bool>(l: L, patch: &Patch, place: [f64; 2]) -
     field
 }
 
-/// What the near dipoles add to the shares of a field.
+/// Adds the near dipoles to the partial sums of a field.
 #[inline(always)]
 fn of_near<L: Lanes, const SLOPE: bool>(
     l: L,
@@ -97,8 +97,8 @@ fn of_near<L: Lanes, const SLOPE: bool>(
     field
 }
 
-/// The gradient of a polynomial at a place and the gradient of that, as shares of the lanes: in each
-/// the terms of some powers of x.
+/// The first and second derivatives of a polynomial at a place, as partial sums in the lanes, each
+/// of which has the terms of some powers of x.
 ///
 /// Each column of coefficients is a polynomial in y, of which Horner's rule gives value, slope and
 /// half the bend.
@@ -150,7 +150,7 @@ fn powers(u: f64) -> [f64; ORDER + 2] {
     powers
 }
 
-/// What the `TIMES`-th derivative of each power is that power lowered by `TIMES`, times: `i (i - 1) ...`.
+/// The factors `i (i - 1) ...` of the `TIMES`-th derivative of each power.
 static WEIGHTS: [[f64; ORDER]; 3] = {
     let mut weights = [[1.0; ORDER]; 3];
     let mut i = 0;
@@ -162,7 +162,7 @@ static WEIGHTS: [[f64; ORDER]; 3] = {
     weights
 };
 
-/// The `TIMES`-th derivative by x of columns of coefficients, as shares of the lanes.
+/// The `TIMES`-th derivative by x of columns of coefficients, as partial sums in the lanes.
 #[inline(always)]
 fn along<L: Lanes, const TIMES: usize>(
     l: L,

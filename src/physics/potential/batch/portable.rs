@@ -1,4 +1,4 @@
-//! Plain Rust, for every machine.
+//! The portable implementation in plain Rust, for every machine.
 
 use super::lanes::{
     Arithmetic, GUESS, Lanes, Task, WIDTH, angle, ln_ratio, reciprocal_sqrt, sin_cos,
@@ -6,9 +6,9 @@ use super::lanes::{
 
 /// Eight lanes in plain Rust.
 ///
-/// On x86-64 it serves only processors without AVX2 (made before 2013), so that its operations are
-/// calls there: inlined, with a call for each lane of a fused operation, all tasks would be as much
-/// code again.
+/// On x86-64 it is used only by processors without AVX2 (made before 2013), so its operations are
+/// not inlined there: inlined, with a call for each lane of a fused operation, they would double
+/// the code of all tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Portable;
 
@@ -129,12 +129,12 @@ impl Lanes for Portable {
     }
 }
 
-/// `b` where either is NaN, or where they are equal.
+/// `b` if either is NaN or if they are equal.
 fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The lower half of the lanes with the upper half, until one is left.
+/// Combines the lower half of the lanes with the upper half until one is left.
 fn halved(mut lanes: F, both: impl Fn(f64, f64) -> f64) -> f64 {
     let mut width = WIDTH / 2;
     while width > 0 {

@@ -1,4 +1,4 @@
-//! Which numbers go in which lanes.
+//! The assignment of numbers to lanes.
 
 use std::ops::Range;
 
@@ -63,7 +63,7 @@ pub struct One<'a, const SLOPE: bool> {
 }
 
 impl<const SLOPE: bool> One<'_, SLOPE> {
-    /// The shares of some moving dipoles, whole vectors of them, with some of the fixed ones.
+    /// The sums of some moving dipoles, in whole vectors, with some of the fixed ones.
     #[inline(always)]
     fn meet<L: Lanes>(
         &self,
@@ -84,8 +84,8 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         }
     }
 
-    /// The shares of `N` vectors of moving dipoles from the dipole `first` on, with some of the
-    /// fixed ones.
+    /// The sums of `N` vectors of moving dipoles from the dipole `first` on, with some of the fixed
+    /// ones.
     #[inline(always)]
     fn block<L: Lanes, const N: usize>(
         &self,
@@ -132,7 +132,7 @@ impl<const SLOPE: bool> Task for One<'_, SLOPE> {
     }
 }
 
-/// The energy of one configuration and its gradient, from what is in each lane.
+/// The energy of one configuration and its gradient, summed over the lanes.
 #[inline(always)]
 pub fn summed<L: Lanes>(l: L, frame: &Frame<L::F>, shares: Shares<L::F>) -> (f64, Vector3<f64>) {
     let mut sums = shares.to_array();
@@ -153,7 +153,7 @@ pub struct InLanes<'a, P, const SLOPE: bool> {
 }
 
 impl<P, const SLOPE: bool> InLanes<'_, P, SLOPE> {
-    /// The shares of `N` moving dipoles from `first` on.
+    /// The sums of `N` moving dipoles from `first` on.
     #[inline(always)]
     fn some<L: Lanes, const N: usize>(
         &self,
@@ -176,8 +176,8 @@ impl<P, const SLOPE: bool> InLanes<'_, P, SLOPE> {
         }
     }
 
-    /// The shares of all moving dipoles, added in the order in which [`One`] adds them: first
-    /// those that it has in the same lane, then halves.
+    /// The sums of all moving dipoles, added in the order of [`One`]: first those that it has in
+    /// the same lane, then by halves.
     #[inline(always)]
     fn all<L: Lanes>(&self, l: L, frame: &Frame<L::F>) -> Shares<L::F> {
         let count = self.potential.moving.count;

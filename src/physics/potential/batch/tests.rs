@@ -1,4 +1,4 @@
-//! How much arithmetic the kernel does, counted.
+//! Tests that count the arithmetic operations of the kernel.
 
 use std::cell::Cell;
 
@@ -10,7 +10,7 @@ mod known;
 
 use known::Operations;
 
-/// A change of the known numbers is a change of the kernel's speed; the bench measures how much.
+/// A change of these numbers changes the kernel's speed; the bench measures how much.
 #[test]
 fn operations_a_pair() {
     check::<false>();
@@ -39,7 +39,7 @@ fn of_field<const SLOPE: bool>(sources: usize) -> Operations {
     counted.get()
 }
 
-/// Arithmetic that computes nothing, but counts.
+/// Arithmetic that only counts operations.
 #[derive(Clone, Copy)]
 struct Counter<'a>(&'a Cell<Operations>);
 

@@ -1,4 +1,4 @@
-//! AVX2 with FMA, and AVX-512.
+//! The implementations with AVX2 and FMA, and with AVX-512.
 
 #![allow(unsafe_code)]
 
@@ -6,23 +6,23 @@ use std::arch::x86_64::*;
 
 use super::lanes::{Arithmetic, GUESS, Lanes, Task, WIDTH};
 
-/// Eight lanes as two halves. Only [`Avx2::detect`] makes one, so whoever holds one runs on a CPU
-/// that has it.
+/// Eight lanes as two halves. Only [`Avx2::detect`] creates a value, so code that has one runs on a
+/// CPU with AVX2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx2(());
 
-/// Eight lanes. Only [`Avx512::detect`] makes one, so whoever holds one runs on a CPU that has it.
+/// Eight lanes. Only [`Avx512::detect`] creates a value, so code that has one runs on a CPU with
+/// AVX-512.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx512(());
 
-/// Calls intrinsics of the instruction set whose [`Lanes`] value is at hand.
+/// Calls intrinsics of the instruction set of an available [`Lanes`] value.
 macro_rules! with {
     ($lanes:ident: $call:expr) => {{
         let _proof: Self = $lanes;
-        // SAFETY: these functions have no other condition than that the CPU has their
-        // instruction set, and a value of `Self` exists only where `detect` found that it does.
-        // The ones that take a pointer are given a slice that the caller checked to be long
-        // enough.
+        // SAFETY: the only condition of these functions is that the CPU has their instruction set,
+        // and a value of `Self` exists only if `detect` found it. Those that take a pointer get a
+        // slice that the caller checked to be long enough.
         unsafe { $call }
     }};
 }
@@ -120,7 +120,7 @@ impl Arithmetic for Avx2 {
 }
 
 impl Lanes for Avx2 {
-    // Of sixteen registers a vector takes two.
+    // A vector takes two of sixteen registers.
     const AT_ONCE: usize = 1;
 
     #[inline(always)]
@@ -294,7 +294,7 @@ impl Lanes for Avx512 {
     }
 }
 
-// What four lanes take more than one intrinsic for. (Closures on vectors would be calls.)
+// Operations on four lanes that take more than one intrinsic. (Closures on vectors would be calls.)
 
 #[inline]
 #[target_feature(enable = "avx2")]
@@ -343,7 +343,7 @@ fn turned(quarters: __m256d, sin: __m256d, cos: __m256d) -> [__m256d; 2] {
     ]
 }
 
-/// The least of four lanes, by halves.
+/// The minimum of four lanes, by halves.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn least_of_four(lanes: __m256d) -> f64 {

@@ -1,11 +1,11 @@
-//! Square roots and logarithms of complex numbers, the same bits on every machine.
+//! Square roots and logarithms of complex numbers, with the same bits on every machine.
 
 use nalgebra::Complex;
 
 pub type C = Complex<f64>;
 
-/// A height over a face's plane is no less than this: what is in the plane is taken for what is right
-/// above it, and complex heights have a side.
+/// The smallest height over a face's plane: a point in the plane is treated as right above it, and
+/// complex heights have a side.
 pub const LEAST: f64 = 1e-150;
 
 /// The square root with a real part that is not negative.

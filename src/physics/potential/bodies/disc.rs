@@ -1,4 +1,4 @@
-//! The potential of a uniformly charged disc, at real and at complex places.
+//! The potential of a uniformly charged disc, at real and complex positions.
 
 use std::f64::consts::PI;
 
@@ -18,8 +18,8 @@ use super::elliptic::Complete;
 /// ```
 ///
 /// Source: Paxton, *Solid angle calculation for a circular disk*, Rev. Sci. Instrum. 30 (1959) 254.
-/// Edges: at the disc itself dV/dh jumps by 4 pi, and V is even in h; at the rim the derivatives grow
-/// like the logarithm of the distance.
+/// Special cases: at the disc itself dV/dh jumps by 4 pi, and V is even in h; at the rim the
+/// derivatives grow like the logarithm of the distance.
 ///
 /// At complex places, `x + i v` with x and v real, V is continued from x; see [`super::line`] for the
 /// v to which that is possible.

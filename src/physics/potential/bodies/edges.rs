@@ -1,16 +1,17 @@
-//! Two flat rectangles: integrals over their boundaries.
+//! Integrals over the boundaries of two flat rectangles.
 //!
-//! With `Phi(rho) = r - z ln(z + r)`, `r^2 = rho^2 + z^2`, z the distance of the two planes, the plane
-//! Laplacian of Phi is `1 / r`, so that by the divergence theorem, in either rectangle once,
+//! With `Phi(rho) = r - z ln(z + r)`, `r^2 = rho^2 + z^2`, z the distance of the two planes, the
+//! plane Laplacian of Phi is `1 / r`, so that by the divergence theorem, applied once to either
+//! rectangle,
 //!
 //! ```text
 //! int int 1 / r dA1 dA2 = - sum over edges e of one, f of the other of (n_e . n_f) int int Phi dl1 dl2
 //! ```
 //!
-//! n the normals outwards. The inner integral is closed ([`inner`]). A shift or a turn of one rectangle changes
-//! the integral by the other one's potential at its edges, V: with p seen from the second one's middle,
-//! the derivatives by that middle and by its angle are `-sum n_e int V dl` and
-//! `-sum int n_e . (z x p) V dl` over the edges of the first.
+//! with n the outward normals. The inner integral has a closed form ([`inner`]). A shift or a turn
+//! of one rectangle changes the integral by the other one's potential at its edges, V: with p
+//! relative to the second one's centre, the derivatives by that centre and by its angle are `-sum
+//! n_e int V dl` and `-sum int n_e . (z x p) V dl` over the edges of the first.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -18,7 +19,7 @@ use super::complex::C;
 use super::face::{Face, Integral};
 use super::panels::panels;
 
-/// An edge: its middle, its direction, half its length (m), and the normal outwards.
+/// An edge: its midpoint, its direction, half its length (m), and the outward normal.
 struct Edge {
     middle: Vector2<f64>,
     along: Vector2<f64>,
@@ -49,7 +50,7 @@ pub fn integral([first, second]: [&Face; 2], halves: [[f64; 2]; 2]) -> Integral 
     let [own, others] = [edges(first, halves[0]), edges(second, halves[1])];
     let mut sum = Integral::default();
     for edge in &own {
-        // Near the other one's corners, and where the edges' lines cross.
+        // Near the other one's corners, and near the intersection of the edges' lines.
         let mut singular = Vec::new();
         for other in &others {
             for end in [-other.half, other.half] {

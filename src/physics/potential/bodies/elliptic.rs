@@ -7,15 +7,15 @@ use super::complex::{C, sqrt};
 /// Three integrals over phi from 0 to pi/2, with `D = sqrt(cos^2 phi + kc^2 sin^2 phi)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Complete {
-    /// Of `1 / D`: the first kind, K.
+    /// The integral of `1 / D`: the first kind, K.
     pub first: C,
-    /// Of `(sin^2 phi - cos^2 phi) / D`.
+    /// The integral of `(sin^2 phi - cos^2 phi) / D`.
     pub tilted: C,
-    /// Of `1 / ((cos^2 phi + q^2 sin^2 phi) D)`: the third kind.
+    /// The integral of `1 / ((cos^2 phi + q^2 sin^2 phi) D)`: the third kind.
     pub third: C,
 }
 
-/// The complementary modulus below which it is taken for this: where it is 0, K is infinite.
+/// The smallest complementary modulus, which replaces smaller ones: at 0, K is infinite.
 const LEAST: f64 = 1e-150;
 
 impl Complete {

@@ -1,4 +1,4 @@
-//! Charged faces of magnets, and the integral of `1 / r` over two of them.
+//! The charged faces of magnets, and the integral of `1 / r` over two of them.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -7,7 +7,7 @@ use super::complex::{C, sqrt};
 /// A uniformly charged face.
 #[derive(Clone, Copy, Debug)]
 pub struct Face {
-    /// Its middle (m).
+    /// Its centre (m).
     pub centre: Vector3<f64>,
     /// Unit vectors along its sides, and normal to it.
     pub frame: [Vector3<f64>; 3],
@@ -24,8 +24,8 @@ pub enum Shape {
     Rectangle([f64; 2]),
 }
 
-/// The integral of `1 / r` over two faces (m^3), its gradient by the second one's middle in the tiles' plane
-/// (m^2), and its derivative by the second one's angle about its own middle (m^3).
+/// The integral of `1 / r` over two faces (m^3), its gradient by the second one's centre in the
+/// tiles' plane (m^2), and its derivative by the second one's angle about its own centre (m^3).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Integral {
     pub value: f64,
@@ -33,7 +33,7 @@ pub struct Integral {
     pub slope: f64,
 }
 
-/// What is a quarter turn from a unit vector, and it.
+/// A unit vector turned by a quarter turn, and the vector itself.
 fn sides(along: Vector2<f64>) -> [Vector2<f64>; 2] {
     [Vector2::new(-along.y, along.x), along]
 }
@@ -59,7 +59,8 @@ impl Face {
         }
     }
 
-    /// The integral of `1 / r` over the face (m) at a place from its middle (m), and its gradient.
+    /// The integral of `1 / r` over the face (m) at a place relative to its centre (m), and its
+    /// gradient.
     pub fn potential(&self, place: [C; 3]) -> (C, [C; 3]) {
         let local = self
             .frame
@@ -81,8 +82,8 @@ impl Face {
         )
     }
 
-    /// Where its potential along an upright or flat line through `from`, at imaginary heights, is
-    /// singular: points of its rim.
+    /// The points of its rim where its potential along an upright or flat line through `from`, at
+    /// imaginary heights, is singular.
     pub fn corners(&self, from: Vector3<f64>) -> Vec<Vector3<f64>> {
         let [a, b, normal] = self.frame;
         let way = from - self.centre;

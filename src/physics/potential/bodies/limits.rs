@@ -1,4 +1,4 @@
-//! How large the derivatives of a pair's energy can be where the magnets are close.
+//! Bounds of the derivatives of a pair's energy where the magnets are close to each other.
 //!
 //! Let P be the area of a face of the second magnet, l the length of the rim of one of the first, of charge
 //! density 1, and V its potential.
@@ -12,7 +12,7 @@
 //!   where `r >= D`, the integral of `1 / r^2` is at most that of the least of it and `1 / D^2` over
 //!   a disc of the same area, `pi + pi ln(P / (pi D^2))`, or `P / D^2` if that is less.
 //!
-//! An acceleration adds itself times the bound of the force. The second derivative is truly infinite
+//! An acceleration adds its product with the bound of the force. The second derivative is infinite
 //! (logarithmically) where rims of faces meet.
 
 use std::f64::consts::PI;
@@ -50,9 +50,9 @@ impl Limits {
         }
     }
 
-    /// The bound of the second derivative along a motion in which no point of the second magnet is faster
-    /// than 1, and it turns at the rate `turn` (1/m) at most, where the faces are at least `distance`
-    /// (m) apart.
+    /// The bound of the second derivative along a motion in which no point of the second magnet is
+    /// faster than 1 and it turns at most at the rate `turn` (1/m), if the faces are at least
+    /// `distance` (m) apart.
     pub fn curvature(&self, turn: f64, distance: f64) -> f64 {
         let ratio = self.area / (PI * distance * distance);
         let spread = if ratio > 1.0 {

@@ -1,4 +1,5 @@
-//! A disc and any other face: the other one's potential along the disc's axis, at imaginary heights.
+//! A disc and any other face, by the other face's potential along the disc's axis at imaginary
+//! heights.
 //!
 //! Outside, a charged disc of radius R is a line of charge along its axis at imaginary heights: the
 //! integral of `1 / r` over it is, with c its centre and n its normal,
@@ -31,9 +32,9 @@ use super::complex::C;
 use super::face::{Face, Integral};
 use super::panels::panels;
 
-/// About what share of the integral is lost.
+/// Approximate relative error of the integral.
 const LOST: f64 = 1e-15;
-/// The fewest equal steps, and the most: with more of them panels take fewer nodes.
+/// The smallest and the largest number of equal steps; above the latter, panels take fewer nodes.
 const STEPS: [f64; 2] = [4.0, 36.0];
 /// The integral of a disc and another face, with the derivatives of the disc's motion or the other's.
 pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Integral {
@@ -48,7 +49,8 @@ pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Int
         sum.value += weight * value.re;
         let sign = if disc_moves { weight } else { -weight };
         sum.gradient += Vector2::new(gradient[0].re, gradient[1].re) * sign;
-        // A turn of the other face is one of the place about it, back; one of the disc turns its axis.
+        // A turn of the other face is the opposite turn of the place about it; a turn of the disc
+        // turns its axis.
         let turned = if disc_moves {
             C::i() * t * (gradient[1] * normal.x - gradient[0] * normal.y)
         } else {
@@ -59,7 +61,8 @@ pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Int
     sum
 }
 
-/// Angles phi (rad) in [0, pi / 2] and their weights: what is at `pi - phi` is the same, conjugate.
+/// Angles phi (rad) in [0, pi / 2] and their weights: the value at `pi - phi` is the complex
+/// conjugate.
 fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
     let normal = disc.frame[2];
     let corners = other.corners(disc.centre);

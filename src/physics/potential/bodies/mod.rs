@@ -1,14 +1,16 @@
-//! Magnets of any form: discs, and what stands on its pole, beside lying blocks.
+//! Magnets of any form: discs, and magnets magnetised across the table, besides blocks that lie
+//! flat.
 //!
-//! Uniformly magnetised along its axis a magnet is two charged faces, of charge density m / V (A/m, the
-//! moment over the volume), and the energy of two magnets the Coulomb energy of the four pairs of
-//! faces:
+//! A magnet that is uniformly magnetised along its axis is equivalent to two charged faces with the
+//! charge density m / V (A/m, the moment over the volume), and the energy of two magnets is the
+//! Coulomb energy of the four pairs of faces:
 //!
 //! ```text
 //! U = mu0 / (4 pi)  (m1 / V1) (m2 / V2)  sum of +- int int 1 / r dA1 dA2         (J)
 //! ```
 //!
-//! Faces are discs or rectangles, upright (the axis lies in the tiles' plane) or flat (it stands on it):
+//! Faces are discs or rectangles, upright (the axis lies in the tiles' plane) or flat (the axis is
+//! normal to it):
 //!
 //! | faces | integral | by |
 //! |---|---|---|
@@ -17,11 +19,11 @@
 //! | two upright rectangles | closed forms in lanes | [`super::cuboid`] |
 //! | an upright and a flat one | none: flat faces come in pairs, north and south, at the same distance over and under the tiles' middle plane, which an upright one sees alike | |
 //!
-//! From some three sizes of the magnets on the multipole series takes over (`series`), with a bound of
-//! 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the terms left out. Point dipoles of which any stands are
-//! the first term of it, at every distance.
+//! Beyond about three times the magnets' size the multipole series is used (`series`), with a bound
+//! of 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
+//! first term of this series, at every distance.
 //!
-//! Bounds of derivatives are those of `limits`; over whole cells none are known.
+//! Bounds of derivatives are in `limits`; there are none over whole cells.
 
 mod complex;
 mod disc;
@@ -50,18 +52,18 @@ use series::{Coefficients, Series};
 
 pub use near::exact;
 
-/// The share of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series takes over from the faces, and
-/// at which it drops its terms one after the other.
+/// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
+/// which its terms are dropped one by one.
 const HAND_OVER: f64 = 1e-9;
 
-/// A magnet in whatever frame is in use.
+/// A magnet in the frame in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// Its middle (m).
+    /// Its centre (m).
     pub position: Vector2<f64>,
-    /// The direction of the first of its sizes: of its axis, if it lies.
+    /// The direction of the first of its sizes: its axis, if it lies flat.
     pub direction: Vector2<f64>,
-    /// Its moment (A m^2); of one that stands, upwards.
+    /// Its moment (A m^2); for an upright magnet, the upward component.
     pub moment: f64,
     /// Its sizes (m), see [`Magnet::size`].
     pub size: [f64; 3],
@@ -110,7 +112,7 @@ impl Body {
         self.shape.volume(self.size)
     }
 
-    /// Whether it differs from another one in nothing but place, direction and moment.
+    /// Whether it differs from another one only in place, direction and moment.
     fn is_like(&self, other: &Self) -> bool {
         (self.size, self.shape, self.stands) == (other.size, other.shape, other.stands)
     }
@@ -121,14 +123,14 @@ impl Body {
 pub struct BodyPotential {
     fixed: Vec<Group>,
     moving: Vec<Group>,
-    /// For each group of the fixed tile and each of the moving one; `None` where one lies and the other
-    /// stands.
+    /// For each group of the fixed tile and each of the moving one; `None` if one lies and the
+    /// other stands.
     pairs: Vec<Vec<Option<Pairs>>>,
     lever: Lever,
     feature: f64,
 }
 
-/// Magnets that differ in place and moment alone.
+/// Magnets that differ only in place and moment.
 #[derive(Clone, Debug)]
 struct Group {
     /// With the moment 1 A m^2, at the origin.
@@ -137,11 +139,11 @@ struct Group {
     members: Vec<(Vector2<f64>, f64)>,
 }
 
-/// What the pairs of two groups have in common.
+/// Data shared by the pairs of two groups.
 #[derive(Clone, Debug)]
 struct Pairs {
     series: Series,
-    /// The squared distances (m^2) from which on 1, 2 .. terms are enough.
+    /// The squared distances (m^2) from which on 1, 2, ... terms suffice.
     squares: Vec<f64>,
     /// For moments of 1 A m^2; `None` for point dipoles.
     limits: Option<Limits>,
@@ -194,7 +196,7 @@ impl Pairs {
         })
     }
 
-    /// How many terms are enough at a squared distance (m^2); `None` where the faces are summed.
+    /// How many terms suffice at a squared distance (m^2); `None` if the faces are summed.
     fn terms(&self, square: f64) -> Option<usize> {
         let enough = self.squares.iter().position(|from| square >= *from);
         enough.map(|k| k + 1)
@@ -202,7 +204,7 @@ impl Pairs {
 }
 
 impl BodyPotential {
-    /// Of two tiles' magnets.
+    /// The potential of two tiles' magnets.
     pub fn new(model: MagnetModel, fixed: &[Magnet], moving: &[Magnet]) -> Self {
         let lever = Lever::of(moving.iter().flat_map(Magnet::corners));
         let all = fixed.iter().chain(moving);
@@ -222,7 +224,8 @@ impl BodyPotential {
         }
     }
 
-    /// Calls `each` with what all pairs of groups of which none lies while the other stands have in common.
+    /// Calls `each` with the common data of each pair of groups, except those of a lying and an
+    /// upright one.
     fn for_each(&self, q: &Configuration, mut each: impl FnMut(&Group, &Group, &Body, &Pairs)) {
         let (sin, cos) = libm::sincos(q.theta);
         for (first, pairs) in self.fixed.iter().zip(&self.pairs) {
@@ -275,8 +278,9 @@ impl BodyPotential {
         finite(sum.0, sum.1)
     }
 
-    /// The sum of a bound over all pairs: `bound` is given the greatest radius (m) about either of their
-    /// middles, their distance (m), the limits and `mu0 m1 m2 / (4 pi)` (J m^3).
+    /// The sum of a bound over all pairs: the arguments of `bound` are the greatest radius (m)
+    /// about either of their centres, their distance (m), the limits and `mu0 m1 m2 / (4 pi)` (J
+    /// m^3).
     fn bounded(
         &self,
         q: &Configuration,
@@ -316,9 +320,9 @@ impl Potential for BodyPotential {
         self.sum::<true>(q)
     }
 
-    /// Where faces may come as close as a sixteenth of the reach the second derivative has no bound, for it
-    /// grows like the logarithm of their distance; the bound there is that at a sixteenth of the reach,
-    /// which holds for the average over a motion of that reach.
+    /// If faces may come closer than a sixteenth of the reach, the second derivative has no bound,
+    /// because it grows like the logarithm of their distance; the value returned is the bound at a
+    /// sixteenth of the reach, which holds for the average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let turn = self.lever.turn();
         self.bounded(q, |radii, distance, limits, strength| {
@@ -333,7 +337,7 @@ impl Potential for BodyPotential {
         })
     }
 
-    /// Known only where all magnets are farther apart than their own size.
+    /// Known only if all magnets are farther apart than their own size.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let turn = self.lever.turn();
         self.bounded(q, |radii, distance, _, strength| {
@@ -354,7 +358,7 @@ impl Potential for BodyPotential {
         self.feature
     }
 
-    /// That of [blocks](super::cuboid), which may be among them.
+    /// The noise of [blocks](super::cuboid), which may be among them.
     fn noise(&self) -> f64 {
         1e-6
     }

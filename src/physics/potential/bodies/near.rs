@@ -1,4 +1,4 @@
-//! Two magnets close to each other, by their faces.
+//! The energy of two magnets close to each other, by their charged faces.
 
 use nalgebra::Vector2;
 
@@ -10,8 +10,8 @@ use crate::potential::cuboid::exact as blocks;
 use crate::tile::magnet::Shape;
 use crate::units::MU0_OVER_4PI;
 
-/// Faces in one plane are taken to be this share of their size apart, on the side of the free
-/// configurations: the force jumps there.
+/// Faces in one plane are treated as this fraction of their size apart, on the side of the free
+/// configurations, because the force jumps there.
 const APART: f64 = 1e-9;
 
 /// The energy (J) of two magnets that both lie or both stand, and its derivatives.
@@ -91,8 +91,8 @@ fn lying(first: &Body, second: &Body) -> PairEnergy {
     sum
 }
 
-/// Adds an integral times a strength (J/m^3) to a pair's energy; the second face's middle is `offset` (m) from
-/// its magnet's.
+/// Adds an integral times a strength (J/m^3) to a pair's energy; the second face's centre is
+/// `offset` (m) from its magnet's.
 fn add(sum: &mut PairEnergy, integral: &Integral, strength: f64, offset: Vector2<f64>) {
     sum.energy += strength * integral.value;
     sum.gradient += integral.gradient * strength;

@@ -1,4 +1,4 @@
-//! Gauss's rule on panels that shrink towards where the integrand is singular.
+//! Gauss quadrature on panels that shrink towards the singularity of the integrand.
 
 use std::sync::LazyLock;
 
@@ -7,15 +7,15 @@ use crate::potential::cuboid::quadrature::gauss_legendre;
 
 /// Nodes of a panel.
 const NODES: usize = 12;
-/// A panel is no more than so many times as long as its distance from the nearest singular place: the
-/// error is then below 1e-12 of the integrand.
+/// Largest ratio of a panel's length to its distance from the nearest singular place; the error is
+/// then below 1e-12 of the integrand.
 const LONGEST: f64 = 1.5;
 
 static RULE: LazyLock<[[f64; NODES]; 2]> = LazyLock::new(gauss_legendre::<NODES>);
 
-/// Calls `each` with nodes and weights from `low` to `high`, of an integrand that is singular at the given
-/// places of the complex plane (their imaginary parts not negative). Panels are not halved below
-/// `shortest`: singularities are weak, and there is little left.
+/// Calls `each` with nodes and weights from `low` to `high`, of an integrand that is singular at
+/// the given places of the complex plane (their imaginary parts not negative). Panels are not
+/// halved below `shortest`: singularities are weak, and the remaining part is small.
 pub fn panels(
     [low, high]: [f64; 2],
     singular: &[C],
@@ -26,7 +26,7 @@ pub fn panels(
     let distance = |place: &C| libm::hypot(((place.re - middle).abs() - half).max(0.0), place.im);
     let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
     if half > shortest && 2.0 * half > LONGEST * nearest {
-        // At the singular place itself, if it is well inside, or in the middle.
+        // Split at the singular place if it is well inside, otherwise in the middle.
         let places = singular
             .iter()
             .filter(|place| place.im < half)

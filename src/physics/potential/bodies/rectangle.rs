@@ -1,9 +1,9 @@
-//! The potential of a uniformly charged rectangle, at real and at complex places.
+//! The potential of a uniformly charged rectangle, at real and complex positions.
 
 use super::complex::{C, LEAST, ln, sqrt};
 
-/// The integral V of `1 / r` (m) over a rectangle with half sides a and b (m), at a place x, y along its
-/// sides from its middle and h over it (m); its derivatives by the three.
+/// The integral V of `1 / r` (m) over a rectangle with half sides a and b (m), at x, y along its
+/// sides from its centre and h above it (m); its derivatives by the three.
 ///
 /// V is the sum over the four corners, with `u = +-a - x`, `v = +-b - y`, `r^2 = u^2 + v^2 + h^2`, and
 /// the signs' product before each, of
@@ -16,8 +16,8 @@ use super::complex::{C, LEAST, ln, sqrt};
 ///
 /// (w is `atan(u v / (h r))`; d and e cancel in the sum, but keep the logarithms away from their
 /// branch at complex places.) Source: Durand, *Electrostatique* (1964), volume 1, for real places.
-/// Edges: at the rectangle dV/dh jumps by 4 pi, and V is even in h; at its sides the derivatives grow
-/// like the logarithm of the distance.
+/// Special cases: at the rectangle dV/dh jumps by 4 pi, and V is even in h; at its sides the
+/// derivatives grow like the logarithm of the distance.
 ///
 /// At complex places it is continued as [`super::disc::potential`] is.
 pub fn potential([a, b]: [f64; 2], [x, y, h]: [C; 3]) -> (C, [C; 3]) {

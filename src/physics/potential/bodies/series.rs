@@ -16,8 +16,8 @@
 //! U = -mu0 m1 m2 / (4 pi)  sum_k r^(-3-2k) Re sum_n C_kn(beta) e^(-2 i n phi),   n = 0 .. k+1
 //! ```
 //!
-//! beta the angle between the magnets' directions, phi that of the way from the first to the second one,
-//! from the first one's direction, and `C_kn = sum T e^(i turn beta)`.
+//! with beta the angle between the magnets' directions, phi the angle from the first one's
+//! direction to the line from the first to the second, and `C_kn = sum T e^(i turn beta)`.
 
 use nalgebra::{Complex, Vector2};
 
@@ -44,7 +44,7 @@ struct Part {
     value: f64,
 }
 
-/// The series of two magnets but for their places, angles and moments.
+/// The part of the series that does not depend on places, angles and moments.
 #[derive(Clone, Debug)]
 pub struct Series {
     terms: Vec<Vec<Part>>,
@@ -52,10 +52,10 @@ pub struct Series {
     magnitudes: Vec<f64>,
 }
 
-/// The coefficients C_kn at one angle beta, as far as they were asked for.
+/// The coefficients C_kn at one angle beta, computed on demand.
 #[derive(Default)]
 pub struct Coefficients {
-    /// Those of term k, and their derivatives by beta.
+    /// The coefficients of term k, and their derivatives by beta.
     terms: Vec<Vec<[C; 2]>>,
 }
 
@@ -76,7 +76,7 @@ fn average(body: &Body) -> Vec<Form> {
 }
 
 impl Series {
-    /// Of two magnets that both lie or both stand.
+    /// The series of two magnets that both lie flat or both stand upright.
     pub fn new(first: &Body, second: &Body) -> Self {
         let times = |forms: Vec<Form>, by: &[f64]| -> Vec<Form> {
             forms.iter().map(|form| product(form, by)).collect()
@@ -93,15 +93,16 @@ impl Series {
         }
     }
 
-    /// The distance (m) from which on the terms from number `terms` on are together below `tolerance` times
-    /// `mu0 m1 m2 / (4 pi r^3)`.
+    /// The distance (m) beyond which the sum of the terms from number `terms` on is below
+    /// `tolerance` times `mu0 m1 m2 / (4 pi r^3)`.
     pub fn radius(&self, terms: usize, tolerance: f64) -> f64 {
         let error = |r: f64| -> f64 {
             let left = terms..BOUND_TERMS;
             left.map(|k| self.magnitudes[k] * r.powi(-2 * k as i32))
                 .sum()
         };
-        // Of one term alone it is where that term is the tolerance; of all it is at most so many times that.
+        // For a single term it is where that term equals the tolerance; for all of them at most
+        // this factor times as far.
         let of = |k: usize| libm::pow(self.magnitudes[k] / tolerance, 0.5 / k as f64);
         let mut low = (terms..BOUND_TERMS).map(of).fold(0.0, f64::max);
         let mut high = 4.0 * low;
@@ -115,7 +116,7 @@ impl Series {
         high
     }
 
-    /// Works out the coefficients of the first `terms` terms for `beta` = e^(i beta) that are not known yet.
+    /// Computes the missing coefficients of the first `terms` terms for `beta` = e^(i beta).
     pub fn complete<const SLOPE: bool>(&self, known: &mut Coefficients, beta: C, terms: usize) {
         for parts in &self.terms[known.terms.len().min(terms)..terms] {
             let k = known.terms.len();
@@ -132,7 +133,7 @@ impl Series {
     }
 }
 
-/// Term k, with what is the complex conjugate of it folded onto it.
+/// Term k, combined with its complex conjugate.
 fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for j in 0..=k {
@@ -158,8 +159,8 @@ fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Part> {
 }
 
 impl Coefficients {
-    /// The sum of the first `terms` terms for two magnets of moments 1 A m^2, the second one `way` (m) from
-    /// the first one, whose direction is `axis`. Derivatives are zero where not asked for.
+    /// The sum of the first `terms` terms for two magnets of moments 1 A m^2, the second one `way`
+    /// (m) from the first one, whose direction is `axis`. Derivatives are zero unless requested.
     pub fn sum<const SLOPE: bool>(
         &self,
         terms: usize,

@@ -16,30 +16,30 @@ use nalgebra::Vector3;
 
 use crate::cell::{Cell, Quadratic};
 
-/// What is known of the energy over a cell: for every *free* configuration of the cell at the
-/// offset d from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
+/// Bounds of the energy over a cell: for every *free* configuration of the cell at the offset d
+/// from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Enclosure {
     /// An approximation of U (J), of second order in the offset.
     pub form: Quadratic,
-    /// The least that U exceeds it by (J).
+    /// Lower bound of U minus the form (J).
     pub low: f64,
-    /// The most that U exceeds it by (J).
+    /// Upper bound of U minus the form (J).
     pub high: f64,
-    /// How closely the form follows U along motions: on a straight way within the cell on which the
-    /// tiles' interiors are disjoint, with components of at most the share s of the cell's half
-    /// sizes, `U - form` changes by at most `s slope + jump` (J).
+    /// How closely the form follows U along motions: on a straight motion within the cell on which
+    /// the tiles' interiors are disjoint, with components of at most the fraction s of the cell's
+    /// half sizes, `U - form` changes by at most `s slope + jump` (J).
     pub slope: f64,
-    /// What tiles that touch add to that (J).
+    /// The additional change of tiles that touch (J).
     pub jump: f64,
-    /// The least and the greatest distance (m) of a magnet from the moving tile's reference point,
-    /// where the same holds of motions that move no magnet, and turn, by more than the share s of
-    /// how far the cell does.
+    /// The smallest and the largest distance (m) of a magnet from the moving tile's reference
+    /// point, if the same also holds for motions that move no magnet, and turn, by more than the
+    /// fraction s of the cell's own extent.
     pub levers: Option<[f64; 2]>,
 }
 
 impl Enclosure {
-    /// Of an energy of which nothing is known.
+    /// The enclosure that states nothing.
     pub fn unknown() -> Self {
         Self {
             low: f64::NEG_INFINITY,
@@ -50,8 +50,8 @@ impl Enclosure {
     }
 
     /// A form with a remainder (J) on either side that is of the given order in the cell's size: a
-    /// bound of a derivative of that order along any way from the centre, made of products of
-    /// speeds. The same product with one speed for that of a motion bounds the remainder's slope.
+    /// bound of a derivative of that order along any motion from the centre, made of products of
+    /// speeds. The same product with one speed replaced by a motion's bounds the remainder's slope.
     pub(super) fn of_order(order: f64, form: Quadratic, remainder: f64) -> Self {
         Self {
             form,
@@ -62,8 +62,8 @@ impl Enclosure {
         }
     }
 
-    /// The most that `U - form` changes (J) on the straight way `step` within the cell, whose half
-    /// sizes are `half`.
+    /// Bound of the change of `U - form` (J) on the straight motion `step` within the cell, whose
+    /// half sizes are `half`.
     pub fn change(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
         let known = self.high - self.low;
         if self.slope.is_finite() {
@@ -73,7 +73,7 @@ impl Enclosure {
         }
     }
 
-    /// The share of the cell's half sizes that a motion counts as.
+    /// The motion as a fraction of the cell's half sizes.
     fn share(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
         let shares = (0..3).map(|i| step[i].abs() / half[i]);
         let largest = shares.fold(0.0, f64::max);
@@ -81,7 +81,7 @@ impl Enclosure {
             return largest;
         };
         let (moved, turned) = (step.xy().norm(), step.z.abs());
-        // Monotone in the lever, so that the least and the greatest bound all others.
+        // Monotonic in the lever, so the extremes bound all others.
         let of = |lever: f64| {
             (moved + lever * turned) / (libm::hypot(half[0], half[1]) + lever * half[2])
         };
@@ -90,7 +90,7 @@ impl Enclosure {
     }
 }
 
-/// The least and the greatest of some levers, if there are any.
+/// The smallest and the largest of some levers, if there are any.
 pub(super) fn ends(levers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let both = levers.map(|lever| [lever; 2]);
     both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
@@ -98,15 +98,15 @@ pub(super) fn ends(levers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 
 /// An energy that can be bounded over cells.
 pub trait CellBounds: Sync {
-    /// Encloses U over the free configurations of a cell. Where nothing is known `low` is minus
+    /// Encloses U over the free configurations of a cell. If nothing is known, `low` is minus
     /// infinity and `high` plus infinity; no entry is ever NaN.
     fn enclose(&self, cell: &Cell) -> Enclosure;
 
-    /// Units of work, as [budgets](crate::budget) count it, that enclosing a cell takes about.
+    /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a cell.
     fn work(&self) -> u64 {
         FEW_UNITS
     }
 }
 
-/// What enclosing an energy without magnets takes.
+/// Units of work to enclose an energy without magnets.
 const FEW_UNITS: u64 = 100;

@@ -1,4 +1,4 @@
-//! Two point dipoles near each other, over a cell.
+//! Bounds for two point dipoles near each other, over a cell.
 //!
 //! With K = mu0 m1 m2 / (4 pi), a and b the directions of the moments and phi that of the
 //! separation, `U = K / r^3 [-1/2 cos(a - b) - 3/2 cos(a + b - 2 phi)]`, over the distances and
@@ -11,10 +11,11 @@ use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
 
 /// How much closer (m) than the sum of their depths two magnets may come: the overlap that counts
-/// as touching ([`TOUCH`](crate::contact::TOUCH)), with room to spare.
+/// as touching ([`TOUCH`](crate::contact::TOUCH)), with a margin.
 pub const SLACK: f64 = 1e-8;
 
-/// How deep (m) a tile's magnets lie inside its outline, less half the slack for tiles of its size.
+/// How deep (m) a tile's magnets lie inside its outline, minus half the slack for tiles of its
+/// size.
 pub fn depths(tile: &Tile) -> Vec<f64> {
     let radius = tile.outline.circumradius();
     let spare = Scale::of([radius; 2]).length(SLACK) / 2.0;
@@ -30,7 +31,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The least one that holds some numbers.
+    /// The smallest interval that contains some numbers.
     pub fn holding<const N: usize>(numbers: [f64; N]) -> Self {
         Self {
             low: numbers.into_iter().fold(f64::INFINITY, f64::min),
@@ -38,7 +39,7 @@ impl Interval {
         }
     }
 
-    /// All products of a number of the one and a number of the other.
+    /// All products of a number of one and a number of the other.
     pub fn times(self, other: Self) -> Self {
         Self::holding([
             self.low * other.low,
@@ -62,21 +63,21 @@ impl Interval {
     }
 }
 
-/// The least distance (m) of two dipoles that are `r` (m) apart at a cell's centre, of which one
+/// The smallest distance (m) of two dipoles that are `r` (m) apart at a cell's centre, of which one
 /// moves by up to `reach` (m), and whose distances to their own outlines sum to `depths` (m).
 pub fn least_distance(r: f64, reach: f64, depths: f64) -> f64 {
     (r - reach).max(depths)
 }
 
-/// What a cell does to two dipoles.
+/// Two dipoles over a cell.
 #[derive(Clone, Copy, Debug)]
 pub struct NearPair {
     /// K (J m^3).
     strength: f64,
-    /// a - b and a + b - 2 phi at the cell's centre (rad), and by how much they may differ.
+    /// a - b and a + b - 2 phi at the cell's centre (rad), and how far they may vary.
     angles: [f64; 2],
     spreads: [f64; 2],
-    /// Direction of the separation (rad), and by how much it may differ.
+    /// Direction of the separation (rad), and how far it may vary.
     direction: f64,
     swing: f64,
     /// r at the cell's centre, and its range (m).
@@ -85,7 +86,7 @@ pub struct NearPair {
 }
 
 impl NearPair {
-    /// The way (m) from the first dipole to the second at the cell's centre, K (J m^3), the
+    /// From the vector (m) from the first dipole to the second at the cell's centre, K (J m^3), the
     /// directions of both moments there (rad), the second one's reach (m) in the cell and the turn
     /// (rad) that it may make there, and the sum of the dipoles' distances to their own outlines
     /// (m).
@@ -118,7 +119,7 @@ impl NearPair {
         self.distances.low <= 0.0
     }
 
-    /// U over the cell (J), without regard to rounding. They must not coincide.
+    /// U over the cell (J), without rounding. They must not coincide.
     pub fn energy(&self) -> Interval {
         let along = cosine_range(self.angles[0], self.spreads[0]);
         let beside = cosine_range(self.angles[1], self.spreads[1]);
@@ -142,7 +143,7 @@ impl NearPair {
         (-0.5 * libm::cos(turn) - 1.5 * libm::cos(across)) * self.scale(self.distance)
     }
 
-    /// `K / r^3` at the least distance (J).
+    /// `K / r^3` at the smallest distance (J).
     pub fn greatest_scale(&self) -> f64 {
         self.scale(self.distances.low)
     }

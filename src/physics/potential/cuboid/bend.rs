@@ -1,4 +1,4 @@
-//! The bound of the fourth derivative of the energy along a motion, over all pairs of blocks.
+//! A bound of the energy's fourth derivative along a motion, over all pairs of blocks.
 
 use nalgebra::Complex;
 
@@ -8,8 +8,8 @@ use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::motion;
 
-/// The bound (J/m^4) along motions that move no point of the moving blocks by more than `reach` (m),
-/// as [`motion`] derives it. Infinite where blocks may come as close as the sum of their radii.
+/// The bound (J/m^4) along motions that move no point of the moving blocks by more than `reach`
+/// (m), as [`motion`] derives it. Infinite if blocks may come as close as the sum of their radii.
 pub struct FourthDerivative<'a> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
@@ -38,7 +38,7 @@ impl Task for FourthDerivative<'_> {
 }
 
 impl FourthDerivative<'_> {
-    /// The share of two groups, unless two of their blocks may come too close.
+    /// The contribution of two groups, unless two of their blocks may come too close.
     #[inline(always)]
     fn of_groups<L: Lanes>(
         &self,

@@ -6,7 +6,7 @@ use super::quadrature::{Corner, NO_CORNER};
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 
-/// A uniformly magnetised block, standing on the tiles' plane, in whatever frame is in use.
+/// A uniformly magnetised block that stands on the tiles' plane, in the frame in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// Centre (m).
@@ -103,9 +103,9 @@ pub(super) struct BlockPair {
     pub sin: f64,
     /// 1 / sin, infinite where the faces are parallel.
     pub inverse_sin: f64,
-    /// The second block's centre, seen from the point about which it turns (m).
+    /// The second block's centre relative to the point about which it turns (m).
     pub arm: Vector2<f64>,
-    /// Way from the first block's centre to the second one's (m).
+    /// Vector from the first block's centre to the second one's (m).
     way: Vector2<f64>,
     /// Half the blocks' lengths along their axes (m).
     half_lengths: [f64; 2],
@@ -117,12 +117,12 @@ pub(super) struct BlockPair {
 pub(super) struct Faces {
     /// The product of the two poles' signs.
     pub sign: f64,
-    /// The second face's middle, seen from its block's centre (m).
+    /// The second face's centre relative to its block's centre (m).
     pub offset: Vector2<f64>,
-    /// The second face's middle in the first one's coordinates (m).
+    /// The second face's centre in the first one's coordinates (m).
     pub x: f64,
     pub h: f64,
-    /// The sign of h where the second block's body lies.
+    /// The sign of h inside the second block.
     pub side: f64,
 }
 
@@ -155,7 +155,7 @@ impl Faces {
 }
 
 impl BlockPair {
-    /// Of two blocks, the second of which turns about the point `centre`.
+    /// The pair of two blocks, the second of which turns about the point `centre`.
     #[inline(always)]
     pub fn new(first: &Block, second: &Block, centre: Vector2<f64>) -> Self {
         let density =
@@ -185,7 +185,7 @@ impl BlockPair {
         [self.faces(0), self.faces(1), self.faces(2), self.faces(3)]
     }
 
-    /// The pair of pole faces number 0 to 3.
+    /// The pair of pole faces with this number, 0 to 3.
     #[inline(always)]
     fn faces(&self, number: usize) -> Faces {
         let sign1 = if number < 2 { 1.0 } else { -1.0 };
@@ -206,13 +206,13 @@ impl BlockPair {
         }
     }
 
-    /// Whether the faces are nearer to a right angle than to parallel.
+    /// Whether the faces are closer to perpendicular than to parallel.
     #[inline(always)]
     pub fn is_steep(&self) -> bool {
         self.sin.abs() > std::f64::consts::FRAC_1_SQRT_2
     }
 
-    /// What the energy adds to the derivative by the angle, where the faces are steep.
+    /// The energy's contribution to the derivative by the angle, for steep faces.
     #[inline(always)]
     pub fn by_energy(&self) -> f64 {
         if self.is_steep() {

@@ -1,7 +1,7 @@
-//! The part of two blocks' gradient that needs no quadrature.
+//! The closed-form part of two blocks' gradient, which needs no quadrature.
 //!
-//! All its terms belong to an edge of the first block's pole faces or, where the faces are steep,
-//! to an end of the second one's, as seen from the other face: eight of each, one a lane.
+//! Each term belongs to an edge of the first block's pole faces or, for steep faces, to an end of
+//! the second one's, relative to the other face: eight of each, one per lane.
 
 use std::f64::consts::PI;
 
@@ -11,30 +11,30 @@ use super::block::{BlockPair, Faces};
 use super::sheet::{angle_moments, first_moment, potential};
 use crate::potential::batch::lanes::{Lanes, WIDTH};
 
-/// Distances from a sheet below this share of its width count as touching.
+/// Distances from a sheet below this fraction of its width count as touching.
 const TOUCHING: f64 = 1e-10;
 
 /// Edges or ends of pole faces, those of the pair of faces i being number 2i and 2i + 1.
 struct Points {
-    /// The middle of the second face as seen from the first one's edge (m), along that face and
-    /// off it; or the second face's end as seen from the first one's middle.
+    /// The centre of the second face relative to the first one's edge (m), along that face and off
+    /// it; or the second face's end relative to the first one's centre.
     x: [f64; WIDTH],
     h: [f64; WIDTH],
-    /// Twice the product of the charge densities (J/m^3), with the sign of the pair of poles, and
-    /// for edges of where the edge is.
+    /// Twice the product of the charge densities (J/m^3), with the sign of the pair of poles and,
+    /// for edges, of the edge's side.
     weight: [f64; WIDTH],
-    /// The levers about the turning point of forces along x and h at the second face's middle (m).
+    /// The levers about the turning point of forces along x and h at the second face's centre (m).
     levers: [[f64; WIDTH]; 2],
     /// On which side of the first face's line the second face's ends lie.
     sides: [[f64; WIDTH]; 2],
-    /// What is added to the angle's moments where the second face passes through that line.
+    /// The addition to the angle's moments if the second face passes through that line.
     crossings: [[f64; WIDTH]; 2],
 }
 
 impl BlockPair {
     /// Adds the part of the gradient, by the second block's place and by its angle about the
     /// turning point, that needs no quadrature: the forces along x and, of those along h, the
-    /// singular part or, where the faces are steep, all less `by_energy` times the energy.
+    /// singular part or, for steep faces, everything minus `by_energy` times the energy.
     #[inline(always)]
     pub fn add_closed_gradient<L: Lanes>(
         &self,
@@ -46,7 +46,7 @@ impl BlockPair {
         let steep = l.splat(self.by_energy());
         let [zeroth, first] = self.moments_along(l, &edges);
         let h = if self.is_steep() {
-            // Phi_h is what is missing from the derivative along the second face.
+            // Phi_h follows from the derivative along the second face.
             [l.mul(steep, zeroth), l.mul(steep, first)]
         } else {
             self.singular_moments(l, &edges)
@@ -80,8 +80,8 @@ impl BlockPair {
         points
     }
 
-    /// Half the moments 0 and 1 of Phi_x: the second face's potential at the first one's edges and,
-    /// less the moment 0 times the foot, the first moment of g.
+    /// Half the moments 0 and 1 of Phi_x: the second face's potential at the first one's edges and
+    /// the first moment of g, minus the moment 0 times the foot.
     #[inline(always)]
     fn moments_along<L: Lanes>(&self, l: L, edges: &Points) -> [L::F; 2] {
         let half = l.splat(self.widths[1] / 2.0);
@@ -118,8 +118,8 @@ impl BlockPair {
         ]
     }
 
-    /// Where an edge projects onto the second face's line, and that line's distance from it, if the
-    /// second face's middle is at (x, h) as seen from the edge.
+    /// The projection of an edge onto the second face's line, and that line's distance from it,
+    /// with the second face's centre at (x, h) relative to the edge.
     #[inline(always)]
     pub fn foot<L: Lanes>(&self, l: L, [x, h]: [L::F; 2]) -> [L::F; 2] {
         let (cos, sin) = (l.splat(self.cos), l.splat(self.sin));
@@ -130,8 +130,8 @@ impl BlockPair {
         ]
     }
 
-    /// On which side of the first face's line the second face's ends lie: where one touches the
-    /// line, on that of the other, and where both do, on that of the second block's body.
+    /// On which side of the first face's line the second face's ends lie: if one touches the line,
+    /// on the side of the other; if both do, on the side of the second block's body.
     #[inline(always)]
     fn sides(&self, face: &Faces) -> [f64; 2] {
         let touching = TOUCHING * self.widths[0];
@@ -148,10 +148,10 @@ impl BlockPair {
         [side, or(end, side)]
     }
 
-    /// What the moments of the angle lack, less their constants, where the second face goes
-    /// through the first one's line to the side `side`: past the edge nothing, but where it leaves
-    /// the angle pi for -pi, or the other way, 2 pi times the integrals of 1 and u from there on,
-    /// of which the moments at the end have all but the share of the place of crossing.
+    /// The correction of the moments of the angle, without their constants, if the second face
+    /// crosses the first one's line to the side `side`: none past the edge; where the angle jumps
+    /// from pi to -pi, or back, 2 pi times the integrals of 1 and u from there on, of which the
+    /// moments at the end include all except the part of the place of crossing.
     #[inline(always)]
     fn crossing(&self, x: f64, h: f64, side: f64) -> [f64; 2] {
         let t = -h * self.inverse_sin;
@@ -163,8 +163,8 @@ impl BlockPair {
         [-2.0 * PI * side * (t - foot), -PI * side * s * s]
     }
 
-    /// Where the faces are steep, adds what `d Phi / dt = cos Phi_x + sin Phi_h`, integrated, has
-    /// at the ends: the first face's potential there.
+    /// For steep faces, adds the boundary terms of the integral of `d Phi / dt = cos Phi_x + sin
+    /// Phi_h`: the first face's potential at the ends.
     #[inline(always)]
     fn add_ends<L: Lanes>(&self, l: L, faces: &[Faces; 4], gradient: &mut [L::F; 3]) {
         let half = self.widths[1] / 2.0;
@@ -190,8 +190,8 @@ impl BlockPair {
         self.add_forces(l, &ends, [zero, zero], moments, gradient);
     }
 
-    /// Adds the gradient that forces add up to, given the moments 0 and 1 along the second face of
-    /// those along x and along h.
+    /// Adds the gradient of the forces along x and along h, given their moments 0 and 1 along the
+    /// second face.
     #[inline(always)]
     fn add_forces<L: Lanes>(
         &self,

@@ -1,4 +1,4 @@
-//! What the blocks' energy has over that of point dipoles, far apart.
+//! The difference between the energies of blocks and of point dipoles, far apart.
 
 use nalgebra::{Complex, Vector3};
 
@@ -10,13 +10,13 @@ use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The multipole series without its first term, the point dipole, and its gradient (J), over the
-/// pairs that a mask selects. Right to the hand-over's 1e-9 of `mu0 m1 m2 / (4 pi r^3)` a pair
-/// where the pairs are at least the [hand-over](CuboidPotential::hand_over) apart.
+/// pairs that a mask selects. Accurate to 1e-9 of `mu0 m1 m2 / (4 pi r^3)` per pair for pairs at
+/// least the [hand-over](CuboidPotential::hand_over) distance apart.
 pub(in crate::potential) struct Correction<'a> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
-    /// 1 for each pair to be summed and 0 for the others: that of the fixed tile's block i and the
-    /// moving tile's block j is number `i * stride + j`.
+    /// 1 for each pair to be summed and 0 for the others; the pair of the fixed tile's block i and
+    /// the moving tile's block j has the index `i * stride + j`.
     pub weights: &'a [f64],
     pub stride: usize,
 }
@@ -48,7 +48,7 @@ impl Task for Correction<'_> {
                         let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         pairs.arm = arm;
                         pairs.moments = l.mul(pairs.moments, mask);
-                        // Pairs left out must not divide by zero, nor ask for terms.
+                        // Omitted pairs must neither divide by zero nor require terms.
                         let counts = l.sub(mask, l.splat(0.5));
                         pairs.rr = l.select(counts, pairs.rr, l.splat(far::AWAY));
                         let terms = Far::terms(&far.squares, l.least(pairs.rr));

@@ -1,4 +1,4 @@
-//! The far form of one moving block with several fixed ones at once, in vectors.
+//! The far form of one moving block with several fixed blocks at once, with SIMD vectors.
 
 use nalgebra::{Complex, Vector2};
 
@@ -54,10 +54,10 @@ impl<F: Copy> Sums<F> {
 pub struct Pairs<F> {
     /// Products of the moments (A^2 m^4).
     pub moments: F,
-    /// Way (m) from each fixed block to the moving one, and its square.
+    /// Vector (m) from each fixed block to the moving one, and its squared length.
     pub r: [F; 2],
     pub rr: F,
-    /// Way (m) from the moving tile's reference point to the block.
+    /// Vector (m) from the moving tile's reference point to the block.
     pub arm: Complex<f64>,
 }
 
@@ -84,7 +84,7 @@ impl<F: Copy> Pairs<F> {
     }
 }
 
-/// How many terms may be summed, rising.
+/// The possible numbers of terms, ascending.
 pub const STEPS: [usize; 6] = [2, 3, 4, 5, 6, TERMS];
 
 /// Adds the first `terms` terms of the series, one of [`STEPS`], to the sums.
@@ -126,7 +126,7 @@ fn add<L: Lanes, const N: usize, const SLOPE: bool>(
         l.mul(q, l.neg_mul_add(r[1], r[1], l.mul(r[0], r[0]))),
         l.mul(l.splat(-2.0), xy),
     ];
-    // v^n and, where asked for, n v^n.
+    // v^n and, if requested, n v^n.
     let zero = l.splat(0.0);
     let mut powers = [[zero; 2]; TERMS + 1];
     let mut slopes = [[zero; 2]; TERMS + 1];
@@ -193,17 +193,17 @@ fn real<L: Lanes>(l: L, v: [L::F; 2], re: L::F, im: L::F, sum: L::F) -> L::F {
     l.neg_mul_add(im, v[1], l.mul_add(re, v[0], sum))
 }
 
-/// The weakness of blocks that do not count.
+/// The weakness of padding blocks.
 const NO_MOMENT: f64 = 1e60;
 
-/// The squared distance (m^2) of blocks that do not count.
+/// The squared distance (m^2) of padding blocks.
 pub const AWAY: f64 = 1e12;
 
-/// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays filled up to
-/// a multiple of the number of lanes with blocks of no moment.
+/// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays padded to a
+/// multiple of the number of lanes with blocks without moment.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// The number of the size.
+    /// The index of the size.
     pub size: usize,
     /// The axis of all of them.
     pub axis: Complex<f64>,
@@ -214,15 +214,15 @@ pub struct Group {
     pub y: Vec<f64>,
     /// Moments (A m^2), negative where a block points against the axis.
     pub moment: Vec<f64>,
-    /// Their magnitudes to the power -2/3, of which times the squared distance is the less the
-    /// stronger a pair is.
+    /// Their magnitudes to the power -2/3; multiplied by the squared distance, this is smaller for
+    /// stronger pairs.
     pub weakness: Vec<f64>,
     /// The largest magnitude.
     pub strongest: f64,
 }
 
 impl Group {
-    /// A group of no blocks.
+    /// A group without blocks.
     pub fn new(size: usize, axis: Vector2<f64>) -> Self {
         Self {
             size,
@@ -243,7 +243,7 @@ impl Group {
         self.x.push(place.re);
         self.y.push(place.im);
         self.moment.push(moment);
-        // Of a block without moment as much as is far from all others.
+        // For a block without moment, large enough to be far from all others.
         let weakness = libm::pow(moment.abs(), -2.0 / 3.0);
         self.weakness.push(weakness.min(NO_MOMENT));
         self.strongest = self.strongest.max(moment.abs());
@@ -260,10 +260,10 @@ impl Group {
         }
     }
 
-    /// Fills up to whole vectors.
+    /// Pads to whole vectors.
     pub fn fill(&mut self) {
         let length = self.members.len().next_multiple_of(WIDTH);
-        // Far from everything, so that the filling is never taken for near.
+        // Far from everything, so that padding never counts as near.
         self.x.resize(length, AWAY.sqrt());
         self.y.resize(length, 0.0);
         self.moment.resize(length, 0.0);
@@ -349,7 +349,8 @@ mod tests {
             // Room for the rounding errors of the differences of charges that cancel.
             let tolerance = tolerance + 1e-15 * (radius / 0.006).powi(2);
             assert!((got.energy - exact.energy).abs() < tolerance * scale);
-            // The first term left out falls like the power 3 + 2 N and has waves of that order.
+            // The first omitted term decreases like the power 3 + 2 N and oscillates with that
+            // order.
             let slope = (3 + 2 * N) as f64 * tolerance * scale;
             assert!((got.gradient - exact.gradient).norm() < slope / radius);
             assert!((got.slope - exact.slope).abs() < slope);

@@ -1,28 +1,28 @@
 //! Rigorous bounds of the energy of a pair of blocks and of its derivatives, by distance.
 //!
 //! # Apart
-//! A uniformly magnetised block is an even spread of point dipoles over its volume, and one that
-//! keeps at least the distance d from the other block's keeps each pair of dipoles at least d
-//! apart. The energy of two dipoles is a second directional derivative of `K / r`,
-//! `K = mu0 m1 m2 / (4 pi)`, and the n-th directional derivatives of `1 / r` are at most
-//! `n! / r^(n+1)` in magnitude. So the n-th derivative of U along a shift of one block is at most
+//! A uniformly magnetised block is a uniform distribution of point dipoles over its volume. If the
+//! blocks are at least the distance d apart, so is each pair of dipoles. The energy of two dipoles
+//! is a second directional derivative of `K / r`, `K = mu0 m1 m2 / (4 pi)`, and the n-th
+//! directional derivatives of `1 / r` are at most `n! / r^(n+1)` in magnitude. So the n-th
+//! derivative of U along a shift of one block is at most
 //!
 //! ```text
 //! (n + 2)! K / d^(n+3)                                            (J/m^n)
 //! ```
 //!
 //! # In contact
-//! These grow without limit as d tends to 0. The pole faces' bounds do not, or much slower.
-//! With k the product of the charge densities times `mu0 / (4 pi)`:
+//! These grow without limit as d tends to 0. The bounds of the pole faces do not, or much more
+//! slowly. With k the product of the charge densities times `mu0 / (4 pi)`:
 //!
 //! * **Energy.** The Coulomb kernel is positive definite, so `|U|^2 <= U11 U22` with Uii the
 //!   energy of block i's charges with a copy of themselves (Cauchy and Schwarz).
-//! * **Gradient.** The normal field of an even sheet of charge is at most 2 pi a density (half a
-//!   full solid angle). Its field along itself is the difference of the potentials of its two
-//!   upright edges; integrated over a face of width w and height c', an edge of height c gives at
-//!   most `T = 4 c' [w/2 asinh(c / w) + c/2 asinh(w / c)]`, the value for an edge that stands in
-//!   the middle of that face. So, whatever the directions in which the points of that face move,
-//!   each pair of faces gives at most `k (2 pi w c' + 2 T)` per metre of the farthest.
+//! * **Gradient.** The normal field of a uniform sheet of charge is at most 2 pi per unit of
+//!   density (half a full solid angle). Its field along itself is the difference of the potentials
+//!   of its two upright edges; integrated over a face of width w and height c', an edge of height c
+//!   gives at most `T = 4 c' [w/2 asinh(c / w) + c/2 asinh(w / c)]`, the value for an edge in the
+//!   middle of that face. So, for any directions in which the points of that face move, each pair
+//!   of faces gives at most `k (2 pi w c' + 2 T)` per metre of the farthest.
 //! * **Second derivatives.** Differentiating along a face turns its charge into charges on its
 //!   upright edges, and differentiating along the vertical into charges on its level edges; the
 //!   derivative along the normal follows from the Laplace equation. The field of a line of charge
@@ -31,7 +31,7 @@
 //!   face, at least D away, is at most `8 [c' asinh(w / (2 D)) + w asinh(c' / (2 D))]`.
 //!   An acceleration of at most b adds b times the bound of the gradient.
 //!
-//! The second derivative is truly infinite (logarithmically) where edges of pole faces meet.
+//! The second derivative is infinite (logarithmically) where edges of pole faces meet.
 
 use nalgebra::Vector2;
 
@@ -58,7 +58,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// For blocks of the given moments and sizes, wherever they are.
+    /// For blocks of these moments and sizes, at any places.
     pub fn new(first: &Block, second: &Block) -> Self {
         let at_origin = |block: &Block| Block::new(block.moment.abs(), block.size);
         let (a, b) = (at_origin(first), at_origin(second));
@@ -79,21 +79,21 @@ impl Limits {
         }
     }
 
-    /// Bound of |U| (J) where the blocks are at least `distance` (m) apart.
+    /// Bound of |U| (J) if the blocks are at least `distance` (m) apart.
     pub fn energy(&self, distance: f64) -> f64 {
         self.energy.min(self.derivative(0, distance))
     }
 
     /// Bound of the derivative of U (J/m) along a motion in which no point of the second block is
-    /// faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are at least
+    /// faster than 1, and it turns at most at the rate `turn` (1/m), if the blocks are at least
     /// `distance` (m) apart. With `turn` 0 it is a bound of the force (N).
     pub fn gradient(&self, turn: f64, distance: f64) -> f64 {
         let apart = self.derivative(1, distance) + turn * self.derivative(0, distance);
         self.gradient.min(apart)
     }
 
-    /// Bound of the n-th derivative of U (J/m^n) along a shift of one block, where the blocks are
-    /// at least `distance` (m) apart: `(n + 2)! K / d^(n+3)`.
+    /// Bound of the n-th derivative of U (J/m^n) along a shift of one block, if the blocks are at
+    /// least `distance` (m) apart: `(n + 2)! K / d^(n+3)`.
     pub fn derivative(&self, n: i32, distance: f64) -> f64 {
         if distance <= 0.0 {
             return f64::INFINITY;
@@ -103,8 +103,8 @@ impl Limits {
     }
 
     /// Bound of the second derivative of U (J/m^2) along a motion in which no point of the second
-    /// block is faster than 1, and it turns at the rate `turn` (1/m) at most, where the blocks are
-    /// at least `distance` (m) apart, as [`motion`] derives it for dipoles.
+    /// block is faster than 1, and it turns at most at the rate `turn` (1/m), if the blocks are at
+    /// least `distance` (m) apart, as [`motion`] derives it for dipoles.
     pub fn curvature(&self, turn: f64, distance: f64) -> f64 {
         motion::bound(&motion::second_derivative(turn), self.dipole, distance)
     }
@@ -114,7 +114,7 @@ impl Limits {
         self.dipole
     }
 
-    /// The same by the pole faces, given how far apart each pair of them is at least (m).
+    /// The same by the pole faces, given the smallest distance of each pair of them (m).
     pub fn curvature_of_faces(&self, turn: f64, distances: [f64; 4]) -> f64 {
         let [width, height] = self.face;
         let share = |distance: f64| {
@@ -150,13 +150,13 @@ fn pole_faces(block: &Block) -> [Segment; 2] {
 fn segment_distance(a: Segment, b: Segment) -> f64 {
     let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
     let (across, back) = (b[0] - a[0], b[1] - a[0]);
-    // On which side of each the other's ends are.
+    // The sides of each on which the other's ends lie.
     let ends_of_b = [along_a.perp(&across), along_a.perp(&back)];
     let ends_of_a = [-along_b.perp(&across), along_b.perp(&(a[1] - b[0]))];
     if ends_of_b[0] * ends_of_b[1] < 0.0 && ends_of_a[0] * ends_of_a[1] < 0.0 {
         return 0.0;
     }
-    // Squared, of a point to a segment that starts `way` from it.
+    // Squared distance of a point to a segment that starts at `way` from it.
     let square = |way: Vector2<f64>, along: Vector2<f64>, share: f64| {
         let t = (-way.dot(&along) * share).clamp(0.0, 1.0);
         (way + along * t).norm_squared()

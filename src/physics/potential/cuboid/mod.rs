@@ -1,30 +1,30 @@
-//! Uniformly magnetised blocks, exact near by and far away.
+//! Uniformly magnetised blocks, exact at all distances.
 //!
-//! A block's uniform magnetisation is two even sheets of magnetic charge, its pole faces, and the
-//! energy of two blocks the Coulomb energy of the four pairs of sheets. Blocks may have any sizes
-//! and strengths and stand at any angle in the plane; all are centred on one mid-plane, as the
-//! thicknesses of the two need not be equal.
+//! A uniformly magnetised block is equivalent to two uniform sheets of magnetic charge, its pole
+//! faces, and the energy of two blocks is the Coulomb energy of the four pairs of sheets. Blocks
+//! may have any sizes and strengths and stand at any angle in the plane; all are centred on one
+//! mid-plane, as the thicknesses of the two need not be equal.
 //!
-//! * Near by, three of the four integrals over a pair of sheets are closed and the last is a Gauss
-//!   quadrature (`sheet`, `panel`, `quadrature`), with what steps in the gradient's integrands taken out
-//!   (`closed`).
-//! * From some three block sizes on, where closed forms lose digits, the multipole series takes
-//!   over (`multipole`, `far`), eight terms at first and down to two farther out. The bound of the
-//!   terms left out decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, of that of the strongest pair where
-//!   pairs are summed.
+//! * Nearby, three of the four integrals over a pair of sheets have closed forms and the last is a
+//!   Gauss quadrature (`sheet`, `panel`, `quadrature`); the discontinuous parts of the gradient's
+//!   integrands are treated separately (`closed`).
+//! * Beyond about three block sizes, where closed forms lose digits, the multipole series is used
+//!   (`multipole`, `far`), with eight terms at first and down to two farther out. The bound of the
+//!   omitted terms decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, for the strongest pair if pairs are
+//!   summed.
 //!
 //! # Accuracy
-//! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7
-//! at worst in the tests) and 1e-4 closer, contact and sliding contact included (4e-6 at worst),
-//! for blocks of about 1 cm; it scales with the blocks' width. Where sliding takes the energy
-//! through zero, read: relative to 1 mm times the force. At the hand-over to the far form energies
-//! step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)`.
+//! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7 at
+//! worst in the tests) and 1e-4 closer, contact and sliding contact included (4e-6 at worst), for
+//! blocks of about 1 cm; it scales with the blocks' width. Where the energy passes through zero on
+//! a slide, the error is relative to 1 mm times the force. At the hand-over to the far form
+//! energies step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)`.
 //!
 //! # Edges
-//! Energies are finite at every configuration, overlaps included. In contact the gradient is the
+//! Energies are finite at every configuration, including overlaps. In contact the gradient is the
 //! limit from the side of the free configurations. Second derivatives are infinite, like a
-//! logarithm, where edges of pole faces meet. The derivative of an energy computed with
-//! differences is only as good as the energy: at contact use steps of 0.1 mm or so.
+//! logarithm, where edges of pole faces meet. Derivatives computed from differences of energies are
+//! only as accurate as the energies: at contact use steps of about 0.1 mm.
 
 mod bend;
 pub mod block;
@@ -56,9 +56,9 @@ use multipole::{Multipole, TERMS};
 pub use panel::exact;
 use sum::{Each, Sum};
 
-/// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form takes
-/// over from the pole faces, and, in units of that of the strongest pair, at which it drops its terms
-/// one after the other.
+/// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form
+/// replaces the pole faces and, in units of the strongest pair's value, at which its terms are
+/// dropped one by one.
 const HAND_OVER: f64 = 1e-9;
 
 /// The interaction energy of two sets of uniformly magnetised blocks, one in each tile.
@@ -74,7 +74,7 @@ pub struct CuboidPotential {
     lever: Lever,
 }
 
-/// A block and the number of its size.
+/// A block and the index of its size.
 #[derive(Clone, Copy, Debug)]
 struct SizedBlock {
     block: Block,
@@ -89,14 +89,14 @@ struct Far {
     limits: Limits,
     /// The sum of the blocks' radii (m).
     radii: f64,
-    /// The squared distances (m^2) from which on each of [`STEPS`] is enough, for a pair by itself.
+    /// The squared distances (m^2) beyond which each of [`STEPS`] suffices, for a single pair.
     squares: [f64; STEPS.len()],
-    /// The same among stronger pairs: row i is for errors of [`HAND_OVER`] times
-    /// `4^(i - WEAKEST) near^-3`, near the distance at which pole faces hand over.
+    /// The same among stronger pairs: row i is for errors of [`HAND_OVER`] times `4^(i - WEAKEST)
+    /// near^-3`, near the distance at which the far form replaces pole faces.
     among: [[f64; STEPS.len()]; ROWS],
 }
 
-/// How many rows [`Far::among`] has, and which is for pairs at the hand-over itself.
+/// The number of rows of [`Far::among`], and the row for pairs at the hand-over itself.
 const ROWS: usize = 20;
 const WEAKEST: i32 = 15;
 
@@ -119,13 +119,13 @@ impl Far {
         }
     }
 
-    /// The squared distances (m^2) from which on each of [`STEPS`] is enough, among pairs of which the
-    /// strongest has `m1 m2 / r^3` = `strongest` times that of the pairs' own moments (m^-3).
+    /// The squared distances (m^2) beyond which each of [`STEPS`] suffices, if the `m1 m2 / r^3` of
+    /// the strongest pair is `strongest` (m^-3) times the product of the pair's own moments.
     #[inline(always)]
     fn steps(&self, strongest: f64) -> &[f64; STEPS.len()] {
         let near = self.near();
         let ratio = strongest * near * near.sqrt();
-        // The power of two, halved and rounded down, so that no more than this is allowed.
+        // The power of two, halved and rounded down, so that no more error than this is allowed.
         let power = (ratio.to_bits() >> 52) as i32 - 1023;
         let row = power.div_euclid(2) + WEAKEST;
         if row < 0 {
@@ -148,7 +148,7 @@ impl Far {
     }
 }
 
-/// Blocks with the numbers of their sizes, and the sizes.
+/// Blocks with the indices of their sizes, and the sizes.
 fn by_size(magnets: &[Magnet]) -> (Vec<SizedBlock>, Vec<[f64; 3]>) {
     let mut sizes: Vec<[f64; 3]> = Vec::new();
     let mut number = |size: [f64; 3]| {
@@ -186,16 +186,16 @@ fn groups(blocks: &[SizedBlock]) -> Vec<Group> {
     groups
 }
 
-/// Axes that differ by less (rad) are taken for the same in the far form.
+/// Axes that differ by less than this (rad) count as equal in the far form.
 const SAME_DIRECTION: f64 = 1e-12;
 
 impl CuboidPotential {
-    /// Of two tiles' magnets, for the fastest instruction set of this machine.
+    /// The potential of two tiles' magnets, for the fastest instruction set of this machine.
     pub fn new(fixed: &[Magnet], moving: &[Magnet]) -> Self {
         Self::with_level(fixed, moving, Level::best())
     }
 
-    /// Of two tiles' magnets, for the given instruction set.
+    /// The potential of two tiles' magnets, for the given instruction set.
     pub fn with_level(fixed: &[Magnet], moving: &[Magnet], level: Level) -> Self {
         let lever = Lever::of(moving.iter().flat_map(|magnet| magnet.corners()));
         let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
@@ -225,8 +225,8 @@ impl CuboidPotential {
 }
 
 impl CuboidPotential {
-    /// The distance (m) of their centres from which on the multipole series stands for every pair
-    /// of blocks.
+    /// The distance (m) between centres beyond which the multipole series replaces every pair of
+    /// blocks.
     pub(in crate::potential) fn hand_over(&self) -> f64 {
         let all = self.far.iter().flatten();
         all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
@@ -256,9 +256,8 @@ impl CuboidPotential {
         )
     }
 
-    /// The energies of all pairs of blocks one by one: that of the fixed tile's block i and the
-    /// moving tile's block j is number `j * fixed blocks + i`. Derivatives are zero where not asked
-    /// for.
+    /// The energies of all pairs of blocks; the pair of the fixed tile's block i and the moving
+    /// tile's block j has the index `j * fixed blocks + i`. Derivatives are zero unless requested.
     pub fn pairs<const SLOPE: bool>(&self, q: &Configuration) -> Vec<PairEnergy> {
         let mut out = vec![PairEnergy::default(); self.fixed.len() * self.moving.len()];
         self.level.run(Each::<SLOPE> {
@@ -279,10 +278,10 @@ impl Potential for CuboidPotential {
         self.level.run(Sum::<true> { potential: self, q })
     }
 
-    /// See [`limits`] for the bounds and their proofs. Where pole faces may come as close as a
-    /// sixteenth of the reach the second derivative has no bound, for it grows like the logarithm
-    /// of their distance; the bound there is that at a sixteenth of the reach, which holds for the
-    /// average over a motion of that reach.
+    /// See [`limits`] for the bounds and their proofs. If pole faces may come closer than a
+    /// sixteenth of the reach, the second derivative has no bound, because it grows like the
+    /// logarithm of their distance; the value returned is the bound at a sixteenth of the reach,
+    /// which holds for the average over a motion of that reach.
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let (sin, cos) = libm::sincos(q.theta);
         let turn = self.lever.turn();
@@ -308,8 +307,8 @@ impl Potential for CuboidPotential {
         bound
     }
 
-    /// Known only where all blocks are farther apart than their own size: closer, the second
-    /// derivative's bound tells more.
+    /// Known only if all blocks are farther apart than their own size: closer, the second
+    /// derivative's bound is tighter.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
         self.level.run(FourthDerivative {
             potential: self,
@@ -329,8 +328,8 @@ impl Potential for CuboidPotential {
         sides.fold(f64::INFINITY, f64::min) / 2.0
     }
 
-    /// Measured where edges of touching blocks meet, the worst place: 2e-7 between energies and the
-    /// integral of the gradient.
+    /// Measured at the worst place, where edges of touching blocks meet: 2e-7 between energies and
+    /// the integral of the gradient.
     fn noise(&self) -> f64 {
         1e-6
     }

@@ -26,8 +26,8 @@
 //! ```
 //!
 //! Term k = 0 is the point dipole; term k falls like `r^(-3-2k)`. The numbers T depend on the two
-//! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the
-//! error of leaving terms out is bounded by the A_k left out.
+//! sizes alone. Their absolute sum over l and l', `A_k`, bounds term k at every angle, so the error
+//! of omitting terms is bounded by the A_k of the omitted terms.
 
 use std::ops::Range;
 
@@ -116,7 +116,7 @@ pub fn rising_half(n: usize) -> f64 {
     (0..n).map(|i| i as f64 + 0.5).product()
 }
 
-/// Where the coefficient C_kl stands among those of all terms, given `l / 2`.
+/// The index of the coefficient C_kl among those of all terms, given `l / 2`.
 #[inline(always)]
 pub const fn index(k: usize, half: usize) -> usize {
     k * (k + 3) / 2 + half
@@ -181,7 +181,7 @@ impl Multipole {
         }
     }
 
-    /// The distance (m) from which on the terms from number `terms` on are together below
+    /// The distance (m) beyond which the sum of the terms from number `terms` on is below
     /// `tolerance` times `mu0 m1 m2 / (4 pi r^3)`.
     pub fn radius(&self, terms: usize, tolerance: f64) -> f64 {
         self.least(terms, |error, _| error > tolerance)
@@ -192,8 +192,8 @@ impl Multipole {
         self.least(terms, |error, r| error > tolerance * r.powi(3))
     }
 
-    /// The least distance r (m) from which on the terms from number `terms` on, in units of that of
-    /// the dipoles, are not too much.
+    /// The smallest distance r (m) beyond which the terms from number `terms` on, in units of the
+    /// dipole term, are not too large.
     fn least(&self, terms: usize, is_much: impl Fn(f64, f64) -> bool) -> f64 {
         let is_much = |r: f64| {
             let q = 1.0 / (r * r);
@@ -216,8 +216,8 @@ impl Multipole {
         high
     }
 
-    /// Works out the coefficients of some terms for `turn` = e^(i beta), and their derivatives if
-    /// asked for.
+    /// Computes the coefficients of some terms for `turn` = e^(i beta), and their derivatives if
+    /// requested.
     #[inline(always)]
     pub fn evaluate<L: Lanes, const SLOPE: bool>(
         &self,

@@ -1,4 +1,4 @@
-//! The quadrature over pairs of blocks: nodes on the second blocks' pole faces.
+//! The quadrature for pairs of blocks: nodes on the second block's pole faces.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -9,15 +9,15 @@ use crate::potential::batch::Level;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// The energy (J) of pairs of blocks that have the same sizes and stand at the same angle to each
-/// other, and its gradient where asked for: the one place that brings the quadrature into machine
-/// code, for it takes long to compile. At least one pair.
+/// other, and its gradient if requested. This is the only place that instantiates the quadrature,
+/// which takes long to compile. At least one pair.
 pub struct Near<'a, const SLOPE: bool> {
     pairs: &'a [BlockPair],
     fineness: Fineness,
 }
 
 impl<'a, const SLOPE: bool> Near<'a, SLOPE> {
-    /// Of these pairs, as finely as energies are stated.
+    /// The sum for these pairs, with the accuracy stated for energies.
     pub fn of(pairs: &'a [BlockPair]) -> Self {
         Self {
             pairs,
@@ -40,13 +40,13 @@ impl<const SLOPE: bool> Task for Near<'_, SLOPE> {
 }
 
 /// The energy of two blocks and its derivatives by their pole faces, however far apart they are:
-/// exact near by, while far away (from some thirty times their size on) digits are lost to
+/// exact nearby, while far away (beyond about thirty times their size) digits are lost to
 /// cancellation.
 pub fn exact(first: &Block, second: &Block) -> PairEnergy {
     near::<true>(Level::best(), first, second)
 }
 
-/// [`exact`] for the given instruction set; the derivatives are zero where not asked for.
+/// [`exact`] for the given instruction set; the derivatives are zero unless requested.
 pub fn near<const SLOPE: bool>(level: Level, first: &Block, second: &Block) -> PairEnergy {
     let pair = BlockPair::new(first, second, second.position);
     let (energy, gradient) = level.run(Near::<SLOPE>::of(&[pair]));
@@ -57,17 +57,17 @@ pub fn near<const SLOPE: bool>(level: Level, first: &Block, second: &Block) -> P
     }
 }
 
-/// Nodes that are waited for before they are evaluated.
+/// Number of nodes collected before they are evaluated.
 const BATCH: usize = 64;
 
-/// Room for a batch, for the rule that completes it, and for filling the last vector.
+/// Room for a batch, for the rule that completes it, and for padding the last vector.
 const ROOM: usize = BATCH + MOST + WIDTH;
 
 /// The quadrature over pairs of blocks that have the same sizes and stand at the same angle to
 /// each other, in the coordinates of a pole face of the first block (see [`super::sheet`]).
 ///
-/// Nodes of all panels follow each other without gaps, so that vectors are full whatever the
-/// rules' lengths.
+/// Nodes of all panels follow each other without gaps, so that vectors are full for rules of any
+/// length.
 struct Quadrature<F> {
     fineness: Fineness,
     rules: &'static [Rule],
@@ -78,12 +78,12 @@ struct Quadrature<F> {
     heights: [f64; 2],
     /// The direction of h.
     normal: Vector2<f64>,
-    /// Whether the gradient comes from the energy and closed forms alone, and what the energy
-    /// then adds to the derivative by theta.
+    /// Whether the gradient follows from the energy and closed forms alone, and the energy's
+    /// contribution to the derivative by theta in that case.
     is_steep: bool,
     by_energy: f64,
-    /// How many nodes wait, their places (m), weights (J/m^2), and the levers of a force along h
-    /// about the moving tile's reference point (m).
+    /// Number of collected nodes, their places (m), weights (J/m^2), and the levers of a force
+    /// along h about the moving tile's reference point (m).
     count: usize,
     x: [f64; ROOM],
     h: [f64; ROOM],
@@ -207,7 +207,7 @@ impl<F: Copy> Quadrature<F> {
         }
     }
 
-    /// Adds up the nodes that wait, but for those that do not fill a vector.
+    /// Adds up the collected nodes, except those that do not fill a vector.
     #[inline(always)]
     fn evaluate<L: Lanes<F = F>, const SLOPE: bool>(&mut self, l: L) {
         let whole = self.count / WIDTH * WIDTH;
@@ -243,7 +243,7 @@ impl<F: Copy> Quadrature<F> {
                 self.gradient = [x, y, turn];
             }
             if FORCE {
-                // What the closed form has is left out, and Phi_h has the opposite sign of h.
+                // The part in closed form is omitted, and Phi_h has the opposite sign of h.
                 let high = l.splat(self.heights[0] - self.heights[1]);
                 let rest = l.mul(weight, l.neg_mul_add(high, subtended(l, s, h), slope));
                 let rest = l.select(h, l.sub(l.splat(0.0), rest), rest);
@@ -257,10 +257,10 @@ impl<F: Copy> Quadrature<F> {
         }
     }
 
-    /// The energy and, if asked for, the gradient of all that was added.
+    /// The energy and, if requested, the gradient of everything added.
     #[inline(always)]
     fn sum<L: Lanes<F = F>, const SLOPE: bool>(mut self, l: L) -> (f64, Vector3<f64>) {
-        // Nodes of no weight fill the last vector.
+        // Nodes without weight pad the last vector.
         l.store(l.splat(0.0), &mut self.weight[self.count..]);
         l.store(l.splat(0.0), &mut self.x[self.count..]);
         l.store(l.splat(self.half_width), &mut self.h[self.count..]);
@@ -284,7 +284,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    /// Panels so fine that nothing is left to gain.
+    /// Panels so fine that finer ones change nothing.
     const FINE: Fineness = Fineness {
         finest: 1e-9,
         axes: [

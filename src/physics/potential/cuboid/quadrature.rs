@@ -1,11 +1,11 @@
-//! Gauss-Legendre rules, and the panels a pole face is cut into for them.
+//! Gauss-Legendre rules, and the panels into which a pole face is divided for them.
 
 use std::sync::LazyLock;
 
-/// The most nodes a rule has.
+/// The largest number of nodes of a rule.
 pub const MOST: usize = 16;
 
-/// A rule over [-1, 1], filled up to the most nodes a rule has with nodes of no weight.
+/// A rule over [-1, 1], padded to [`MOST`] nodes with nodes without weight.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     pub count: usize,
@@ -39,14 +39,14 @@ impl Rule {
     }
 }
 
-/// How many rules there are for analytic integrands, in the order of their nodes.
+/// Number of rules for analytic integrands, in the order of their numbers of nodes.
 const ANALYTIC: usize = 9;
 
-/// The numbers of the rules whose nodes crowd towards both ends.
+/// The indices of the rules whose nodes crowd towards both ends.
 const CROWDED_EIGHT: usize = ANALYTIC;
 const CROWDED_SIXTEEN: usize = ANALYTIC + 1;
 
-/// The rules in use, by the numbers that [`panels`] gives.
+/// The rules in use, by the indices that [`panels`] returns.
 pub static RULES: LazyLock<[Rule; ANALYTIC + 2]> = LazyLock::new(|| {
     [
         Rule::gauss::<4>(),
@@ -63,7 +63,7 @@ pub static RULES: LazyLock<[Rule; ANALYTIC + 2]> = LazyLock::new(|| {
     ]
 });
 
-/// The numbers of the rules of 4, 8 and 16 evenly weighed nodes.
+/// The indices of the Gauss-Legendre rules of 4, 8 and 16 nodes.
 pub const FOUR_EIGHT_SIXTEEN: [usize; 3] = [0, 4, 8];
 
 /// The Gauss-Legendre rule with `N` nodes over [-1, 1], exact for polynomials of degree `2 N - 1`.
@@ -104,23 +104,23 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// How fine panels get.
+/// The fineness of panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
-    /// Panels shorter than this share of the interval are not graded further.
+    /// Panels shorter than this fraction of the interval are not graded further.
     pub finest: f64,
-    /// The long axes (see [`panels`]) from which on each of the rules for analytic integrands is
-    /// enough, falling.
+    /// The long axes (see [`panels`]) beyond which each of the rules for analytic integrands
+    /// suffices, descending.
     pub axes: [f64; ANALYTIC],
 }
 
 impl Fineness {
-    /// The panels are cut at the corners' feet only. The integrand is of the kind `s^2 ln s` there
-    /// at worst, for which sixteen crowded nodes give some 1e-7.
+    /// The panels are cut at the corners' feet only. The worst integrand there behaves like `s^2 ln
+    /// s`, for which sixteen crowded nodes have an error of about 1e-7.
     ///
     /// From eight nodes on the axes are cosh(6 / (n - 1.5)) for n nodes, so that rho^(-2n) is
-    /// exp(-12) / rho^3, which the weakness of the singularities (of the kind s^2 ln s) brings to
-    /// some 1e-8. Fewer nodes serve faces farther apart, of which the four pairs cancel: there
+    /// exp(-12) / rho^3, which the weakness of the singularities (like s^2 ln s) reduces to about
+    /// 1e-8. Fewer nodes suffice for faces farther apart, whose four pairs cancel: there
     /// rho^(2n + 3) is exp(31) for four and five nodes, exp(29) for six, exp(25.9) for seven.
     pub const NORMAL: Self = Self {
         finest: 1.0,
@@ -129,7 +129,7 @@ impl Fineness {
         ],
     };
 
-    /// The number of the rule with the fewest nodes, if any is enough.
+    /// The index of the sufficient rule with the fewest nodes, if there is one.
     #[inline(always)]
     pub fn rule(&self, axis: f64) -> Option<usize> {
         let number = self.axes.iter().filter(|least| axis < **least).count();
@@ -137,7 +137,7 @@ impl Fineness {
     }
 }
 
-/// A part of an interval, and the number of the rule it takes.
+/// A part of an interval, and the index of its rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panel {
     pub start: f64,
@@ -149,27 +149,27 @@ pub struct Panel {
 /// line, and its distance from that line.
 pub type Corner = (f64, f64);
 
-/// In place of a corner where there is none.
+/// Stands for a missing corner.
 pub const NO_CORNER: Corner = (f64::INFINITY, 0.0);
 
-/// The share of a panel that is cut off at the end next to a corner.
+/// The fraction of a panel that is cut off at the end next to a corner.
 const GRADING: f64 = 0.2;
 
-/// Panels that are taken although they are too long get eight nodes below this share of half the
-/// interval.
+/// Panels accepted although they are too long get eight nodes if they are shorter than this
+/// fraction of half the interval.
 const SHORT: f64 = 0.5;
 
-/// Cuts nearer to an end than this share of the panel are not made at the foot.
+/// No cut is made at a foot closer to an end than this fraction of the panel.
 const MARGIN: f64 = 0.001;
 
 /// Cuts the interval from `-half` to `half` into panels, which it appends to the list.
 ///
 /// An n-point rule applied to a function that is analytic within the ellipse with the interval's
-/// ends as foci converges like `rho^(-2n)`, where the ellipse's long axis is
-/// `(rho + 1 / rho) / 2` interval lengths (Trefethen, *Is Gauss quadrature better than
-/// Clenshaw-Curtis?*, theorem 4.5, doi:10.1137/060659831). Each panel's ellipse is the largest
-/// that stays clear of the corners; where it is too small the panel is cut at such a corner's
-/// foot or, where those are all at or beyond an end, near the nearest one's end.
+/// ends as foci converges like `rho^(-2n)`, where the ellipse's long axis is `(rho + 1 / rho) / 2`
+/// interval lengths (Trefethen, *Is Gauss quadrature better than Clenshaw-Curtis?*, theorem 4.5,
+/// doi:10.1137/060659831). Each panel's ellipse is the largest that stays clear of the corners; if
+/// it is too small, the panel is cut at such a corner's foot or, if all feet are at or beyond an
+/// end, near the end next to the nearest corner.
 pub fn panels(half: f64, corners: &[Corner; 3], fineness: &Fineness, list: &mut Vec<Panel>) {
     const DEPTH: usize = 32;
     let longest = 2.0 * half * fineness.finest;
@@ -214,8 +214,8 @@ pub fn panels(half: f64, corners: &[Corner; 3], fineness: &Fineness, list: &mut 
     }
 }
 
-/// The long axis, in lengths of the interval, of the largest ellipse around it that is clear of
-/// the corners, and the foot of the corner it touches.
+/// The long axis, in lengths of the interval, of the largest ellipse around it that does not
+/// contain a corner, and the foot of the corner it touches.
 #[inline(always)]
 fn axes(corners: &[Corner; 3], start: f64, end: f64) -> (f64, f64) {
     let (mut least, mut nearest) = (f64::INFINITY, 0.0);
@@ -256,7 +256,7 @@ mod tests {
         check::<16>();
     }
 
-    /// At a corner on the interval, unless a thousandth of a panel or less is left there.
+    /// At a corner on the interval, unless a thousandth of a panel or less remains there.
     #[test]
     fn panels_end_at_the_feet_of_near_corners() {
         for (foot, is_cut) in [(-0.5, true), (-0.02, true), (0.7, true), (-0.9995, false)] {

@@ -34,16 +34,16 @@
 //! on the first sheet and its edges, and analytic elsewhere, so the rule is split where those
 //! edges project onto the second sheet, and graded towards them.
 //!
-//! **The gradient** needs the moments 0 and 1 (in t) of `Phi_x` and `Phi_h` along the second
-//! sheet. Those of `Phi_x = g(p_-) - g(p_+)`, with `p_-+` the distances from the first sheet's two
-//! edges, are closed: the zeroth is the second sheet's potential at those edges and the first
-//! uses `N(p, z) = z p^2/2 asinh(z / p) + z^2 r / 2 - r^3 / 3`, for which `N_p = p f(p, z)`. Where
-//! the angle is large, those of `Phi_h` follow from
-//! `d Phi / dt = cos(gamma) Phi_x + sin(gamma) Phi_h`, integrated. Where the sheets are nearly
-//! parallel they take the quadrature's nodes, but for the part that steps at the first sheet's
-//! edges: `atan(s z / (h r)) - atan(s / h)` is analytic at `p = 0`, and the angle left,
-//! `theta = arg(s + i h)` between the edges, has closed moments along a line ([`angle_moments`]).
-//! So no integrand with a step is ever left to quadrature.
+//! **The gradient** needs the moments 0 and 1 (in t) of `Phi_x` and `Phi_h` along the second sheet.
+//! Those of `Phi_x = g(p_-) - g(p_+)`, with `p_-+` the distances from the first sheet's two edges,
+//! have closed forms: the zeroth is the second sheet's potential at those edges and the first uses
+//! `N(p, z) = z p^2/2 asinh(z / p) + z^2 r / 2 - r^3 / 3`, for which `N_p = p f(p, z)`. Where the
+//! angle is large, those of `Phi_h` follow from `d Phi / dt = cos(gamma) Phi_x + sin(gamma) Phi_h`,
+//! integrated. If the sheets are nearly parallel they are computed at the quadrature's nodes,
+//! except for the part that is discontinuous at the first sheet's edges: `atan(s z / (h r)) -
+//! atan(s / h)` is analytic at `p = 0`, and the remaining angle, `theta = arg(s + i h)` between the
+//! edges, has moments in closed form along a line ([`angle_moments`]). So the quadrature never has
+//! a discontinuous integrand.
 //!
 //! # Edges
 //! The energy is finite and continuous everywhere, contact and overlap included. The gradient is
@@ -55,15 +55,16 @@ use crate::potential::batch::lanes::Lanes;
 /// Added to squared distances (m^2) so that products like `h^2 ln h` are 0, not NaN, at h = 0.
 const TINY: f64 = 1e-30;
 
-/// Phi / 2 and |Phi_h| / 2 (m^2, m), less its sign, at the distance `h` from the line of a sheet,
-/// where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`): the sign is the opposite of that of h.
+/// Phi / 2 and |Phi_h| / 2 (m^2, m), without its sign, at the distance `h` from the line of a
+/// sheet, where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`): the sign is the opposite of that of
+/// h.
 #[inline(always)]
 pub fn potential<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> (L::F, L::F) {
     let [upper, lower] = both_heights(l, s, h, heights);
     (l.sub(upper.k, lower.k), l.sub(upper.slope, lower.slope))
 }
 
-/// The angle (rad), less its sign, that a sheet's segment subtends at the distance `h` from its
+/// The angle (rad), without its sign, that a sheet's segment subtends at the distance `h` from its
 /// line, where s runs from `s[0]` to `s[1]` (`s[0] < s[1]`).
 #[inline(always)]
 pub fn subtended<L: Lanes>(l: L, s: [L::F; 2], h: L::F) -> L::F {
@@ -108,7 +109,7 @@ pub fn expansion<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> Ex
     }
 }
 
-/// What the height z gives, between two ends of a sheet.
+/// The terms of the height z, between two ends of a sheet.
 #[derive(Clone, Copy)]
 struct AtHeight<F> {
     /// K and -K_h, for h >= 0.
@@ -121,7 +122,7 @@ struct AtHeight<F> {
     r: [F; 2],
 }
 
-/// At the greater and at the smaller height.
+/// The terms at the greater and at the smaller height.
 #[inline(always)]
 fn both_heights<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> [AtHeight<L::F>; 2] {
     let above = l.abs(h);
@@ -243,8 +244,8 @@ fn moment_at_height<L: Lanes>(l: L, pp: L::F, p: L::F, height: f64) -> L::F {
     l.mul(l.mul_add(pp, rise, cubic), l.splat(0.5))
 }
 
-/// The integrals of 1 and u, along a line, times the angle `theta = arg(s + i h)` in which a
-/// sheet's end sees the place u on the line (m, m^2), but for their constants.
+/// The integrals of 1 and u, along a line, times the angle `theta = arg(s + i h)` of the place u on
+/// the line, seen from a sheet's end (m, m^2), without their constants.
 ///
 /// The line's foot is at u = 0: `s + i h = (u + i d) e^(i gamma)` for a line in the direction
 /// gamma, so with `p^2 = u^2 + d^2` and `theta_u = -d / p^2`

@@ -11,7 +11,7 @@ use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
-/// The energy at a configuration, and its gradient where asked for (else it is zero).
+/// The energy at a configuration, and its gradient if requested (otherwise zero).
 pub struct Sum<'a, const SLOPE: bool> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
@@ -84,7 +84,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     }
 
     /// Adds the pairs of two groups that are far enough apart, and lists the others by their
-    /// numbers in the groups.
+    /// indices in the groups.
     #[inline(always)]
     fn add_far<L: Lanes>(
         &self,
@@ -114,7 +114,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                             near_pairs.push([from + lane, j]);
                         }
                     }
-                    // The near ones, without moments, are as far as need be.
+                    // The near ones have no moment here and are far enough.
                     let outside = l.sub(pairs.rr, l.splat(far.near()));
                     pairs.moments = l.select(outside, pairs.moments, l.splat(0.0));
                     pairs.rr = l.select(outside, pairs.rr, l.splat(far::AWAY));
@@ -132,7 +132,7 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         total.add::<L, SLOPE>(l, &sums, fixed.axis);
     }
 
-    /// The pairs, of the blocks with these numbers in two groups, by their pole faces.
+    /// The pairs of the blocks with these indices in two groups, by their pole faces.
     fn near(
         &self,
         [fixed, moving]: [&Group; 2],
@@ -151,8 +151,8 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     }
 }
 
-/// The energies of all pairs of blocks one by one, `out[second * fixed blocks + first]`.
-/// Gradients and slopes are zero where not asked for.
+/// The energies of all pairs of blocks, `out[second * fixed blocks + first]`. Gradients and slopes
+/// are zero unless requested.
 pub struct Each<'a, const SLOPE: bool> {
     pub potential: &'a CuboidPotential,
     pub q: &'a Configuration,
@@ -243,8 +243,8 @@ mod tests {
     use crate::potential::Potential;
     use crate::sample;
 
-    /// Terms dropped by the measure of the strongest pair are missed by no more than that, at every
-    /// distance: against all pairs by themselves.
+    /// Dropping terms relative to the strongest pair causes no larger error than stated, at every
+    /// distance, compared with all pairs individually.
     #[test]
     fn the_sum_is_that_of_its_pairs_by_the_measure_of_the_strongest() {
         let problem = sample::paper_tile();
@@ -278,11 +278,12 @@ mod tests {
             let off = (energy - sum).abs() / strongest;
             farthest = farthest.max(off);
             assert!(off < 2e-8, "{q:?}: {off}");
-            // A gradient is missed by that over the shortest distance, some centimetres.
+            // The error of a gradient is that of the energy over the shortest distance, a few
+            // centimetres.
             let off = (gradient - slope).norm() / strongest;
             assert!(off < 2e-8 / 0.005, "{q:?}: {off}");
         }
-        // Terms are dropped indeed.
+        // Terms are actually dropped.
         assert!(farthest > 1e-11, "{farthest}");
     }
 }

@@ -1,4 +1,4 @@
-//! Interpolation at Chebyshev's nodes: the nodes, their shares, and what is lost.
+//! Interpolation at Chebyshev nodes: the nodes, their weights and the error.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub fn shares(nodes: &[f64], x: f64) -> Vec<f64> {
             .collect();
     }
     let weighed = nodes.iter().enumerate().map(|(k, node)| {
-        // The sine to the cosine that the node is.
+        // The sine of the angle whose cosine is the node.
         let sine = (1.0 - node * node).max(0.0).sqrt();
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
         sign * sine / (x - node)
@@ -31,15 +31,15 @@ pub fn shares(nodes: &[f64], x: f64) -> Vec<f64> {
     weighed.into_iter().map(|share| share / sum).collect()
 }
 
-/// A bound of the sum of the shares' magnitudes anywhere on [-1, 1] (Lebesgue's constant;
+/// A bound of the sum of the magnitudes of these values anywhere on [-1, 1] (Lebesgue's constant;
 /// Trefethen, *Approximation Theory and Approximation Practice*, theorem 15.2).
 pub fn lebesgue(n: usize) -> f64 {
     1.0 + 2.0 / PI * libm::log(n as f64)
 }
 
-/// A bound of what is lost of the energy of two dipoles by interpolating the place of the one at
-/// `n` nodes on a stretch of half the length `half` (m) that stays `distance` (m) or more from the
-/// other: as a share of `mu0 m1 m2 / (4 pi distance^3)`.
+/// A bound of the error of the energy of two dipoles if the place of one is interpolated at `n`
+/// nodes on a segment of the half length `half` (m) at least `distance` (m) from the other, as a
+/// fraction of `mu0 m1 m2 / (4 pi distance^3)`.
 ///
 /// The error is the n-th derivative over `n!` times the product of the distances to the nodes,
 /// which is at most `2 (half / 2)^n`; the energy is K times a second directional derivative of
@@ -49,8 +49,8 @@ pub fn lost(n: usize, half: f64, distance: f64) -> f64 {
     2.0 * ((n + 1) * (n + 2)) as f64 * ratio.powi(n as i32)
 }
 
-/// The least distance (m), to a part in a million, at which no more than `allowed` is [`lost`], which
-/// falls with the distance like its n-th power.
+/// The smallest distance (m), to a part in a million, at which the error [`lost`], which decreases
+/// like the distance's n-th power, is at most `allowed`.
 pub fn least_distance(n: usize, half: f64, allowed: f64) -> f64 {
     half * libm::pow(lost(n, 1.0, 1.0) / allowed, 1.0 / n as f64) * (1.0 + 1e-6)
 }
@@ -77,8 +77,8 @@ mod tests {
         }
     }
 
-    /// Along a line, across it and at an angle, as close as is said, the energy of a dipole lies
-    /// within the bound, and somewhere not far below it.
+    /// Along a line, across it and at an angle, at the stated distance, the error of a dipole's
+    /// energy is within the bound, and somewhere close to it.
     #[test]
     fn no_more_is_lost_than_is_said() {
         for n in [4, 8, 16] {

@@ -1,33 +1,35 @@
-//! Far groups of dipoles as few: so that many magnets a face cost little more than few.
+//! Groups of far dipoles replaced by a few dipoles, so that faces with many magnets cost little
+//! more than faces with few.
 //!
-//! The energy of two dipoles is a smooth function of the place of either, the smoother the farther
-//! they are apart. So the dipoles of a group, all near each other, may be moved to the nodes of an
-//! interpolation: with the shares `l_k(s)` of the nodes `s_k`, a dipole of moment m at s acts from
+//! The energy of two dipoles is a smooth function of the place of either, and smoother for larger
+//! distances. So the dipoles of a group, all near each other, may be moved to the nodes of an
+//! interpolation: with the weights `l_k(s)` of the nodes `s_k`, a dipole of moment m at s acts from
 //! afar like moments `m l_k(s)` at the nodes, and a group of many like one moment at each node, the
-//! sums over its dipoles. What stands for a group are dipoles again, and everything known of
-//! dipoles holds of them: one kernel, its gradients, bounds over cells.
+//! sum over its dipoles. A group is replaced by dipoles, so everything for dipoles applies to it:
+//! the kernel, its gradients, bounds over cells.
 //!
-//! A tile's dipoles are halved again and again along its outline; each group lies in a box along
-//! it, and has stand-ins of several orders, each good from a distance on that follows from the
-//! remainder of the interpolation ([`interpolation::lost`]): no pair of groups loses more than
-//! [`tree::LOST`] = 1e-11 of `mu0 M1 M2 / (4 pi r^3)`, r their distance and M the sums of the
-//! magnitudes of the moments: some 1e-15 of the energies of tiles in contact. A row of magnets needs
-//! nodes along it only. Groups that are closer meet in halves, and in the end magnet by magnet
-//! ([`walk::Walk`]). So bounds over cells are made; energies are asked of a table of the fixed tile's
-//! field ([`super::patches`]), in which the moving tile's groups lie, as far as that reaches.
+//! A tile's dipoles are halved recursively along its outline; each group lies in a box along it,
+//! and has replacements of several orders, each valid beyond a distance that follows from the
+//! remainder of the interpolation ([`interpolation::lost`]): the error of a pair of groups is at
+//! most [`tree::LOST`] = 1e-11 of `mu0 M1 M2 / (4 pi r^3)`, r their distance and M the sums of the
+//! magnitudes of the moments: about 1e-15 of the energies of tiles in contact. A row of magnets
+//! needs nodes only along it. Groups that are closer are split into halves, and finally into single
+//! magnets ([`walk::Walk`]). Bounds over cells are computed in this way. Energies are computed from
+//! a table of the fixed tile's field ([`super::patches`]) for the moving tile's groups within its
+//! range.
 //!
 //! The method is that of Fong and Darve, *The black-box fast multipole method* (Journal of
 //! Computational Physics 228 (2009), 8712), without translations between levels: a pair of groups
-//! costs as many pairs of nodes, and nodes are worked out once for a tile.
+//! costs one pair of dipoles per pair of nodes, and nodes are computed once for a tile.
 
 pub mod interpolation;
 pub mod tree;
 pub mod walk;
 
-/// So many pairs of dipoles are worth being put in groups.
+/// Groups are used from this many pairs of dipoles on.
 pub const MANY_PAIRS: usize = 1 << 14;
 
-/// Whether so many dipoles of two tiles are worth being put in groups.
+/// Whether groups are used for this many dipoles of two tiles.
 pub fn are_many(fixed: usize, moving: usize) -> bool {
     fixed * moving >= MANY_PAIRS
 }

@@ -1,4 +1,5 @@
-//! Groups of dipoles, halved again and again, and the few dipoles that stand for each from afar.
+//! A tree of groups of dipoles, halved recursively, with the few dipoles that replace each group
+//! from afar.
 
 use std::ops::Range;
 
@@ -7,24 +8,24 @@ use nalgebra::Vector2;
 use super::interpolation::{least_distance, lebesgue, lost, nodes, shares};
 use crate::potential::dipole::Dipole;
 
-/// What is lost of a pair of groups, at most, as a share of `mu0 M1 M2 / (4 pi r^3)`, with M the
-/// sums of the moments' magnitudes and r the distance of the groups. (Found are errors a hundred
-/// times smaller; and far groups are weak beside those in contact.)
+/// The largest error of a pair of groups, as a fraction of `mu0 M1 M2 / (4 pi r^3)`, with M the
+/// sums of the moments' magnitudes and r the distance of the groups. (Actual errors are a hundred
+/// times smaller, and far groups are weak compared with those in contact.)
 pub const LOST: f64 = 1e-11;
 
-/// Into so many parts what may be lost is divided. Of either group it is lost along and across; of
-/// the second one times Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
+/// The allowed error is divided by this. Either group has an error along and across; the second
+/// one's is multiplied by Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
 /// along and 2.33 for 8 across.
 const SHARES: f64 = 2.0 * (1.0 + 3.03 * 2.33);
 
-/// Groups of at most so many dipoles, or as many as they are filled up to twice, are not halved.
+/// Groups of at most this many dipoles, or twice the padding, are not halved.
 const FEW: usize = 8;
 
-/// Boxes that reach so many times farther from the reference point than any dipole are no good:
-/// motions would have to be counted as that much longer.
+/// Boxes that reach farther from the reference point than any dipole by this factor are not used,
+/// because motions would count as longer by the same factor.
 const WIDER: f64 = 1.05;
 
-/// Nodes along a group that are tried.
+/// Numbers of nodes along a group that are tried.
 const ORDERS: [usize; 6] = [6, 8, 12, 16, 20, 24];
 
 /// Dipoles of one tile in groups.
@@ -32,49 +33,49 @@ const ORDERS: [usize; 6] = [6, 8, 12, 16, 20, 24];
 pub struct Tree {
     /// The whole tile first.
     pub groups: Vec<Group>,
-    /// Those of the tile, and those that stand for groups: each stand-in by itself filled up with
-    /// dipoles without moment.
+    /// The dipoles of the tile and the replacements of groups, each of them padded with dipoles
+    /// without moment.
     pub dipoles: Vec<Dipole>,
-    /// The largest distance (m) of a dipole, or of the box of a group that others stand for, from
-    /// the tile's reference point.
+    /// The largest distance (m) of a dipole, or of the box of a replaced group, from the tile's
+    /// reference point.
     pub lever: f64,
 }
 
 /// Consecutive dipoles of a tile, in a box.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// Middle of the box (m).
+    /// Centre of the box (m).
     pub centre: Vector2<f64>,
     /// Unit vector along the box.
     pub axis: Vector2<f64>,
     /// Half the box's length and width (m).
     pub half: [f64; 2],
-    /// The two halves, by their numbers; the dipoles of a group without have no parts.
+    /// The indices of the two halves; `None` for a group that is not divided.
     pub parts: Option<[usize; 2]>,
     /// Sum of the moments' magnitudes (A m^2).
     pub magnitude: f64,
     /// The largest distance of the box's points from the tile's reference point (m).
     pub lever: f64,
-    /// How many dipoles it has.
+    /// Number of its dipoles.
     pub count: usize,
     /// The group's own dipoles, for groups without parts.
     pub own: Range<usize>,
-    /// What stands for the group, the fewest dipoles first.
+    /// Replacements of the group, the fewest dipoles first.
     pub stands: Vec<Stand>,
 }
 
-/// Dipoles that stand for a group from afar.
+/// Dipoles that replace a group from afar.
 #[derive(Clone, Debug)]
 pub struct Stand {
-    /// From this distance (m) of the box on.
+    /// The smallest distance (m) from the box.
     pub from: f64,
-    /// By their numbers in the tree.
+    /// Their indices in the tree.
     pub dipoles: Range<usize>,
 }
 
 impl Tree {
-    /// Groups of dipoles that stand in the order in which they lie along a tile's outline. Each
-    /// group's dipoles are filled up to a multiple of `fill`.
+    /// Groups of dipoles, given in their order along a tile's outline. Each group's dipoles are
+    /// padded to a multiple of `fill`.
     pub fn new(dipoles: &[Dipole], fill: usize) -> Self {
         let distances = dipoles.iter().map(|dipole| dipole.position.norm());
         let lever = distances.fold(0.0, f64::max);
@@ -88,8 +89,8 @@ impl Tree {
         tree
     }
 
-    /// Adds a group and its parts; returns its number. None stands for a group whose box reaches
-    /// farther than `farthest` (m) from the reference point.
+    /// Adds a group and its parts; returns its number. A group whose box reaches farther than
+    /// `farthest` (m) from the reference point is not replaced.
     fn add(&mut self, dipoles: &[Dipole], fill: usize, farthest: f64) -> usize {
         let number = self.groups.len();
         let mut group = Group::around(dipoles);
@@ -125,13 +126,14 @@ impl Tree {
         first..self.dipoles.len()
     }
 
-    /// Whether any group has another group of dipoles standing for it.
+    /// Whether any group has a replacement.
     pub fn has_stands(&self) -> bool {
         self.groups.iter().any(|group| !group.stands.is_empty())
     }
 }
 
-/// Where to halve: at the widest gap of the middle half, the sooner the nearer to the middle.
+/// Where to halve: at the widest gap of the middle half, with a preference for gaps near the
+/// middle.
 fn cut(dipoles: &[Dipole]) -> usize {
     let count = dipoles.len();
     let worth = |k: usize| {
@@ -157,7 +159,7 @@ impl Group {
             let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| {
                 (a.min(s), b.max(s))
             });
-            // A little more, for the roundings of what is compared with it.
+            // A little more, for rounding of the values compared with it.
             let size = low.abs().max(high.abs());
             ((low + high) / 2.0, (high - low) / 2.0 + 1e-15 * size)
         };
@@ -181,12 +183,12 @@ impl Group {
         }
     }
 
-    /// Dipoles that stand for the group with so many nodes along it, and from which distance (m);
-    /// `None` where they are not markedly fewer.
+    /// The replacement of the group with this many nodes along it, with its smallest distance (m);
+    /// `None` if it does not have markedly fewer dipoles.
     ///
-    /// With a grid of n by k nodes no more is lost than by n nodes along, and by k nodes across
-    /// times Lebesgue's constant of the n; with both groups of a pair replaced, than by the one and
-    /// by the other times the constants of the one.
+    /// The error of a grid of n by k nodes is at most that of n nodes along, plus that of k nodes
+    /// across times Lebesgue's constant of the n. If both groups of a pair are replaced, it is at
+    /// most the error of one plus that of the other times the constants of the first.
     fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, f64)> {
         let [length, width] = self.half;
         let from = least_distance(order, length, LOST / SHARES);
@@ -226,8 +228,8 @@ impl Group {
         Some((stand, from))
     }
 
-    /// What stands for the group at a distance (m): the fewest dipoles, or its own where it has no
-    /// parts; `None` where its parts are to be asked.
+    /// The dipoles to use for the group at a distance (m): the smallest replacement, or its own if
+    /// it has no parts; `None` if its parts must be used.
     pub fn at(&self, distance: f64) -> Option<&Range<usize>> {
         let from = |stand: &&Stand| stand.from <= distance;
         let stand = self.stands.iter().find(from);

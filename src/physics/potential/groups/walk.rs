@@ -1,4 +1,4 @@
-//! Which groups of two tiles meet as wholes, and which in parts.
+//! Which groups of two tiles interact as wholes, and which in parts.
 
 use std::ops::Range;
 
@@ -7,29 +7,29 @@ use nalgebra::Vector2;
 use super::tree::Group;
 use crate::configuration::Configuration;
 
-/// By how much the dipoles of the moving tile may be elsewhere than in the middle of what is asked
-/// about.
+/// How far the dipoles of the moving tile may deviate from the central configuration.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Leeway {
-    /// The farthest the tile goes (m) and turns (rad).
+    /// The largest distance (m) that the tile moves and angle (rad) that it turns.
     pub travel: f64,
     pub turn: f64,
-    /// Groups closer than so many times a group's own leeway meet in parts.
+    /// Groups closer than this many times a group's own leeway are split.
     pub near: f64,
 }
 
-/// Two groups that meet: the dipoles of either, by their numbers in their trees.
+/// Two interacting groups, as indices of their dipoles in the trees.
 #[derive(Clone, Debug)]
 pub struct Meeting {
     pub fixed: Range<usize>,
     pub moving: Range<usize>,
-    /// Where dipoles stand for others, the bound `M1 M2` (A^2 m^4) of the magnitudes for which
-    /// they do, else 0, and the least distance of the two (m).
+    /// If a group is replaced, the product `M1 M2` (A^2 m^4) of the sums of magnitudes, otherwise
+    /// 0; and the smallest distance of the two (m).
     pub replaced: f64,
     pub distance: f64,
 }
 
-/// All meetings of the groups of two tiles in a configuration: every pair of dipoles is in one.
+/// All interacting groups of two tiles in a configuration: every pair of dipoles is in exactly one
+/// pair of groups.
 pub struct Walk<'a> {
     sight: Sight<'a>,
     leeway: Leeway,
@@ -68,7 +68,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Where a point of the moving tile's frame is.
+    /// A point of the moving tile's frame in the fixed tile's.
     pub fn place(&self, point: Vector2<f64>) -> Vector2<f64> {
         self.place + self.turned(point)
     }
@@ -78,8 +78,8 @@ impl<'a> Sight<'a> {
         Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
     }
 
-    /// A lower bound of the distance (m) of two groups: in the frame of either box, that of the
-    /// upright boxes around both.
+    /// A lower bound of the distance (m) of two groups: in the frame of either box, the distance of
+    /// the axis-aligned boxes around both.
     pub fn distance(&self, fixed: &Group, moving: &Group) -> f64 {
         let way = self.place(moving.centre) - fixed.centre;
         let axis = self.turned(moving.axis);
@@ -93,7 +93,7 @@ impl<'a> Sight<'a> {
         };
         let first = gap(fixed.axis, fixed.half, moving.half);
         let second = gap(axis, moving.half, fixed.half);
-        // Less the roundings of places within some metres.
+        // Minus the rounding of places within a few metres.
         (first.max(second).sqrt() * (1.0 - 1e-12) - 1e-15).max(0.0)
     }
 }

@@ -1,20 +1,20 @@
-//! The field of one tile's many dipoles, tabulated: what a dipole of the other one costs, however
-//! many there are.
+//! The field of one tile's many dipoles, tabulated, so that the cost of a dipole of the other tile
+//! does not depend on their number.
 //!
-//! With moments scaled by `sqrt(mu0 / 4 pi)`, a dipole of moment m at p has the energy
-//! `U = m . grad phi(p)` in the potential `phi(p) = sum_j m_j . d / r^3`, `d = p - p_j`, `r = |d|`,
-//! of the dipoles `m_j` at `p_j` of the fixed tile. The plane is cut into squares, and in each phi
-//! is split: up to [`square::NEAR`] dipoles that are near are asked one by one, and all others, in
-//! the square a smooth function of the place, as one polynomial ([`polynomial`], with a proved bound
-//! of what is lost). Squares are halved until no more dipoles are near. So an energy takes as many
-//! steps as the moving tile has dipoles, not as there are pairs.
+//! With moments scaled by `sqrt(mu0 / 4 pi)`, a dipole of moment m at p has the energy `U = m .
+//! grad phi(p)` in the potential `phi(p) = sum_j m_j . d / r^3`, `d = p - p_j`, `r = |d|`, of the
+//! dipoles `m_j` at `p_j` of the fixed tile. The plane is cut into squares, and in each phi is
+//! split: up to [`square::NEAR`] near dipoles are evaluated individually, and all others, whose
+//! potential is smooth in the square, as one polynomial ([`polynomial`], with a proved bound of the
+//! error). Squares are halved until no more dipoles are near. So the cost of an energy is
+//! proportional to the number of the moving tile's dipoles, not to the number of pairs.
 //!
 //! Bounds of derivatives along motions ([`super::motion`]) are split in the same way: near dipoles
-//! one by one, and for all others sums that hold in the whole square and about it ([`Spread`]), in a
-//! square at least as large as the motion is long to either side.
+//! individually, and for all others sums that hold in the whole square and around it ([`Spread`]),
+//! in a square at least as large as the motion is long to either side.
 //!
-//! Squares are divided, and polynomials worked out, where they are first asked for; each is the same
-//! whenever that is, and by whichever thread.
+//! Squares are divided and polynomials computed on first use; each is the same whenever this is,
+//! and on whichever thread.
 
 pub mod polynomial;
 pub mod square;
@@ -25,14 +25,14 @@ use super::batch::Level;
 use super::dipole::Dipole;
 use square::{Patch, Spread, Square};
 
-/// The table reaches so many times as far as the dipoles do from the reference point.
+/// The table reaches this many times as far from the reference point as the dipoles.
 const REACH: f64 = 8.0;
 
-/// So many cells, each divided by itself, lie along a side of the table.
+/// Number of cells along a side of the table; each is divided separately.
 const CELLS: usize = 8;
 
 /// Cells are not halved more often than this: to about a 2000th of the farthest dipole's distance.
-/// There so many dipoles are near as there are.
+/// At this level any number of dipoles may be near.
 const DEEPEST: usize = 11;
 
 /// The table of a set of dipoles.
@@ -50,16 +50,16 @@ pub struct Patches {
 #[derive(Clone, Debug, Default)]
 struct Cell {
     squares: Vec<Square>,
-    /// What is known in each square, once it was asked for.
+    /// The data of each square, filled on first use.
     patches: Vec<OnceLock<Box<Patch>>>,
     spreads: Vec<OnceLock<Box<Spread>>>,
-    /// The square at each place of each level, in rows of `2^level`: of the level's own size, or a
-    /// larger one that is not divided.
+    /// The index of the square at each place of each level, in rows of `2^level`: of the level's
+    /// own size, or a larger one that is not divided.
     levels: Vec<Vec<u32>>,
 }
 
 impl Patches {
-    /// Of dipoles with moments in sqrt(J m^3); asked with the given instruction set.
+    /// The table of dipoles with moments in sqrt(J m^3), computed with the given instruction set.
     pub fn new(sources: &[Dipole], level: Level) -> Self {
         let distances = sources.iter().map(|source| source.position.norm());
         Self {
@@ -75,7 +75,7 @@ impl Patches {
         self.half
     }
 
-    /// What is known of the potential around a place within reach (m).
+    /// The potential around a place within reach (m).
     #[inline]
     pub fn at(&self, place: [f64; 2]) -> &Patch {
         let (cell, at) = self.cell(place);
@@ -86,8 +86,8 @@ impl Patches {
         })
     }
 
-    /// What bounds the potential's derivatives no farther than `reach` (m) from a place; `None`
-    /// where that is more than half a cell.
+    /// The bounds of the potential's derivatives within `reach` (m) of a place; `None` if that is
+    /// more than half a cell.
     pub fn around(&self, place: [f64; 2], reach: f64) -> Option<&Spread> {
         let mut half = self.half / CELLS as f64;
         if reach > half {
@@ -106,7 +106,7 @@ impl Patches {
         }))
     }
 
-    /// The cell of a place, and where in it that is, each coordinate from 0 to 1.
+    /// The cell of a place, and the coordinates in it, each from 0 to 1.
     #[inline]
     fn cell(&self, [x, y]: [f64; 2]) -> (&Cell, [f64; 2]) {
         let scale = CELLS as f64 / (2.0 * self.half);
@@ -172,7 +172,7 @@ impl Cell {
     }
 }
 
-/// The number of the place at s of so many.
+/// The index of the place at s among `count`.
 #[inline]
 fn place_of(s: f64, count: usize) -> usize {
     (s as i32).clamp(0, count as i32 - 1) as usize

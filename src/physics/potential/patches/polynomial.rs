@@ -1,26 +1,26 @@
-//! The potential of dipoles in a square that none of them is near, as a polynomial.
+//! The potential of dipoles as a polynomial in a square that has none of them nearby.
 //!
-//! Interpolated is phi at the n by n products of Chebyshev's nodes, n = [`ORDER`], in a square of
-//! half side h. With I and J the interpolations along x and y,
-//! `1 - I J = (1 - I) + (1 - J) - (1 - I) (1 - J)`. The n-th derivative of `1 / r` in any n
-//! directions is at most `n! / r^(n + 1)`, so those of the potential of a dipole of moment m are at
-//! most `(n + 1)! m / D^(n + 2)` where it is at a distance of D or more; and the k-th derivative of
-//! an interpolation's error is at most that of the product `w` of the distances to the nodes, times
-//! the bound of the function's n-th derivative over `n!` (Shadrin, *Error bounds for Lagrange
-//! interpolation*, J. Approx. Theory 80 (1995)), where `w = 2 (h / 2)^n T_n(x / h)` and thus
-//! `|w'| <= 2 (h / 2)^n n^2 / h`. With `q = h / D`, of the slope of phi along either side is lost,
-//! as a share of `m / D^3`, no more than
+//! phi is interpolated at the n by n products of Chebyshev's nodes, n = [`ORDER`], in a square of
+//! half side h. With I and J the interpolations along x and y, `1 - I J = (1 - I) + (1 - J) - (1 -
+//! I) (1 - J)`. The n-th derivative of `1 / r` in any n directions is at most `n! / r^(n + 1)`, so
+//! those of the potential of a dipole of moment m are at most `(n + 1)! m / D^(n + 2)` where it is
+//! at a distance of D or more; and the k-th derivative of an interpolation's error is at most that
+//! of the product `w` of the distances to the nodes, times the bound of the function's n-th
+//! derivative over `n!` (Shadrin, *Error bounds for Lagrange interpolation*, J. Approx. Theory 80
+//! (1995)), where `w = 2 (h / 2)^n T_n(x / h)` and thus `|w'| <= 2 (h / 2)^n n^2 / h`. With `q = h
+//! / D`, the error of the slope of phi along either side is, as a fraction of `m / D^3`, at most
 //!
 //! ```text
 //! 2 (n + 1) n^2 / q (q/2)^n + 2 (n + 1) (n + 2) (q/2)^n + 4 n^2 / q (q/2)^(2n) (2n + 1)! / n!^2
 //! ```
 //!
-//! which falls with D: at [`FARTHEST`] 1.7e-12, and of the energy of a pair at a distance r from each
-//! other less than 1e-11 of `mu0 m1 m2 / (4 pi r^3)`.
+//! which decreases with D: at [`FARTHEST`] it is 1.7e-12, and for the energy of a pair at a
+//! distance r less than 1e-11 of `mu0 m1 m2 / (4 pi r^3)`.
 //!
-//! The polynomial is kept by powers of `x / h` and `y / h`. Dipoles at `D >= h / FARTHEST` leave
-//! coefficients of Chebyshev's polynomials that fall like `10^-k`, much faster than those of powers grow from
-//! them, like `(1 + sqrt 2)^k`; so no more is rounded in this form.
+//! The polynomial is stored by powers of `x / h` and `y / h`. For dipoles at `D >= h / FARTHEST`
+//! the coefficients of Chebyshev's polynomials decrease like `10^-k`, much faster than the
+//! conversion to powers increases them, like `(1 + sqrt 2)^k`; so this form does not increase
+//! rounding.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -33,11 +33,11 @@ use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::interpolation::nodes;
 
-/// So many terms the polynomial has along either side.
+/// Number of terms of the polynomial along either side.
 pub const ORDER: usize = 16;
 
 /// The largest ratio of a square's half side to the distance of a dipole at which the dipole's
-/// potential is taken from the polynomial.
+/// potential is part of the polynomial.
 pub const FARTHEST: f64 = 3.0 / 16.0;
 
 type Table = SMatrix<f64, ORDER, ORDER>;
@@ -48,15 +48,15 @@ type Table = SMatrix<f64, ORDER, ORDER>;
 pub struct Polynomial {
     /// The coefficient of `(x / h)^i (y / h)^j` at place i of row j.
     pub rows: [[f64; ORDER]; ORDER],
-    /// The middle of the square (m).
+    /// The centre of the square (m).
     pub centre: [f64; 2],
     /// `1 / h` (1/m).
     pub scale: f64,
 }
 
 impl Polynomial {
-    /// That of the potential of dipoles (moments in sqrt(J m^3)) in the square of the given centre
-    /// and half side (m).
+    /// The polynomial of the potential of dipoles (moments in sqrt(J m^3)) in the square of the
+    /// given centre and half side (m).
     pub fn of(far: &[Dipole], centre: Vector2<f64>, half: f64, level: Level) -> Self {
         let nodes = nodes(ORDER);
         let xs = std::array::from_fn(|i| centre.x + half * nodes[i]);
@@ -107,7 +107,7 @@ static TO_POWERS: LazyLock<Table> = LazyLock::new(|| {
     table
 });
 
-/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, as exact as f64 is.
+/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, with f64 accuracy.
 struct Sampled<'a> {
     far: &'a [Dipole],
     /// The places' x, and the y of all (m).
@@ -170,8 +170,9 @@ mod tests {
         2.0 * (n + 1.0) * (n * n / q + n + 2.0) * share + both
     }
 
-    /// Dipoles beside a square, before its corner and at its diagonal, as near as they may be and
-    /// nearer: inside the square the error is within the bound, and somewhere not far below it.
+    /// Dipoles beside a square, before its corner and at its diagonal, at the smallest allowed
+    /// distance and closer: inside the square the error is within the bound, and somewhere close to
+    /// it.
     #[test]
     fn no_more_is_lost_than_is_said() {
         let half = 0.3;

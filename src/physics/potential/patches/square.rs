@@ -1,4 +1,4 @@
-//! A square of the plane: which dipoles are near it, and what the others do in it.
+//! A square of the plane: the dipoles near it, and the field of the others within it.
 
 use nalgebra::Vector2;
 
@@ -6,37 +6,37 @@ use super::polynomial::{FARTHEST, Polynomial};
 use crate::potential::batch::Level;
 use crate::potential::dipole::Dipole;
 
-/// How many dipoles may be near a square: as many as the widest vectors hold.
+/// Largest number of dipoles near a square: as many as the widest vectors hold.
 pub const NEAR: usize = 8;
 
-/// Polynomials are made for a square so many times as wide: towards the rim of the square for which
-/// it is made a polynomial's second derivative grows the values' roundings by `n^4 / 3`, but here by
-/// some `5 n^2` only.
+/// Polynomials are made for a square wider by this factor: near the rim of its square, a
+/// polynomial's second derivative amplifies the rounding of the values by `n^4 / 3`, but here only
+/// by about `5 n^2`.
 const WIDER: f64 = 1.125;
 
-/// A square and the dipoles near it: all that are closer to the wider square than half the side of
-/// that over [`FARTHEST`].
+/// A square and the dipoles near it: all that are closer to the wider square than half its side
+/// divided by [`FARTHEST`].
 #[derive(Clone, Debug)]
 pub struct Square {
     centre: Vector2<f64>,
     half: f64,
-    /// By their numbers.
+    /// Their indices.
     near: Vec<u32>,
 }
 
-/// What is known of the potential in a square.
+/// The potential in a square.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// That of the dipoles that are not near.
+    /// The potential of the dipoles that are not near.
     pub far: Polynomial,
     /// The others.
     pub near: Vec<Near>,
 }
 
-/// Into so many parts a square is cut along each side for the sums of a [`Spread`].
+/// Number of parts of a square along each side for the sums of a [`Spread`].
 const CUTS: usize = 4;
 
-/// What bounds derivatives no farther than half a side from a square.
+/// Bounds of derivatives within half a side of a square.
 #[derive(Clone, Debug)]
 pub struct Spread {
     centre: Vector2<f64>,
@@ -49,7 +49,7 @@ pub struct Spread {
     pub near: Vec<Near>,
 }
 
-/// So many powers of distances are summed.
+/// Number of powers of distances that are summed.
 pub const POWERS: usize = 5;
 
 impl Patch {
@@ -64,7 +64,7 @@ impl Patch {
 }
 
 impl Spread {
-    /// What bounds the derivatives of the potential of the sources in a square.
+    /// The bounds of the derivatives of the potential of the sources in a square.
     pub fn of(square: &Square, sources: &[Dipole]) -> Self {
         let far: Vec<Dipole> = square.far(sources).collect();
         let half = square.half / CUTS as f64;
@@ -90,8 +90,8 @@ impl Spread {
         }
     }
 
-    /// The sums over the dipoles that are not near, with the distances from all that is no farther
-    /// than `reach` (m) from a place in the square.
+    /// The sums over the dipoles that are not near, with the distances from all points within
+    /// `reach` (m) of a place in the square.
     ///
     /// All distances r are at least [`nearest`], so that
     /// `(r - reach)^-k <= r^-k (1 - reach / nearest)^-k`.
@@ -112,8 +112,8 @@ impl Spread {
     }
 }
 
-/// Dipoles that are near, filled up with the last one without its moment: places (m) and moments
-/// (sqrt(J m^3)), a row for each component, and the moments' magnitudes.
+/// Near dipoles, padded with copies of the last one without moment: places (m) and moments (sqrt(J
+/// m^3)), a row for each component, and the moments' magnitudes.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Near {
@@ -123,7 +123,7 @@ pub struct Near {
 }
 
 impl Square {
-    /// Around a centre, with half its side (m); only some candidates may be near it.
+    /// The square around a centre, with half its side (m); only these candidates may be near it.
     pub fn around(centre: Vector2<f64>, half: f64, sources: &[Dipole], candidates: &[u32]) -> Self {
         let mut square = Self {
             centre,
@@ -136,12 +136,12 @@ impl Square {
         square
     }
 
-    /// Whether no more dipoles are near than may be.
+    /// Whether at most [`NEAR`] dipoles are near.
     pub fn has_few(&self) -> bool {
         self.near.len() <= NEAR
     }
 
-    /// One of the four quarters. What is not near the whole is not near it either.
+    /// One of the four quarters. Dipoles not near the whole are not near the quarter.
     pub fn quarter(&self, at: [usize; 2], sources: &[Dipole]) -> Self {
         let half = self.half / 2.0;
         let offset = at.map(|k| if k == 0 { -half } else { half });
@@ -163,12 +163,13 @@ impl Square {
     }
 }
 
-/// The least distance (m) of what is not near a square from the wider one, half a side given (m).
+/// The smallest distance (m) from the wider square of dipoles that are not near, given half a side
+/// (m).
 fn nearest(half: f64) -> f64 {
     WIDER * half / FARTHEST
 }
 
-/// Of a dipole from a square with a centre and half a side (m).
+/// The distance of a dipole from a square with a centre and half a side (m).
 fn distance(dipole: &Dipole, centre: Vector2<f64>, half: f64) -> f64 {
     let way = (dipole.position - centre).abs();
     way.map(|s| (s - half).max(0.0)).norm()

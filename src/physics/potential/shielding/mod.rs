@@ -15,18 +15,17 @@
 //! by, 1 far away, half-way at the distance l. The force and the torque are the derivatives of the
 //! factor times the energy, both terms of the product rule, so energy is conserved.
 //!
-//! This is a model with the right limits and as few constants as a measurement can tell apart,
-//! not a solution of the magnetostatic problem with iron: it takes the field of a pair to be that
-//! without iron but for a factor. Calibrate it (`tilebind calibrate`) before
-//! trusting it.
+//! This is a model with the right limits and as few constants as a measurement can tell apart, not
+//! a solution of the magnetostatic problem with iron: it assumes that iron changes the energy of a
+//! pair only by a factor. Calibrate it (`tilebind calibrate`) before trusting it.
 //!
 //! # The nearest-face rule
 //! [`ShieldRule::NearestFace`] counts a pair in full if its magnets sit on the two faces, one of
-//! each tile, whose middles are nearest to each other, and not at all otherwise (Majumder and
-//! Reif, *Barcoded Magnetic Tiles for Programmable Assemblies*, take shielded faces to act on the
-//! face opposite alone). Where another pair of faces becomes the nearest one the energy jumps:
-//! barriers across such places depend on the jump, and energy is not conserved. The rule is there
-//! for comparison with published results.
+//! each tile, whose midpoints are nearest to each other, and not at all otherwise (Majumder and
+//! Reif, *Barcoded Magnetic Tiles for Programmable Assemblies*, assume that shielded faces act only
+//! on the opposite face). The energy is discontinuous where another pair of faces becomes the
+//! nearest: barriers across such places depend on the jump, and energy is not conserved. The rule
+//! exists for comparison with published results.
 
 pub(super) mod kernel;
 mod potential;
@@ -36,13 +35,13 @@ pub use potential::ShieldedPotential;
 /// The constants of a face's shield.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shield {
-    /// A: how much of the energy is lost behind, close by (0 to 1).
+    /// A: the fraction of the energy lost directly behind the magnet (0 to 1).
     pub attenuation: f64,
-    /// l: the distance (m) at which half of that loss is left.
+    /// l: the distance (m) at which half of that loss remains.
     pub length: f64,
-    /// delta: width of the passage from front to back, in cos(alpha).
+    /// delta: width of the transition from front to back, in cos(alpha).
     pub width: f64,
-    /// G: the factor in front; 1 for a shield that only takes away.
+    /// G: the factor in front; 1 for a shield that only attenuates.
     pub front_gain: f64,
 }
 
@@ -57,13 +56,13 @@ pub enum ShieldRule {
 }
 
 impl ShieldRule {
-    /// What design files call each rule.
+    /// The name of each rule in design files.
     pub const NAMES: [(&'static str, Self); 2] = [
         ("smooth", Self::Smooth),
         ("nearest-face", Self::NearestFace),
     ];
 
-    /// What design files call this rule.
+    /// The name of this rule in design files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Smooth => "smooth",

@@ -22,21 +22,21 @@ pub struct ShieldedPotential {
     fixed: Vec<kernel::Magnet>,
     moving: Vec<kernel::Magnet>,
     columns: Columns,
-    /// Middles of the faces (m), for the nearest-face rule.
+    /// Midpoints of the faces (m), for the nearest-face rule.
     fixed_middles: Vec<Vector2<f64>>,
     moving_middles: Vec<Vector2<f64>>,
     lever: Lever,
 }
 
-/// What blocks need beyond their dipoles.
+/// Data of blocks besides their dipoles.
 #[derive(Clone, Debug)]
 struct Blocks {
     potential: CuboidPotential,
     fixed: Vec<Block>,
     moving: Vec<Block>,
-    /// For each pair, second magnet by second magnet.
+    /// For each pair, in the order of the second magnets.
     limits: Vec<Limits>,
-    /// For each pair of faces, fixed face by fixed face: the bare blocks of the two.
+    /// For each pair of faces, in the order of the fixed faces: the bare blocks of the two.
     faces: Vec<CuboidPotential>,
 }
 
@@ -56,7 +56,7 @@ impl Blocks {
         }
     }
 
-    /// The same with the blocks of each two faces by themselves.
+    /// The same with the blocks of each pair of faces separately.
     fn by_face(self, fixed: &Tile, moving: &Tile, level: Level) -> Self {
         let on = |tile: &Tile, face: usize| -> Vec<_> {
             let magnets = tile.magnets.iter().filter(|magnet| magnet.face == face);
@@ -103,8 +103,8 @@ impl Blocks {
 }
 
 impl ShieldedPotential {
-    /// Of two tiles with shields, for the fastest instruction set of this machine. Faces beyond the
-    /// ends of the lists of shields have none.
+    /// The potential of two tiles with shields, for the fastest instruction set of this machine.
+    /// Faces beyond the ends of the lists of shields have none.
     pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
         Self::with_level(model, fixed, moving, shields, Level::best())
     }
@@ -146,7 +146,7 @@ impl ShieldedPotential {
     /// none.
     pub fn with_shields(&self, shields: &Shields) -> Self {
         let mut changed = self.clone();
-        // With the nearest-face rule magnets that act at all act in full.
+        // With the nearest-face rule, magnets act either in full or not at all.
         let smooth = shields.rule == ShieldRule::Smooth;
         for (magnets, shields) in [
             (&mut changed.fixed, &shields.fixed),
@@ -161,7 +161,7 @@ impl ShieldedPotential {
         changed
     }
 
-    /// The pair of faces whose middles are nearest to each other; of equal ones the first.
+    /// The pair of faces whose midpoints are nearest to each other; the first of equal ones.
     fn nearest_faces(&self, q: &Configuration) -> (usize, usize) {
         let (rotation, position) = (q.rotation(), q.position());
         let mut nearest = (f64::INFINITY, (0, 0));
@@ -218,9 +218,9 @@ impl Potential for ShieldedPotential {
         self.bend_bounds(q, reach)[0]
     }
 
-    /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, and the like of the third
-    /// derivative, with the bounds of [`Limits`] for u and those of the factors for w. With the
-    /// nearest-face rule they hold between the jumps only.
+    /// From `|(w u)''| <= |w| |u''| + 2 |w'| |u'| + |w''| |u|` for each pair, and the like of the
+    /// third derivative, with the bounds of [`Limits`] for u and those of the factors for w. With
+    /// the nearest-face rule they hold only between the jumps.
     fn bend_bounds(&self, q: &Configuration, reach: f64) -> [f64; 2] {
         let (turn, stride) = (self.lever.turn(), self.columns.len());
         let pairs = self
@@ -247,14 +247,15 @@ impl Potential for ShieldedPotential {
         self.lever.displacement(step)
     }
 
-    /// That of bare blocks: shields act over longer distances. Dipoles have a bound that serves.
+    /// The feature length of bare blocks, because shields act over longer distances. Dipoles have
+    /// usable bounds.
     fn feature_length(&self) -> f64 {
         self.blocks
             .as_ref()
             .map_or(0.0, |blocks| blocks.potential.feature_length())
     }
 
-    /// That of the bare pairs.
+    /// The noise of the bare pairs.
     fn noise(&self) -> f64 {
         self.blocks
             .as_ref()

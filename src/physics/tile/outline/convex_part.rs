@@ -1,11 +1,11 @@
-//! The convex parts that fill an outline.
+//! The convex parts of an outline.
 
 use nalgebra::{Rotation2, Vector2};
 
 use super::{outward_normal, signed_area};
 use crate::tile::convex;
 
-/// What rounding may make of how far (m) a disc lies beyond an edge.
+/// Rounding of the distance (m) of a disc beyond an edge.
 const SLACK: f64 = 1e-12;
 
 /// A convex polygon, counter-clockwise, with the outward unit normal of each edge (edge i runs
@@ -16,12 +16,12 @@ pub struct ConvexPart {
     pub points: Vec<Vector2<f64>>,
     /// The outward unit normal of each edge.
     pub normals: Vec<Vector2<f64>>,
-    /// Middle and radius (m) of a disc inside.
+    /// Centre and radius (m) of a disc inside.
     pub disc: (Vector2<f64>, f64),
 }
 
 impl ConvexPart {
-    /// Of its corners (m), counter-clockwise.
+    /// The part with these corners (m), counter-clockwise.
     pub fn new(points: Vec<Vector2<f64>>) -> Self {
         let normals: Vec<_> = (0..points.len())
             .map(|i| outward_normal(points[i], points[(i + 1) % points.len()]))
@@ -37,7 +37,7 @@ impl ConvexPart {
         }
     }
 
-    /// Becomes `part`, turned and moved; takes no new memory once it has held as many points.
+    /// Becomes `part`, turned and moved; allocates only if it has never held as many points.
     pub fn place(&mut self, part: &Self, rotation: &Rotation2<f64>, position: &Vector2<f64>) {
         self.points.clear();
         self.points
@@ -53,8 +53,8 @@ impl ConvexPart {
         self.points.iter().zip(&self.normals)
     }
 
-    /// The edges that keep a disc of this radius (m) off by `room` (m) or more, wherever its middle is
-    /// of some places: only those may keep off what the disc is a part of.
+    /// The edges at least `room` (m) away from a disc of this radius (m) for every one of some
+    /// places of its centre: only these can separate a body that contains the disc.
     pub(crate) fn edges_off<const N: usize>(
         &self,
         middles: [Vector2<f64>; N],
@@ -112,7 +112,7 @@ impl Bounds {
     }
 }
 
-/// Convex polygons that fill an outline exactly; `None` where it could not be split.
+/// Convex polygons that fill an outline exactly; `None` if it could not be split.
 pub(super) fn fill(vertices: &[Vector2<f64>]) -> Option<Vec<ConvexPart>> {
     let parts: Vec<_> = convex::convex_parts(vertices)?
         .into_iter()

@@ -33,12 +33,12 @@ impl Outline {
     /// their neighbours are dropped.
     ///
     /// # Errors
-    /// Where the vertices do not form a simple counter-clockwise polygon.
+    /// If the vertices do not form a simple counter-clockwise polygon.
     pub fn new(vertices: Vec<Vector2<f64>>) -> Result<Self, OutlineError> {
         validity::check(&vertices)?;
         let vertices = validity::without_collinear(vertices);
         let n = vertices.len();
-        // Vertices too close to tell may all lie on one line.
+        // Nearly coincident vertices may all lie on one line.
         if n < 3 {
             return Err(OutlineError::TooFewVertices(n));
         }
@@ -62,8 +62,8 @@ impl Outline {
         })
     }
 
-    /// The same outline, with what is known of the curves that its edges are chords of: `points` are
-    /// those that it was made from, and `arcs` has the number of the arc of each edge between them.
+    /// The same outline with the arcs that its edges are chords of: `points` are those that it was
+    /// made from, and `arcs` has the index of the arc of each edge between them.
     pub fn with_arcs(mut self, points: &[Vector2<f64>], arcs: &[Option<usize>]) -> Self {
         let n = points.len();
         let Some(offset) = points.iter().position(|p| *p == self.vertices[0]) else {
@@ -84,8 +84,8 @@ impl Outline {
         self
     }
 
-    /// The arc that each edge is a chord of, by a number of its own; `None` for straight edges. Arcs
-    /// are there for who cuts the outline: contact, areas and distances are those of the polygon.
+    /// The index of the arc that each edge is a chord of; `None` for straight edges. Arcs are for
+    /// cutting the outline: contact, areas and distances refer to the polygon.
     pub fn arcs(&self) -> &[Option<usize>] {
         &self.arcs
     }
@@ -158,7 +158,7 @@ impl Outline {
         about_origin - self.area() * self.centroid().norm_squared()
     }
 
-    /// Whether a point lies inside (on the boundary either answer may come).
+    /// Whether a point lies inside (either answer is possible on the boundary).
     pub fn contains(&self, p: Vector2<f64>) -> bool {
         contains(&self.vertices, &p)
     }

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 
-/// Whether a point lies inside a closed polygon (even-odd rule; on the boundary either answer may
-/// come).
+/// Whether a point lies inside a closed polygon (even-odd rule; either answer is possible on the
+/// boundary).
 pub fn contains(polygon: &[Vector2<f64>], p: &Vector2<f64>) -> bool {
     let n = polygon.len();
     let mut inside = false;
@@ -28,7 +28,8 @@ pub fn distance_to_segment(p: Vector2<f64>, a: Vector2<f64>, b: Vector2<f64>) ->
     (p - a - along * t).norm()
 }
 
-/// Unit normal on the right of the way from `a` to `b`: outward for a counter-clockwise polygon.
+/// Unit normal to the right of the direction from `a` to `b`: outward for a counter-clockwise
+/// polygon.
 pub(super) fn outward_normal(a: Vector2<f64>, b: Vector2<f64>) -> Vector2<f64> {
     let t = (b - a).normalize();
     Vector2::new(t.y, -t.x)
@@ -55,15 +56,16 @@ pub fn centroid(vertices: &[Vector2<f64>]) -> Vector2<f64> {
         / (6.0 * signed_area(vertices))
 }
 
-/// Whether two segments share a point, ends included. An end counts as lying on the other
-/// segment's line where it is seen from the line's first point at an angle of sine `straight` or
+/// Whether two segments share a point, ends included. An end counts as lying on the other segment's
+/// line if its direction from the line's first point deviates by an angle of sine `straight` or
 /// less.
 pub(in crate::tile) fn segments_meet(
     [a, b]: [Vector2<f64>; 2],
     [c, d]: [Vector2<f64>; 2],
     straight: f64,
 ) -> bool {
-    // Segments on one line meet only where their boxes do; all others then at the latest.
+    // Segments on one line meet only if their boxes do; for all others the boxes then overlap
+    // anyway.
     let boxes = |p: f64, q: f64, r: f64, s: f64| p.min(q) <= r.max(s) && r.min(s) <= p.max(q);
     if !boxes(a.x, b.x, c.x, d.x) || !boxes(a.y, b.y, c.y, d.y) {
         return false;

@@ -1,22 +1,22 @@
-//! Which lists of vertices are outlines.
+//! Checks that a list of vertices is a valid outline.
 
 use nalgebra::Vector2;
 
 use super::{cross, segments_meet, signed_area};
 
-/// Why a list of vertices is no outline.
+/// Why a list of vertices is not an outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// Fewer than three vertices, or fewer that lie off the straight line between their neighbours.
+    /// Fewer than three vertices, not counting those on the straight line between their neighbours.
     #[error("an outline needs at least three corners, this one has {0}")]
     TooFewVertices(usize),
-    /// Two vertices, by their numbers, lie on the same point.
+    /// Two vertices, given by their indices, coincide.
     #[error("vertices {0} and {1} coincide")]
     RepeatedVertex(usize, usize),
     /// The vertices run the wrong way round.
     #[error("the outline runs clockwise; list its vertices counter-clockwise")]
     Clockwise,
-    /// Two edges, by the numbers of their first vertices, meet where they should not.
+    /// Two edges, given by the indices of their first vertices, intersect.
     #[error("the edge from vertex {0} crosses or touches the edge from vertex {1}")]
     SelfCrossing(usize, usize),
     /// No convex parts were found.

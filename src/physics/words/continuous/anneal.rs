@@ -8,33 +8,34 @@ use super::pose::Meetings;
 use super::{SpacedWord, Wanted};
 use crate::words::Effort;
 
-/// Walks of their own.
+/// Number of independent walks.
 const WALKS: u64 = 4;
-/// Units of work that a pair of magnets counts as.
+/// Units of work of a pair of magnets.
 const PAIR: u64 = 4;
-/// From the first to the last share by which a worse set may be taken.
+/// The temperatures at the start and at the end: by about this fraction a worse set may be
+/// accepted.
 const HEAT: [f64; 2] = [0.05, 5e-4];
-/// Share of moves that try a word of the worst meeting, exchange a pole, redraw a word.
+/// Fractions of moves that try a word of the worst pair, exchange a pole, redraw a word.
 const OF_WORST: f64 = 0.6;
 const EXCHANGED: f64 = 0.15;
 const REDRAWN: f64 = 0.05;
-/// Shifts, in lengths of a face, from the least on, by factors up to this one.
+/// The smallest shift, in lengths of a face, and the largest factor of it.
 const SHIFT: (f64, f64) = (2e-4 / 0.43, 400.0);
-/// What the mean of all meetings counts beside the strongest.
+/// Weight of the mean of all pairs relative to the strongest.
 const OF_MEAN: f64 = 0.02;
 
-/// A set of words, and the share of the weakest bond that its strongest wrong attraction has, as
-/// annealing sees it.
+/// A set of words, and its strongest wrong attraction as a fraction of the weakest bond, as
+/// estimated by annealing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Annealed {
     /// The words.
     pub words: Vec<SpacedWord>,
-    /// From 0; 1 where something wrong is as strong as a bond.
+    /// At least 0; 1 if a wrong attraction is as strong as a bond.
     pub share: f64,
 }
 
-/// So many words, from those known on, with a small share; ends where it is `enough`. `None` where
-/// the face is too short or the poles cannot be as asked.
+/// This many words with a small share, starting from known ones; stops at `enough`. `None` if the
+/// face is too short or the poles cannot satisfy the constraints.
 pub fn search(
     wanted: &Wanted,
     count: usize,
@@ -106,7 +107,7 @@ impl<'a> Set<'a> {
         Some(set)
     }
 
-    /// Works out what has to do with a word.
+    /// Recomputes everything that involves a word.
     fn judge(&mut self, i: usize) {
         self.bonds[i] = self.meetings.bond(&self.words[i]);
         for j in 0..self.words.len() {
@@ -159,7 +160,7 @@ impl<'a> Set<'a> {
         self.wrong[i][j] / self.weakest_bond()
     }
 
-    /// What annealing makes small.
+    /// The cost that annealing minimises.
     fn cost(&self) -> f64 {
         let all = self.wrong.iter().flatten();
         let mean = all.sum::<f64>() / (self.words.len() * self.words.len()) as f64;
@@ -225,7 +226,7 @@ fn drawn(wanted: &Wanted, rng: &mut ChaCha8Rng) -> Option<SpacedWord> {
     })
 }
 
-/// A word changed a little; `None` where it is not allowed.
+/// A word changed a little; `None` if it is not allowed.
 fn changed(wanted: &Wanted, word: &SpacedWord, rng: &mut ChaCha8Rng) -> Option<SpacedWord> {
     let kind = rng.random::<f64>();
     if kind < REDRAWN {

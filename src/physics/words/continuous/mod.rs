@@ -1,14 +1,15 @@
-//! Spacing as code without slots: positions and poles together, against all poses of two flat faces.
+//! Words without slots, whose spacing is part of the code: positions and poles are optimised
+//! together, against all poses of two flat faces.
 //!
-//! A word is a number of magnets anywhere along a face, a least spacing apart. Simulated annealing
-//! moves magnets, exchanges poles and redraws words; what it makes small is the strongest wrong
-//! attraction over the weakest bond. Wrong meetings are judged over poses in contact (`pose`):
-//! tilted, and slid so that two attracting magnets face each other, the strongest then polished. A
-//! word and its own mate meet wrongly where they are slid by half the least spacing or more: nearer,
-//! everything lies on the bond's own slope.
+//! A word is a number of magnets anywhere along a face, with a minimum spacing. Simulated annealing
+//! moves magnets, exchanges poles and redraws words to minimise the strongest wrong attraction over
+//! the weakest bond. Wrong attractions are evaluated at poses in contact (`pose`): tilted, and slid
+//! so that two attracting magnets face each other; the strongest is then refined. For a word and
+//! its own mate, slides by at least half the minimum spacing are wrong: smaller ones lie on the
+//! slope of the bond.
 //!
-//! It finds sets, and proves nothing of larger ones or wider gaps. Annealing sees point dipoles; what
-//! a set is worth is told by [`crosstalk`](super::crosstalk) over all poses, in the model asked for.
+//! It finds sets, and proves nothing about larger ones or wider gaps. Annealing uses point dipoles;
+//! [`crosstalk`](super::crosstalk) evaluates a set over all poses, in the requested model.
 
 mod anneal;
 mod pose;
@@ -21,8 +22,8 @@ use crate::tile::barcode::Pole;
 /// A word whose magnets lie anywhere along the face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpacedWord {
-    /// Where along the face (m, counter-clockwise from its middle), ascending, and 1 for a north
-    /// pole out (or up), -1 for a south pole.
+    /// Position along the face (m, counter-clockwise from its midpoint), ascending, and 1 for a
+    /// north pole out (or up), -1 for a south pole.
     pub magnets: Vec<(f64, i32)>,
 }
 
@@ -32,19 +33,19 @@ impl SpacedWord {
         self.mirrored(-1)
     }
 
-    /// What a face turned over carries.
+    /// The word on a face that is turned over.
     pub fn turned_over(&self) -> Self {
         self.mirrored(1)
     }
 
-    /// Its poles in order, of magnets that lie or that stand, as a code.
+    /// Its poles in order as a code, for lying or upright magnets.
     pub fn code(&self, stands: bool) -> String {
         let poles = self.magnets.iter();
         let poles = poles.filter_map(|(_, pole)| Pole::of(*pole, stands));
         poles.map(Pole::letter).collect()
     }
 
-    /// Where its magnets lie (m).
+    /// The positions of its magnets (m).
     pub fn positions(&self) -> Vec<f64> {
         self.magnets.iter().map(|(at, _)| *at).collect()
     }
@@ -57,16 +58,16 @@ impl SpacedWord {
     }
 }
 
-/// What words are wanted.
+/// The words to search for.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// Magnets of a word.
+    /// Number of magnets of a word.
     pub magnets: usize,
-    /// Their size and strength; `pitch` is the least distance of two in a face.
+    /// Their size and strength; `pitch` is the smallest distance of two on a face.
     pub bar: Bar,
-    /// Length of a face (m), of which magnets reach no end.
+    /// Length of a face (m); magnets do not reach its ends.
     pub face: f64,
-    /// Whether words meet words, or mates only.
+    /// Whether words also meet words, not only mates.
     pub words_meet: bool,
     /// Whether tiles may lie upside down.
     pub flip: bool,
@@ -77,12 +78,12 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// What of a face magnets' middles may take, beside the least spacings (m).
+    /// The length of a face available to the magnets' centres, besides the minimum spacings (m).
     pub fn room(&self) -> f64 {
         self.face - self.bar.size[1] - (self.magnets as f64 - 1.0) * self.bar.pitch
     }
 
-    /// Whether a word keeps to the face, the spacing and what is asked of poles.
+    /// Whether a word satisfies the conditions on face, spacing and poles.
     fn allows(&self, word: &SpacedWord) -> bool {
         let end = (self.face - self.bar.size[1]) / 2.0 * (1.0 + 1e-12);
         let magnets = &word.magnets;

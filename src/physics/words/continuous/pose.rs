@@ -1,17 +1,17 @@
-//! The strongest attraction of two flat faces of one length in contact, by point dipoles.
+//! The strongest attraction of two flat faces of equal length in contact, by point dipoles.
 //!
-//! The fixed face lies along y, its outward normal along x; the moving one is turned by `tilt` about
-//! its middle, which lies `slide` along the fixed one, and is brought up until a corner of the one
-//! touches the other.
+//! The fixed face lies along y, its outward normal along x; the moving one is turned by `tilt`
+//! about its midpoint, which lies `slide` along the fixed one, and is moved towards it until a
+//! corner of one touches the other.
 
 use std::cell::Cell;
 
 use super::{SpacedWord, Wanted};
 use crate::units::MU0_OVER_4PI;
 
-/// Tilts (rad) that are looked at, either way.
+/// Tilts (rad) to evaluate, in both directions.
 const TILTS: [f64; 6] = [0.01, 0.02, 0.04, 0.08, 0.16, 0.32];
-/// Polishing: steps of slide (in lengths of a face) and tilt (rad), halved so often.
+/// Refinement: steps of slide (in lengths of a face) and tilt (rad), and how often they are halved.
 const STEPS: [f64; 2] = [2e-3 / 0.43, 4e-3];
 const HALVINGS: usize = 4;
 
@@ -19,12 +19,12 @@ const HALVINGS: usize = 4;
 pub(super) struct Meetings {
     /// `mu0 m^2 / 4 pi` (J m^3).
     strength: f64,
-    /// Of a magnet's middle behind its face (m).
+    /// Depth of a magnet's centre behind its face (m).
     depth: f64,
     face: f64,
-    /// Nearer to the bond (m of slide) a word and its mate are not wrong.
+    /// Smaller slides (m) of a word and its mate are not wrong.
     own_slope: f64,
-    /// Pairs of magnets looked at, to count work.
+    /// Pairs of magnets evaluated, to count work.
     pub pairs: Cell<u64>,
 }
 
@@ -44,8 +44,8 @@ impl Meetings {
         -self.energy(word, &word.mate(), 0.0, 0.0).unwrap_or(0.0)
     }
 
-    /// The strongest attraction (J) of two faces over poses in contact, 0 where none attracts; if
-    /// the second is the first one's `own` mate, away from their bond.
+    /// The strongest attraction (J) of two faces over poses in contact, 0 if none attracts; away
+    /// from the bond if the second is the first one's `own` mate.
     pub fn strongest(&self, first: &SpacedWord, second: &SpacedWord, own: bool) -> f64 {
         let wrong = |slide: f64| !own || slide.abs() >= self.own_slope;
         let mut best = (0.0, [0.0, 0.0]);
@@ -54,8 +54,8 @@ impl Meetings {
             for (at, pole) in &first.magnets {
                 for (other, other_pole) in &second.magnets {
                     // The slide at which the two face each other. Like poles attract most beside
-                    // each other, at twice the distance of their dipoles: by 0.018 of what
-                    // opposite ones do.
+                    // each other, at twice the distance of their dipoles: by 0.018 of the
+                    // attraction of opposite ones.
                     let facing = at - (self.depth * libm::sin(tilt) - other * libm::cos(tilt));
                     let aside = if pole == other_pole {
                         4.0 * self.depth
@@ -105,7 +105,7 @@ impl Meetings {
         }
     }
 
-    /// The energy (J) of two faces in contact; `None` where they pass by each other.
+    /// The energy (J) of two faces in contact; `None` if they pass by each other.
     fn energy(
         &self,
         first: &SpacedWord,
@@ -131,7 +131,7 @@ impl Meetings {
         Some(self.strength * energy)
     }
 
-    /// How far (m) out the middle of the moving face lies in contact.
+    /// How far (m) out the midpoint of the moving face lies in contact.
     fn contact(&self, slide: f64, sin: f64, cos: f64) -> Option<f64> {
         let half = self.face / 2.0;
         if sin == 0.0 {

@@ -1,4 +1,4 @@
-//! Against plain sums over dipoles and the exact contact of two squares.
+//! Tests against plain sums over dipoles and the exact contact of two squares.
 
 use nalgebra::Vector2;
 
@@ -38,7 +38,8 @@ fn square(side: f64) -> Outline {
     Outline::new(corners.map(Vector2::from).to_vec()).unwrap()
 }
 
-/// The energy (J) of two faces of squares in contact by plain sums, the squares' contact exact.
+/// The energy (J) of two faces of squares in contact by plain sums, with exact contact of the
+/// squares.
 fn plain(wanted: &Wanted, first: &SpacedWord, second: &SpacedWord, slide: f64, tilt: f64) -> f64 {
     let (half, bar) = (wanted.face / 2.0, wanted.bar);
     let contact = Contact::new(&square(wanted.face), &square(wanted.face));
@@ -75,7 +76,7 @@ fn attractions_bound_plain_sums_over_poses() {
             }
         }
     }
-    // A dense grid finds little more than annealing sees.
+    // A dense grid finds little more than annealing does.
     assert!(-lowest <= 1.15 * strongest, "{lowest} {strongest}");
     let bond = -plain(&wanted, first, &first.mate(), 0.0, 0.0);
     assert!((meetings.bond(first) - bond).abs() < 1e-12 * bond);

@@ -1,10 +1,10 @@
-//! What no energy of a couple falls below, over all poses whatever, by cells.
+//! Certified lower bounds of the energy of two faces over all poses, by subdivision into cells.
 //!
-//! A cell of configurations is looked at once for all couples: contact says what of it is free, and
-//! each pair of magnets has an enclosure. A couple's enclosure is their sum with its signs; bounded
-//! over the free part of the cell it either lies above what is to be proved, and the couple is done
-//! with there, or the cell is halved. What is to be proved of a couple is its sampled minimum less
-//! the tolerance.
+//! A cell of configurations is evaluated once for all couples: contact gives its free part, and
+//! each pair of magnets has an enclosure. A couple's enclosure is the sum of these with its signs.
+//! If its lower bound over the free part of the cell is above the target, the couple is finished in
+//! this cell; otherwise the cell is halved. A couple's target is its sampled minimum minus the
+//! tolerance.
 
 use ordered_float::OrderedFloat;
 
@@ -24,27 +24,27 @@ pub(super) struct Bounds {
     pub lower: Vec<f64>,
     /// Whether all are within the tolerance.
     pub settled: bool,
-    /// Cells looked at.
+    /// Number of cells evaluated.
     pub cells: usize,
 }
 
-/// Cells looked at at the same time.
+/// Number of cells evaluated in parallel.
 const BATCH: usize = 64;
 
-/// Cells are at most so many times as long as wide.
+/// Largest ratio of a cell's length to its width.
 const SLENDER: f64 = 8.0;
 
 /// A cell and the couples that may have low energies in it.
 struct Open {
     cell: Cell,
-    /// Numbers of couples, with the best bound (J) so far.
+    /// Indices of couples, with the best bound (J) so far.
     couples: Vec<(usize, f64)>,
-    /// The lowest of these bounds less what is to be proved (J): what lacks most goes first.
+    /// The lowest of these bounds minus the target (J): the largest deficit goes first.
     lack: OrderedFloat<f64>,
 }
 
 impl Stage {
-    /// Bounds within `tolerance` (J) of what was found, as far as so many cells give them.
+    /// Bounds within `tolerance` (J) of the sampled minima, as far as this many cells achieve it.
     pub(super) fn certified(
         &self,
         couples: &[Couple],
@@ -93,8 +93,8 @@ impl Stage {
     }
 
     /// Boxes that cover all configurations in which the tiles are near enough to matter: outside
-    /// them all magnets of the one are `far` from all of the other, where two of them attract by
-    /// `2 mu0 m1 m2 / (4 pi far^3)` at most, and blocks of a size far below that by not twice as
+    /// them all magnets of the one are `far` from all of the other, where two of them attract by at
+    /// most `2 mu0 m1 m2 / (4 pi far^3)`, and blocks much smaller than that by less than twice as
     /// much; together by less than the tolerance.
     fn first_cells(&self, tolerance: f64) -> Vec<Cell> {
         const ACROSS: i32 = 8;
@@ -135,7 +135,7 @@ impl Stage {
         cells
     }
 
-    /// The halves of a cell, with the couples that are not done with there.
+    /// The halves of a cell, with the couples that are not finished there.
     fn look_at(
         &self,
         open: &Open,
@@ -179,7 +179,8 @@ impl Stage {
         let Some((lack, found)) = worst else {
             return Vec::new();
         };
-        // A cell must not get ever thinner one way: contact tells of a cell that is small all ways.
+        // A cell must not become thin in one direction: contact is only decisive for cells small in
+        // all directions.
         let sizes = [cell.half[0], cell.half[1], lever * cell.half[2]];
         let longest = (0..3).max_by_key(|i| OrderedFloat(sizes[*i])).unwrap_or(0);
         let thin = SLENDER * sizes[found.axis] < sizes[longest];
@@ -212,7 +213,7 @@ impl Stage {
             out.slope += one.slope;
             out.jump += one.jump;
         }
-        // What the sums lose to rounding, generously.
+        // A generous bound of the rounding of the sums.
         let size: f64 = by_magnets.iter().map(|one| one.form.value.abs()).sum();
         out.low -= SUMMED * size;
         out.high += SUMMED * size;

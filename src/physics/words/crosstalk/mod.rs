@@ -1,16 +1,17 @@
-//! How strongly every two faces of a set attract, over all poses: tilted, slid, drawn back.
+//! Crosstalk: how strongly every two faces of a set attract, over all poses: tilted, slid,
+//! separated.
 //!
 //! One tile carries the first word on its target face, the other the second on its own; their other
-//! faces are empty. The energy is bilinear in the two words, so that what is known of every two
-//! magnets in a pose, or in a cell of poses, is known of every two words: `sampled` finds the
-//! strongest attraction of all pairs from one grid of poses, `certified` bounds it from one
-//! subdivision.
+//! faces are empty. The energy is bilinear in the two words, so the energies of all pairs of
+//! magnets in a pose, or their bounds in a cell of poses, give those of all pairs of words:
+//! `sampled` finds the strongest attraction of all pairs from one grid of poses, `certified` bounds
+//! it from one subdivision.
 //!
-//! Around the bond of a word and its own mate everything lies on the bond's slope; what is wrong of
-//! these two are their `traps`: other places that hold.
+//! Around the bond of a word and its own mate everything lies on the bond's slope; the wrong
+//! contacts of these two are their `traps`, other stable contacts.
 //!
-//! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So of
-//! two words and their mates two pairs are worked out, and the others follow.
+//! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So two
+//! pairs of two words and their mates are computed, and the others follow.
 
 mod certified;
 mod sampled;
@@ -25,7 +26,7 @@ use crate::tile::{Magnet, Pair, Tile};
 
 pub use sampled::work as sampling_work;
 
-/// The usual width of bounds, as a share of two magnets' energy.
+/// The default width of bounds, as a fraction of two magnets' energy.
 pub const TOLERANCE: f64 = 0.25;
 
 /// Two tiles whose target faces carry a magnet in every place, north poles out, in the order of the
@@ -39,53 +40,53 @@ pub struct Stage {
     magnets: Vec<Energy>,
 }
 
-/// What is known of every two faces: rows and columns are words, then their mates.
+/// The results for all pairs of faces: rows and columns are words, then their mates.
 #[derive(Clone, Debug)]
 pub struct Crosstalk {
     /// The words, without their mates.
     pub words: Vec<Word>,
     /// Lowest energy (J) found.
     pub strongest: Vec<Vec<f64>>,
-    /// Where: of the tile with the second word, in the frame of that with the first.
+    /// Its pose: the tile with the second word, in the frame of the tile with the first.
     pub poses: Vec<Vec<Configuration>>,
-    /// Of each word and its own mate the deepest meeting found that holds beside the bond: energy
-    /// (J) and pose; `None` where none was found.
+    /// For each word and its own mate, the deepest stable contact found besides the bond: energy
+    /// (J) and pose; `None` if none was found.
     pub traps: Vec<Option<(f64, Configuration)>>,
-    /// What no energy falls below (J).
+    /// Proved lower bounds of the energy (J).
     pub lower: Option<Vec<Vec<f64>>>,
-    /// Whether all lower bounds are as close as asked for.
+    /// Whether all lower bounds are within the tolerance.
     pub settled: bool,
-    /// Cells looked at for them.
+    /// Number of cells evaluated for them.
     pub cells: usize,
 }
 
-/// What a meeting of two faces is.
+/// The kind of contact of two faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A word on its own mate.
     Bond,
-    /// They are no word and its own mate.
+    /// Faces other than a word and its own mate.
     Wrong,
-    /// A word and its own mate, beside the bond.
+    /// A word and its own mate, away from the bond.
     Trap,
 }
 
-/// The strongest meeting of two faces of its kind.
+/// The strongest contact of this kind of two faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting {
     /// Row and column.
     pub faces: [usize; 2],
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// The lowest energy (J) found.
     pub energy: f64,
-    /// What it does not fall below (J).
+    /// Its proved lower bound (J).
     pub lower: Option<f64>,
-    /// Of the tile with the second face, in the frame of that with the first.
+    /// The pose of the tile with the second face, in the frame of the tile with the first.
     pub pose: Configuration,
 }
 
-/// Two words as two tiles carry them.
+/// Two words on two tiles.
 #[derive(Clone, Copy, Debug)]
 struct Couple {
     first: Word,
@@ -93,15 +94,15 @@ struct Couple {
 }
 
 impl Couple {
-    /// What the energy of magnets k and j, both with their north poles out, counts.
+    /// The sign of the energy of magnets k and j relative to both with their north poles out.
     fn sign(&self, k: usize, j: usize) -> f64 {
         f64::from(self.first.at(k) * self.second.at(j))
     }
 }
 
 impl Stage {
-    /// For tiles with as many magnets on their target faces as words have places, and none
-    /// elsewhere.
+    /// The stage for tiles with as many magnets on their target faces as words have places, and
+    /// none elsewhere.
     pub fn new(pair: Pair, interaction: Interaction) -> Self {
         let places = pair.fixed.magnets.len();
         let alone = |tile: &Tile, magnet: &Magnet| Tile {
@@ -124,7 +125,7 @@ impl Stage {
         }
     }
 
-    /// The depth (J) of a magnet's contact with the one it faces.
+    /// The depth (J) of the contact of two facing magnets.
     pub fn contact_energy(&self) -> f64 {
         let last = self.places - 1;
         let facing = self.magnets.get(last);
@@ -133,14 +134,14 @@ impl Stage {
         })
     }
 
-    /// The energies (J) of all pairs of magnets where the faces meet flush and aligned: of place k
-    /// of the first face and j of the second one, north poles out, at k times places + j.
+    /// The energies (J) of all pairs of magnets for flush, aligned faces: place k of the first face
+    /// and j of the second one, north poles out, at the index k times places + j.
     pub fn flush(&self) -> Vec<f64> {
         energies(&self.magnets, &self.pair.bound)
     }
 
-    /// The crosstalk of words; bounds closer than `tolerance` (J) where it is given, from at most
-    /// so many `cells`.
+    /// The crosstalk of words; with bounds closer than the given `tolerance` (J), if any, from at
+    /// most this many `cells`.
     pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {
         let m = words.len();
         let couples: Vec<Couple> = couples_of(m)
@@ -218,7 +219,7 @@ impl Crosstalk {
         self.words.iter().copied().chain(mates)
     }
 
-    /// Of every two faces, and of traps behind them.
+    /// The strongest contacts of all pairs of faces, followed by the traps.
     pub fn meetings(&self) -> impl Iterator<Item = Meeting> {
         let (m, n) = (self.words.len(), self.strongest.len());
         let pairs = (0..n).flat_map(move |i| (i..n).map(move |j| [i, j]));
@@ -229,18 +230,18 @@ impl Crosstalk {
         pairs.chain((0..m).filter_map(move |i| self.worst(i, m + i)))
     }
 
-    /// Meetings that are no bonds: of two faces that are no word and its own mate, and traps.
+    /// All contacts other than bonds: of two faces other than a word and its own mate, and traps.
     pub fn wrong(&self) -> impl Iterator<Item = Meeting> {
         self.meetings().filter(|it| it.kind != Kind::Bond)
     }
 
-    /// The wrong meeting that attracts most.
+    /// The wrong contact that attracts most.
     pub fn strongest_wrong(&self) -> Option<Meeting> {
         self.wrong().min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
 
-    /// The worst wrong meeting of two faces as rows and columns have them: of a word and its own mate
-    /// a trap, if one was found.
+    /// The worst wrong contact of the faces of a row and a column; for a word and its own mate a
+    /// trap, if one was found.
     pub fn worst(&self, row: usize, column: usize) -> Option<Meeting> {
         let m = self.words.len();
         let faces = [row, column];
@@ -257,7 +258,7 @@ impl Crosstalk {
         Some(self.wrong_of(faces))
     }
 
-    /// The strongest meeting of two faces that are no word and its own mate.
+    /// The strongest contact of two faces other than a word and its own mate.
     fn wrong_of(&self, faces: [usize; 2]) -> Meeting {
         let [i, j] = faces;
         Meeting {
@@ -269,14 +270,14 @@ impl Crosstalk {
         }
     }
 
-    /// 1 less the strongest wrong attraction found over the weakest bond.
+    /// 1 - strongest wrong attraction found / weakest bond.
     pub fn gap(&self) -> Option<f64> {
         let bond = self.weakest_bond()?.1;
         let wrong = self.strongest_wrong().map_or(0.0, |wrong| wrong.energy);
         (bond < 0.0).then(|| 1.0 - wrong.min(0.0) / bond)
     }
 
-    /// The same where all faces but words and their own mates attract as much as is not refuted.
+    /// The same with the proved lower bounds for all faces other than words and their own mates.
     pub fn proved_gap(&self) -> Option<f64> {
         let lower = self.wrong().filter_map(|it| it.lower);
         let deepest = lower.fold(0.0, f64::min);
@@ -284,26 +285,26 @@ impl Crosstalk {
         Some(1.0 - deepest / self.weakest_bond()?.1)
     }
 
-    /// 1 less the share of the weakest bond of every wrong meeting.
+    /// 1 - attraction / weakest bond for every wrong contact.
     pub fn gaps(&self) -> impl Iterator<Item = f64> {
         let bond = self.weakest_bond().map_or(-1.0, |bond| bond.1);
         self.wrong().map(move |it| 1.0 - it.energy.min(0.0) / bond)
     }
 }
 
-/// Words i <= j, as they are and with j's mate.
+/// Words i <= j: i with j, and i with j's mate.
 fn couples_of(m: usize) -> impl Iterator<Item = (usize, usize, bool)> {
     (0..m).flat_map(move |i| (i..m).flat_map(move |j| [(i, j, false), (i, j, true)]))
 }
 
-/// The same meeting as the other tile sees it, its target face to the east again: the inverse
+/// The same contact in the other tile's frame, with its target face to the east again: the inverse
 /// pose, turned by half a turn.
 fn exchanged(q: &Configuration) -> Configuration {
     let p = q.rotation().inverse() * q.position();
     Configuration::new(p.x, p.y, wrap_angle(-q.theta))
 }
 
-/// The same meeting in a mirror along the target face's normal.
+/// The same contact mirrored along the target face's normal.
 fn mirrored(q: &Configuration) -> Configuration {
     Configuration::new(q.x, -q.y, wrap_angle(-q.theta))
 }

@@ -1,9 +1,9 @@
-//! The strongest attraction of all couples from one grid of poses, each polished.
+//! The strongest attraction of all pairs of faces, sampled on one grid of poses and then refined.
 //!
-//! A pose is a tilt of the second tile about the middle of its face and a slide along the first face,
-//! in contact. Of the grid every couple keeps its lowest poses of different tilts; compass search,
-//! which may also draw the tile back, brings these to their minima. A sample: what lies between the
-//! poses of the grid may be lower.
+//! A pose is a tilt of the second tile about the midpoint of its face and a slide along the first
+//! face, in contact. Every couple keeps its lowest poses of the grid with different tilts; compass
+//! search, which may also separate the tiles, moves these to their minima. This is a sample: poses
+//! between those of the grid may be lower.
 
 use ordered_float::OrderedFloat;
 
@@ -14,29 +14,29 @@ use crate::problem::Problem;
 use crate::tile::face_to_face;
 use crate::words::Word;
 
-/// Slides within a place.
+/// Number of slides per place.
 const SLIDES_A_PLACE: f64 = 8.0;
 /// Tilts (rad): fine where faces are nearly flush, coarse beyond.
 const FINE: (f64, f64) = (0.01, 0.1);
 const COARSE: (f64, f64) = (0.1, 1.6);
-/// Poses of a couple that are polished.
+/// Number of poses of a couple that are refined.
 const POLISHED: usize = 4;
-/// Where compass search ends (m).
+/// Final step of compass search (m).
 const FINEST: f64 = 1e-6;
 
-/// Units of work that sampling couples of words with so many places takes: most of it for the energy
-/// of each magnet with each, at all poses of the grid.
+/// Units of work to sample couples of words with this many places, mostly for the energies of all
+/// pairs of magnets at all poses of the grid.
 pub fn work(places: usize) -> u64 {
     const A_PAIR: u64 = 30;
     let slides = 2 * (SLIDES_A_PLACE as usize * places) + 1;
     A_PAIR * (tilts().len() * slides * places * places) as u64
 }
 
-/// Tilt (rad), slide (m), and how far drawn back (m).
+/// Tilt (rad), slide (m), and separation (m).
 pub(super) type Setting = [f64; 3];
 
 impl Stage {
-    /// The lowest energy (J) found of each couple, and its pose.
+    /// The lowest energy (J) found for each couple, and its pose.
     pub(super) fn sampled(&self, couples: &[Couple]) -> Vec<(f64, Configuration)> {
         let tilts = tilts();
         let best_by_tilt = parallel::map(&tilts, |tilt| self.best_at(*tilt, couples));
@@ -44,7 +44,7 @@ impl Stage {
             let couple = &couples[number];
             let mut starts: Vec<(f64, Setting)> =
                 best_by_tilt.iter().map(|best| best[number]).collect();
-            // The best of every few neighbouring tilts, so that one deep place is not all.
+            // The best of every few neighbouring tilts, so that one deep place does not take all.
             let mut chosen = Vec::new();
             while chosen.len() < POLISHED && !starts.is_empty() {
                 let lowest = (0..starts.len()).min_by_key(|i| OrderedFloat(starts[*i].0));
@@ -62,10 +62,11 @@ impl Stage {
         })
     }
 
-    /// For each couple the lowest energy at a tilt, and where.
+    /// For each couple, the lowest energy at a tilt, and its setting.
     fn best_at(&self, tilt: f64, couples: &[Couple]) -> Vec<(f64, Setting)> {
         let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
-        // Energies of the second words with each magnet of the first tile serve many couples.
+        // Energies of the second words with each magnet of the first tile are shared by many
+        // couples.
         let mut seconds: Vec<Word> = couples.iter().map(|couple| couple.second).collect();
         seconds.sort_unstable();
         seconds.dedup();
@@ -96,7 +97,7 @@ impl Stage {
         best
     }
 
-    /// Slides (m) of the grid, all along the face either way.
+    /// Slides (m) of the grid, along the whole face in both directions.
     pub(super) fn slides(&self) -> Vec<f64> {
         let face = self.pair.target_face().length();
         let step = face / self.places as f64 / SLIDES_A_PLACE;
@@ -106,7 +107,7 @@ impl Stage {
             .collect()
     }
 
-    /// The pose of a setting; `None` where the tile passes by.
+    /// The pose of a setting; `None` if the tiles do not touch.
     pub(super) fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
         let pair = &self.pair;
         let moving = &pair.moving.faces[pair.target.1];
@@ -117,7 +118,7 @@ impl Stage {
         Some(Configuration::new(at.x, at.y, flush.theta))
     }
 
-    /// Compass search from a setting on.
+    /// Compass search from a setting.
     pub(super) fn polished(
         &self,
         problem: &Problem,
@@ -154,7 +155,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Tilts from the fine to the coarse, either way.
+/// Fine and coarse tilts, in both directions.
 pub(super) fn tilts() -> Vec<f64> {
     let steps = |(step, end): (f64, f64)| {
         let count = (end / step).round() as i32;

@@ -1,7 +1,7 @@
-//! Where a word and its own mate hold beside their bond.
+//! The traps of a word and its own mate, besides their bond.
 //!
-//! Local minima of a grid over tilt and slide in contact, each polished; those that end in the bond
-//! are its slope.
+//! Local minima of a grid over tilt and slide in contact, each refined; those that end in the bond
+//! are not traps.
 
 use ordered_float::OrderedFloat;
 
@@ -12,13 +12,13 @@ use crate::order::Order;
 use crate::parallel;
 use crate::words::Word;
 
-/// Minima of the grid that are polished, of a word.
+/// Number of minima of the grid that are refined for a word.
 const POLISHED: usize = 8;
 /// Poses closer to the bond than this (m, rad) are the bond.
 const SAME: f64 = 2e-3;
 
 impl Stage {
-    /// Of each word and its mate the deepest trap found: energy (J) and pose.
+    /// For each word and its mate, the deepest trap found: energy (J) and pose.
     pub(super) fn traps(&self, words: &[Word]) -> Vec<Option<(f64, Configuration)>> {
         let own = |word: &Word| Couple {
             first: *word,
@@ -60,7 +60,7 @@ impl Stage {
         })
     }
 
-    /// The energies (J) of couples at a setting; infinite where the tiles pass by each other.
+    /// The energies (J) of couples at a setting; infinite if the tiles do not touch.
     fn all_at(&self, setting: Setting, couples: &[Couple]) -> Vec<f64> {
         let Some(q) = self.placed(setting) else {
             return vec![f64::INFINITY; couples.len()];

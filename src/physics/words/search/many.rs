@@ -1,9 +1,9 @@
-//! Sets of words where these are too many for their graph to be held.
+//! Sets of words when there are too many candidates to store their graph.
 //!
-//! The weakest bond decides: of a deep one few words are left, of a weak one little is allowed to
-//! wrong meetings. So several are tried, each with a set of words taken in random order as they go
-//! with all before; then, in rounds, the largest set is improved among some of the words, as many as
-//! there is work to join.
+//! The weakest bond decides: a deep one leaves few words, a weak one allows only weak wrong
+//! attractions. So several are tried, each with a set of words added in random order if compatible
+//! with all earlier ones; then, in rounds, the largest set is improved among as many of the words
+//! as the effort allows.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -17,28 +17,28 @@ use super::{Search, seeded};
 use crate::budget::Budget;
 use crate::order::Order;
 
-/// Weakest bonds tried first, each leaving this share of the words of the one before, and then
-/// twice those midway between the best one and its neighbours.
+/// Number of weakest bonds tried first, each with the same fraction of the words of the one before;
+/// then, twice, those midway between the best one and its neighbours.
 const BONDS: usize = 12;
 const LEFT: f64 = 0.6;
 const HALVINGS: usize = 2;
-/// Share of the work that goes into these trials at most.
+/// Largest fraction of the work for these trials.
 const FOR_TRIALS: f64 = 0.4;
 /// Rounds of improvement.
 const ROUNDS: usize = 4;
-/// Most words of a round.
+/// Largest number of words of a round.
 const MOST: usize = 8000;
 
-/// What a weakest bond came to.
+/// The result for one weakest bond.
 struct Trial {
-    /// Its place among [`Search::bonds`].
+    /// Its index in [`Search::bonds`].
     at: usize,
     /// Vertices of its graph.
     members: Vec<usize>,
 }
 
 impl Search<'_> {
-    /// Searches a range of weakest bonds of which nothing will be proved.
+    /// Searches a range of weakest bonds without a proof.
     pub(super) fn among_many(&mut self, first: usize, last: usize) {
         let mut rng = ChaCha8Rng::seed_from_u64(self.effort.seed);
         let mut work = self.effort.budget.share(FOR_TRIALS);
@@ -79,7 +79,7 @@ impl Search<'_> {
         }
     }
 
-    /// The weakest bond of a range that leaves this share of its words.
+    /// The weakest bond of a range that leaves this fraction of its words.
     fn leaving(&self, first: usize, last: usize, share: f64) -> usize {
         let within = |bond: &f64| *bond >= self.bonds[last] && *bond <= self.bonds[first];
         let bonds = self.words.iter().map(|(bond, _)| *bond);
@@ -92,7 +92,7 @@ impl Search<'_> {
             .clamp(first, last)
     }
 
-    /// Improves a set of words with what work is left.
+    /// Improves a set of words with the remaining work.
     fn improved(&mut self, at: usize, mut members: Vec<usize>, rng: &mut ChaCha8Rng) {
         let graph = self.graph(at..=at, false);
         for round in 0..ROUNDS {
@@ -104,7 +104,7 @@ impl Search<'_> {
         self.accept(&graph, &members);
     }
 
-    /// Words in random order, each that goes with all before.
+    /// Words added in random order if compatible with all earlier ones.
     fn taken(&self, graph: &Graph, rng: &mut ChaCha8Rng, budget: &mut Budget) -> Vec<usize> {
         let mut order: Vec<usize> = (0..graph.len()).collect();
         order.shuffle(rng);
@@ -126,7 +126,7 @@ impl Search<'_> {
     }
 }
 
-/// Exchanges words of a set for others of a sample, if it grows by that.
+/// Exchanges words of a set for others of a sample, if this enlarges it.
 fn improve(
     graph: &Graph,
     members: &mut Vec<usize>,
@@ -134,7 +134,7 @@ fn improve(
     rng: &mut ChaCha8Rng,
     effort: &mut Effort,
 ) {
-    // Half of the work may go into what is joined.
+    // Half of the work may be used for the graph.
     let affordable = (effort.budget.left() / graph.judgement()).isqrt() as usize;
     let most = graph.len().min(MOST).min(affordable);
     if most < 2 * members.len() || members.len() >= enough {
@@ -155,14 +155,14 @@ fn improve(
     }
 }
 
-/// The trial with most words; of several the one of the deepest bonds.
+/// The trial with most words; among several, the one with the deepest bonds.
 fn largest(trials: &[Trial]) -> Option<usize> {
     let size = |k: &usize| (trials[*k].members.len(), usize::MAX - k);
     (0..trials.len()).max_by_key(size)
 }
 
-/// Midway between the weakest bond that gave most and its neighbour that was tried, the deeper or
-/// the weaker one.
+/// Midway between the weakest bond with most words and its deeper or weaker neighbour among those
+/// tried.
 fn beside_largest(trials: &[Trial], deeper: bool) -> Option<usize> {
     let largest = largest(trials)?;
     let beside = match deeper {

@@ -1,10 +1,10 @@
-//! Largest sets of words with a given gap.
+//! The search for the largest set of words with a given gap.
 //!
-//! The gap compares the strongest wrong attraction with the weakest bond of the same set. So for
-//! every weakest bond B there is a graph of its own: of words with bonds of at least B, joined where
-//! no wrong meeting attracts by more than (1 - gap) B. The graphs of a whole range of bonds lie in
-//! one, of words that the least B admits and limits that the largest one allows; where its largest
-//! clique has the gap asked for the range is settled, and else it is halved.
+//! The gap compares the strongest wrong attraction with the weakest bond of the same set. So every
+//! weakest bond B has its own graph: words with bonds of at least B, joined if no wrong attraction
+//! exceeds (1 - gap) B. The graphs of a whole range of bonds are subgraphs of one, with the words
+//! admitted by the smallest B and the limit of the largest. If its largest clique has the requested
+//! gap, the range is finished; otherwise it is halved.
 
 mod many;
 
@@ -22,16 +22,16 @@ use super::set::Weighed;
 use super::word::Word;
 use super::{Task, local};
 
-/// A set of words, and what is known of larger ones.
+/// A set of words, and a bound of larger ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Ascending.
     pub words: Vec<Word>,
-    /// There are no more words than this.
+    /// No set has more words than this.
     pub upper: usize,
-    /// How many words were to choose from, and whether these were all that there are.
+    /// The number of words to choose from, and whether these were all.
     pub candidates: usize,
-    /// See there.
+    /// See `candidates`.
     pub complete: bool,
 }
 
@@ -42,27 +42,27 @@ impl Found {
     }
 }
 
-/// Energies that differ by less than this share are the same.
+/// Energies that differ by less than this fraction are equal.
 pub const SAME: f64 = 1e-12;
-/// Work (s) on large sets before proofs are tried, at most, and what it is for each pair of words:
-/// of small graphs the proof is quicker.
+/// Largest work (s) on large sets before proofs are tried, and the work per pair of words: for
+/// small graphs the proof is quicker.
 const LOOK: f64 = 3.0;
 const LOOK_A_PAIR: f64 = 2e-7;
-/// Shares of the work left for a first try at a proof, and for a second one where the bound of the
-/// first lies within this factor of what was found.
+/// Fraction of the remaining work for a first attempt at a proof, and for a second one if the bound
+/// of the first is close enough to the set found.
 const FOR_PROOF: [f64; 2] = [0.15, 0.5];
 const WITHIN_REACH: f64 = 1.5;
-/// Share of the work left for sets that have a symmetry, of large graphs.
+/// Fraction of the remaining work for symmetric sets, in large graphs.
 const FOR_SYMMETRIC: f64 = 0.2;
 const LARGE: usize = 1000;
-/// Share of the work that judging a set may take, of words that are too many to look at all.
+/// Fraction of the work for evaluating a set, if there are too many words to examine all.
 const FOR_JUDGING: f64 = 0.25;
-/// Units of work that finding a bond's depth takes.
+/// Units of work to compute a bond's depth.
 const BOND: u64 = 100;
-/// Weakest bonds tried where nothing is proved of the whole range.
+/// Number of weakest bonds tried if nothing is proved about the whole range.
 const LADDER: usize = 8;
 
-/// The largest set of words with at least this gap; one of `enough` words will do.
+/// The largest set of words with at least this gap; stops at `enough` words.
 pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Found {
     let limit = |bond: f64| limit(gap, bond);
     let first = Candidates::new(
@@ -75,7 +75,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         let bond = task.rules.bond(&task.lags, *word);
         (bond > 0.0).then_some((bond, *word))
     });
-    // The deepest bond that there is allows less than the deepest one thinkable.
+    // The deepest actual bond allows less than the deepest conceivable one.
     if let (true, Some(deepest)) = (first.complete, words.iter().map(|it| it.0).reduce(f64::max)) {
         let sound = |word| task.rules.within(&task.lags, word, word, limit(deepest));
         words.retain(|(_, word)| sound(*word));
@@ -85,7 +85,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         false => task.deepest_bond(),
     }));
     if !first.complete {
-        // Words of known codes are among those to choose from.
+        // Words of known codes are included.
         let more = seeds.iter().flatten().filter_map(|word| {
             let bond = task.rules.bond(&task.lags, *word);
             (bond > 0.0 && task.constraints.allow(&task.lags, &task.rules, *word))
@@ -96,7 +96,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
         words.dedup_by_key(|it| it.1);
     }
     let candidates = words.len();
-    // Of little work there is always some left to do something with what was drawn.
+    // Even with little work, some is left to use the words drawn.
     let looked = first.work + candidates as u64 * BOND;
     effort.budget.spend(looked.min(effort.budget.left() / 2));
     let mut bonds: Vec<f64> = words.iter().map(|(bond, _)| *bond).collect();
@@ -112,7 +112,7 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     };
     let mut enough = enough;
     if enough == usize::MAX && !first.complete {
-        // Nothing is proved of these, and what is found has to be judged.
+        // Nothing is proved about these, and the sets found have to be evaluated.
         let work = effort.budget.left() as f64 * FOR_JUDGING;
         enough = task.weighed_with(work as u64).max(1);
     }
@@ -144,13 +144,13 @@ pub fn largest(task: &Task, gap: f64, enough: usize, effort: &mut Effort) -> Fou
     }
 }
 
-/// The strongest wrong attraction (J) that a gap allows beside a bond.
+/// The strongest wrong attraction (J) that a gap allows for a bond.
 fn limit(gap: f64, bond: f64) -> f64 {
     (1.0 - gap) * bond * (1.0 + SAME)
 }
 
-/// A large clique of those that keep a symmetry of the graph, from a known one on: half as many words
-/// to choose.
+/// A large clique with a symmetry of the graph, starting from a known one: half as many words to
+/// choose.
 fn symmetric(
     graph: &Graph,
     mut best: Vec<usize>,
@@ -178,16 +178,15 @@ fn symmetric(
     best
 }
 
-/// How many words there are, of a word and its mate one where they are interchangeable.
+/// The number of words, counting a word and its mate as one if they are interchangeable.
 fn all_classes(task: &Task) -> usize {
     let all = number(task.places, task.magnets);
-    // At most all words are their own mates' mates; half of them, those that are their own mates
-    // and cannot be in a set left out.
+    // At most half of all words: a word that is its own mate cannot be in a set.
     (if task.exchangeable() { all / 2.0 } else { all }) as usize
 }
 
-/// The largest of what is left of known codes in a graph: their words in order, each that goes with all
-/// before.
+/// The largest remainder of known codes in a graph: their words in order, if compatible with all
+/// earlier ones.
 fn seeded(seeds: &[Vec<Word>], graph: &Graph, enough: usize, budget: &mut Budget) -> Vec<usize> {
     let mut best: Vec<usize> = Vec::new();
     for seed in seeds.iter().filter(|seed| seed.len() > 2) {
@@ -222,7 +221,7 @@ struct Search<'a> {
     words: Vec<(f64, Word)>,
     /// Known codes.
     seeds: Vec<Vec<Word>>,
-    /// Bonds that differ (J), deepest first.
+    /// Distinct bonds (J), deepest first.
     bonds: Vec<f64>,
     best: Vec<Word>,
     enough: usize,
@@ -235,8 +234,8 @@ impl<'a> Search<'a> {
         set.gap().unwrap_or(1.0) >= self.gap - 2.0 * SAME
     }
 
-    /// Searches the sets whose weakest bond is in a range of [`Self::bonds`], and gives an upper
-    /// bound of their size where it lies above the best one's.
+    /// Searches the sets whose weakest bond is in a range of [`Self::bonds`], and returns an upper
+    /// bound of their size if it exceeds the best one's.
     fn range(&mut self, range: RangeInclusive<usize>) -> usize {
         if self.best.len() >= self.enough {
             return self.best.len();
@@ -275,8 +274,8 @@ impl<'a> Search<'a> {
         deep.max(self.range(middle + 1..=last))
     }
 
-    /// The graph of the sets whose weakest bond is in a range, to be held as a whole if there is work
-    /// enough for that.
+    /// The graph of the sets whose weakest bond is in a range, stored as a whole if the effort
+    /// suffices.
     fn graph(&mut self, range: RangeInclusive<usize>, is_held: bool) -> Graph<'a> {
         let task = self.task;
         let (deepest, weakest) = (self.bonds[*range.start()], self.bonds[*range.end()]);
@@ -292,8 +291,8 @@ impl<'a> Search<'a> {
         graph
     }
 
-    /// A largest clique of a graph, or a large one and a bound: a look for large ones, then the
-    /// proof, then half the rest of the work on larger ones.
+    /// A largest clique of a graph, or a large one and a bound: a search for large ones, then the
+    /// proof, then half the remaining work on larger ones.
     fn clique(&mut self, graph: &Graph) -> Clique {
         let (enough, effort) = (self.enough, &mut *self.effort);
         let look = LOOK_A_PAIR * (graph.len() * graph.len()) as f64;
@@ -333,8 +332,8 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// Takes a set that is larger than the best one, if it has the gap; else what is left of it when
-    /// it has. Whether all of it has.
+    /// Accepts a set larger than the best one if it has the gap; otherwise the part of it that
+    /// does. Returns whether all of it has the gap.
     fn accept(&mut self, graph: &Graph, members: &[usize]) -> bool {
         let words: Vec<Word> = members.iter().map(|v| graph.words[*v]).collect();
         self.effort.budget.spend(self.task.weighing(words.len()));
@@ -349,13 +348,13 @@ impl<'a> Search<'a> {
         accepted
     }
 
-    /// Tries single weakest bonds of a range of which nothing is proved.
+    /// Tries single weakest bonds of a range without a proof.
     fn ladder(&mut self, first: usize, last: usize) {
         for step in 1..=LADDER {
             let at = first + (last - first) * step / LADDER;
             let graph = self.graph(at..=at, true);
             let share = 1.0 / (LADDER + 1 - step) as f64;
-            // What is left of a share is not given back.
+            // The unused part of a share is not returned.
             let mut part = Effort::new(self.effort.seed, self.effort.budget.share(share));
             let members = local::search(&graph, Vec::new(), self.enough, &mut part);
             self.accept(&graph, &members);

@@ -1,4 +1,4 @@
-//! Largest sets by trying all, every option by its definition.
+//! Exhaustive search for the largest sets, with every option implemented by its definition.
 
 use super::super::constraint::Constraints;
 use super::super::search::largest;
@@ -6,7 +6,7 @@ use super::super::{Fault, Rules, Shape, Task};
 use super::definitions::{Poles, allowed, bond, energy, mate, poles, sound, wrong};
 use super::{all_words, effort, every_rule, task};
 
-/// The size of a largest set by trying all, over all weakest bonds.
+/// The size of a largest set by exhaustive search, over all weakest bonds.
 fn brute_force(places: usize, gap: f64, rules: &Rules, asked: &Constraints) -> usize {
     let words: Vec<(f64, Poles)> = all_words(places)
         .into_iter()
@@ -95,7 +95,7 @@ fn check(places: usize, gap: f64, rules: Rules, asked: &Constraints) {
     }
 }
 
-/// What is asked of words beside the gap, one by one and together.
+/// The constraints besides the gap, one by one and together.
 fn every_constraint() -> Vec<Constraints> {
     let none = Constraints::default();
     vec![
@@ -143,8 +143,8 @@ fn every_constraint() -> Vec<Constraints> {
 #[test]
 fn sets_are_the_largest_by_brute_force() {
     for rules in every_rule() {
-        // Without slides the graphs of six places are too dense for trying all. 0.5 of six is a tie
-        // of contacts, which energies decide.
+        // Without slides the graphs of six places are too dense for exhaustive search. 0.5 of six
+        // is a tie of contacts, which energies decide.
         let lengths = [
             (3, 0.5),
             (4, 0.37),
@@ -180,7 +180,7 @@ fn faults_are_tolerated() {
             check(5, gap, Rules { fault, ..rules }, &Constraints::default());
         }
     }
-    // What holds with faults holds without.
+    // A set valid with faults is valid without.
     let shared = Rules {
         shape: Shape::Shared,
         ..Rules::default()

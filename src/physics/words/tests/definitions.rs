@@ -1,5 +1,5 @@
-//! Every option by its definition over poles and plain sums over dipoles: nothing of what is tested
-//! is used.
+//! Every option implemented by its definition, over poles and plain sums over dipoles,
+//! independently of the tested code.
 
 use std::sync::LazyLock;
 
@@ -18,7 +18,7 @@ pub(super) fn mate(word: &[i32]) -> Poles {
     word.iter().rev().map(|pole| -pole).collect()
 }
 
-/// All faces that one magnet's fault can make of a face, and itself.
+/// A face and all its variants with a fault of one magnet.
 fn made(face: &[i32], fault: Option<Fault>) -> Vec<Poles> {
     let factor = match fault {
         None => return vec![face.to_vec()],
@@ -95,7 +95,8 @@ pub(super) fn wrong(u: &[i32], v: &[i32], rules: &Rules) -> f64 {
     strongest
 }
 
-/// Mismatches of two words, one moved by some places; what hangs over counts. Runs of matches too.
+/// Mismatches of two words, one moved by some places, including overhanging places; and runs of
+/// matches.
 fn compared(u: &[i32], v: &[i32], lag: i32) -> (usize, usize) {
     let n = u.len() as i32;
     let (mut matches, mut run, mut longest) = (0, 0, 0);
@@ -112,7 +113,7 @@ fn compared(u: &[i32], v: &[i32], lag: i32) -> (usize, usize) {
     (u.len() - matches, longest)
 }
 
-/// Whether two words satisfy what the paper asks of two, by its definitions.
+/// Whether two words satisfy the paper's constraints, by its definitions.
 pub(super) fn allowed(u: &[i32], v: &[i32], asked: &Constraints) -> bool {
     let n = u.len() as i32;
     let complement = mate(v);
@@ -136,7 +137,7 @@ pub(super) fn allowed(u: &[i32], v: &[i32], asked: &Constraints) -> bool {
             .is_none_or(|range| range.contains(&longest))
 }
 
-/// Whether a word by itself is as asked.
+/// Whether a single word satisfies the constraints.
 pub(super) fn sound(word: &[i32], rules: &Rules, asked: &Constraints) -> bool {
     let excess: i32 = word.iter().sum();
     let runs = word.chunk_by(|a, b| a == b).map(<[i32]>::len);

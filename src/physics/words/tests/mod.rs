@@ -1,4 +1,4 @@
-//! Words by principle: against plain sums over dipoles and against brute force.
+//! Tests of words against plain sums over dipoles and against brute force.
 
 mod brute;
 mod definitions;
@@ -163,7 +163,8 @@ fn sets_with_a_polar_shape_are_codes() {
         shape: Shape::Polar,
         ..Rules::default()
     };
-    // A(n, d) of Brouwer's table: words of n places differ in d at least where the gap is 2 d / n.
+    // A(n, d) of Brouwer's table: words of n places differ in at least d places if the gap is 2 d /
+    // n.
     for (n, d, size) in [
         (5, 3, 4),
         (6, 3, 8),

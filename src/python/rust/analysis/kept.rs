@@ -1,4 +1,4 @@
-//! Analyses in pickles.
+//! Pickling of analyses.
 
 use pyo3::prelude::*;
 use tilebind::Analysis as Found;

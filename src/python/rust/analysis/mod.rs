@@ -1,4 +1,4 @@
-//! The main job and what it finds.
+//! The analysis and its results.
 
 mod kept;
 mod results;
@@ -29,7 +29,7 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// What was found of a design in so long (s).
+    /// The result for a design, with its duration (s).
     pub fn new(design: Py<Design>, found: Found, wall_s: f64) -> Self {
         Self {
             content: design.get().content.clone(),
@@ -61,7 +61,7 @@ impl Analysis {
             if word == "free" {
                 return Ok(Place::Free);
             }
-            // What people call a state, A or B'.
+            // The letter of a state, such as A or B'.
             let names = self.found.catalogue.names();
             if let Some(id) = names.iter().position(|name| *name == word) {
                 return Ok(Place::State(id));
@@ -82,7 +82,7 @@ impl Analysis {
         }
     }
 
-    /// The way between two places, if one is known.
+    /// The path between two places, if known.
     fn way(&self, from: Place, to: Place) -> Option<tilebind::landscape::Pathway> {
         let catalogue = &self.found.catalogue;
         let known = |from: Place, to: Place| -> Option<Barrier> {
@@ -99,14 +99,14 @@ impl Analysis {
             .or_else(|| Some(pathway::reversed(&known(to, from)?.pathway)))
     }
 
-    /// The line that tells how the same page is made.
+    /// The line of code that makes the same page.
     fn command(&self) -> String {
         let name = std::path::Path::new(&self.content.source.file);
         let name = name.file_name().unwrap_or_default().to_string_lossy();
         format!("tilebind analyse {name}")
     }
 
-    /// SVG documents of the pictures that are wanted.
+    /// SVG documents of the selected pictures.
     fn pictures(&self, py: Python<'_>, wanted: &[&str]) -> PyResult<Vec<String>> {
         shown::svg(py, || {
             plots::draw(&self.scene(), &Sheet::SCREEN, |name| wanted.contains(&name))

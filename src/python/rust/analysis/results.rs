@@ -1,4 +1,4 @@
-//! States, barriers, ways and maps as arrays.
+//! States, barriers, pathways and maps as arrays.
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

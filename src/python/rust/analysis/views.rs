@@ -1,4 +1,4 @@
-//! Texts, pages and pictures.
+//! Text, pages and pictures of an analysis.
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -1,4 +1,4 @@
-//! What tiles feel at many poses.
+//! Energies, forces and torques at many poses.
 
 use std::borrow::Cow;
 
@@ -133,7 +133,8 @@ impl Design {
         table::array(py, &matching::table(&found))
     }
 
-    /// The time (s) that the energies of poses take on all cores by themselves, for the bench.
+    /// The time (s) of computing the energies of poses on all cores, without conversions, for the
+    /// bench.
     fn _kernel_seconds(
         &self,
         py: Python<'_>,

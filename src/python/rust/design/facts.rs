@@ -1,4 +1,4 @@
-//! What a design says: names, outlines, magnets, itself at a glance.
+//! The contents of a design: names, outlines, magnets, and its inspection.
 
 use numpy::PyArray1;
 use pyo3::prelude::*;

@@ -15,13 +15,13 @@ use tilebind::tile::Tile;
 
 use crate::fault;
 
-/// What a design was read from, what it is, and the problems that it poses.
+/// A design with its source and its problems.
 pub struct Content {
     /// Its text, with the drawings that it names.
     pub source: Source,
     /// The tiles.
     pub design: Whole,
-    /// With its magnets as dipoles and as blocks, made when they are first asked for.
+    /// The problems with magnets as dipoles and as blocks, created on first use.
     problems: [OnceLock<Arc<Problem>>; 2],
 }
 
@@ -34,13 +34,13 @@ impl Content {
         })
     }
 
-    /// The problem with magnets modelled as asked for, or else as the design says.
+    /// The problem with the requested magnet model, by default the design's.
     pub fn problem(&self, model: Option<MagnetModel>) -> &Arc<Problem> {
         let model = model.unwrap_or(self.design.interaction.model);
         self.problems[model as usize].get_or_init(|| Arc::new(self.modelled(model).problem()))
     }
 
-    /// The design with its magnets modelled otherwise.
+    /// The design with another magnet model.
     fn modelled(&self, model: MagnetModel) -> Whole {
         let mut design = self.design.clone();
         design.interaction.model = model;
@@ -73,7 +73,7 @@ pub fn model(name: Option<&str>) -> PyResult<Option<MagnetModel>> {
 /// array([0.43, 0.  , 0.  ])
 #[pyclass(frozen, module = "tilebind")]
 pub struct Design {
-    /// What it is.
+    /// The content.
     pub content: Arc<Content>,
 }
 
@@ -88,7 +88,7 @@ impl Design {
         .map_err(|error| fault::design(py, &error))
     }
 
-    /// The design that was read from a source.
+    /// A design from a source.
     pub fn of_source(py: Python<'_>, source: Source) -> PyResult<Self> {
         let design = source.design();
         Self::read(py, design.map(|design| (source, design)))

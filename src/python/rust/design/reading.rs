@@ -1,4 +1,4 @@
-//! Designs from files, texts and dictionaries, as texts, and in pickles.
+//! Reads designs from files, text and dictionaries, writes them as text, and pickles them.
 
 use std::path::PathBuf;
 
@@ -136,7 +136,7 @@ impl Design {
             let help = "name a key by its dotted path, such as fixed.faces.east.profile.depth";
             fault::of_design(py, &source.file, reason, help)
         })?;
-        // The place is one of a text that nobody has seen.
+        // The place refers to generated text that the user has not seen.
         let design = with.design().map_err(|found| DesignError {
             message: format!("{asked}: {}", found.message),
             place: None,
@@ -171,7 +171,7 @@ impl Design {
 
     fn __eq__<'py>(&self, py: Python<'py>, other: &Bound<'py, PyAny>) -> PyResult<Py<PyAny>> {
         match other.cast::<Self>() {
-            // However it was written, and wherever it was read from.
+            // Independent of its notation, and of where it was read from.
             Ok(other) => {
                 let (one, other) = (&self.content.source, &other.get().content.source);
                 let same = one.drawings == other.drawings && one.document() == other.document();
@@ -182,7 +182,7 @@ impl Design {
     }
 
     fn __hash__(&self) -> u64 {
-        // The checksum is as good as random.
+        // The checksum is effectively random.
         let checksum = sha256(self.content.source.document().to_string());
         u64::from_str_radix(&checksum[..16], 16).unwrap_or(0)
     }

@@ -257,7 +257,7 @@ impl Design {
         shown::report(py, &report::yields::document(design, &question, &found))
     }
 
-    /// Many tiles on one table: what calling `table` does.
+    /// Simulates many tiles on one table: the implementation of calling `table`.
     #[pyo3(signature = (time, *, start = None, progress = None, **settings))]
     fn _on_table<'py>(
         &self,
@@ -423,7 +423,7 @@ fn text(table: &Bound<'_, PyAny>) -> PyResult<String> {
     text_of(&path)
 }
 
-/// A table's file, whatever program saved it.
+/// The text of a table's file in any supported encoding.
 fn text_of(path: &std::path::Path) -> PyResult<String> {
     let text = tilebind::text::read(path)?;
     Ok(tilebind::text::with_commas(&text).into_owned())

@@ -26,7 +26,7 @@ fn slopes_are_followed_more_closely_than_values_over_short_ways() {
             half: [1e-4, 1e-4, 2e-4],
         });
         let known = enclosure.high - enclosure.low;
-        // As many halves of what is known of values as the order of what is left out.
+        // As many halves of the bound of values as the order of the remainder.
         assert!(enclosure.slope < 2.0 * known, "{x} {y} {enclosure:?}");
         assert!(
             enclosure.change(&Vector3::new(1e-5, 1e-5, 2e-5), &[1e-4, 1e-4, 2e-4]) < 0.25 * known,

@@ -17,7 +17,7 @@ use super::super::kinds::{paper_tile, pixel_tile};
 use super::assert_encloses;
 use crate::plain::Plain;
 
-/// A number as the unevaluated sum of two, good to some 30 digits (Dekker 1971,
+/// A number as the unevaluated sum of two, accurate to about 30 digits (Dekker 1971,
 /// doi:10.1007/BF01397083; Shewchuk 1997, doi:10.1007/PL00009321).
 #[derive(Clone, Copy)]
 struct Double(f64, f64);
@@ -80,7 +80,7 @@ fn sine_and_cosine(theta: f64) -> (Double, Double) {
     (sine, cosine)
 }
 
-/// The interaction energy to some 30 digits.
+/// The interaction energy to about 30 digits.
 fn exact_energy(fixed: &Tile, moving: &Tile, q: &Configuration) -> Double {
     let exact = |x: f64| Double(x, 0.0);
     let (sine, cosine) = sine_and_cosine(q.theta);
@@ -139,7 +139,7 @@ fn rounding_is_covered() {
                 rest > enclosure.low && rest < enclosure.high,
                 "{q:?}: {rest}"
             );
-            // Covered, but not so generously that it would matter.
+            // Covered, but not so generously that it matters.
             assert!(enclosure.high < 1e-11);
             tested += 1;
             largest = largest.max(rest.abs() / enclosure.high);
@@ -149,7 +149,7 @@ fn rounding_is_covered() {
     assert!((1e-8..0.1).contains(&largest), "{largest}");
 }
 
-/// With so many magnets that groups of them are enclosed as wholes.
+/// With enough magnets for groups of them to be enclosed as wholes.
 #[test]
 fn groups_enclose_what_their_magnets_do() {
     let (a, b) = (pixel_tile(48, 1), pixel_tile(48, 3));
@@ -179,7 +179,7 @@ fn groups_enclose_what_their_magnets_do() {
             &mut rng,
         );
         let width = |known: &Enclosure| known.high - known.low;
-        // Of larger cells, in which dipoles come near each other at any angle, less is asked.
+        // Less is required for larger cells, in which dipoles approach each other at any angle.
         if size < 2e-3 {
             wider = wider.max(width(&enclosure) / width(&one_by_one));
         }

@@ -1,4 +1,4 @@
-//! Bounds of energies over cells hold what they enclose, and are as narrow as they are meant to be.
+//! Bounds of energies over cells contain the energies, and are as narrow as intended.
 
 mod blocks;
 mod dipoles;
@@ -31,15 +31,15 @@ struct Enclosed {
     tiles: [Tile; 2],
     energy: Make<dyn Potential>,
     bounds: Make<dyn CellBounds>,
-    /// Whether there are shields, others for each cell.
+    /// Whether there are shields, different ones for each cell.
     shielded: bool,
     levels: Vec<Level>,
-    /// A random cell; so many; and how many free configurations are met at least, in all and in cells
-    /// larger than 1 cm.
+    /// A random cell, the number of cells, and the smallest number of free configurations in them,
+    /// in all cells and in those larger than 1 cm.
     cell: fn(&mut ChaCha8Rng) -> Cell,
     cells: usize,
     met: [usize; 2],
-    /// What the potential itself is off by: its energies (J), and its slopes relative.
+    /// The errors of the potential itself: of energies (J), and of slopes (relative).
     off: [f64; 2],
     /// Cells of no size: where, what may be off of the value, of the gradient (absolute, and as a
     /// share of the largest) and of the Hessian (as a share of the largest entry, or of one and the own), and the width (J)
@@ -102,7 +102,7 @@ fn all() -> Vec<Enclosed> {
         cell: about_contact,
         cells,
         met: [met, 0],
-        // The potential's quadrature at contact is right to 3e-5 of a pair's energy.
+        // The potential's quadrature at contact is accurate to 3e-5 of a pair's energy.
         off: [3e-6 * 0.03, 3e-6],
         centres: vec![[0.44, -0.07, 0.02], [0.47, 0.01, -0.1], [0.6, 0.2, 2.0]],
         value: [0.0, 2e-7],
@@ -405,7 +405,7 @@ pub fn assert_encloses(
     tested
 }
 
-/// Of a cell's sizes, so that what is known of values says nothing.
+/// A fraction of a cell's sizes so small that bounds of values are useless.
 const SHORT: f64 = 1e-6;
 
 /// Asserts that the form's slope at the offset d from a cell's centre, along some directions, is no

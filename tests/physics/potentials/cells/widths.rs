@@ -1,6 +1,6 @@
-//! Exact widths of enclosures over fixed cells: where one of them grows, certificates have become
-//! slower; where one shrinks, a term may be missing. Where a change is meant to move them, the new
-//! numbers belong here. The portable instruction set is used, so that they are the same everywhere.
+//! Exact widths of enclosures over fixed cells: if one of them grows, certificates have become
+//! slower; if one shrinks, a term may be missing. If a change is meant to alter them, enter the new
+//! numbers here. The portable instruction set is used, so that they are the same on every machine.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

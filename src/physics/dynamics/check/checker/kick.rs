@@ -1,4 +1,4 @@
-//! Kicks out of a state.
+//! Trajectories that leave a state with a given kinetic energy.
 
 use nalgebra::Vector3;
 
@@ -8,20 +8,21 @@ use crate::dynamics::docking::stream;
 use crate::landscape::Pathway;
 use crate::parallel;
 
-/// Energies of kicks that are tried, in barriers.
+/// Kick energies that are tried, in units of the barrier.
 const KICKS: [f64; 16] = [
     0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0, 1.02, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 8.0,
 ];
-/// Kicked tiles are followed this many times longer than others.
+/// Factor on the duration for kicked tiles.
 const PATIENCE: f64 = 2.0;
-/// Directions tried for each energy, and how far apart they are, as a share of the pathway's.
+/// Number of directions tried for each energy, and their spacing relative to the pathway's
+/// direction.
 const AIMS: usize = 4;
 const ASIDE: f64 = 0.1;
-/// Kicks lead along the pathway up to this share of the barrier.
+/// Kicks point along the pathway up to this share of the barrier.
 const AHEAD: f64 = 0.05;
 
 impl Checker<'_> {
-    /// The least kick along the pathway's beginning that leads to its end.
+    /// The smallest kick along the pathway's beginning that leads to its end.
     pub(super) fn kick(&self, steps: &mut usize) -> Option<f64> {
         let (first, direction) = self.way_out(&self.barrier.pathway)?;
         for share in KICKS {
@@ -29,7 +30,7 @@ impl Checker<'_> {
             let one = |aim| self.kicked(first, direction, aim, energy);
             let kicked: Vec<Fated> = parallel::map(0..AIMS, one);
             *steps += kicked.iter().map(|kick| kick.1).sum::<usize>();
-            // The least is asked for.
+            // Only the smallest is needed.
             if kicked.iter().any(|kick| kick.0 == Fate::Crossed) {
                 return Some(energy);
             }
@@ -37,7 +38,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What a kick with an energy (J) comes to; the first aim is the pathway's own direction.
+    /// The outcome of a kick with an energy (J); the first direction is the pathway's own.
     fn kicked(
         &self,
         first: Configuration,
@@ -51,7 +52,7 @@ impl Checker<'_> {
         let aside = aside * (kinetic(&direction) / kinetic(&aside)).sqrt();
         let aimed = direction + aside * (ASIDE * aim as f64);
         let start = self.moving(first, aimed, energy);
-        // As below the barrier: lifted by the integration's error, it proves nothing.
+        // As below the barrier: a trajectory raised by the integration error proves nothing.
         let ceiling = if energy < self.climb {
             self.ceiling
         } else {
@@ -61,13 +62,13 @@ impl Checker<'_> {
         self.fate(&start, duration, ceiling, &mut rng)
     }
 
-    /// Where the pathway begins, and the direction of the body's motion along it.
+    /// The start of the pathway, and the direction of the body's motion along it.
     fn way_out(&self, path: &Pathway) -> Option<(Configuration, Vector3<f64>)> {
         let first = path.first()?;
         let enough = first.energy + AHEAD * self.barrier.forward();
         let ahead = path.iter().find(|p| p.energy > enough)?;
         let step = first.configuration.step_to(&ahead.configuration);
-        // The centre of mass moves along with the turn.
+        // The rotation also moves the centre of mass.
         let lever = self.lossless.body.lever(first.configuration.theta);
         let direction = step + Vector3::new(-lever.y, lever.x, 0.0) * step.z;
         Some((first.configuration, direction))

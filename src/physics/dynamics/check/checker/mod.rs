@@ -20,26 +20,26 @@ use crate::problem::Problem;
 
 /// A tile this close (m, metric of the space) to a state may be in it.
 const ARRIVED: f64 = 2e-3;
-/// Slow motion from there has come to the state if it ends this close (m) to it: descents are more
-/// exact, and shallow minima may lie side by side.
+/// The descent from there reaches the state if it ends this close (m) to it: descents are more
+/// precise, and shallow minima may be close together.
 const SAME: f64 = 1e-4;
-/// How far (m) a trajectory gets at the speed of a tile with the barrier's energy, and how long (s)
-/// it lasts at most.
+/// Distance (m) covered by a trajectory at the speed of a tile with the barrier's energy, and
+/// largest duration (s).
 const TRAVEL: f64 = 0.15;
 const LONGEST: f64 = 10.0;
-/// Share of the approach velocity that their knocks give back.
+/// Coefficient of restitution of the trajectories.
 const RESTITUTION: f64 = 0.9;
 /// Drag (1/s, of the paper's tile) of the trajectories from either side of the saddle.
 const LIGHT_DRAG: f64 = 0.5;
 /// Longest way (m) of a point of the tile in one step in contact.
 const STEP: f64 = 5e-4;
-/// How far (m) a direction is followed to see whether it leads into contact.
+/// Distance (m) for testing whether a direction leads into contact.
 const ASIDE: f64 = 1e-5;
-/// How far below the barrier trajectories start, in barriers.
+/// Range of starting energies below the barrier, in units of the barrier.
 const BELOW: [f64; 2] = [0.001, 0.05];
-/// How far above it those start that ought to cross.
+/// The same above it, for trajectories that should cross.
 const ABOVE: [f64; 2] = [0.1, 2.0];
-/// Starts tried in place of spoilt ones.
+/// Number of starts tried in place of invalid ones.
 const TRIES: usize = 10;
 
 pub(super) struct Checker<'a> {
@@ -48,27 +48,26 @@ pub(super) struct Checker<'a> {
     known: &'a Known,
     barrier: &'a Barrier,
     settings: &'a CheckSettings,
-    /// Energy (J) that trajectories stay below, and that of the barrier, by which energies are
-    /// measured.
+    /// Energy (J) that trajectories stay below.
     ceiling: f64,
     climb: f64,
-    /// How long (s) a trajectory lasts.
+    /// Duration (s) of a trajectory.
     duration: f64,
     /// Tiles that keep their energy, and tiles that come to rest.
     lossless: Simulation<'a>,
     settling: Simulation<'a>,
 }
 
-/// What became of a trajectory.
+/// The outcome of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
     Stayed,
     Crossed,
-    /// The integration's error lifted it over the ceiling.
+    /// The integration error raised it above the ceiling.
     Spoilt,
 }
 
-/// A trajectory's fate and how many steps it took.
+/// A trajectory's outcome and number of steps.
 type Fated = (Fate, usize);
 
 impl<'a> Checker<'a> {
@@ -98,7 +97,7 @@ impl<'a> Checker<'a> {
             restitution: RESTITUTION,
             walls: true,
             contact_travel: STEP,
-            // Slow tiles need not be watched more closely than fast ones.
+            // Slow tiles need no shorter steps than fast ones.
             contact_step: (STEP / speed).clamp(1e-3, 1e-2),
             ..MotionSettings::default()
         };
@@ -134,7 +133,7 @@ impl<'a> Checker<'a> {
             climb: self.climb,
             steps: 0,
         };
-        // A lower bound below the state itself says nothing that a trajectory could contradict.
+        // A lower bound below the state's energy cannot be contradicted by a trajectory.
         if self.climb <= 0.0 {
             return result;
         }
@@ -205,7 +204,7 @@ impl<'a> Checker<'a> {
         self.moving(q, direction, total - energy)
     }
 
-    /// Where the barrier's first state is.
+    /// The configuration of the barrier's first state.
     fn first(&self) -> Configuration {
         let Place::State(id) = self.barrier.from else {
             return self.barrier.saddle;
@@ -218,8 +217,8 @@ impl<'a> Checker<'a> {
         Some(state.configuration)
     }
 
-    /// A direction that is uniform over kinetic energies and, if one is found, leads into no
-    /// contact.
+    /// A direction that is uniform in the metric of the kinetic energy and, if one is found, does
+    /// not lead into contact.
     fn direction(&self, q: &Configuration, rng: &mut ChaCha8Rng) -> Vector3<f64> {
         let masses = self.lossless.body.masses();
         let mut direction = Vector3::zeros();
@@ -282,8 +281,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a rough descent leads where the barrier does. Most tiles stay where they were, and of
-    /// those no more is asked.
+    /// Whether a rough descent leads to the barrier's end. Most tiles remain in their state, and
+    /// need no further test.
     fn seems_to_enter(&self, snapshot: &Snapshot) -> bool {
         let start = out_of_contact(self.problem, &snapshot.motion.configuration);
         match descend_among(self.problem, &start, self.known).outcome {
@@ -292,7 +291,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The place that slow motion leads to.
+    /// The place that overdamped motion leads to.
     fn place_below(&self, snapshot: &Snapshot) -> Option<Place> {
         let q = &snapshot.motion.configuration;
         if self.problem.space.is_far(q) {
@@ -301,7 +300,7 @@ impl<'a> Checker<'a> {
         self.place_of(&minimum_below(self.problem, q, self.known)?)
     }
 
-    /// The state that a minimum is, if it is one that is reported.
+    /// The reported state at a minimum, if any.
     fn place_of(&self, minimum: &Configuration) -> Option<Place> {
         let distance = |s: &State| self.problem.space.distance(&s.configuration, minimum);
         let nearest = self.states.iter().min_by_key(|s| OrderedFloat(distance(s)));

@@ -1,4 +1,4 @@
-//! Tiles released beside the saddle.
+//! Trajectories released on both sides of a saddle.
 
 use nalgebra::Vector3;
 
@@ -9,14 +9,14 @@ use crate::dynamics::Motion;
 use crate::dynamics::docking::stream;
 use crate::landscape::{Barrier, PathwayPoint, Place, State, highest_point};
 
-/// How far below the saddle the tile is released on either side, in barriers.
+/// Energy below the saddle at which the tile is released on both sides, in units of the barrier.
 const BESIDE: f64 = 0.01;
-/// How long (s) the tile may take to come to rest.
+/// Largest time (s) for the tile to come to rest.
 const SETTLING: f64 = 60.0;
 
 impl Checker<'_> {
-    /// Released at rest a little before the saddle and a little behind it, where the pathway from
-    /// either end first rises that high.
+    /// Releases the tile at rest on both sides of the saddle, where the pathway from each end first
+    /// rises that high.
     pub(super) fn sides(&self, steps: &mut usize) -> [Option<Side>; 2] {
         let path = &self.barrier.pathway;
         let Some(highest) = highest_point(path) else {
@@ -37,8 +37,8 @@ impl Checker<'_> {
                 Place::Free => self.barrier.forward(),
                 Place::State(_) => self.barrier.forward().min(self.barrier.reverse()),
             };
-            // Below the ceiling all the way from its own end, so that an end on the other side
-            // refutes what is claimed.
+            // The path from its own end stays below the ceiling, so an end on the other side
+            // refutes the claim.
             let low = (highest.energy - BESIDE * drop).min(self.ceiling);
             let is_low = |p: &&PathwayPoint| p.energy < low;
             let released = match side {
@@ -60,7 +60,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The places that one half of the pathway passes: its own end and what lies on the way there.
+    /// The places on one half of the pathway: its own end and states on the way there.
     fn places_on(&self, path: &[PathwayPoint], own: Place, other: Place) -> Vec<Place> {
         let near = |state: &&State| {
             let distance = |q: &Configuration| self.problem.space.distance(&state.configuration, q);
@@ -73,8 +73,8 @@ impl Checker<'_> {
         std::iter::once(own).chain(passed).collect()
     }
 
-    /// Where a trajectory with light drag comes to rest; `None` also where the integration's error
-    /// lifted it over the ceiling.
+    /// The place where a trajectory with light drag comes to rest; also `None` if the integration
+    /// error raised it above the ceiling.
     fn settled_place(&self, start: &Motion, steps: &mut usize) -> Option<Place> {
         let space = &self.problem.space;
         let slow = 1e-3 * self.barrier.forward();

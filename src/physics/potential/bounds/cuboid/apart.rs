@@ -1,12 +1,12 @@
-//! Two blocks that stay apart throughout a cell, as even spreads of dipoles.
+//! Bounds for two blocks that stay apart throughout a cell, as uniform distributions of dipoles.
 //!
-//! The energy of two blocks is the mean, over the places of a dipole in either, of that of the two
-//! dipoles. Where these are r apart at the cell's centre, they are at least `rho = r - v` apart
-//! anywhere in the cell, v the farthest that the cell moves a point of the second block; on the
-//! straight way from the centre no point is faster than v and nothing turns faster than w, half the
+//! The energy of two blocks is the mean energy of two dipoles over their places in the blocks. If
+//! these are r apart at the cell's centre, they are at least `rho = r - v` apart anywhere in the
+//! cell, with v the largest distance that the cell moves a point of the second block; on the
+//! straight motion from the centre no point is faster than v and no turn faster than w, half the
 //! cell's angle. With K = mu0 m1 m2 / (4 pi) the energy and its first and third derivatives along
-//! the way are hence (see [`motion`](crate::potential::motion), whose series in t goes on in the
-//! same way) at most
+//! the motion are hence (see [`motion`](crate::potential::motion), whose series in t continues in
+//! the same way) at most
 //!
 //! ```text
 //! |U|    <= 2 K <rho^-3>
@@ -14,11 +14,11 @@
 //! |U'''| <= K [120 v^3 <rho^-6> + 144 v^2 w <rho^-5> + 42 v w^2 <rho^-4> + 2 w^3 <rho^-3>]
 //! ```
 //!
-//! in J. The means are those over pairs of parts of the blocks: for parts whose centres are `rho`
-//! apart in this sense, the offset d of two dipoles from there is even and at most `s` long, and the
-//! largest second derivative of `rho^-n` is the radial one, so that by Taylor's theorem
-//! `<rho^-n> <= rho^-n + n (n + 1) / 2 <d^2> (rho - s)^-(n+2)`. Places are those in the plane: what
-//! lies above or below is farther.
+//! in J. The means are taken over pairs of parts of the blocks: for parts whose centres are `rho`
+//! apart in this sense, the offset d of two dipoles from there is even and at most `s` long, and
+//! the largest second derivative of `rho^-n` is the radial one, so that by Taylor's theorem
+//! `<rho^-n> <= rho^-n + n (n + 1) / 2 <d^2> (rho - s)^-(n+2)`. Only distances in the plane count:
+//! points above or below are farther.
 
 use nalgebra::Vector2;
 
@@ -30,40 +30,40 @@ use crate::units::MU0_OVER_4PI;
 /// Most parts along a side of a block.
 const MOST: usize = 4;
 
-/// A block has one part along its longest side from a distance of this many times that side on, and
-/// two from half of that on.
+/// Beyond this many times its longest side, a block has one part along that side; beyond half of
+/// that, two.
 const WHOLE: f64 = 12.0;
 
-/// Pole faces by themselves say less where the centres are not this many times as far apart as the
-/// cell moves them.
+/// If the centres are closer than this many times the distance that the cell moves them, bounds
+/// from pole faces alone are weaker.
 const COARSE: f64 = 3.0;
 
-/// A form is not worth finer parts where the cell moves blocks by more than their distance over this.
+/// Finer parts are not used if the cell moves blocks by more than their distance divided by this.
 const HOPELESS: f64 = 2.2;
 
-/// Blocks nearer than this share of their radii count as too close: they touch, or might as well.
+/// Blocks closer than this fraction of their radii count as too close: they touch or nearly touch.
 const NEAREST: f64 = 0.5;
 
 /// Room for rounding.
 const ROOM: f64 = 1.0 + 1e-9;
 
-/// What the energy (J) of two blocks does over a cell.
+/// Bounds of the energy (J) of two blocks over a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Apart {
-    /// The most it is in magnitude.
+    /// Of its magnitude.
     pub energy: f64,
-    /// The most that it changes along a motion by the cell's half sizes.
+    /// Of its change along a motion by the cell's half sizes.
     pub slope: f64,
-    /// The most by which it differs from its Taylor form of second order about the centre.
+    /// Of its difference from the second-order Taylor form about the centre.
     pub remainder: f64,
-    /// Whether the cell is so large that pole faces by themselves say less.
+    /// Whether the cell is so large that bounds from pole faces alone are weaker.
     pub is_coarse: bool,
 }
 
 impl Apart {
-    /// Of two blocks as the cell's centre places them, in a cell that moves no point of the second
-    /// one by more than `reach` (m) and turns it by at most `turn` (rad). `None` where parts of them
-    /// may get too close.
+    /// The bounds of two blocks, placed as at the cell's centre, in a cell that moves no point of
+    /// the second one by more than `reach` (m) and turns it by at most `turn` (rad). `None` if
+    /// parts of them may get too close.
     pub fn of(level: Level, [first, second]: [&Block; 2], [reach, turn]: [f64; 2]) -> Option<Self> {
         let distance = (second.position - first.position).norm() - reach;
         if distance <= NEAREST * (first.radius() + second.radius()) {
@@ -96,12 +96,12 @@ impl Apart {
     }
 }
 
-/// Parts of a block of one size, filled up to whole vectors.
+/// Parts of a block, all of one size, padded to whole vectors.
 struct Parts {
     count: usize,
     x: [f64; MOST * MOST],
     y: [f64; MOST * MOST],
-    /// 1 for a part, 0 for what fills up.
+    /// 1 for a part, 0 for padding.
     weight: [f64; MOST * MOST],
     /// Half the diagonal (m), and the mean square distance of a part's points from its centre (m^2).
     radius: f64,
@@ -109,8 +109,8 @@ struct Parts {
 }
 
 impl Parts {
-    /// Cut so that no side of a part is longer than `side` (m), or into as many parts as there may
-    /// be.
+    /// Cut so that no side of a part is longer than `side` (m), or into the largest number of
+    /// parts.
     fn new(block: &Block, side: f64) -> Self {
         let [along, across] = [block.size[0], block.size[1]];
         let count = |length: f64| ((length / side - 1e-9).ceil() as usize).clamp(1, MOST);
@@ -155,7 +155,7 @@ impl Task for Means<'_> {
         let spread = [6.0, 10.0, 15.0, 21.0].map(|factor| factor * square);
         let radii = l.splat(first.radius + second.radius);
         let reach = l.splat(self.reach);
-        // Parts nearer than this share of their radii count as too close.
+        // Parts closer than this fraction of their radii count as too close.
         let tiny = 0.1 * (first.radius + second.radius);
         let (zero, least, smallest) = (l.splat(0.0), l.splat(tiny), l.splat(tiny * tiny));
         let mut sums = [zero; 4];
@@ -170,7 +170,7 @@ impl Task for Means<'_> {
                 let square = l.select(l.sub(square, smallest), square, smallest);
                 let rho = l.sub(l.mul(square, l.reciprocal_sqrt(square)), reach);
                 let near = l.sub(rho, radii);
-                // What fills up is not close.
+                // Padding is not close.
                 let known = l.select(l.sub(weight, l.splat(0.5)), near, l.splat(f64::MAX));
                 closest = l.min(closest, known);
                 let near = l.select(l.sub(near, least), near, least);
@@ -204,7 +204,7 @@ mod tests {
     use super::*;
     use crate::potential::cuboid::exact;
 
-    /// The energy and its first and third derivatives by time, by differences, all along ways that
+    /// The energy and its first and third derivatives by time, by differences, along motions that
     /// turn the second block about a point and shift it.
     #[test]
     fn energies_and_derivatives_stay_within_their_bounds() {
@@ -252,7 +252,7 @@ mod tests {
                 count += 1;
             }
         }
-        // The closest are close: a bound that lost its sense would not be.
+        // The closest bounds are tight; a meaningless bound would not be.
         assert!(count > 900, "{count}");
         let most = [1.5, 3.0, 6.0];
         assert!(

@@ -2,89 +2,92 @@
 //!
 //! # Far pairs
 //! Blocks whose centres are farther apart than three times the sum of their half diagonals, and
-//! four times the magnet's reach, are their centres' dipoles, with value, gradient and Hessian as
-//! in [`DipoleBounds`], plus the value and the gradient of what blocks have over dipoles, from the
-//! multipole series. The second-order remainder of that difference is bounded from the blocks being
-//! even spreads of dipoles (see `dipole::taylor`); it falls like `r^-7`. The series leaves out
-//! terms of less than 1e-9 of `K / r^3`, K = mu0 m1 m2 / (4 pi); with their gradients and turns over
-//! the cell, and the terms beyond the sixteenth, of which at 2.5 sums of the half diagonals less
-//! than 3e-10 is left, 1e-7 is more than enough.
+//! four times the magnet's reach, are treated as the dipoles at their centres, with value, gradient
+//! and Hessian as in [`DipoleBounds`], plus the value and the gradient of the difference between
+//! blocks and dipoles, from the multipole series. The second-order remainder of that difference is
+//! bounded by treating blocks as uniform distributions of dipoles (see `dipole::taylor`); it
+//! decreases like `r^-7`. The series leaves out terms of less than 1e-9 of `K / r^3`, K = mu0 m1 m2
+//! / (4 pi); with their gradients and turns over the cell, and the terms beyond the sixteenth,
+//! which are less than 3e-10 at 2.5 sums of the half diagonals, 1e-7 is a safe bound.
 //!
 //! # Pairs that stay apart
-//! Nearer pairs whose blocks keep some distance throughout the cell have the Taylor form of second
-//! order of their own energy, from Gauss rules over the pole faces at the cell's centre, and as its
-//! remainder that of even spreads of dipoles (see `apart`), wherever that is less than what the pole
-//! faces leave out one by one. The rules are wrong by the bound below in value, and in slope and
-//! second derivative by that of the derivatives on the same ellipse.
+//! Closer pairs whose blocks stay apart throughout the cell have the second-order Taylor form of
+//! their own energy, from Gauss rules over the pole faces at the cell's centre. Its remainder is
+//! that of uniform distributions of dipoles (see `apart`), if this is less than the remainder of
+//! the individual pole faces. The error of the rules is bounded below for the value, and for slope
+//! and second derivative by the bound of the derivatives on the same ellipse.
 //!
 //! # Near pairs
-//! The others as charged pole faces: with Phi the potential of a face of the first block, integrated over the
-//! heights of the second (closed, see `cuboid::sheet`), the energy is the integral of Phi along the
-//! second block's faces. Each face is cut into panels, and the nodes of the panels move with the
-//! cell.
+//! All other pairs are treated as charged pole faces: with Phi the potential of a face of the first
+//! block, integrated over the heights of the second (in closed form, see `cuboid::sheet`), the
+//! energy is the integral of Phi along the second block's faces. Each face is cut into panels, and
+//! the nodes of the panels move with the cell.
 //!
-//! **Clear panels**, at least the distance D from the face throughout the cell, take a Gauss rule.
+//! **Clear panels**, at least the distance D from the face throughout the cell, use a Gauss rule.
 //! Phi is, along the panel's line, an integral of `((t - w)(t - w*))^(-1/2)` whose branch points w
-//! are at least D from the panel in the complex plane (the points of the face, seen along and across
-//! the panel's line, and what lies above them), so on an ellipse about the panel whose points are
-//! no farther than b < D from it `|Phi| <= M = w1 c1 c2 / (D - b)`, and the rule of n nodes is wrong
-//! by at most `(half width) 64/15 M rho^(-2n) / (1 - rho^-2)`, rho the sum of the ellipse's half
-//! axes in half widths: the rule is exact up to the degree 2n - 1, the Chebyshev coefficients from
-//! there on are at most `2 M rho^-k`, and each integral and its rule together at most 32/15
-//! (Trefethen, *Is Gauss quadrature better than Clenshaw-Curtis?*, theorem 4.5,
-//! doi:10.1137/060659831). That holds at every configuration of the cell. Each node has its value, gradient and
-//! Hessian, and a third-order remainder from the bounds of the n-th directional derivative of Phi
-//! by `n! int int int dz1 dz2 ds / r^(n+1)`, over the finite face or over an infinite one,
-//! whichever is less.
+//! are at least D from the panel in the complex plane (the points of the face, seen along and
+//! across the panel's line, and what lies above them), so on an ellipse about the panel whose
+//! points are no farther than b < D from it `|Phi| <= M = w1 c1 c2 / (D - b)`, and the error of the
+//! rule of n nodes is at most `(half width) 64/15 M rho^(-2n) / (1 - rho^-2)`, rho the sum of the
+//! ellipse's half axes in half widths: the rule is exact up to the degree 2n - 1, the Chebyshev
+//! coefficients from there on are at most `2 M rho^-k`, and each integral and its rule together at
+//! most 32/15 (Trefethen, *Is Gauss quadrature better than Clenshaw-Curtis?*, theorem 4.5,
+//! doi:10.1137/060659831). This holds for every configuration of the cell. Each node has its value,
+//! gradient and Hessian, and a third-order remainder from the bounds of the n-th directional
+//! derivative of Phi by `n! int int int dz1 dz2 ds / r^(n+1)`, over the finite face or over an
+//! infinite one, whichever is less.
 //!
-//! **Panels over a face**, nearly parallel to it and inside its upright edges by at least D, take a
-//! Gauss rule whose nodes have value, gradient and the second derivatives along v and across. There `Phi = A - int int ln(h^2 + z^2) dz1 dz2`, A the sum of
-//! `int int ln(u + r) dz1 dz2`, r^2 = u^2 + h^2 + z^2, over both edges, u the way from the edge. A is
-//! analytic up to the edges: on an ellipse whose points are no farther than b < D from the panel the
-//! parts of u and of r that are real are positive, so along a line of slope s
-//! `|d/dt ln(u + r)| <= (1 + |h s| / (D - b)) / (D - b)`, and the rule's error is that of clear panels
-//! with M the half axis times the sum of these. The rest depends on h alone; its second derivative
-//! is `4 ln(sqrt(h^2 + high^2) / sqrt(h^2 + low^2))`, high and low half the sum and half the
-//! difference of the thicknesses, and the rule and the integral are each no farther from its tangent
-//! than `4 e^2 (1/2 ln(sqrt(e^2 + high^2) / sqrt(e^2 + low^2)) + 3/4)`, e how far h changes along half
-//! the panel. Along h the forms have a constant second derivative (an *arch*): in place of the one
-//! just named, which falls with h like a logarithm, that of a height near the middle of those within
-//! reach (see `faces::arch`, with what it is wrong by); and in place of `A_hh`, which is not negative
-//! while u is at least h and at most the sum of `E(p) = 2 (r_high - r_low) / p` over both edges,
-//! half of that. The rest is of third order: `A_vvv` and `A_vhh` are at most the sum of
-//! `2 E(p) / p`, `A_vvh` of `3/2 E(p) / p`, and what a way bends off its straight part.
+//! **Panels over a face**, nearly parallel to it and inside its upright edges by at least D, use a
+//! Gauss rule whose nodes have value, gradient and the second derivatives along v and across. There
+//! `Phi = A - int int ln(h^2 + z^2) dz1 dz2`, A the sum of `int int ln(u + r) dz1 dz2`, r^2 = u^2 +
+//! h^2 + z^2, over both edges, u the distance from the edge. A is analytic up to the edges: on an
+//! ellipse whose points are no farther than b < D from the panel the parts of u and of r that are
+//! real are positive, so along a line of slope s `|d/dt ln(u + r)| <= (1 + |h s| / (D - b)) / (D -
+//! b)`, and the rule's error is that of clear panels with M the half axis times the sum of these.
+//! The rest depends on h alone; its second derivative is `4 ln(sqrt(h^2 + high^2) / sqrt(h^2 +
+//! low^2))`, high and low half the sum and half the difference of the thicknesses, and the rule and
+//! the integral are each no farther from its tangent than `4 e^2 (1/2 ln(sqrt(e^2 + high^2) /
+//! sqrt(e^2 + low^2)) + 3/4)`, e how far h changes along half the panel. Along h the forms have a
+//! constant second derivative (an *arch*): instead of the one just named, which decreases with h
+//! like a logarithm, its value at a height near the middle of those within reach (see
+//! `faces::arch`, which also bounds the error); and instead of `A_hh`, which is not negative while
+//! u is at least h and at most the sum of `E(p) = 2 (r_high - r_low) / p` over both edges, half of
+//! that. The rest is of third order: `A_vvv` and `A_vhh` are at most the sum of `2 E(p) / p`,
+//! `A_vvh` of `3/2 E(p) / p`, and the deviation of a motion from its straight part.
 //!
 //! **Touching panels** are cut to about a quarter of the reach and have forms about their
-//! middles. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of the
-//! face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and
-//! `4 asinh(w1 / 2 / sqrt(h^2 + low^2))`, from the level ones. The latter grows like a logarithm as
-//! h tends to 0. Over the face the forms have an arch in its place, the sum over both ends, s from
-//! there, of `2 [asinh(s / sqrt(h^2 + low^2)) - asinh(s / sqrt(h^2 + high^2))]`. Beside the face,
-//! where h may change its sign, its average over a straight way adds at most 7/4 to half of the arc
-//! function at the far end. Phi_h jumps at the face itself, but a panel over the face that got
-//! below it would be inside the first block, which lies in its own tile: not free. The forms are
-//! hence those of the outer side. Should a block stick out of its tile, or the cell be too large, and
-//! at the face's upright edges, the panel has an interval: Phi falls with the distance from the
-//! face's line and with that from its middle line.
+//! midpoints. In the plane Phi has second derivatives `g'(p)`-like from the two upright edges of
+//! the face, at most `2 (r_high - r_low) / p` each, plus `Phi_xx + Phi_hh`, between 0 and `4
+//! asinh(w1 / 2 / sqrt(h^2 + low^2))`, from the level ones. The latter grows like a logarithm as h
+//! tends to 0. Over the face the forms have an arch instead, the sum over both ends, s from there,
+//! of `2 [asinh(s / sqrt(h^2 + low^2)) - asinh(s / sqrt(h^2 + high^2))]`. Beside the face, where h
+//! may change its sign, its average over a straight motion adds at most 7/4 to half of the arc
+//! function at the far end. Phi_h jumps at the face itself, but a panel over the face that reached
+//! below it would be inside the first block, which lies in its own tile, and so not free. The forms
+//! are hence those of the outer side. If a block sticks out of its tile, if the cell is too large,
+//! and at the face's upright edges, the panel has an interval: Phi decreases with the distance from
+//! the face's line and with the distance from its middle line.
 //!
-//! A pair of which all that says less than `2 K <d^-3>` (d the least distances of the blocks' dipoles) or
-//! `sqrt(U11 U22)` (Cauchy and Schwarz; Uii the energy of a block's charges with a copy of
-//! themselves, bounded in the same way) has the smaller of these as its interval.
+//! A pair whose bounds are weaker than `2 K <d^-3>` (d the smallest distances of the blocks'
+//! dipoles) or `sqrt(U11 U22)` (Cauchy and Schwarz; Uii the energy of a block's charges with a copy
+//! of themselves, bounded in the same way) has the smaller of these as its interval.
 //!
 //! # Slopes
-//! What a form of order n leaves out changes along a motion by the share s of the cell's half sizes
-//! by at most n s times its remainder, as in `dipole::taylor`; terms of their own are where the
-//! remainder is an average (`int ln(1/t) dt = 1`) or of a rule. Along h the slope jumps where
-//! blocks that stick out of their tiles overlap: by at most 4 pi thicknesses over at most so far.
+//! The remainder of a form of order n changes along a motion by the fraction s of the cell's half
+//! sizes by at most n s times its bound, as in `dipole::taylor`; separate terms are added if the
+//! remainder is an average (`int ln(1/t) dt = 1`) or the error of a rule. Along h the slope jumps
+//! where blocks that stick out of their tiles overlap: by at most 4 pi thicknesses over at most
+//! that overlap.
 //!
 //! # Rounding
 //! Dipoles as in [`DipoleBounds`]. Phi and its derivatives are sums of a few dozen terms on partial
-//! results of at most `40 S^2`, with S the sum of all lengths, as no logarithm exceeds
-//! `ln(S / 1e-15 m) < 40`; at most 20 of their operations are on results of that size, each right to
+//! results of at most `40 S^2`, with S the sum of all lengths, as no logarithm exceeds `ln(S /
+//! 1e-15 m) < 40`; at most 20 of their operations are on results of that size, each accurate to
 //! 1e-13 or better (the reciprocals): together less than `1e-10 S^2`, which times the face's charge
 //! is added for each pair. Gradients and Hessians have the same relative errors and act over less
-//! than the distance that their denominators hold. Distances have a spare 1e-8 m for the paper's tile, and in proportion for others. Assumed as
-//! elsewhere: the platform's sine, cosine and arc functions are right to 8 units in the last place.
+//! than the distance that their denominators hold. Distances have a margin of 1e-8 m for the
+//! paper's tile, and in proportion for others. As elsewhere it is assumed that the platform's sine,
+//! cosine and arc functions are accurate to 8 units in the last place.
 
 mod apart;
 mod faces;
@@ -109,21 +112,21 @@ use apart::Apart;
 use faces::{Left, Motion, Pair};
 use nodes::{Nodes, Sum, Totals};
 
-/// Blocks closer than this many sums of their radii are taken by their pole faces.
+/// Blocks closer than this many times the sum of their radii are bounded by their pole faces.
 const CLOSE: f64 = 3.0;
 
 /// A cell of blocks takes as long as about this many of dipoles: 12 to 28 over the shipped designs.
 const CELLS_OF_DIPOLES: u64 = 18;
 
-/// The error of the multipole series, in value and in what its gradient and turn do over a cell, as
-/// a share of `mu0 m1 m2 / (4 pi r^3)`.
+/// The error of the multipole series, in value and in the change by its gradient and turn over a
+/// cell, as a fraction of `mu0 m1 m2 / (4 pi r^3)`.
 const SERIES: f64 = 1e-7;
 
-/// Share by which rounding may change what nodes give.
+/// Relative rounding error of the nodes' values.
 const ROUNDING: f64 = 1e-10;
 
-/// Depth up to which a block may stick out of its tile and still count as inside, as a share of the slack
-/// of what counts as touching.
+/// Depth up to which a block may stick out of its tile and still count as inside, as a fraction of
+/// the slack of touching.
 const STICKING_OUT: f64 = 0.1;
 
 /// Cell bounds of the interaction energy of two tiles' blocks.
@@ -135,11 +138,11 @@ pub struct CuboidBounds {
     potential: CuboidPotential,
     fixed: Vec<Enclosed>,
     moving: Vec<Enclosed>,
-    /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
+    /// How much (m) blocks may overlap in configurations that count as free, with a margin.
     slack: f64,
 }
 
-/// A block with what is known of it.
+/// A block and its properties.
 #[derive(Clone, Copy, Debug)]
 struct Enclosed {
     block: Block,
@@ -150,18 +153,18 @@ struct Enclosed {
 }
 
 impl CuboidBounds {
-    /// For the magnets of two tiles, with the best instruction set there is.
+    /// Bounds for the magnets of two tiles, with the best available instruction set.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
         Self::with_level(fixed, moving, Level::best())
     }
 
-    /// For the given instruction set.
+    /// Bounds for the given instruction set.
     pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
         let enclosed = [fixed, moving].map(|tile| enclosed(tile, level));
         Self::of_enclosed([fixed, moving], enclosed, level)
     }
 
-    /// Of every pair of magnets by itself, those of the first moving one first.
+    /// The enclosure of every single pair of magnets, those of the first moving one first.
     pub(super) fn of_pairs(fixed: &Tile, moving: &Tile, level: Level) -> Vec<Self> {
         let [first, second] = [fixed, moving].map(|tile| {
             let alone = |magnet: &Magnet| Tile {
@@ -244,8 +247,9 @@ fn still(slack: f64) -> Motion {
     }
 }
 
-/// The form of two blocks by their pole faces, in the frame of the first one's axis, and what it
-/// leaves out, rounding included: face by face, or together where they stay apart and that says more.
+/// The form of two blocks by their pole faces, in the frame of the first one's axis, and its
+/// remainder including rounding: face by face, or for whole blocks if they stay apart and this is
+/// tighter.
 fn faces(
     level: Level,
     [first, second]: [&Block; 2],

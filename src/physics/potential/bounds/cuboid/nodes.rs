@@ -1,4 +1,4 @@
-//! Potentials of one pole face at many nodes of another block's, in vectors.
+//! The potentials of one pole face at many nodes of another block's pole face, with SIMD vectors.
 
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::sheet::{Expansion, expansion};
@@ -8,10 +8,10 @@ use crate::potential::cuboid::sheet::{Expansion, expansion};
 /// its pole faces.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Node {
-    /// Where it is: along the first block's pole face and out of it (m).
+    /// Its position along the first block's pole face and out of it (m).
     pub v: f64,
     pub h: f64,
-    /// How far (m) out of the face the place that is meant lies from the node.
+    /// Offset (m), out of the face, from the node to the intended place.
     pub shift: f64,
     /// The direction of h along u: 1 or -1.
     pub side: f64,
@@ -21,27 +21,27 @@ pub(super) struct Node {
     pub slope: f64,
     pub bend: f64,
     pub bend_h: f64,
-    /// Second derivative (J/m^2) along h that the form has instead of the potential's own.
+    /// Second derivative (J/m^2) along h of the form, instead of the potential's own.
     pub arch: f64,
-    /// Weight of the potential in what is uncertain, and that of the magnitude of its slopes (that
+    /// Weight of the potential in the uncertainty, and of the magnitude of its slopes (the same
     /// times m).
     pub spread: f64,
     pub turn: f64,
-    /// Way (m) from the point about which the second block turns, in the first one's frame.
+    /// Vector (m) from the point about which the second block turns, in the first one's frame.
     pub arm: [f64; 2],
 }
 
 const COLUMNS: usize = 13;
 const SUMS: usize = 12;
 
-/// Nodes in blocks of whole vectors, the last one filled up with nodes of no weight.
+/// Nodes in blocks of whole vectors, the last one padded with nodes without weight.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     count: usize,
     blocks: Vec<[[f64; WIDTH]; COLUMNS]>,
 }
 
-/// Blocks for which there is room at first: of most pairs.
+/// Initial capacity in blocks, enough for most pairs.
 const ROOM: usize = 32;
 
 impl Nodes {
@@ -61,7 +61,7 @@ impl Nodes {
         let lane = self.count % WIDTH;
         if lane == 0 {
             let mut empty = [[0.0; WIDTH]; COLUMNS];
-            // Off the face, for what fills up.
+            // Off the face, for padding.
             empty[1] = [1.0; WIDTH];
             self.blocks.push(empty);
         }
@@ -98,7 +98,7 @@ pub(super) struct Totals {
     pub gradient: [f64; 3],
     /// As (uu, vv, angle angle, uv, u angle, v angle).
     pub hessian: [f64; 6],
-    /// What is uncertain (J), and its part that comes from the slopes.
+    /// The uncertainty (J), and its part due to the slopes.
     pub spread: f64,
     pub turned: f64,
 }
@@ -165,12 +165,12 @@ impl Sum<'_> {
         let arched = l.mul(arch, shift);
         let gu = l.mul(side, l.mul_add(weight, phi.h, arched));
         let bend = l.load(bend);
-        // Along v at the place that is meant.
+        // Along v at the intended place.
         let gv = l.mul_add(weight, phi.x, l.mul(l.mul(bend, shift), phi.xh));
         let huu = l.mul_add(l.load(bend_h), phi.hh, arch);
         let hvv = l.mul(bend, phi.xx);
         let huv = l.mul(l.mul(bend, side), phi.xh);
-        // A turn moves the node along i arm and bends its way along -arm.
+        // A turn moves the node along i arm and curves its path along -arm.
         let (arm_u, arm_v) = (l.load(arm_u), l.load(arm_v));
         let (tu, tv) = (l.sub(zero, arm_v), arm_u);
         let hut = l.mul_add(huu, tu, l.mul(huv, tv));

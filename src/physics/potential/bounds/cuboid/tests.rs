@@ -53,7 +53,7 @@ fn what_is_unknown_of_blocks_in_contact_falls_as_the_square_of_the_cell() {
     // Faces flush, beside each other by a part of their width, and on the next ones.
     for slide in [0.0, -0.0013, -0.04] {
         for half in [5e-5, 2.5e-5] {
-            // Over two halvings, as where panels are cut tells from one to the next.
+            // Over two halvings, because the cuts of panels change from one to the next.
             let ratio = (unknown(slide, half) / unknown(slide, half / 4.0)).sqrt();
             // Less than four for the logarithm.
             assert!(ratio > 3.3 && ratio < 4.0, "{slide} {half} {ratio}");

@@ -1,5 +1,6 @@
-//! Very many dipoles, enclosed in groups (see [`crate::potential::groups`]): those that stand for a
-//! far group are bounded like any others, and what is lost of it over the cell is added.
+//! Bounds for large numbers of dipoles in groups (see [`crate::potential::groups`]): the few
+//! dipoles that replace a far group are bounded like any others, and the error of the replacement
+//! over the cell is added.
 
 use super::taylor::Taylor;
 use super::{DipoleBounds, NEAR};
@@ -17,7 +18,7 @@ impl DipoleBounds {
         let leeway = Leeway {
             travel: cell.travel(),
             turn: cell.half[2],
-            // A little farther than single pairs, so that no stand-in is near.
+            // A little farther than single pairs, so that no replacement is near.
             near: NEAR * (1.0 + 1e-6),
         };
         let mut out = Enclosure::default();
@@ -57,18 +58,18 @@ impl DipoleBounds {
     }
 }
 
-/// What dipoles that stand for others lose of an energy ([`tree::LOST`]), and what is rounded in
-/// making them.
+/// Relative error of the energy of replacement dipoles ([`tree::LOST`]), including the rounding in
+/// computing them.
 const LOST_AND_ROUNDED: f64 = 1.1 * tree::LOST;
 
-/// A motion by the cell's half sizes changes what is lost by no more than this times its bound: for
-/// n up to 24 nodes by `(n + 3) / r` times the reach, which is a third of the distance r at most, and
-/// by `n + 2` times the turn, which is half a turn at most, as a turn moves dipoles by what is linear
-/// in their places and turns their moments.
+/// A motion by the cell's half sizes changes this error by no more than this times its bound: for n
+/// up to 24 nodes by `(n + 3) / r` times the reach, which is a third of the distance r at most, and
+/// by `n + 2` times the turn, which is half a turn at most, as a turn moves dipoles linearly in
+/// their places and turns their moments.
 const SLOPE_OF_LOST: f64 = 100.0;
 
 /// The tree of a tile's dipoles, and the dipoles of its groups with their distances to the outline,
-/// which no stand-in has.
+/// which replacements lack.
 pub(super) fn in_groups(tile: &Tile, fill: usize) -> (Vec<(Dipole, f64)>, Vec<Group>) {
     let tree = Tree::new(&dipoles(&tile.magnets), fill);
     let mut all: Vec<_> = tree.dipoles.iter().map(|dipole| (*dipole, 0.0)).collect();

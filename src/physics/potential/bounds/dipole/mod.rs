@@ -3,16 +3,17 @@
 //! **Far pairs** are bounded together by Taylor's theorem about the cell's centre: value, gradient
 //! and Hessian of their energy, with a bound of the third-order remainder (see [`taylor`]).
 //!
-//! **Near pairs**, closer than a few times the magnet's reach, are bounded one by one over the
+//! **Near pairs**, closer than a few times the magnet's reach, are bounded individually over the
 //! distances and angles within reach (see [`NearPair`]).
 //!
 //! **Rounding.** A term is a product of at most 60 operations, each correctly rounded or (the
-//! reciprocals) right to 1e-13, on partial results of the size of `K G_n (reach)^n` at most, with
-//! the G_n of [`taylor`]; the separation itself is rounded by a few units in the last place of the
-//! largest coordinate S (m), which changes a term by `K G_(n+1)` times as much. Sums add one
-//! rounding a pair. All is covered by adding `E = (20000 + 8 N) eps` to the coefficient of
-//! `rho^-3` and `E S` to that of `rho^-4` in the remainder, N the number of pairs. Assumed, not
-//! proved: sine, cosine and arc functions of the platform are right to 8 units in the last place.
+//! reciprocals) accurate to 1e-13, on partial results of the size of `K G_n (reach)^n` at most,
+//! with the G_n of [`taylor`]; the separation itself is rounded by a few units in the last place of
+//! the largest coordinate S (m), which changes a term by `K G_(n+1)` times as much. Sums add one
+//! rounding per pair. All this is covered by adding `E = (20000 + 8 N) eps` to the coefficient of
+//! `rho^-3` and `E S` to that of `rho^-4` in the remainder, N the number of pairs. It is assumed,
+//! not proved, that the platform's sine, cosine and arc functions are accurate to 8 units in the
+//! last place.
 
 mod groups;
 mod taylor;
@@ -32,7 +33,7 @@ use crate::units::MU0_OVER_4PI;
 use groups::in_groups;
 pub(super) use taylor::{Spread, Taylor};
 
-/// Pairs closer than this many times the magnet's reach are bounded one by one.
+/// Pairs closer than this many times the magnet's reach are bounded individually.
 pub(super) const NEAR: f64 = 4.0;
 
 /// Cell bounds of the interaction energy of two tiles' dipoles.
@@ -44,12 +45,12 @@ pub struct DipoleBounds {
     rounding: f64,
     /// Largest distance of a fixed dipole from the origin (m).
     extent: f64,
-    /// Least and greatest distance of a moving dipole from the reference point (m).
+    /// Smallest and largest distance of a moving dipole from the reference point (m).
     levers: Option<[f64; 2]>,
-    /// Zero but for dipoles that stand for blocks.
+    /// Zero except for dipoles that represent blocks.
     spread: Spread,
-    /// Of both tiles, where there are so many dipoles that they are worth it; `fixed` and `moving`
-    /// are then those of the trees.
+    /// Groups of both tiles, if there are enough dipoles to benefit; `fixed` and `moving` are then
+    /// those of the trees.
     groups: Option<[Vec<Group>; 2]>,
 }
 
@@ -66,8 +67,8 @@ struct Fixed {
     depth: f64,
 }
 
-/// The dipoles of the moving tile as a structure of arrays, filled up to whole vectors with
-/// dipoles without moment.
+/// The dipoles of the moving tile as a structure of arrays, padded to whole vectors with dipoles
+/// without moment.
 #[derive(Clone, Debug)]
 struct Moving {
     count: usize,
@@ -82,7 +83,7 @@ struct Moving {
 }
 
 impl DipoleBounds {
-    /// For the magnets of two tiles, with the best instruction set there is.
+    /// Bounds for the magnets of two tiles, with the best available instruction set.
     pub fn new(fixed: &Tile, moving: &Tile) -> Self {
         let level = Level::best();
         if !are_many(fixed.magnets.len(), moving.magnets.len()) {
@@ -99,7 +100,7 @@ impl DipoleBounds {
         }
     }
 
-    /// For the given instruction set, every pair by itself.
+    /// Bounds for the given instruction set, without groups.
     pub fn with_level(fixed: &Tile, moving: &Tile, level: Level) -> Self {
         Self::of_dipoles(
             &dipoles_and_depths(fixed),
@@ -124,7 +125,7 @@ impl DipoleBounds {
         }
     }
 
-    /// The same dipoles standing for blocks.
+    /// The same dipoles, representing blocks.
     pub(super) fn with_spread(self, spread: Spread) -> Self {
         Self { spread, ..self }
     }
@@ -143,12 +144,12 @@ impl DipoleBounds {
         (form, remainder, weights)
     }
 
-    /// How many weights a fixed dipole has.
+    /// Number of weights of a fixed dipole.
     pub(super) fn stride(&self) -> usize {
         self.moving.x.len()
     }
 
-    /// The pairs that are near: the numbers of the fixed and of the moving dipole.
+    /// The near pairs, as indices of the fixed and the moving dipole.
     pub(super) fn near<'a>(
         &'a self,
         weights: &'a [f64],
@@ -163,11 +164,11 @@ impl DipoleBounds {
     }
 }
 
-/// Where there are very many pairs, those closer than this many times the reach are bounded by
-/// their distance alone: their directions are hardly known.
+/// With very many pairs, those closer than this many times the reach are bounded by their distance
+/// alone, because their directions are hardly known.
 const ANY_ANGLE: f64 = 1.5;
 
-/// E of the module's text, for so many pairs.
+/// E of the module's documentation, for this many pairs.
 fn rounding(pairs: usize) -> f64 {
     (20_000.0 + 8.0 * pairs as f64) * f64::EPSILON
 }
@@ -231,7 +232,7 @@ impl CellBounds for DipoleBounds {
 }
 
 impl DipoleBounds {
-    /// Adds the pair of a fixed dipole and the moving one of number `i`.
+    /// Adds the pair of a fixed dipole and the moving dipole `i`.
     fn add_near(
         &self,
         out: &mut Enclosure,

@@ -1,5 +1,5 @@
-//! The far pairs of a cell: Taylor's form of their energy and the bound of its remainder, the
-//! moving dipoles in the lanes of vectors.
+//! The far pairs of a cell: the Taylor form of their energy and the bound of its remainder, with
+//! the moving dipoles in SIMD lanes.
 //!
 //! With the sum over the fixed dipoles `psi(z) = mu0 / (4 pi) sum_j m_j . d_j / |d_j|^3` (so that
 //! the field is `-grad psi`) a moving dipole `mu` at z has the energy `U = (mu . grad) psi`.
@@ -20,27 +20,27 @@
 //!
 //! **Remainder.** U of a pair is `-K` times a second directional derivative of `1 / r`, K = mu0 m1
 //! m2 / (4 pi), and the n-th directional derivative of `1 / r` is at most `n! / r^(n+1)`. On the
-//! straight way from the centre to a configuration of the cell the magnet has speed at most v =
-//! its reach, turns at w = half the cell's angle, and its second and third time derivatives are at
-//! most `a w^2` and `a w^3` with its lever arm a. With `G_n = (n + 2)! / rho^(n+3)`,
-//! rho = r - reach,
+//! straight motion from the centre to a configuration of the cell the magnet's speed is at most v =
+//! its reach, it turns at most at the rate w = half the cell's angle, and its second and third time
+//! derivatives are at most `a w^2` and `a w^3`, with a its lever arm. With `G_n = (n + 2)! /
+//! rho^(n+3)`, rho = r - reach,
 //!
 //! ```text
 //! |U'''| / K <= w^3 G0 + 3 w^2 G1 v + 3 w (G2 v^2 + G1 a w^2) + G3 v^3 + 3 G2 v a w^2 + G1 a w^3
 //! ```
 //!
-//! and the remainder is a sixth of that. It is a sum of products of three speeds, of the place and
-//! of the turning. A motion by the share s of the cell's half sizes has at most the share s of
-//! these speeds, and the derivative of what the form leaves out is half of the same sum with one
-//! factor of each product for the motion: at most 3 s times the remainder.
+//! and the remainder is a sixth of this. It is a sum of products of three speeds, of the place and
+//! of the turn. A motion by the fraction s of the cell's half sizes has at most the fraction s of
+//! these speeds, and the derivative of the remainder is half of the same sum with one factor of
+//! each product for the motion: at most 3 s times the remainder.
 //!
-//! **Blocks** ([`Taylor`] with `BLOCKS`) add the remainder of what their energy V has over that of
-//! point dipoles, beyond its value and gradient. A block is an even spread of dipoles, so V is the
-//! mean over the offsets xi between two of them of `u(x + xi) - u(x)`, in which xi has mean zero
-//! and the mean square `s`: a second derivative of u along xi, at a distance of at least `rho_b`,
-//! the centres' rho less the blocks' radii. Two time derivatives fall on the place (speed `V_b`,
-//! acceleration `A_b w^2`, lever arms now to the blocks' farthest points) or on one of the three
-//! directions that turn, so half of the second time derivative is at most
+//! **Blocks** ([`Taylor`] with `BLOCKS`) add the remainder of the difference V between their energy
+//! and that of point dipoles, beyond its value and gradient. A block is a uniform distribution of
+//! dipoles, so V is the mean over the offsets xi between two of them of `u(x + xi) - u(x)`, in
+//! which xi has mean zero and the mean square `s`: a second derivative of u along xi, at a distance
+//! of at least `rho_b`, the centres' rho minus the blocks' radii. Two time derivatives fall on the
+//! place (speed `V_b`, acceleration `A_b w^2`, lever arms now to the blocks' farthest points) or on
+//! one of the three directions that turn, so half of the second time derivative is at most
 //!
 //! ```text
 //! K s / 4 [720 V_b^2 / rho_b^7 + (720 V_b w + 120 A_b w^2) / rho_b^6 + 216 w^2 / rho_b^5]
@@ -55,13 +55,13 @@ use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 /// Larger than any reciprocal of a difference of squared distances that is not zero.
 const HUGE: f64 = 1e60;
 
-/// Pairs are near within a few times this (m) in any case, and left out; so distances may be taken
-/// to be at least this.
+/// Pairs within a few times this (m) are always near, and left out, so distances may be assumed to
+/// be at least this.
 const TINY: f64 = 1e-10;
 
-/// Sums up the far pairs, of some fixed and some moving dipoles, of a cell: their form, and the
-/// bound of its remainder. `weights` gets 1 for each far pair and 0 for each near one, which is left
-/// out; fixed dipole by fixed dipole. The moving ones are whole vectors.
+/// Sums up the far pairs of some fixed and some moving dipoles over a cell: their form, and the
+/// bound of its remainder. `weights` gets 1 for each far pair and 0 for each near one, which is
+/// left out, in the order of the fixed dipoles. The moving ones are whole vectors.
 pub(in crate::potential::bounds) struct Taylor<'a, const BLOCKS: bool> {
     pub bounds: &'a DipoleBounds,
     pub cell: &'a Cell,
@@ -70,7 +70,7 @@ pub(in crate::potential::bounds) struct Taylor<'a, const BLOCKS: bool> {
     pub weights: &'a mut Vec<f64>,
 }
 
-/// What must be known of blocks to bound them by their centres' dipoles.
+/// Properties of blocks for bounding them by the dipoles at their centres.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::potential::bounds) struct Spread {
     /// Pairs closer than this (m) are near.
@@ -79,7 +79,7 @@ pub(in crate::potential::bounds) struct Spread {
     pub radii: f64,
     /// Mean square of the offset between two dipoles (m^2).
     pub square: f64,
-    /// Relative error of the value and of the gradient's effect, as a share of K / r^3.
+    /// Error of the value and of the gradient's effect, as a fraction of K / r^3.
     pub error: f64,
 }
 
@@ -130,7 +130,7 @@ struct Dipoles<F> {
     near: F,
     /// Coefficients of rho^-3 to rho^-6 in the remainder.
     remainder: [F; 4],
-    /// The same for rho_b, from rho_b^-5 to rho_b^-7, where the dipoles stand for blocks.
+    /// The same for rho_b, from rho_b^-5 to rho_b^-7, if the dipoles represent blocks.
     spread: [F; 3],
 }
 

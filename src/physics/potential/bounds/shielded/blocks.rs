@@ -9,15 +9,15 @@
 //! u w - p f = (u - p) w + p (w - f)
 //! ```
 //!
-//! is at most `R |w| + |p| E`. With P1, P2 and F1, F2 the most that the terms of first and second
-//! order of p and f can be, the terms left out are at most `P1 F2 + P2 F1` and `P2 F2`.
+//! is at most `R |w| + |p| E`. With P1, P2 and F1, F2 the bounds of the first- and second-order
+//! terms of p and f, the omitted terms are at most `P1 F2 + P2 F1` and `P2 F2`.
 //!
-//! On a way that counts as the share s of the cell (see [`Enclosure::slope`]) terms of the order n
-//! change by at most n s times what they are at most, `w - f`, of third order, by 3 s E, and w by s
-//! times its change over half the cell.
+//! On a motion by the fraction s of the cell (see [`Enclosure::slope`]) terms of the order n change
+//! by at most n s times their bounds, `w - f`, which is of third order, by 3 s E, and w by s times
+//! its change over half the cell.
 //!
-//! **Rounding.** Those of u and of w are in R and E. A product loses a few units in the last place of
-//! what `|u| |w|` is at most, which [`ROUNDING`] covers with the sum over the pairs.
+//! **Rounding.** The errors of u and of w are in R and E. A product loses a few units in the last
+//! place of the bound of `|u| |w|`, which [`ROUNDING`] covers together with the sum over the pairs.
 
 use super::Fronts;
 use crate::cell::Cell;
@@ -27,7 +27,7 @@ use crate::potential::shielding::Shields;
 use crate::potential::shielding::kernel::{FactorForm, Factors};
 use crate::tile::Tile;
 
-/// Share of a pair's greatest energy by which its product with the factor may be rounded.
+/// Rounding of a pair's product with the factor, as a fraction of the pair's greatest energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Cell bounds of the interaction energy of two tiles' blocks behind shields that act smoothly.
@@ -40,8 +40,8 @@ pub struct ShieldedBlockBounds {
 }
 
 impl ShieldedBlockBounds {
-    /// For shields that act by the smooth rule; `shields.rule` is not looked at. Faces beyond the
-    /// ends of the lists of shields have none.
+    /// For shields that act by the smooth rule; `shields.rule` is ignored. Faces beyond the ends of
+    /// the lists of shields have none.
     pub fn new(fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
         Self::with_level(fixed, moving, shields, Level::best())
     }
@@ -86,7 +86,7 @@ impl CellBounds for ShieldedBlockBounds {
     }
 }
 
-/// A factor of which only the interval is known.
+/// A factor known only as an interval.
 fn of_interval(interval: Interval) -> FactorForm {
     let Interval { low, high } = interval.widened(super::MARGIN * interval.size());
     FactorForm {
@@ -100,7 +100,7 @@ fn of_interval(interval: Interval) -> FactorForm {
     }
 }
 
-/// What is known of an energy times a factor, over a cell of these half sizes.
+/// The enclosure of an energy times a factor, over a cell of these half sizes.
 fn product(bare: &Enclosure, factor: &FactorForm, half: &[f64; 3]) -> Enclosure {
     let (p, f) = (&bare.form, &factor.form);
     let rest = bare.high.max(-bare.low);

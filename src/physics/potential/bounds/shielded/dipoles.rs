@@ -1,14 +1,13 @@
 //! Bounds of the energy of shielded dipoles over a cell.
 //!
-//! Most pairs have a second-order form with a bound of what it leaves out (see
-//! [`Forms`]). The others, near each other or where the factor changes too fast,
-//! have an interval each, the product of that of the energy over the distances and angles within
-//! reach, as for bare dipoles, and that of the factor.
+//! Most pairs have a second-order form with a bound of its remainder (see [`Forms`]). Pairs near
+//! each other, or whose factor changes too fast, have an interval: the product of the energy's
+//! interval over the distances and angles within reach, as for bare dipoles, and of the factor's.
 //!
-//! **Rounding.** Each pair's relative error, of some hundred operations right to 1e-13, is covered by
-//! 2e-11 of the bound of its energy, and the rounding of places by 1e-14 of the largest coordinate
-//! times the bound of its slope. Assumed, not proved: sine, cosine, arc and exponential functions
-//! of the platform are right to 8 units in the last place.
+//! **Rounding.** Each pair's relative error, of about a hundred operations accurate to 1e-13, is
+//! covered by 2e-11 of the bound of its energy, and the rounding of places by 1e-14 of the largest
+//! coordinate times the bound of its slope. It is assumed, not proved, that the platform's sine,
+//! cosine, arc and exponential functions are accurate to 8 units in the last place.
 
 use nalgebra::Rotation2;
 
@@ -25,13 +24,13 @@ use crate::tile::Tile;
 pub struct ShieldedBounds {
     level: Level,
     fronts: Fronts,
-    /// Least and greatest lever of the moving magnets (m).
+    /// Smallest and largest lever of the moving magnets (m).
     levers: Option<[f64; 2]>,
 }
 
 impl ShieldedBounds {
-    /// For shields that act by the smooth rule; `shields.rule` is not looked at. Faces beyond the
-    /// ends of the lists of shields have none.
+    /// For shields that act by the smooth rule; `shields.rule` is ignored. Faces beyond the ends of
+    /// the lists of shields have none.
     pub fn new(fixed: &Tile, moving: &Tile, shields: &Shields) -> Self {
         Self::with_level(fixed, moving, shields, Level::best())
     }
@@ -46,7 +45,7 @@ impl ShieldedBounds {
         }
     }
 
-    /// The interval of the pair of a fixed and a moving magnet; `None` where they may coincide.
+    /// The interval of the pair of a fixed and a moving magnet; `None` if they may coincide.
     fn interval(&self, at: (&Cell, &Rotation2<f64>), i: usize, j: usize) -> Option<Interval> {
         let (pair, factor) = self.fronts.interval(at, i, j);
         if pair.may_coincide() {

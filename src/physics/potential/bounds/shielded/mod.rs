@@ -1,10 +1,11 @@
-//! Bounds of the energy of magnets behind shields that act smoothly, over a cell: of point dipoles
+//! Bounds over a cell of the energy of magnets behind smoothly acting shields: of point dipoles
 //! ([`ShieldedBounds`]) and of blocks ([`ShieldedBlockBounds`]).
 //!
-//! Most pairs' factors have a second-order form with a bound of what it leaves out (see
-//! [`Factors`](crate::potential::shielding::kernel::Factors)). A factor that changes too fast for one has an interval. A magnet's factor is
-//! `g = eta (1 - S) + G S`, in which eta grows with the distance and S with the cosine: linear in
-//! either, it lies between its values at the corners of their ranges.
+//! Most pairs' factors have a second-order form with a bound of its remainder (see
+//! [`Factors`](crate::potential::shielding::kernel::Factors)). A factor that changes too fast for
+//! one has an interval. A magnet's factor is `g = eta (1 - S) + G S`, in which eta increases with
+//! the distance and S with the cosine. As it is linear in both, it lies between its values at the
+//! corners of their ranges.
 
 mod blocks;
 mod dipoles;
@@ -66,8 +67,7 @@ impl Fronts {
         self.fixed[i].front.0.is_some() || self.moving[j].front.0.is_some()
     }
 
-    /// What a cell does to the pair of a fixed and a moving magnet as dipoles, and the interval of its
-    /// factor.
+    /// A fixed and a moving magnet as dipoles over a cell, and the interval of their factor.
     fn interval(
         &self,
         (cell, rotation): (&Cell, &Rotation2<f64>),

@@ -1,4 +1,4 @@
-//! The pairs of a cell that Taylor's theorem bounds.
+//! The pairs of a cell that are bounded by Taylor's theorem.
 
 use nalgebra::{Rotation2, Vector2};
 
@@ -11,42 +11,42 @@ use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 /// Pairs closer than this many times the magnet's reach have no form.
 const NEAR: f64 = 2.0;
 
-/// The same in any case (m).
+/// The smallest such distance (m).
 const TINY: f64 = 1e-9;
 
-/// Relative error of the energy and the factor of a pair, and of what a gradient does over a cell:
-/// some hundred operations right to 1e-13 or better.
+/// Relative error of the energy and the factor of a pair, and of the effect of a gradient over a
+/// cell: about a hundred operations accurate to 1e-13 or better.
 const ROUNDING: f64 = 2e-11;
 
-/// Rounding of a place, as a share of the largest coordinate.
+/// Rounding of a place, as a fraction of the largest coordinate.
 const PLACING: f64 = 1e-14;
 
-/// The magnets turn as if this (m) were added to the distance from their tile's reference point,
-/// for a magnet there does not move but turns.
+/// This (m) is added to a magnet's distance from its tile's reference point, because a magnet at
+/// that point turns although it does not move.
 const LEAST_LEVER: f64 = 1e-3;
 
 impl Magnet {
-    /// How far (m) a turn by one radian counts as moving it.
+    /// The displacement (m) that a turn of one radian counts as.
     pub fn lever(&self) -> f64 {
         self.position.norm() + LEAST_LEVER
     }
 }
 
 /// Sums up the energies of the pairs of shielded dipoles as forms of second order about the cell's
-/// centre, and bounds what the forms leave out.
+/// centre, and bounds the forms' remainders.
 ///
-/// On the straight way from the centre to a configuration of the cell a magnet is at most as fast
-/// as its reach V and turns at half the cell's angle W. In units in which it is no faster than 1 it
-/// turns at the rate W / V, so that [`dipole_limits`] and [`pair_limits`], taken at the distance
-/// `r - V`, bound the third derivative of the energy u times the factor w along the way, and the
-/// form is wrong by at most
+/// On the straight motion from the centre to a configuration of the cell a magnet's speed is at
+/// most its reach V, and it turns at most at the rate W, half the cell's angle. Scaled to a speed
+/// of at most 1 it turns at the rate W / V, so that [`dipole_limits`] and [`pair_limits`], taken at
+/// the distance `r - V`, bound the third derivative of the energy u times the factor w along the
+/// motion, and the form's error is at most
 ///
 /// ```text
 /// V^3 / 6 [|w| |u'''| + 3 |w'| |u''| + 3 |w''| |u'| + |w'''| |u|]
 /// ```
 ///
-/// Pairs for which this is more than the energy itself can be, `2 |w| |u|`, get no form: their
-/// numbers (fixed, moving) are appended to `rest`.
+/// Pairs for which this exceeds the energy's own range, `2 |w| |u|`, get no form: their indices
+/// (fixed, moving) are appended to `rest`.
 pub(in crate::potential) struct Forms<'a> {
     pub pairs: Pairs<'a>,
     pub rest: &'a mut Vec<(usize, usize)>,
@@ -57,7 +57,7 @@ pub(in crate::potential) struct Pairs<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub cell: &'a Cell,
-    /// How many fixed magnets there are, and the farthest one's distance from the origin (m).
+    /// Number of fixed magnets, and the farthest one's distance from the origin (m).
     pub count: usize,
     pub extent: f64,
 }
@@ -67,10 +67,10 @@ struct Moved<F> {
     /// At the cell's centre, and from the tile's reference point (m).
     vectors: Vectors<F>,
     arm: Vector2<f64>,
-    /// How far it moves (m) and turns (rad) at most.
+    /// The largest distance (m) that it moves and angle (rad) that it turns.
     speed: f64,
     turn: f64,
-    /// By how much rounding may displace it (m).
+    /// The rounding of its place (m).
     placing: f64,
 }
 
@@ -90,7 +90,7 @@ impl Pairs<'_> {
     }
 }
 
-/// The form, and the bound of what it leaves out (J).
+/// The form, and the bound of its remainder (J).
 pub(in crate::potential) type Form = (Quadratic, f64);
 
 impl Task for Forms<'_> {
@@ -122,7 +122,7 @@ impl Task for Forms<'_> {
                     l.splat(moved.speed * moved.speed * moved.speed / 6.0),
                     twist,
                 );
-                // Negative where there is no form.
+                // Negative if there is no form.
                 let worth = l.sub(l.mul(l.splat(2.0), whole), left_out);
                 let mask = l.select(l.min(near.room, worth), one, zero);
                 self.note_rest(l, mask, j, from);
@@ -154,7 +154,7 @@ struct Near<F> {
     factor: Jet<F>,
     limits: Limits<F>,
     around: Around<F>,
-    /// Negative where the magnets are too near each other for these to hold.
+    /// Negative if the magnets are too close to each other for these to hold.
     room: F,
 }
 
@@ -188,10 +188,10 @@ pub(in crate::potential) struct Factors<'a>(pub Pairs<'a>);
 /// A factor over a cell.
 pub(in crate::potential) struct FactorForm {
     pub form: Quadratic,
-    /// What the form leaves out at most, rounding included; infinite where the magnets are too near
+    /// Bound of the form's remainder, rounding included; infinite if the magnets are too close to
     /// each other.
     pub left_out: f64,
-    /// The largest magnitude, and the most that it changes on a way of half the cell.
+    /// The largest magnitude, and the largest change on a motion over half the cell.
     pub size: f64,
     pub change: f64,
 }
@@ -246,7 +246,7 @@ fn stored<L: Lanes>(l: L, lanes: L::F) -> [f64; WIDTH] {
 /// derivatives by its place and its turn.
 fn turned(place: Place<f64>, arm: Vector2<f64>) -> Quadratic {
     let [value, x, y, t, xx, yy, tt, xy, xt, yt] = place;
-    // A turn moves the magnet along this, and accelerates it along minus the arm.
+    // A turn moves the magnet along this direction, and accelerates it along minus the arm.
     let (dx, dy) = (-arm.y, arm.x);
     let bend = xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy;
     Quadratic {

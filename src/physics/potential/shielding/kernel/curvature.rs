@@ -9,15 +9,15 @@ use crate::units::MU0_OVER_4PI;
 /// The sums over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) and of the same of the
 /// third derivative (J/m^3; of point dipoles) along motions in which no magnet is faster than 1 and
 /// none turns at more than the rate `turn` (1/m), with bounds of the derivatives of energies u and
-/// factors w within `reach` (m). Infinite where magnets may meet.
+/// factors w within `reach` (m). Infinite if magnets may coincide.
 pub(in crate::potential) struct Curvature<'a> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub q: &'a Configuration,
     pub turn: f64,
     pub reach: f64,
-    /// Bounds of |u|, |u'| and |u''| of blocks, numbered as the pairs' energies; point dipoles
-    /// without.
+    /// Bounds of |u|, |u'| and |u''| of blocks, indexed like the pairs' energies; `None` for point
+    /// dipoles.
     pub pairs: Option<&'a [Vec<f64>; 3]>,
 }
 
@@ -66,7 +66,7 @@ impl Task for Curvature<'_> {
     }
 }
 
-/// The factor of two magnets, and its bounds on a way near where they are.
+/// The factor of two magnets, and its bounds on a motion near their places.
 #[inline(always)]
 pub(super) fn pair_limits<L: Lanes>(
     l: L,
@@ -85,7 +85,7 @@ pub(super) fn pair_limits<L: Lanes>(
 /// Bounds of the magnitudes of a quantity and of its first three derivatives along a motion.
 pub(super) type Limits<F> = [F; 4];
 
-/// Those of a product, by Leibniz' rule.
+/// The bounds of a product, by Leibniz' rule.
 #[inline(always)]
 pub(super) fn product<L: Lanes>(l: L, f: Limits<L::F>, g: Limits<L::F>) -> Limits<L::F> {
     let (two, three) = (l.splat(2.0), l.splat(3.0));
@@ -100,11 +100,11 @@ pub(super) fn product<L: Lanes>(l: L, f: Limits<L::F>, g: Limits<L::F>) -> Limit
     ]
 }
 
-/// Those of the energy of dipoles at the distance 1 / `inverse` (m) at least, with a speed of the
-/// magnets of at most 1 and a rate of turn of at most `turn` (1/m): with `G_n = (n + 2)! r^-(n+3)`,
-/// the n-th derivative is a sum of the products of G_n with the rate's powers that is told in the
-/// certificate's Taylor form of bare dipoles. Accelerations are at most `turn`, their changes at most
-/// its square.
+/// The bounds of the energy of dipoles at a distance of at least 1 / `inverse` (m), with a speed of
+/// the magnets of at most 1 and a rate of turn of at most `turn` (1/m): with `G_n = (n + 2)!
+/// r^-(n+3)`, the n-th derivative is the sum of products of G_n with powers of the rate given for
+/// the Taylor form of bare dipoles ([`crate::potential::bounds`]). Accelerations are at most
+/// `turn`, their changes at most its square.
 #[inline(always)]
 pub(super) fn dipole_limits<L: Lanes>(
     l: L,
@@ -137,9 +137,9 @@ pub(super) fn dipole_limits<L: Lanes>(
     ]
 }
 
-/// A way near which bounds are to hold: on which the magnets get no farther than `reach` (m) from
-/// where they are, are at least `r` (m) apart (one over that is `inverse`), no faster than 1, and
-/// turn at the rate `turn` (1/m) at most.
+/// A motion for which bounds hold: the magnets move by at most `reach` (m), stay at least `r` (m)
+/// apart (its reciprocal is `inverse`), are no faster than 1, and turn at most at the rate `turn`
+/// (1/m).
 #[derive(Clone, Copy)]
 pub(super) struct Around<F> {
     pub reach: F,
@@ -148,29 +148,30 @@ pub(super) struct Around<F> {
     pub inverse: F,
 }
 
-/// Bounds of a factor g and of its first three derivatives. `steep` is S' where the magnets are, and
-/// `here` is |g| there.
+/// Bounds of a factor g and of its first three derivatives. `steep` is S' at the magnets' places,
+/// and `here` is |g| there.
 ///
-/// With `x = r / l` and `h = (1 + x^2)^(-1/2)`, which falls with the distance: `|d eta / d r|` is
-/// `2 A x / (l (1 + x^2)^2)`, at most the smaller of `0.65 A / l` and `2 A h^3 / l` (the largest of
-/// `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8). The Hessian of eta over the plane has the eigenvalues `d2
-/// eta / d r2` and `(d eta / d r) / r`, both at most the smaller of `2 A / l^2` and `6 A h^4 / l^2`.
-/// Its third derivative along a direction with the cosine c to the way is `c^3 d3 eta / d r3 + 3 c
-/// (1 - c^2) d ((d eta / d r) / r) / d r`, with `24 x (x^2 - 1) / (1 + x^2)^4` and `-8 x / (1 + x^2)^3`
-/// for the derivatives (times A / l^3) and `3 c (1 - c^2) <= 1.16`: at most the smaller of `7.1 A /
-/// l^3` and `33.3 A h^5 / l^3`. The magnets' acceleration, at most `turn`, and its change, at most
-/// `turn^2`, add their products with lower derivatives.
+/// With `x = r / l` and `h = (1 + x^2)^(-1/2)`, which decreases with the distance: `|d eta / d r|`
+/// is `2 A x / (l (1 + x^2)^2)`, at most the smaller of `0.65 A / l` and `2 A h^3 / l` (the largest
+/// of `2 x / (1 + x^2)^2` is 3 sqrt(3) / 8). The Hessian of eta over the plane has the eigenvalues
+/// `d2 eta / d r2` and `(d eta / d r) / r`, both at most the smaller of `2 A / l^2` and `6 A h^4 /
+/// l^2`. Its third derivative along a direction with the cosine c to the line between the magnets
+/// is `c^3 d3 eta / d r3 + 3 c (1 - c^2) d ((d eta / d r) / r) / d r`, with
+/// `24 x (x^2 - 1) / (1 + x^2)^4` and `-8 x / (1 + x^2)^3` for the derivatives (times A / l^3) and
+/// `3 c (1 - c^2) <= 1.16`: at most the smaller of `7.1 A / l^3` and `33.3 A h^5 / l^3`. The
+/// magnets' acceleration, at most `turn`, and its change, at most `turn^2`, add their products with
+/// lower derivatives.
 ///
-/// The cosine of the angle from the normal to the way has, with the angle's derivatives
+/// The cosine of the angle from the normal to that line has, with the angle's derivatives
 ///
 /// ```text
 /// a1 = 1 / r + turn,    a2 = 1 / r^2 + turn / r,    a3 = 2 / r^3 + 3 turn / r^2 + turn^2 / r
 /// ```
 ///
-/// (those of the imaginary part of ln z) the derivatives a1, `a1^2 + a2` and `a1^3 + 3 a1 a2 + a3` at
-/// most. `|S''| <= S'` and `|S'''| <= S'`, also `S' <= 1/4`, `|S''| <= 1 / (6 sqrt(3))` and `|S'''| <=
-/// 1/8`; and because of the first, S' grows by no more than `exp(e) <= 1 + e + e^2` where its argument
-/// changes by e <= 1.
+/// (those of the imaginary part of ln z) the derivatives a1, `a1^2 + a2` and `a1^3 + 3 a1 a2 + a3`
+/// at most. `|S''| <= S'` and `|S'''| <= S'`, also `S' <= 1/4`, `|S''| <= 1 / (6 sqrt(3))` and
+/// `|S'''| <= 1/8`; and because of the first, S' grows at most by the factor `exp(e) <= 1 + e +
+/// e^2` if its argument changes by e <= 1.
 #[inline(always)]
 pub(super) fn factor_limits<L: Lanes>(
     l: L,

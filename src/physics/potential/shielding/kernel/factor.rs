@@ -1,4 +1,4 @@
-//! Factors of pairs of magnets.
+//! The shielding factors of pairs of magnets.
 
 use super::{Vectors, Way, dot};
 use crate::potential::batch::lanes::Lanes;
@@ -78,13 +78,13 @@ pub(super) fn pair_factor<L: Lanes, const SLOPE: bool>(
 /// Halvings of the exponential's argument.
 const HALVINGS: usize = 7;
 
-/// Arguments of the logistic function are as good as infinite from here on.
+/// Larger arguments of the logistic function count as infinite.
 const LARGEST: f64 = 60.0;
 
 /// `S(t) = 1 / (1 + exp(-t))` and its derivative, to 3e-14.
 ///
-/// `exp(-|t|)` is the 128th power of `exp(-|t| / 128)`, whose Taylor series of degree 12 is right
-/// to 1e-14 and better where the power is not as good as 0.
+/// `exp(-|t|)` is the 128th power of `exp(-|t| / 128)`, whose Taylor series of degree 12 is
+/// accurate to 1e-14 or better unless the power is practically 0.
 #[inline(always)]
 pub(super) fn logistic<L: Lanes>(l: L, t: L::F) -> [L::F; 2] {
     let one = l.splat(1.0);

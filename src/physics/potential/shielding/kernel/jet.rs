@@ -1,8 +1,8 @@
-//! Energies and factors of pairs with their derivatives up to the second.
+//! Energies and factors of pairs with their derivatives up to second order.
 //!
-//! They are taken by `s = ln r`, by the direction phi of the way from the first magnet to the
-//! second, and by the second magnet's turn t: in these every piece is a short formula. With
-//! `zeta = s + i phi` the way is `z = e^zeta`, so that the derivatives by places follow at once (see
+//! The variables are `s = ln r`, the direction phi of the vector from the first magnet to the
+//! second, and the second magnet's turn t, in which all formulas are short. With `zeta = s + i phi`
+//! this vector is `z = e^zeta`, from which the derivatives by places follow (see
 //! [`Jet::by_place`]).
 
 use super::factor::logistic;
@@ -15,7 +15,7 @@ use crate::units::MU0_OVER_4PI;
 #[derive(Clone, Copy)]
 pub(super) struct Jet<F>(pub [F; 10]);
 
-/// The two first derivatives, and the place, of each second one.
+/// The two first derivatives, and the index, of each second one.
 const SECOND: [(usize, usize, usize); 6] = [
     (1, 1, 4),
     (2, 2, 5),
@@ -85,7 +85,7 @@ fn cross<L: Lanes>(l: L, a: [L::F; 2], b: [L::F; 2]) -> L::F {
 }
 
 /// The energy (J) of two dipoles, `k r^-3 [-1/2 cos(b - a) - 3/2 cos(a + b)]` with k = mu0 m1 m2 /
-/// (4 pi) and the moments' angles a and b from the way.
+/// (4 pi) and the moments' angles a and b from the vector between them.
 #[inline(always)]
 pub(super) fn dipoles<L: Lanes>(
     l: L,
@@ -128,8 +128,8 @@ pub(super) fn dipoles<L: Lanes>(
     ])
 }
 
-/// A factor g by s and by the angle alpha from the normal to the way: value, s, alpha, ss, s alpha,
-/// alpha alpha. With it comes S' of its front.
+/// A factor g by s and by the angle alpha from the normal to the vector between the magnets: value,
+/// s, alpha, ss, s alpha, alpha alpha. It is returned with S'.
 #[inline(always)]
 fn factor<L: Lanes>(
     l: L,
@@ -166,7 +166,7 @@ fn factor<L: Lanes>(
     (jet, steep)
 }
 
-/// The factors of two magnets, and S' of either.
+/// The factors of two magnets, and S' of both.
 #[inline(always)]
 pub(super) fn factors<L: Lanes>(
     l: L,
@@ -183,7 +183,7 @@ pub(super) fn factors<L: Lanes>(
     let ([g, s, a, ss, sa, aa], steep1) = factor(l, first.shield, way.distance, towards1);
     let fixed = Jet([g, s, a, zero, ss, aa, zero, sa, zero, zero]);
     let ([g, s, a, ss, sa, aa], steep2) = factor(l, second.shield, way.distance, towards2);
-    // A turn of the second magnet takes its normal's angle from alpha.
+    // A turn of the second magnet is subtracted from alpha.
     let (ma, msa, maa) = (l.sub(zero, a), l.sub(zero, sa), l.sub(zero, aa));
     let moving = Jet([g, s, a, ma, ss, aa, aa, sa, msa, maa]);
     ([fixed, moving], [steep1, steep2])

@@ -1,4 +1,4 @@
-//! Sums over all pairs of shielded magnets: a moving magnet with several fixed ones at once.
+//! Sums over all pairs of shielded magnets, one moving magnet with several fixed ones at once.
 
 mod cell;
 mod curvature;
@@ -35,7 +35,7 @@ pub(in crate::potential) struct Magnet {
 }
 
 impl Magnet {
-    /// Placed at a configuration of that rotation.
+    /// The magnet placed at a configuration with that rotation.
     pub fn moved(&self, q: &Configuration, rotation: &Rotation2<f64>) -> Self {
         Self {
             position: q.position() + rotation * self.position,
@@ -45,8 +45,8 @@ impl Magnet {
         }
     }
 
-    /// As the kernel wants it: place, moment and normal, then the shield's A, 1 / l, 1 / delta and
-    /// G, of which those of no shield give the factor 1.
+    /// The kernel's layout: place, moment and normal, then the shield's A, 1 / l, 1 / delta and G,
+    /// whose values without a shield give the factor 1.
     fn entries(&self) -> [f64; COLUMNS] {
         let (shield, normal) = self.front;
         let [a, l, delta, gain] = shield.map_or([0.0, 1.0, 1.0, 1.0], |s| {
@@ -73,7 +73,7 @@ pub(in crate::potential) fn magnets(tile: &Tile, shields: &[Option<Shield>]) -> 
 
 const COLUMNS: usize = 10;
 
-/// Magnets as a structure of arrays, filled up to whole vectors with magnets of no moment far away.
+/// Magnets as a structure of arrays, padded to whole vectors with distant magnets without moment.
 #[derive(Clone, Debug)]
 pub(in crate::potential) struct Columns {
     entries: [Vec<f64>; COLUMNS],
@@ -138,8 +138,8 @@ impl<F: Copy> Vectors<F> {
     }
 }
 
-/// Energies of pairs: that of the fixed magnet i and the moving magnet j is number
-/// `j * stride + i`, with the stride of the fixed magnets' columns.
+/// Energies of pairs; the pair of the fixed magnet i and the moving magnet j has the index `j *
+/// stride + i`, with the stride of the fixed magnets' columns.
 #[derive(Clone, Debug)]
 pub(in crate::potential) struct PairColumns {
     /// Energy (J), its gradient by the second magnet's place (J/m), its derivative by that
@@ -148,7 +148,7 @@ pub(in crate::potential) struct PairColumns {
 }
 
 impl PairColumns {
-    /// Of pairs in the same order with `fixed` of them to each moving magnet.
+    /// The columns of pairs in the same order, with `fixed` of them for each moving magnet.
     pub fn new(pairs: &[PairEnergy], fixed: usize, stride: usize) -> Self {
         let moving = pairs.len().checked_div(fixed).unwrap_or(0);
         let mut entries = [(); 4].map(|()| vec![0.0; moving * stride]);
@@ -163,15 +163,15 @@ impl PairColumns {
     }
 }
 
-/// The energy (J) of all pairs, each times its factor, and its gradient where asked for (else it
-/// is zero). Not finite where dipoles coincide.
+/// The energy (J) of all pairs, each times its factor, and its gradient if requested (otherwise
+/// zero). Not finite if dipoles coincide.
 pub(in crate::potential) struct Sum<'a, const SLOPE: bool> {
     pub fixed: &'a Columns,
     pub moving: &'a [Magnet],
     pub q: &'a Configuration,
-    /// Energies of pairs of blocks; point dipoles without.
+    /// Energies of pairs of blocks; `None` for point dipoles.
     pub pairs: Option<&'a PairColumns>,
-    /// The only faces whose magnets act, if not all do; they act in full.
+    /// The only faces whose magnets act, with the factor 1; `None` if all act.
     pub faces: Option<(usize, usize)>,
 }
 
@@ -259,7 +259,7 @@ fn product_gradient<L: Lanes>(
     [gx, gy, l.neg_mul_add(l.splat(arm.y), gx, turn)]
 }
 
-/// The way from a first magnet to a second one.
+/// The vector from a first magnet to a second one.
 #[derive(Clone, Copy)]
 struct Way<F> {
     square: F,

@@ -1,4 +1,4 @@
-//! The vectors against the plain formulas.
+//! Tests of the SIMD vectors against the plain formulas.
 
 use super::super::{Shield, logistic as scalar_logistic};
 use super::curvature::{Around, factor_limits};
@@ -63,7 +63,7 @@ fn the_logistic_function_is_that_of_the_standard_library() {
     }
 }
 
-/// Bounds of a factor and of its derivatives on a way near the place of the other magnet.
+/// Bounds of a factor and of its derivatives on a motion near the place of the other magnet.
 struct Bounds {
     magnet: Magnet,
     place: Vector2<f64>,
@@ -101,7 +101,7 @@ impl Task for Bounds {
     }
 }
 
-/// All along ways of several lengths, by differences.
+/// Along motions of several lengths, by differences.
 #[test]
 fn factors_stay_within_their_bounds() {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
@@ -145,7 +145,7 @@ fn factors_stay_within_their_bounds() {
                 (d - 2.0 * c + 2.0 * b - a).abs() / (2.0 * h * h * h),
             ];
             for k in 0..4 {
-                // A hundredth for what differences are off by, and their rounding.
+                // A hundredth for the error of differences and their rounding.
                 let off = 1e-2 * bounds[k] + 1e-15 / h.powi(k as i32);
                 assert!(
                     found[k] <= bounds[k] + off,
@@ -156,7 +156,7 @@ fn factors_stay_within_their_bounds() {
             count += 1;
         }
     }
-    // Of all, the closest are close: a bound that lost its sense would not be.
+    // The closest bounds are tight; a meaningless bound would not be.
     assert!(
         count > 4000 && tightest.iter().all(|ratio| *ratio < 3.0),
         "{count} {tightest:?}"

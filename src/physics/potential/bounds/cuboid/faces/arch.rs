@@ -1,9 +1,9 @@
-//! Constant second derivatives in place of such as grow like a logarithm near a face.
+//! Constant bounds of second derivatives, in place of ones that grow logarithmically near a face.
 
 use super::lengths::{LN_ERROR, ln};
 
-/// The share of the way out at which the second derivative is taken: near it the bounds from both
-/// sides are alike.
+/// The fraction of the distance at which the second derivative is taken: near it the bounds from
+/// both sides are about equal.
 const SHARE: f64 = 0.85;
 
 /// A constant second derivative along h, in place of one, L, that is positive and falls with h, at
@@ -12,7 +12,7 @@ const SHARE: f64 = 0.85;
 pub(super) struct Arch {
     /// The constant.
     pub bend: f64,
-    /// The most by which the integral of L along a way differs from that of the constant.
+    /// Bound of the difference between the integral of L along a motion and the constant's.
     pub off: f64,
 }
 
@@ -28,16 +28,16 @@ fn integral(low: f64, u: f64) -> f64 {
     }
 }
 
-/// The error of L as it is given: that of a logarithm times its factor of 4 at most, and rounding.
+/// The error of the given L: at most 4 times the error of a logarithm, plus rounding.
 const LEVEL_ERROR: f64 = 5.0 * LN_ERROR;
 
 impl Arch {
-    /// For ways of at most `up` between the heights `low`, at least 0, and `high`: `range` gives the
-    /// most and the least that L is at a height, to [`LEVEL_ERROR`].
+    /// For motions of at most `up` between the heights `low`, at least 0, and `high`: `range` gives
+    /// the largest and the smallest value of L at a height, to [`LEVEL_ERROR`].
     ///
-    /// With c = L(low + u), `int (L - c) dh` over a way is at most what it is from low to low + u,
-    /// where `L - c <= 4 ln((low + u) / h)` (`u - low ln(1 + u / low)` is the integral of that
-    /// logarithm), and at least the way times the least of `L - c`.
+    /// With c = L(low + u), `int (L - c) dh` over a motion is at most its value from low to low +
+    /// u, where `L - c <= 4 ln((low + u) / h)` (`u - low ln(1 + u / low)` is the integral of that
+    /// logarithm), and at least the length of the motion times the minimum of `L - c`.
     pub fn of(low: f64, up: f64, high: f64, range: impl Fn(f64) -> [f64; 2]) -> Self {
         let u = SHARE * up;
         let [most, least] = range(low + u);
@@ -50,8 +50,9 @@ impl Arch {
         }
     }
 
-    /// What ways of at most `up`, at speeds of at most `fast`, that bend off by up to `arc` add to
-    /// the bounds of the remainder and of its slope, as the form knows of their straight part only.
+    /// Additions to the bounds of the remainder and of its slope for motions of at most `up`, at
+    /// speeds of at most `fast`, that deviate from their straight part by up to `arc`, which the
+    /// form does not include.
     pub fn bent_off(&self, arc: f64, [up, fast]: [f64; 2], turn: f64) -> [f64; 2] {
         let bend = self.bend.abs() * arc;
         [
@@ -68,7 +69,7 @@ mod tests {
     #[test]
     fn integrals_of_a_logarithm_stay_within_the_bound_and_close_to_it() {
         let l = |h: f64| 4.0 * libm::log(1.0f64 + 1.0 / h);
-        // Closed: 4 [(h + 1) ln(h + 1) - h ln h].
+        // Closed form: 4 [(h + 1) ln(h + 1) - h ln h].
         let xlnx = |x: f64| if x > 0.0 { x * libm::log(x) } else { 0.0 };
         let integral = |h: f64| 4.0 * (xlnx(h + 1.0) - xlnx(h));
         for low in [0.0, 1e-3, 0.05] {
@@ -83,7 +84,7 @@ mod tests {
                     assert!(off.abs() <= arch.off, "{low} {up} {from} {to}");
                     farthest = farthest.max(off.abs());
                 }
-                // Where L is all but straight the farthest way has 0.65 / 1.15 of the bound.
+                // If L is nearly linear, the longest motion has 0.65 / 1.15 of the bound.
                 assert!(farthest > 0.55 * arch.off, "{low} {up} {farthest} {arch:?}");
             }
         }

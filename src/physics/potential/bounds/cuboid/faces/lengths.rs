@@ -1,6 +1,6 @@
-//! Lengths and their logarithms as the bounds need them many times a cell: no length here comes near
-//! where its square is lost, which is what `hypot` and `asinh` spend most of their time on, and of
-//! logarithms a few digits with a known error will do.
+//! Fast lengths and logarithms for the bounds, which need them many times per cell. No length is so
+//! small that its square underflows, a case that `hypot` and `asinh` spend most of their time on,
+//! and a few digits of a logarithm with a known error suffice.
 
 /// `sqrt(a^2 + b^2)`.
 pub(super) fn hypotenuse(a: f64, b: f64) -> f64 {

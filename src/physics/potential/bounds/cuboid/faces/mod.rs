@@ -1,5 +1,5 @@
-//! One pair of blocks near each other: quadratures over the second one's pole faces whose errors
-//! are bounded over a whole cell.
+//! Bounds for one pair of blocks near each other: quadratures over the second block's pole faces
+//! whose errors are bounded over a whole cell.
 
 mod arch;
 mod lengths;
@@ -19,14 +19,14 @@ use crate::potential::cuboid::block::Block;
 use lengths::hypotenuse;
 use rule::Rule;
 
-/// The share of the distance to the sheet that the ellipse of analyticity takes.
+/// The ellipse of analyticity extends to this fraction of the distance to the sheet.
 const ELLIPSE: f64 = 0.75;
 
-/// Panels get third-order forms from a distance of this many times their reach on.
+/// Panels have third-order forms beyond this many times their reach.
 const FAR: f64 = 2.0;
 
-/// Panels that may touch the face are cut to this share of the reach, those that have no form of
-/// first order to the second one; none finer than the third, a share of the face.
+/// Panels that may touch the face are cut to this fraction of the reach, those without a
+/// first-order form to the second one; none finer than the third, a fraction of the face.
 const SHARE: f64 = 0.25;
 const SHARE_WITHOUT_FORM: f64 = 0.1;
 const FINEST: f64 = 1.0 / 8192.0;
@@ -47,19 +47,20 @@ pub(super) struct Pair {
 /// How a cell moves the second block.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
-    /// Way (m) to the block from the point about which it turns.
+    /// Vector (m) to the block from the point about which it turns.
     pub arm: Vector2<f64>,
-    /// Farthest any point of it gets (m), half the cell's sides (m) and half its angle (rad).
+    /// Largest distance that any of its points moves (m), half the cell's sides (m) and half its
+    /// angle (rad).
     pub reach: f64,
     pub sides: Vector2<f64>,
     pub turn: f64,
-    /// Whether no point of the second block gets into the first one where the tiles are free.
+    /// Whether no point of the second block enters the first one if the tiles are free.
     pub apart: bool,
-    /// How much (m) blocks may overlap in configurations that count as free, with room to spare.
+    /// How much (m) blocks may overlap in configurations that count as free, with a margin.
     pub slack: f64,
 }
 
-/// How far (J) the energy may be from what forms say, and the slope and the jumps of an
+/// How far (J) the energy may be from the forms, and the slope and the jumps of an
 /// [`Enclosure`](super::Enclosure).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Left {
@@ -89,7 +90,7 @@ impl Sum for Left {
 /// A piece of a pole face of the second block before one of the first.
 #[derive(Clone, Copy)]
 struct SheetPanel {
-    /// `h` out of the first block's face and `v` along it, of the middle (m), and their change
+    /// `h` (out of the first block's face) and `v` (along it) of the midpoint (m), and their change
     /// per metre of the panel.
     middle: Vector2<f64>,
     along: Vector2<f64>,
@@ -99,7 +100,7 @@ struct SheetPanel {
     side: f64,
     /// The pair's strength with the poles' signs (J/m^3).
     strength: f64,
-    /// Way (m) from the point about which the second block turns to the middle, along u and v.
+    /// Vector (m) from the point about which the second block turns to the midpoint, along u and v.
     arm: Vector2<f64>,
 }
 
@@ -115,7 +116,7 @@ impl SheetPanel {
         }
     }
 
-    /// A node of no weight in the middle.
+    /// A node without weight at the midpoint.
     fn node(&self) -> Node {
         Node {
             h: self.middle.x,
@@ -153,8 +154,8 @@ impl Pair {
         }
     }
 
-    /// Appends the nodes of all four pairs of pole faces; returns what they leave out, but for the
-    /// nodes' own spread.
+    /// Appends the nodes of all four pairs of pole faces; returns the remainder, without the nodes'
+    /// own spread.
     pub fn append(&self, nodes: &mut Nodes) -> Left {
         self.pole_faces()
             .iter()
@@ -162,7 +163,7 @@ impl Pair {
             .sum()
     }
 
-    /// The second block's pole faces, before either of the first one's.
+    /// The second block's pole faces relative to both of the first one's.
     fn pole_faces(&self) -> [SheetPanel; 4] {
         let along = Vector2::new(-self.axis.y, self.axis.x);
         [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(side, pole)| {
@@ -179,8 +180,8 @@ impl Pair {
         })
     }
 
-    /// The same for blocks that stay apart, at the cell's centre: what is left out is what the rules
-    /// are wrong by, in value, slope and second derivative.
+    /// The same for blocks that stay apart, at the cell's centre: the remainder is the error of the
+    /// rules in value, slope and second derivative.
     pub fn append_at_rest(&self, nodes: &mut Nodes) -> Left {
         self.pole_faces()
             .iter()
@@ -188,8 +189,8 @@ impl Pair {
             .sum()
     }
 
-    /// Whether the pole faces, one by one, leave out less than the blocks as a whole: only where all
-    /// of them are far enough for third-order forms.
+    /// Whether the remainder of the individual pole faces is smaller than that of whole blocks:
+    /// only if all faces are far enough for third-order forms.
     pub fn says_more_than(&self, apart: &Apart) -> bool {
         let mut sum = 0.0;
         for face in self.pole_faces() {
@@ -250,8 +251,8 @@ impl Pair {
             .sum()
     }
 
-    /// The least distance (m) of a panel's points from the first block's pole face, which lies at
-    /// h = 0 about v = 0.
+    /// The smallest distance (m) of a panel's points from the first block's pole face, which lies
+    /// at h = 0 about v = 0.
     fn distance(&self, panel: &SheetPanel) -> f64 {
         let half = self.first[1] / 2.0;
         let way = panel.along * panel.half;
@@ -294,8 +295,8 @@ impl Pair {
         }
     }
 
-    /// The third-order remainder (m^2) of Phi at the points of a panel that keep the distance (m) from
-    /// the face, and the speed (m) of the points of the ellipse about it.
+    /// The third-order remainder (m^2) of Phi at the points of a panel that stay at least the
+    /// distance (m) from the face, and the speed (m) of the points of the ellipse about it.
     fn third_order(&self, panel: &SheetPanel, distance: f64) -> [f64; 2] {
         let [width, thin, thick] = self.charge();
         let area = thin * thick;
@@ -335,7 +336,7 @@ impl Pair {
         largest * rule.error(ELLIPSE * distance / panel.half)
     }
 
-    /// How far (m) the points of a panel get from its middle, along h and along v.
+    /// Largest distances (m) of the points of a panel from its midpoint, along h and along v.
     fn extent(&self, panel: &SheetPanel) -> [f64; 2] {
         let [up, aside] = self.moved(panel);
         let extent = panel.along.abs() * panel.half;
@@ -347,12 +348,12 @@ impl Pair {
         self.ways(panel, 0.5).map(|way| way + self.motion.slack)
     }
 
-    /// How fast (m) they are in a motion by the cell's half sizes from anywhere in the cell.
+    /// Their speeds (m) in a motion by the cell's half sizes from anywhere in the cell.
     fn speeds(&self, panel: &SheetPanel) -> [f64; 2] {
         self.ways(panel, 1.0)
     }
 
-    /// A turn goes across the arm, and along it by this share of its square.
+    /// A turn moves a point across the arm, and along it by this fraction of the turn's square.
     fn ways(&self, panel: &SheetPanel, bent: f64) -> [f64; 2] {
         let Motion {
             reach, sides, turn, ..
@@ -363,10 +364,10 @@ impl Pair {
         far.map(|way| way.min(reach))
     }
 
-    /// The middle of a panel with its form of first order.
+    /// The midpoint of a panel with its first-order form.
     fn first_order(&self, panel: &SheetPanel, weight: f64) -> Node {
         let h = panel.middle.x;
-        // Over the pole face, at least on the side on which the second block stays.
+        // Above the pole face, at least on the side where the second block stays.
         let over = panel.middle.y.abs() <= self.first[1] / 2.0;
         let base = if over && h <= 0.0 { 0.0 } else { h };
         let w = self.motion.turn;
@@ -380,8 +381,8 @@ impl Pair {
         }
     }
 
-    /// Whether a panel that may get below the first block's face, within the face's width, does not
-    /// where the tiles are free: it would be inside the block.
+    /// Whether a panel that might reach below the first block's face, within the face's width,
+    /// cannot do so if the tiles are free, because it would be inside the block.
     fn stays_out(&self, h: f64, up: f64) -> bool {
         self.motion.apart && h > -up && 2.0 * up <= self.first[0] - self.motion.slack
     }
@@ -398,8 +399,8 @@ impl Pair {
         [(thick + thin) / 2.0, (thick - thin) / 2.0]
     }
 
-    /// The most (m) that the second derivatives of Phi get from one of the face's upright edges at
-    /// a distance (m) of it.
+    /// Bound (m) of the contribution of one of the face's upright edges to the second derivatives
+    /// of Phi at a distance (m) from it.
     fn upright(&self, p: f64) -> f64 {
         let [high, low] = self.heights();
         2.0 * (hypotenuse(p, high) - hypotenuse(p, low)) / p

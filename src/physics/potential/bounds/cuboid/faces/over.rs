@@ -1,4 +1,4 @@
-//! Panels over a pole face, as they are where blocks touch along their faces.
+//! Panels directly above a pole face, as where blocks touch along their faces.
 
 use std::f64::consts::PI;
 
@@ -8,12 +8,12 @@ use super::rule::Rule;
 use super::{ELLIPSE, Left, Motion, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
-/// Panels over a face that are turned against it by more than this (rad) are cut as others.
+/// Panels over a face that are tilted by more than this (rad) are cut like other panels.
 const STEEPEST: f64 = 0.1;
 
 impl Pair {
     /// A panel over the first block's pole face, nearly parallel to it and clear of the face's
-    /// upright edges, by a Gauss rule. `None` where it is not so.
+    /// upright edges, by a Gauss rule. `None` if it is not so.
     pub(super) fn over(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Option<Left> {
         let Motion {
             reach, turn, slack, ..
@@ -36,8 +36,8 @@ impl Pair {
         let edges = edge(clear) + edge(far);
         let third = edge(clear) / clear + edge(far) / far;
 
-        // What bends along h alone, upwards everywhere: what is along the gap alone by a constant,
-        // the rest, from 0 to `edges`, by half of that.
+        // Second derivatives along h, all positive: the one that depends on the gap alone is
+        // replaced by a constant, the rest, from 0 to `edges`, by half of `edges`.
         let [up, aside] = self.moved(panel);
         let gap =
             |h: f64| 4.0 * libm::log(hypotenuse(h, high) / hypotenuse(h, low).max(0.1 * slack));
@@ -62,7 +62,7 @@ impl Pair {
             let way = way.max(slack);
             4.0 * way * way * (0.5 * libm::log(hypotenuse(way, high) / hypotenuse(way, low)) + 0.75)
         };
-        // What is of third order.
+        // Third-order terms.
         let rest =
             third * aside * aside * (aside / 3.0 + 0.75 * up) + edges * arc * (up + 2.0 * aside);
         // Their slopes.
@@ -75,7 +75,7 @@ impl Pair {
             * (fast_aside * (aside * aside + 1.5 * aside * up + up * up)
                 + 0.75 * fast_up * aside * aside)
             + edges * arc * (2.0 * (up + 2.0 * aside) + fast_up + 2.0 * fast_aside);
-        // What the rule is wrong by.
+        // The error of the rule.
         let short = ELLIPSE * clear;
         let long = hypotenuse(panel.half, short);
         let least = clear - short;

@@ -2,8 +2,8 @@
 
 use crate::potential::cuboid::quadrature::{self, FOUR_EIGHT_SIXTEEN, RULES};
 
-/// Panels take a Gauss rule of 4, 8 or 16 nodes from these distances on, in halves of the panel's
-/// width: each leaves about 1e-7 of the integrand's bound.
+/// Panels use a Gauss rule of 4, 8 or 16 nodes beyond these distances, in half widths of the panel:
+/// the error is about 1e-7 of the integrand's bound.
 const FROM: [f64; 3] = [4.9, 1.6, 0.7];
 
 /// A Gauss rule.
@@ -11,7 +11,7 @@ const FROM: [f64; 3] = [4.9, 1.6, 0.7];
 pub(super) struct Rule(&'static quadrature::Rule);
 
 impl Rule {
-    /// The rule for a panel that many halves of its width from what its integrand is singular at.
+    /// The rule for a panel that is this many half widths from the singularity of its integrand.
     pub(super) fn at(ratio: f64) -> Option<Self> {
         let which = FROM.iter().position(|least| ratio >= *least);
         which.map(|which| Self(&RULES[FOUR_EIGHT_SIXTEEN[which]]))
@@ -32,7 +32,7 @@ impl Rule {
     }
 
     /// The error of an average by the rule, in units of the integrand's bound on an ellipse about
-    /// the panel whose short half axis is so many halves of the panel's width.
+    /// the panel whose short half axis is this many half widths of the panel.
     pub(super) fn error(self, short: f64) -> f64 {
         let rho = short + (1.0 + short * short).sqrt();
         let power = rho.powi(-2 * self.0.count as i32);

@@ -7,24 +7,24 @@ use super::lengths::{LN_ERROR, asinh, hypotenuse, ln, stretch};
 use super::{Left, Pair, SheetPanel};
 use crate::potential::bounds::cuboid::nodes::{Node, Nodes};
 
-/// How much blocks overlap at most where the tiles' interiors are disjoint, by sticking out of them, there
-/// and back, with room for rounding: as a share of the slack, of which blocks may stick out by a tenth.
+/// Largest overlap of blocks that stick out of tiles with disjoint interiors, for both blocks, with
+/// room for rounding: as a fraction of the slack, a tenth of which a block may stick out.
 const STUCK_OUT: f64 = 0.5;
 
-/// A form of second order in place of Phi over a panel.
+/// A second-order form that replaces Phi over a panel.
 #[derive(Clone, Copy)]
 pub(super) struct Bent {
     /// Its second derivative along h (m).
     arch: f64,
-    /// The bounds of what it leaves out (m^2), and of the slope of that along a motion by the
-    /// cell's half sizes.
+    /// The bounds of its remainder (m^2), and of the remainder's slope along a motion by the cell's
+    /// half sizes.
     remainder: f64,
     slope: f64,
 }
 
 impl Pair {
-    /// A panel that may touch the first block's pole face: its middle's form with the given
-    /// remainder, or an interval by monotony.
+    /// A panel that may touch the first block's pole face: the form of its midpoint with the given
+    /// remainder, or an interval by monotonicity.
     pub(super) fn touch(
         &self,
         panel: &SheetPanel,
@@ -46,15 +46,15 @@ impl Pair {
         }
     }
 
-    /// The most (m^2) that slopes of the outer side change Phi along a way, for blocks that stick
-    /// out of their tiles.
+    /// Bound (m^2) of the change of Phi along a motion due to slopes of the outer side, for blocks
+    /// that stick out of their tiles.
     pub(super) fn stuck_out(&self) -> f64 {
         let [_, thin, _] = self.charge();
         4.0 * PI * thin * STUCK_OUT * self.motion.slack
     }
 
-    /// The remainder of Phi about the middle of a panel, averaged over it. `None` where it has none
-    /// (see the module's text), or one that says less than an interval.
+    /// The remainder of Phi about the midpoint of a panel, averaged over it. `None` if it has none
+    /// (see the documentation of the module), or if an interval is tighter.
     pub(super) fn touching_remainder(&self, panel: &SheetPanel) -> Option<Bent> {
         let sheet = self.first[1] / 2.0;
         let [up, aside] = self.extent(panel);
@@ -85,8 +85,8 @@ impl Pair {
         let bent = 0.5 * edges * (up * up + aside * aside) + share * levels.off * up;
         let [fast_up, fast_aside] = self.speeds(panel);
         let speed = hypotenuse(fast_up, fast_aside);
-        // The form is that of the middle: of the other points it lacks the square of how far they
-        // are from there along h, and of all what their ways bend.
+        // The form is for the midpoint. It does not include the squared distance of the other
+        // points along h, nor the curvature of any point's motion.
         let turn = self.motion.turn;
         let arc = 0.5 * (panel.arm.norm() + panel.half) * turn * turn * (1.0 + turn);
         let [arced, arced_slope] = levels.bent_off(arc, [up, fast_up], turn);
@@ -105,12 +105,12 @@ impl Pair {
         (remainder <= 4.0 * PI * thin * (up + aside)).then_some(bent)
     }
 
-    /// `Phi_xx + Phi_hh` (m) at `v` along the face and `h` out of it: it comes from the face's level
-    /// edges. Over the face it falls as h or |v| grows.
+    /// `Phi_xx + Phi_hh` (m) at `v` along the face and `h` out of it: the contribution of the
+    /// face's level edges. Over the face it decreases with h and |v|.
     fn level_edges(&self, v: f64, h: f64) -> f64 {
         let sheet = self.first[1] / 2.0;
         let [high, low] = self.heights();
-        // What the two ends of a level edge add, as one logarithm.
+        // The contributions of the two ends of a level edge, as one logarithm.
         let edge = |height: f64| {
             let away = hypotenuse(h, height).max(0.1 * self.motion.slack);
             stretch(sheet + v, away) * stretch(sheet - v, away) / (away * away)
@@ -118,11 +118,11 @@ impl Pair {
         2.0 * ln(edge(low) / edge(high))
     }
 
-    /// Phi falls with the distance from the face's line and with that from its middle line, so
-    /// its extremes over a box are at two of the box's points. It has a slope of at most 2 pi times
-    /// the smaller thickness along h, and along v of `g(p)`, p the distance from the nearer of the
-    /// upright edges: on average over the panel, at most as if it were centred on both of them,
-    /// `2 / l int_0^(l/2) g = g(l/2) + 2 (high - ..)` at most, l half its width.
+    /// Phi decreases with the distance from the face's line and with the distance from its middle
+    /// line, so its extremes over a box are at two of the box's points. It has a slope of at most 2
+    /// pi times the smaller thickness along h, and along v of `g(p)`, p the distance from the
+    /// nearer of the upright edges: on average over the panel, at most as if it were centred on
+    /// both of them, `2 / l int_0^(l/2) g = g(l/2) + 2 (high - ..)` at most, l half its width.
     fn interval(&self, panel: &SheetPanel, nodes: &mut Nodes) -> Left {
         let [up, aside] = self.extent(panel);
         let (h, v) = (panel.middle.x.abs(), panel.middle.y.abs());
