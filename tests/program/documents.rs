@@ -103,23 +103,22 @@ fn check(document: &Document) {
                 "{}",
                 head.key
             );
-            // What people see carries its unit.
+            // What people see carries its unit, once: in its cells or in the heading for all of them.
             let shown = head.is_viewed && table.is_viewed;
-            for row in (0..table.rows.len()).filter(|_| shown) {
-                let cell = table.text(row, k);
+            let (heading, cells) = table.column(k);
+            for cell in cells.iter().filter(|_| shown) {
                 let symbol = head.unit.symbol();
+                let is_number = cell.contains(|c: char| c.is_ascii_digit());
+                let of_all = heading.ends_with(&format!("{symbol})"));
                 let has_unit = match symbol {
                     "" | "s" | "rad" => true,
-                    symbol => {
-                        cell.ends_with(symbol) || !cell.contains(|c: char| c.is_ascii_digit())
-                    }
+                    symbol => !is_number || of_all != cell.ends_with(symbol),
                 };
-                assert!(has_unit, "{}: {cell}", head.name);
+                assert!(has_unit, "{heading}: {cell}");
             }
         }
-        for row in (0..table.rows.len()).filter(|_| table.is_viewed) {
-            for k in table.viewed().collect::<Vec<_>>() {
-                let cell = table.text(row, k);
+        for k in table.viewed().filter(|_| table.is_viewed) {
+            for (row, cell) in table.column(k).1.into_iter().enumerate() {
                 let plain: String = cell.chars().filter(|c| !"<>&|\"".contains(*c)).collect();
                 if plain != cell || cell.is_empty() {
                     continue;

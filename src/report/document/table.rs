@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Value, json};
 
 use super::Unit;
-use super::unit::told;
+use super::unit::{Scale, told};
 use crate::figures::percent;
 use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero, proportion, read_pose};
@@ -67,6 +67,18 @@ impl Cell {
             Self::Place(place) => place_name(*place),
             Self::Sampled(sampled) => percent(sampled),
             Self::Rows(_) | Self::Data(_) => String::new(),
+        }
+    }
+
+    /// As people read it, in a unit that is told elsewhere.
+    fn told_in(&self, scale: &Scale, digits: usize) -> String {
+        let told = |value: f64| scale.told(value, digits);
+        match self {
+            Self::Number(value) => told(*value),
+            Self::Interval([Some(low), Some(high)]) => format!("{} to {}", told(*low), told(*high)),
+            Self::Interval([Some(low), None]) => format!("{} or more", told(*low)),
+            Self::Interval([None, Some(high)]) => format!("at most {}", told(*high)),
+            other => other.told(Unit::None, digits),
         }
     }
 
@@ -329,11 +341,41 @@ impl Table {
             .map(|(k, _)| k)
     }
 
-    /// A cell as people read it.
-    pub fn text(&self, row: usize, column: usize) -> String {
-        let (cell, view) = &self.rows[row][column];
-        view.clone()
-            .unwrap_or_else(|| self.heads[column].told(cell))
+    /// A column as people read it: what they call it, with the unit if its cells share one, and the
+    /// cells.
+    pub fn column(&self, column: usize) -> (String, Vec<String>) {
+        let (head, scale) = (&self.heads[column], self.scale(column));
+        let told = |cell: &Cell| match &scale {
+            Some(scale) => cell.told_in(scale, head.digits),
+            None => head.told(cell),
+        };
+        let cells = self.rows.iter().map(|row| &row[column]);
+        let cells = cells.map(|(cell, view)| view.clone().unwrap_or_else(|| told(cell)));
+        let name = match &scale {
+            Some(scale) => format!("{} ({})", head.name, scale.unit),
+            None => head.name.to_string(),
+        };
+        (name, cells.collect())
+    }
+
+    /// The unit that all cells of a column are told in: that of the largest; `None` where cells
+    /// have their own.
+    fn scale(&self, column: usize) -> Option<Scale> {
+        let cells = || self.rows.iter().map(|row| &row[column]);
+        let sizes = cells().flat_map(|(cell, _)| match cell {
+            Cell::Number(value) => [Some(*value), None],
+            Cell::Interval(ends) => *ends,
+            _ => [None; 2],
+        });
+        let sizes = sizes
+            .flatten()
+            .map(f64::abs)
+            .filter(|size| size.is_finite());
+        let most = sizes.fold(0.0, f64::max);
+        match cells().any(|(_, view)| view.is_some()) {
+            true => None,
+            false => Scale::of(self.heads[column].unit, most, self.heads[column].digits),
+        }
     }
 }
 

@@ -29,7 +29,7 @@ pub use pathways::Played;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order in which they build on each other.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -41,6 +41,7 @@ const SCRIPTS: [&str; 12] = [
     include_str!("sweep.js"),
     include_str!("meetings.js"),
     include_str!("crowd.js"),
+    include_str!("glossary.js"),
     include_str!("main.js"),
 ];
 
@@ -97,6 +98,8 @@ pub struct Illustration {
     pub is_titled: bool,
     /// A whole document, put into the page as it is.
     pub svg: String,
+    /// The same for the screen of a phone; empty where that is with another.
+    pub narrow: String,
 }
 
 /// A table that sorts.
