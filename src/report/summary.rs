@@ -125,7 +125,7 @@ pub fn listed(design: &Design, analysis: &Analysis) -> Table {
         .column("", "state", "", |kind| name(catalogue, kind))
         .column("", "captures", "", |kind| kind.captured())
         .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
-        .column("_J", "escape barrier", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
+        .column("_J", "escape", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
         .column("bounds_J", "certified", "", |kind| out(kind).filter(|way| !way.bounds.caged).map(|way| certified(kind, way))).digits(DIGITS)
         .column("", "to", "", |kind| escape(catalogue, out(kind)))
         .column("", "x, y (mm), theta, faces", "", |kind| {
