@@ -399,6 +399,27 @@ mod tests {
     }
 
     #[test]
+    fn a_column_has_one_unit() {
+        let table = crate::document::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
+            .column("energy_J", "energy", "", |it| *it)
+            .digits(4)
+            .column("bounds_J", "bounds", "", |it| [1e-6, it.abs()])
+            .column("part", "part", "", |it| *it)
+            .table("energies");
+        let column = |k: usize| {
+            let (name, cells) = table.column(k);
+            [vec![name], cells].concat()
+        };
+        let energies = ["energy (mJ)", "65.47", "-0.2216", "0", "0", "-"];
+        assert_eq!(column(0), energies);
+        assert_eq!(
+            column(1)[..3],
+            ["bounds (mJ)", "0.0010 to 65.5", "0.0010 to 0.222"]
+        );
+        assert_eq!(column(2)[..2], ["part", "0.0655"]);
+    }
+
+    #[test]
     fn people_read_units_with_prefixes_and_words_for_what_is_none() {
         let read = |cell: Cell, key| cell.told(Unit::of_key(key), 3);
         assert_eq!(read((-0.065_47).into(), "energy_J"), "-65.5 mJ");
