@@ -162,7 +162,7 @@ impl RankingPanel {
         let key = || self.entries.iter().filter(|_| self.entries.len() > 1);
         let wide = key().map(|(place, _)| 29.0 + SMALL.room(place.heading));
         // Further to the left where it is wider than the plot.
-        let mut x = left.min(right - wide.sum::<f64>()).max(4.0);
+        let mut x = left.min(right + RIGHT - wide.sum::<f64>()).max(4.0);
         for (place, _) in key() {
             let y = top - 16.0;
             canvas.block([x, y - 5.0, x + 10.0, y + 5.0], colour(place));
