@@ -71,7 +71,13 @@ pub fn document<'a>(
         remarks: summary::remarks(design, analysis),
         entries: report(design, analysis, is_whole, wall).and(shown),
         part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
-        pictures: vec![Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page()],
+        pictures: vec![
+            Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page(),
+            Drawing::new("Roadmap", |sheet| {
+                plots::roadmap::draw(scene, &analysis.roadmap, sheet)
+            })
+            .off_page(),
+        ],
         notes: summary::notes(design, analysis),
         beside: beside(analysis, scene, is_whole),
         origin: format!(

@@ -1,12 +1,10 @@
 //! The columns of assessed designs.
 
-use std::borrow::Cow;
-
 use serde_json::{Value, json};
 
 use crate::document::Rows;
-use crate::figures::{cell, heading};
-use jobs::comparison::quantity::{QUANTITIES, placed};
+use crate::figures::{Shown, cell_in};
+use jobs::comparison::quantity::{Measure, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, capture_range};
 
 /// The parameters of a capture range.
@@ -77,14 +75,25 @@ pub fn numbers<'a, Row>(
 /// why there is none.
 pub fn view<'a, Row>(
     rows: Rows<'a, Row>,
-    name: impl Into<Cow<'static, str>>,
+    name: &str,
     of_place: Vec<&'static Quantity>,
     of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
 ) -> Rows<'a, Row> {
     let first = of_place[0];
+    let known = rows.rows().iter().filter_map(|row| first.of(of(row)?));
+    // Proved absences have no size.
+    let told = known.filter(|it| it.value.is_finite() && it.high.is_none_or(|high| high > 0.0));
+    let most = told.map(|it| it.value.abs()).fold(0.0, f64::max);
+    let shown = Shown::new(first.measure, most);
+    let name = match (first.measure, most) {
+        // Their cells contain the sign.
+        (Measure::Share, _) | (_, 0.0) => name.to_owned(),
+        _ => shown.named(name),
+    };
     // A barrier that cannot be crossed ranks above every number.
     let value = move |row: &Row| Some(first.of(of(row)?)?.value.min(f64::MAX));
-    let told = move |row: &Row| of(row).map_or("-".to_owned(), |one| cell(&of_place, one));
+    let unit = Some(shown.unit);
+    let told = move |row: &Row| of(row).map_or("-".to_owned(), |one| cell_in(&of_place, one, unit));
     rows.column("", name, first.label, value)
         .in_view()
         .viewed(told)
@@ -98,8 +107,7 @@ pub fn views<'a, Row>(
 ) -> Rows<'a, Row> {
     for (place, of_place) in placed(|quantity| quantity.column) {
         if place.row == table {
-            let name = heading(place.heading, of_place[0].measure);
-            rows = view(rows, name, of_place, of);
+            rows = view(rows, place.heading, of_place, of);
         }
     }
     rows

@@ -97,12 +97,18 @@ impl Comparison {
             None => of,
         };
         match self.designs.first() {
-            Some(best) if docking.count() > 0 => format!(
-                "{of}, ranked by {}: {} is first with {}",
-                self.by.label,
-                self.name(best),
-                cell(&[self.by], best)
-            ),
+            Some(best) if docking.count() > 0 => {
+                let among = self.designs.iter().filter(|one| one.obstacle().is_none());
+                let told = match &self.not_below(best, among, self.by)[..] {
+                    [] => format!(
+                        "{} is first with {}",
+                        self.name(best),
+                        cell(&[self.by], best)
+                    ),
+                    others => format!("undecided between {}", self.told(best, others, self.by)),
+                };
+                format!("{of}, ranked by {}: {told}", self.by.label)
+            }
             _ => format!("{of}, ranked by {}: none reaches its bond", self.by.label),
         }
     }
@@ -168,10 +174,50 @@ impl Comparison {
             if let Some(first) = known
                 && firsts.iter().all(|(other, ..)| *other != name)
             {
-                firsts.push((name, self.name(first), cell(&[quantity], first)));
+                let others = self.not_below(first, self.designs.iter(), quantity);
+                firsts.push(match &others[..] {
+                    [] => (name, self.name(first), cell(&[quantity], first)),
+                    others => {
+                        let told = self.told(first, others, quantity);
+                        (name, "undecided".to_owned(), format!("between {told}"))
+                    }
+                });
             }
         }
         firsts
+    }
+
+    /// Those of some designs of which it is not known that they have less of a figure than the first
+    /// one: bounds overlap or are not known, or numbers are the same.
+    fn not_below<'a>(
+        &self,
+        first: &Assessment,
+        among: impl Iterator<Item = &'a Assessment>,
+        quantity: &Quantity,
+    ) -> Vec<&'a Assessment> {
+        let of_first = quantity.of(first);
+        let is_not_below = |one: &&Assessment| {
+            let (Some(most), Some(other)) = (of_first, quantity.of(one)) else {
+                return false;
+            };
+            match quantity.bounds {
+                CERTIFIED => ranking::order(first, one, quantity) != Ordering::Higher,
+                Some(_) => most.low <= other.high,
+                None => other.value >= (1.0 - 1e-6) * most.value,
+            }
+        };
+        let others = among.filter(|one| !std::ptr::eq(*one, first));
+        others.filter(is_not_below).collect()
+    }
+
+    /// Two designs of which it is not known which has more of a figure, and how many others.
+    fn told(&self, first: &Assessment, others: &[&Assessment], quantity: &Quantity) -> String {
+        let told = |one| format!("{} with {}", self.name(one), cell(&[quantity], one));
+        let more = match others.len() {
+            ..2 => String::new(),
+            count => format!(" and {} more", count - 1),
+        };
+        format!("{} and {}{more}", told(first), told(others[0]))
     }
 
     /// Figures with bounds, and the designs from the highest to the lowest: `a > b ~ c`.

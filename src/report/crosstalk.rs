@@ -165,12 +165,16 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
         counts[((gap.clamp(0.0, 1.0) * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
     let middle = |k: usize| (k as f64 + 0.5) / BINS as f64;
-    let bars = counts.iter().enumerate();
+    // From the bin below the lowest gap to the one above the highest.
+    let first = counts.iter().position(|count| *count > 0).unwrap_or(0);
+    let last = counts.iter().rposition(|count| *count > 0).unwrap_or(BINS);
+    let bins = first.saturating_sub(1)..(last + 2).min(BINS);
+    let ends = [bins.start, bins.end].map(|end| end as f64 / BINS as f64);
     let pairs = Dimension::new("pairs", "pairs");
     Chart {
         name: "gaps",
         title: title.to_owned(),
-        x: Dimension::new("gap", "gap of the pair").within([0.0, 1.0]),
+        x: Dimension::new("gap", "gap of the pair").within(ends),
         y: match counts.iter().max() {
             // Axis marks at whole numbers only.
             Some(most @ ..7) => pairs.marked((0..=*most).map(|count| count as f64)),
@@ -182,7 +186,7 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
     .with(
         "pairs",
         Look::Bars,
-        bars.map(|(k, count)| [middle(k), *count as f64]),
+        bins.map(|k| [middle(k), counts[k] as f64]),
     )
 }
 

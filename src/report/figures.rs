@@ -3,14 +3,14 @@
 use jobs::comparison::quantity::{Measure, Reading};
 use jobs::comparison::{Assessment, Estimate, Quantity};
 use physics::landscape::Proportion;
-use physics::units::{prefix_of, si, si_range};
+use physics::units::{plain, prefix_of, si, si_range};
 
 /// Significant digits of energies.
 const DIGITS: usize = 4;
 
 /// The full explanation of a bond that is [not head-on](jobs::comparison::quantity::NOT_HEAD_ON).
 pub const WHY_NOT_HEAD_ON: &str = "moved straight to the target face, the tile comes to rest \
-    outside the bond: the shape blocks the way, or leaves no clearance, as with square teeth";
+    outside the bond: the shape is in the way, or leaves no clearance, as with square teeth";
 
 /// Whether a stable bond has no capture range at all.
 pub fn misses_head_on(design: &Assessment) -> bool {
@@ -20,19 +20,25 @@ pub fn misses_head_on(design: &Assessment) -> bool {
 
 /// Figures for people, with their bounds: `-18.2 to 18.1` for two; if one is missing, the reason.
 pub fn cell(quantities: &[&Quantity], design: &Assessment) -> String {
-    let texts: Result<Vec<String>, &str> = quantities
-        .iter()
-        .map(|quantity| (quantity.read)(design).map(|reading| text(quantity.measure, &reading)))
-        .collect();
+    cell_in(quantities, design, None)
+}
+
+/// The same, energies as multiples of a unit that is told elsewhere, if there is one.
+pub fn cell_in(quantities: &[&Quantity], design: &Assessment, unit: Option<f64>) -> String {
+    let told = |quantity: &&Quantity| {
+        let reading = (quantity.read)(design)?;
+        Ok(text(quantity.measure, &reading, unit))
+    };
+    let texts: Result<Vec<String>, &str> = quantities.iter().map(told).collect();
     texts.map_or_else(str::to_owned, |texts| texts.join(" to "))
 }
 
-fn text(measure: Measure, reading: &Reading) -> String {
+fn text(measure: Measure, reading: &Reading, unit: Option<f64>) -> String {
     let estimate = reading.estimate();
     let value = estimate.value;
     let text = match (measure, reading) {
         (_, Reading::Share(share)) => percent(share),
-        (Measure::Energy, _) => energy(&estimate),
+        (Measure::Energy, _) => energy(&estimate, unit),
         (Measure::Length, _) => format!("{:.1}", 1e3 * value),
         (Measure::Angle, _) => format!("{:.1}", value.to_degrees()),
         (Measure::Share, _) => format!("{:.1} %", 100.0 * value),
@@ -47,25 +53,24 @@ fn text(measure: Measure, reading: &Reading) -> String {
 }
 
 /// An energy with its bounds: `65.46 mJ [64.84 to 65.46 mJ]`.
-fn energy(estimate: &Estimate) -> String {
+fn energy(estimate: &Estimate, unit: Option<f64>) -> String {
     if estimate.value.is_infinite() {
         return "caged, proved".to_owned();
     }
-    let value = si(estimate.value, "J", DIGITS);
-    match (estimate.low, estimate.high) {
-        (Some(low), Some(high)) if high > 0.0 => {
+    let value = match unit {
+        Some(unit) => plain(estimate.value / unit, DIGITS),
+        None => si(estimate.value, "J", DIGITS),
+    };
+    match (estimate.low, estimate.high, unit) {
+        (Some(low), Some(high), Some(unit)) if high > 0.0 => {
+            let [low, high] = [low, high].map(|end| plain(end / unit, DIGITS));
+            format!("{value} [{low} to {high}]")
+        }
+        (Some(low), Some(high), None) if high > 0.0 => {
             format!("{value} [{}]", si_range(low, high, "J", DIGITS))
         }
-        (Some(_), Some(_)) => "none, proved".to_owned(),
+        (Some(_), Some(_), _) => "none, proved".to_owned(),
         _ => value,
-    }
-}
-
-/// The heading of cells, with the unit if the cells do not have it: `gap (mm)`.
-pub fn heading(text: &str, measure: Measure) -> String {
-    match measure {
-        Measure::Length | Measure::Angle => Shown::new(measure, 1.0).named(text),
-        _ => text.to_owned(),
     }
 }
 

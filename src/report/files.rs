@@ -33,6 +33,7 @@ pub const ANALYSE: Command = Command {
         "docking",
         "models",
         "disconnectivity",
+        "roadmap",
     ],
 };
 
@@ -185,7 +186,7 @@ pub const MAKE: Command = Command {
 pub const SHOW: Command = Command {
     name: "show",
     files: &[REPORT, PAGE, "models.csv", "faces.csv"],
-    pictures: &["tiles"],
+    pictures: &["tiles", "field"],
 };
 
 /// `tilebind energy`.

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::braille::Braille;
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
-use crate::plots::glance;
+use crate::plots::{field, glance};
 use crate::sold;
 use crate::tiles::{GRAM, force, letter, magnets, models, pull_off, wrong};
 use crate::values::{pose, positive_zero};
@@ -52,9 +52,14 @@ pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
         remarks: faults.map(|fault| format!("! {fault}")).collect(),
         sketch: Some(sketch(design)),
         entries: found_entries(design, found),
-        pictures: vec![Drawing::new("Both tiles in the bound pose", move |sheet| {
-            glance::draw(design, found, sheet)
-        })],
+        pictures: vec![
+            Drawing::new("Both tiles in the bound pose", move |sheet| {
+                glance::draw(design, found, sheet)
+            }),
+            Drawing::new("Magnetic field of the fixed tile", |sheet| {
+                field::draw(design, sheet)
+            }),
+        ],
         origin: "the tiles with their target faces in contact; nothing is searched".to_owned(),
         notes: design.sold.iter().map(sold::told).collect(),
         ..Document::default()

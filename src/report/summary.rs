@@ -123,8 +123,9 @@ pub fn listed(design: &Design, analysis: &Analysis) -> Table {
         .column("", "state", "", |kind| name(catalogue, kind))
         .column("", "captures", "", |kind| kind.captured())
         .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
-        .column("", "escape barrier", "", |kind| escape(catalogue, out(kind)))
-        .column("", "certified", "", |kind| certified(kind, out(kind)))
+        .column("_J", "escape", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
+        .column("bounds_J", "certified", "", |kind| out(kind).filter(|way| !way.bounds.caged).map(|way| certified(kind, way))).digits(DIGITS)
+        .column("", "to", "", |kind| escape(catalogue, out(kind)))
         .column("", "x, y (mm), theta, faces", "", |kind| {
             format!("{}, {}", pose(&kind.first().configuration), faces(design, kind))
         })
@@ -144,20 +145,15 @@ fn name(catalogue: &Catalogue, kind: &Kind) -> String {
 fn escape(catalogue: &Catalogue, way: Option<&Barrier>) -> String {
     match way {
         Some(way) if way.bounds.caged => "caged, proved".to_owned(),
-        Some(way) if way.has_way() => {
-            let to = catalogue.name_of(way.to);
-            format!("{} to {to}", si(way.forward(), "J", DIGITS))
-        }
+        Some(way) if way.has_way() => catalogue.name_of(way.to),
         _ => "none found".to_owned(),
     }
 }
 
-fn certified(kind: &Kind, way: Option<&Barrier>) -> String {
-    match way.and_then(|way| way.bounds.above(kind.first().energy).both()) {
-        _ if way.is_some_and(|way| way.bounds.caged) => "no way out".to_owned(),
-        None => String::new(),
-        Some((lower, upper)) => si_range(lower, upper, "J", DIGITS),
-    }
+/// Bounds of the climb.
+fn certified(kind: &Kind, way: &Barrier) -> [Option<f64>; 2] {
+    let bounds = way.bounds.above(kind.first().energy).both();
+    bounds.map_or([None; 2], |(lower, upper)| [Some(lower), Some(upper)])
 }
 
 /// Notes of one or two lines each.

@@ -5,7 +5,7 @@ use jobs::design::{Design, DesignError};
 use jobs::inspection::{Hold, Inspection};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
-use physics::units::si;
+use physics::units::{plain, si};
 
 /// Weight of a gram (N).
 pub const GRAM: f64 = 9.806_65e-3;
@@ -26,7 +26,7 @@ pub fn force(newtons: f64) -> String {
         1.0.. => 1,
         _ => 3,
     };
-    format!("{} ({grams:.decimals$} g)", si(newtons, "N", 3))
+    format!("{} N ({grams:.decimals$} g)", plain(newtons, 3))
 }
 
 /// The forces that hold the tiles, one row for each magnet model.

@@ -119,7 +119,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
     let thin = match wanting > 0.0 {
         true => format!(
             "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through \
-             the rim and glue the magnets flush, or raise `inset` by {} mm, on slopes by more",
+             the rim and fasten the magnets level with it, or raise `inset` by {} mm, on slopes by more",
             plain(more)
         ),
         false => String::new(),

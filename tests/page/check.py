@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the pages of analyse, compare, sweep, words, table and dock in headless Chromium and uses them.
+"""Opens the pages of all commands in headless Chromium and uses them.
 
     check.py PROGRAM [--pictures FOLDER]
 
@@ -19,6 +19,7 @@ from browser import Browser
 from crowd import check_crowd
 from landscapes import check_docking, check_page
 from looking import Check
+from others import check_others
 from tables import SHAPES, check_comparison, check_sweep
 from words import check_words
 
@@ -63,6 +64,7 @@ def main():
             check_sweep(check, arguments.program, pathlib.Path(folder))
             print("tests/page: words, crosstalk")
             check_words(check, arguments.program, pathlib.Path(folder))
+            check_others(check, arguments.program, pathlib.Path(folder))
             print("tests/page: table")
             check_crowd(check, arguments.program, pathlib.Path(folder))
             print("tests/page: docking")

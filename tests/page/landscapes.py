@@ -1,5 +1,7 @@
 """Pages with a landscape: of analyse and of dock."""
 
+import time
+
 from looking import (NARROW, WIDE, check_first_look, check_hints, check_links, check_other_looks, check_playing, point_at,
                      set_slider, text)
 
@@ -21,7 +23,7 @@ def check_docking(check, file):
     check.changes(["around", "tiles", "profile"], "(() => { const p = document.getElementById('path'); p.value = 3;"
                   " p.dispatchEvent(new Event('change')); })()", "another trajectory")
     check_playing(check)
-    check.that(browser.run("document.querySelectorAll('#pictures svg').length") == 2, "the chances and the trajectories are shown")
+    check.that(browser.run("document.querySelectorAll('#pictures svg.wide').length") == 2, "the chances and the trajectories are shown")
     check_other_looks(check, "docking", file)
 
 
@@ -57,8 +59,8 @@ def check_choosing(check):
         path = browser.run(f"{rows}[1].dataset.path")
         check.that(browser.run("document.getElementById('path').value") == path, "a click on a barrier takes its way")
         check.that(browser.run(f"{rows}[1].classList.contains('chosen')"), "the barrier's row is marked")
-        check.that(browser.run("Math.abs(document.getElementById('landscape').getBoundingClientRect().top) < 300"),
-                   "the way is brought into view")
+        # Scrolling takes its time.
+        browser.wait("Math.abs(document.getElementById('landscape').getBoundingClientRect().top) < 300")
         browser.run(f"{rows}[0].focus()")
         check.that(browser.run(f"document.activeElement === {rows}[0]"), "rows can be reached by the keyboard")
         browser.run(f"{rows}[0].dispatchEvent(new KeyboardEvent('keydown', {{key: 'Enter', bubbles: true}}))")
@@ -66,6 +68,20 @@ def check_choosing(check):
     ways = browser.run("[...document.querySelectorAll('#tables table')[2].tBodies[0].rows].map((r) => [...r.cells].map((c) => c.textContent))")
     check.that(any("least work" in way for way in ways), f"ways of least work are listed ({len(ways)})")
     check.that(all(way[3] != "\u2013" and way[4] != "\u2013" for way in ways), "work and length stand beside the barrier")
+    state = "document.querySelectorAll('#tables table')[0].tBodies[0].rows[1]"
+    browser.run("scrollTo({top: document.body.scrollHeight, behavior: 'instant'})")
+    seen = ("(([top, bottom]) => top >= 0 && bottom <= innerHeight)((({top, bottom}) => [top, bottom])"
+            "(document.getElementById('%s').getBoundingClientRect()))")
+    # Out of view at first, and brought there; where it is in view, it stays.
+    top = "document.getElementById('pose').getBoundingClientRect().top"
+    check.that(not browser.run(seen % "pose"), "the chosen state's picture is out of view at first")
+    browser.run(f"{state}.click()")
+    browser.wait(seen % "pose")
+    time.sleep(0.5)
+    before = browser.run(top)
+    browser.run("document.querySelector('#tree .leaf:not(.chosen)').dispatchEvent(new Event('click'))")
+    time.sleep(0.5)
+    check.that(abs(browser.run(top) - before) < 50, "what is in view stays where it is")
     for view in ("around", "inFront"):
         browser.settled()
         spot = browser.run(f"(() => {{ const v = views.{view}, s = v.spots.at(-1); if (!s) return null;"

@@ -12,7 +12,8 @@ def check_table_page(check, name, file, use):
     """A page of tables and pictures: `use` tries its specific functions."""
     browser = check.browser
     check_first_look(check, name, file)
-    use(browser)
+    if use:
+        use(browser)
     check_links(check, file)
     check_hints(check, name, file)
     check_other_looks(check, name, file)
@@ -39,7 +40,10 @@ def check_comparison(check, program, folder):
         browser.run(click)
         upwards = browser.run(depths)
         browser.run(click)
-        check.that(browser.run(depths) == upwards[::-1] and "mJ" in upwards[0], "designs sort by their bond")
+        head = browser.run("document.querySelector('#tables table').tHead.rows[0].cells[1].textContent")
+        check.that(browser.run(depths) == upwards[::-1] and head == "bond (mJ)", f"designs sort by their bond ({head})")
+        cards = browser.run("[...document.querySelectorAll('#facts .value')].map((card) => card.textContent)")
+        check.that(cards[2:] == ["undecided"] * 2, f"no card claims an order that is undecided ({cards})")
         check.that(browser.run(column(0, 2)[0])[:1] == ["unbinding barrier"], "the certified order is told")
         check.that("not head-on" in browser.run("document.querySelector('#tables table').textContent"),
                    "what has no capture range says why")
@@ -69,7 +73,7 @@ def check_sweep(check, program, folder):
                     "--vary", "potential.model=dipole,cuboid", "--out", out, *quick], check=True)
 
     def curves(browser):
-        check.that(browser.run("document.querySelectorAll('#pictures svg').length") == 2, "a picture of curves a model")
+        check.that(browser.run("document.querySelectorAll('#pictures svg.wide').length") == 2, "a picture of curves a model")
         check.that(browser.run("document.querySelectorAll('#charts .panels').length") == 1, "and one to choose")
         before = picture(browser)
         # The first design's bond at the second depth.

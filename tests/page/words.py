@@ -13,7 +13,7 @@ def check_words(check, program, folder):
         check.that(browser.run(f"{ink}(document.getElementById('meeting-tiles'))") > 1000, "#meeting-tiles shows something")
         check.that(browser.run("document.querySelectorAll('#meeting-map text').length") > 10, "#meeting-map shows something")
         first = text(browser, "meeting-readout")
-        chosen = "[...document.querySelectorAll('#meeting-map .chosen')].map((cell) => cell.dataset.cell).join()"
+        chosen = "[...document.querySelectorAll('#meeting-map .wide .chosen')].map((cell) => cell.dataset.cell).join()"
         click = "document.querySelector('#meeting-map [data-cell=\"2 0\"]').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
         check.changes(["meeting-tiles"], click, "a click on a cell")
         check.that("C on A" in text(browser, "meeting-readout") != first, "the meeting is told")

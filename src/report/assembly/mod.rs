@@ -85,7 +85,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         .data("window_kt_J", built.window().map(|ends| json!(ends)))
         .data("errors_at_standstill", built.errors_at_standstill())
         .fact("errors_a_tile", "errors a tile", assembly.growth.errors_a_tile)
-            .viewed(format!("{:.1e}", assembly.growth.errors_a_tile)).noted("as grown, wrong tiles that stay")
+            .digits(2).noted("as grown, wrong tiles that stay")
         .fact("grown_right", "grown correctly", json!([assembly.growth.right, assembly.growth.runs]))
             .viewed(format!("{} of {}", assembly.growth.right, assembly.growth.runs)).in_view()
         .data("proposed_kt_J", assembly.proposal().map(|it| it.0))

@@ -6,6 +6,7 @@ use plotters::style::RGBColor;
 
 use crate::document::rows;
 use crate::plots::composition::{Composition, Panel};
+use crate::plots::heat;
 use crate::plots::key::{Sign, key as explained};
 use crate::plots::{Figure, PictureError, Sheet};
 use jobs::assembly::{Assembly, TileSet};
@@ -14,10 +15,10 @@ use jobs::assembly::{Assembly, TileSet};
 const COLOURS: [&str; 8] = [
     "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999",
 ];
-/// Pixels along the longer side.
-const SIDE: f64 = 640.0;
+/// Pixels along the longer side, and the least width, in which the key has room.
+const SIDES: [f64; 2] = [640.0, 360.0];
 /// Greatest side of a tile, and space around them all (pixels).
-const MOST_CELL: f64 = 40.0;
+const MOST_CELL: f64 = 105.0;
 const SPACE: f64 = 22.0;
 /// With more kinds of tiles than this, the key has one entry per colour, with the kinds of that
 /// colour.
@@ -80,9 +81,8 @@ fn key(kinds: &[(&str, String)]) -> Vec<(String, String)> {
 }
 
 /// A colour as tile sets name it, such as `#0072B2`.
-fn colour(hex: &str) -> RGBColor {
-    let part = |k: usize| u8::from_str_radix(&hex[k..k + 2], 16).unwrap_or(0);
-    RGBColor(part(1), part(3), part(5))
+fn colour(hex: &str) -> [u8; 3] {
+    [1, 3, 5].map(|k| u8::from_str_radix(&hex[k..k + 2], 16).unwrap_or(0))
 }
 
 /// Draws the picture.
@@ -96,9 +96,10 @@ pub(super) fn grown(
     let [columns, lines] = [high.0 - low.0, high.1 - low.1].map(|last| f64::from(last + 1));
     let (kinds, of_tile) = kinds(set);
     let cell = move |width: f64| {
-        let most = (SIDE / columns.max(lines)).min(MOST_CELL);
+        let most = (SIDES[0] / columns.max(lines)).min(MOST_CELL);
         most.min((width - 2.0 * SPACE) / columns)
     };
+    let width = (cell(SIDES[0] + 2.0 * SPACE) * columns).max(SIDES[1] - 2.0 * SPACE) + 2.0 * SPACE;
     let height = move |width| cell(width) * lines + SPACE;
     let panel = Panel::alone(height, |canvas, [left, top, right, _]| {
         let side = cell(right - left);
@@ -106,11 +107,15 @@ pub(super) fn grown(
             let left = left + SPACE + f64::from(x - low.0) * side;
             let top = top + f64::from(high.1 - y) * side;
             let place = [left, top, left + 0.94 * side, top + 0.94 * side];
-            canvas.block(place, colour(&kinds[of_tile[*tile]].1));
+            let (name, hex) = &kinds[of_tile[*tile]];
+            heat::cell(canvas, place, colour(hex), name);
         }
     });
     let names = key(&kinds).into_iter();
-    let names = names.map(|(hex, name)| (Sign::Block(colour(&hex)), name));
+    let names = names.map(|(hex, name)| {
+        let [r, g, b] = colour(&hex);
+        (Sign::Block(RGBColor(r, g, b)), name)
+    });
     let names = names.filter(|_| kinds.len() > 1);
     let numbers = rows(&grown.tiles)
         .column("x", "", "", |it| it.0.0)
@@ -119,7 +124,7 @@ pub(super) fn grown(
     let composition = Composition {
         name: "grown".to_owned(),
         title: title.to_owned(),
-        width: SIDE + 2.0 * SPACE,
+        width,
         panels: vec![panel],
         keys: vec![explained(names)],
         ..Composition::default()

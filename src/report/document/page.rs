@@ -57,14 +57,25 @@ impl Document<'_> {
     }
 
     fn page(&self, sheet: &Sheet, figures: &[Vec<Figure>]) -> Page {
-        let pictures = self.pictures.iter().zip(figures);
-        let pictures = pictures.filter(|(picture, _)| picture.is_shown);
-        let pictures = pictures
-            .flat_map(|(picture, figures)| figures.iter().map(move |figure| (picture, figure)));
-        let pictures = pictures.map(|(picture, figure)| Illustration {
-            title: picture.title.clone(),
-            is_titled: sheet.is_titled(),
-            svg: figure.svg().to_owned(),
+        let shown = self.pictures.iter().zip(figures);
+        let shown: Vec<_> = shown.filter(|(picture, _)| picture.is_shown).collect();
+        let pictures = parallel::map(&shown[..], |(picture, figures)| {
+            let narrow = picture.drawn(&Sheet::PHONE).unwrap_or_default();
+            let of_phone = narrow.iter().map(Some).chain(std::iter::repeat(None));
+            let both = figures.iter().zip(of_phone);
+            let both = both.flat_map(|(figure, narrow)| {
+                let narrow = narrow.unwrap_or(figure).svg();
+                let wide = figure.pictures.iter().map(|(_, it)| &it.svg);
+                // Of several there is one for narrow screens.
+                let narrow = std::iter::once(narrow).chain(std::iter::repeat(""));
+                wide.zip(narrow).map(|(wide, narrow)| Illustration {
+                    title: picture.title.clone(),
+                    is_titled: sheet.is_titled(),
+                    svg: wide.clone(),
+                    narrow: narrow.to_owned(),
+                })
+            });
+            both.collect::<Vec<_>>()
         });
         let paged = |table: &&Table| table.is_shown() && table.is_paged;
         let tables = self.tables().into_iter().filter(paged);
@@ -72,7 +83,7 @@ impl Document<'_> {
             subtitle: self.answer.clone(),
             facts: self.facts().into_iter().map(Fact::shown).collect(),
             tables: tables.map(Table::shown).chain(self.settings()).collect(),
-            pictures: pictures.collect(),
+            pictures: pictures.concat(),
             notes: [&self.remarks[..], &self.notes].concat(),
             origin: format!("tilebind {}; {}", env!("CARGO_PKG_VERSION"), self.origin),
             ..Page::titled(self.title.clone())
@@ -129,14 +140,17 @@ impl Fact {
 
 impl Table {
     fn shown(&self) -> page::Table {
-        let columns = self.viewed().map(|k| page::Column {
-            name: self.heads[k].name.to_string(),
-            meaning: self.heads[k].meaning,
+        let viewed: Vec<usize> = self.viewed().collect();
+        let (names, texts): (Vec<_>, Vec<_>) = viewed.iter().map(|k| self.column(*k)).unzip();
+        let columns = viewed.iter().zip(names).map(|(k, name)| page::Column {
+            name,
+            meaning: self.heads[*k].meaning,
         });
-        let cell = |row: usize, k: usize| -> Value {
-            match (self.rows[row][k].0.key(), self.text(row, k)) {
-                (_, text) if text == "-" => Value::Null,
-                (key, text) => json!([key, text]),
+        let cell = |row: usize, column: usize| -> Value {
+            let key = self.rows[row][viewed[column]].0.key();
+            match &texts[column][row][..] {
+                "-" => Value::Null,
+                text => json!([key, text]),
             }
         };
         let state = |link: &Option<Link>| match link {
@@ -153,7 +167,7 @@ impl Table {
             note: self.note.clone(),
             columns: columns.collect(),
             rows: rows
-                .map(|row| self.viewed().map(|k| cell(row, k)).collect())
+                .map(|row| (0..viewed.len()).map(|k| cell(row, k)).collect())
                 .collect(),
             states: self.links.iter().filter_map(state).collect(),
             paths: self.links.iter().map(way).collect(),

@@ -15,8 +15,9 @@ use super::{Cell, Head, Table, Unit};
 ///     .column("kT_J", "kT", "energy of shaking", |row| row.0)
 ///     .column("yield", "bound", "share of all pairs", |row| row.1).share()
 ///     .table("settings");
-/// assert_eq!(table.text(1, 0), "2.00 mJ");
-/// assert_eq!(table.text(1, 1), "50 %");
+/// let texts = |column| table.column(column);
+/// assert_eq!(texts(0), ("kT (mJ)".to_owned(), vec!["1.00".to_owned(), "2.00".to_owned()]));
+/// assert_eq!(texts(1).1, ["25 %", "50 %"]);
 /// ```
 pub struct Rows<'a, Row> {
     rows: Vec<Row>,
@@ -42,6 +43,11 @@ pub fn rows<'a, Row>(rows: impl IntoIterator<Item = Row>) -> Rows<'a, Row> {
 }
 
 impl<'a, Row> Rows<'a, Row> {
+    /// The items that the rows are made from.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
     /// Adds a column: its key in files, which ends in its unit, its name for people, its meaning,
     /// and its value in a row.
     #[must_use]

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Value, json};
 
 use super::Unit;
-use super::unit::told;
+use super::unit::{Scale, told};
 use crate::figures::percent;
 use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero, proportion, read_pose};
@@ -67,6 +67,18 @@ impl Cell {
             Self::Place(place) => place_name(*place),
             Self::Sampled(sampled) => percent(sampled),
             Self::Rows(_) | Self::Data(_) => String::new(),
+        }
+    }
+
+    /// The text for people, without the unit, which the heading states.
+    fn told_in(&self, scale: &Scale, digits: usize) -> String {
+        let told = |value: f64| scale.told(value, digits);
+        match self {
+            Self::Number(value) => told(*value),
+            Self::Interval([Some(low), Some(high)]) => format!("{} to {}", told(*low), told(*high)),
+            Self::Interval([Some(low), None]) => format!("{} or more", told(*low)),
+            Self::Interval([None, Some(high)]) => format!("at most {}", told(*high)),
+            other => other.told(Unit::None, digits),
         }
     }
 
@@ -329,11 +341,39 @@ impl Table {
             .map(|(k, _)| k)
     }
 
-    /// The text of a cell for people.
-    pub fn text(&self, row: usize, column: usize) -> String {
-        let (cell, view) = &self.rows[row][column];
-        view.clone()
-            .unwrap_or_else(|| self.heads[column].told(cell))
+    /// The heading of a column, with the unit if its cells share one, and the texts of its cells.
+    pub fn column(&self, column: usize) -> (String, Vec<String>) {
+        let (head, scale) = (&self.heads[column], self.scale(column));
+        let told = |cell: &Cell| match &scale {
+            Some(scale) => cell.told_in(scale, head.digits),
+            None => head.told(cell),
+        };
+        let cells = self.rows.iter().map(|row| &row[column]);
+        let cells = cells.map(|(cell, view)| view.clone().unwrap_or_else(|| told(cell)));
+        let name = match &scale {
+            Some(scale) => format!("{} ({})", head.name, scale.unit),
+            None => head.name.to_string(),
+        };
+        (name, cells.collect())
+    }
+
+    /// The common unit of a column, chosen by its largest value; `None` if cells have their own.
+    fn scale(&self, column: usize) -> Option<Scale> {
+        let cells = || self.rows.iter().map(|row| &row[column]);
+        let sizes = cells().flat_map(|(cell, _)| match cell {
+            Cell::Number(value) => [Some(*value), None],
+            Cell::Interval(ends) => *ends,
+            _ => [None; 2],
+        });
+        let sizes = sizes
+            .flatten()
+            .map(f64::abs)
+            .filter(|size| size.is_finite());
+        let most = sizes.fold(0.0, f64::max);
+        match cells().any(|(_, view)| view.is_some()) {
+            true => None,
+            false => Scale::of(self.heads[column].unit, most, self.heads[column].digits),
+        }
     }
 }
 
@@ -354,6 +394,27 @@ mod tests {
         ] {
             assert_eq!(Unit::of_key(key).symbol(), unit, "{key}");
         }
+    }
+
+    #[test]
+    fn a_column_has_one_unit() {
+        let table = crate::document::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
+            .column("energy_J", "energy", "", |it| *it)
+            .digits(4)
+            .column("bounds_J", "bounds", "", |it| [1e-6, it.abs()])
+            .column("part", "part", "", |it| *it)
+            .table("energies");
+        let column = |k: usize| {
+            let (name, cells) = table.column(k);
+            [vec![name], cells].concat()
+        };
+        let energies = ["energy (mJ)", "65.47", "-0.2216", "0", "0", "-"];
+        assert_eq!(column(0), energies);
+        assert_eq!(
+            column(1)[..3],
+            ["bounds (mJ)", "0.0010 to 65.5", "0.0010 to 0.222"]
+        );
+        assert_eq!(column(2)[..2], ["part", "0.0655"]);
     }
 
     #[test]

@@ -95,14 +95,11 @@ impl Table {
 
     /// The texts of the table on a terminal, with the head first.
     pub(crate) fn texts(&self) -> Vec<Vec<String>> {
-        let printed: Vec<usize> = self
-            .viewed()
-            .filter(|k| self.heads[*k].is_printed)
-            .collect();
-        let head = printed.iter().map(|k| self.heads[*k].name.to_string());
-        let row = |row: usize| printed.iter().map(|k| self.text(row, *k)).collect();
+        let printed = self.viewed().filter(|k| self.heads[*k].is_printed);
+        let (head, columns): (Vec<_>, Vec<_>) = printed.map(|k| self.column(k)).unzip();
+        let row = |row: usize| columns.iter().map(|cells| cells[row].clone()).collect();
         let rows = (0..self.rows.len().min(self.listed)).map(row);
-        [head.collect()].into_iter().chain(rows).collect()
+        [head].into_iter().chain(rows).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Units of quantities, and how they are printed for people.
 
-use physics::units::{duration, plain, si};
+use physics::units::{duration, plain, prefix_and_decimals, si};
 
 /// The unit of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,8 +72,59 @@ pub fn told(value: f64, unit: Unit, digits: usize) -> String {
         Unit::Of("s") => duration(value, digits),
         Unit::Of("rad") => format!("{:.1}\u{b0}", value.to_degrees() + 0.0),
         Unit::Of("kT") => format!("{value:.1} kT"),
-        Unit::Of(symbol @ ("J" | "m" | "N" | "T" | "m/s" | "N m")) => si(value, symbol, digits),
+        Unit::Of(symbol) if PREFIXED.contains(&symbol) => si(value, symbol, digits),
         Unit::Of(symbol) => format!("{} {symbol}", plain(value, digits)),
+    }
+}
+
+/// Units that stand with a prefix.
+const PREFIXED: [&str; 6] = ["J", "m", "N", "T", "m/s", "N m"];
+/// Decimals of small numbers of a column more than of its largest one.
+const MORE: usize = 3;
+
+/// A unit that many numbers are told in.
+pub(super) struct Scale {
+    /// What it is in SI units.
+    size: f64,
+    /// Its symbol with the prefix.
+    pub(super) unit: String,
+    /// Decimals of the largest number.
+    decimals: usize,
+}
+
+impl Scale {
+    /// For numbers up to `most`, told to so many digits; `None` for units without prefixes.
+    pub(super) fn of(unit: Unit, most: f64, digits: usize) -> Option<Self> {
+        match unit {
+            Unit::Of(symbol) if PREFIXED.contains(&symbol) && most > 0.0 => {
+                let (size, prefix, decimals) = prefix_and_decimals(most, digits);
+                let unit = format!("{prefix}{symbol}");
+                Some(Self {
+                    size,
+                    unit,
+                    decimals,
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// A number without the unit: to so many digits, as far as the decimals go.
+    pub(super) fn told(&self, value: f64, digits: usize) -> String {
+        if !value.is_finite() {
+            return "-".to_owned();
+        }
+        let (scaled, most) = (value / self.size, self.decimals + MORE);
+        let decimals = (0..most).find(|&decimals| {
+            // So many digits stand before and after the point.
+            scaled.abs() >= 10f64.powi(digits as i32 - 1 - decimals as i32)
+        });
+        let decimals = decimals.unwrap_or(most);
+        let text = format!("{scaled:.decimals$}");
+        match text.bytes().all(|c| b"-0.".contains(&c)) {
+            true => "0".to_owned(),
+            false => text,
+        }
     }
 }
 

@@ -1,9 +1,11 @@
 // A sweep: a figure of its points over a number or another figure.
 
 const charts = page.charts;
-/** Okabe and Ito's colours, as in the pictures; the last one is the text colour. */
+/** Okabe and Ito's colours, as in the pictures; the last one is the text colour. Further series repeat them in dashes. */
 const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
-const seriesColour = (k) => SERIES[k] ?? theme.ink;
+const COUNT = SERIES.length + 1;
+const seriesColour = (k) => SERIES[k % COUNT] ?? theme.ink;
+const seriesDashes = (k) => [[], [12, 3], [2, 3]][Math.min(2, Math.floor(k / COUNT))];
 /** The point under the pointer, the one that was clicked, and the one that all are set against, by
     their places in the sweep. */
 let hovered = null, pinned = null, baseline = null;
@@ -186,7 +188,9 @@ class CurvePanel {
       pen.strokeStyle = colour;
       // Later curves are thinner, so that earlier ones remain visible below them.
       pen.lineWidth = 1.6 + 2.4 * (this.group.series.length - 1 - number) / this.group.series.length;
+      pen.setLineDash(seriesDashes(number));
       line(pen, piece.map(({ x, estimate }) => this.at(x, estimate[0])));
+      pen.setLineDash([]);
       for (const { x, point, estimate } of piece) this.dots.push({ point, at: this.at(x, estimate[0]), colour });
     }
     for (const { x, point, estimate } of known) {

@@ -13,6 +13,12 @@ function followPage(draw) {
   for (const query of ["print", "(prefers-color-scheme: dark)"]) matchMedia(query).addEventListener("change", anew);
 }
 
+/** Scrolls until something is in view, where it is not. */
+function bring(id) {
+  const shown = element(id);
+  (shown.closest("figure") ?? shown).scrollIntoView({ block: "nearest" });
+}
+
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["page", "ink", "soft", "line", "panel", "accent", "fixed", "moving", "edge", "hatch",

@@ -17,11 +17,22 @@ function showPage() {
     box.append(make("dt", fact.name), make("dd", fact.value, "value"), make("dd", fact.note, "note"));
     element("facts").append(box);
   }
-  for (const { title, is_titled: isTitled, svg: source } of page.pictures) {
-    element("pictures").append(...(isTitled ? [] : [make("h2", title)]), drawnOf(source, title));
+  for (const { title, is_titled: isTitled, svg, narrow } of page.pictures) {
+    if (!isTitled && narrow) element("pictures").append(make("h2", title));
+    for (const [kind, source] of [["wide", svg], ["narrow", narrow]]) {
+      if (!source) continue;
+      const picture = drawnOf(source, title);
+      picture.classList.add(kind);
+      element("pictures").append(picture);
+    }
   }
-  for (const table of page.tables) buildTable(table, choose, choosePath);
+  for (const table of page.tables) buildTable(table, (state) => choose(state), choosePath);
   element("notes").append(...page.notes.map((note) => make("p", note)));
+}
+
+/** Explains what is shown, and adds the files and what to cite, whose words are not the page's. */
+function endPage() {
+  explainWords();
   listFiles(page.files);
   element("reproduce").hidden = !page.citation;
   element("command").hidden = !page.command;
@@ -104,8 +115,8 @@ function takePath(index) {
   markChosen();
 }
 
-/** Shows a state's pose, and the exit of it or of another state of its kind. */
-function choose(state) {
+/** Shows a state's pose, and the exit of it or of another state of its kind: on the path if chosen in a map, otherwise by itself. */
+function choose(state, where = world.tree.length ? "pose" : "tiles") {
   if (!views) return;
   now.chosen = state;
   const starts = (same) => world.pathways.findIndex(({ ends }) => ends[0] !== null && state !== null && same(ends[0]));
@@ -114,6 +125,7 @@ function choose(state) {
   if (index >= 0 && !now.playing) takePath(index);
   markChosen();
   redraw();
+  bring(where);
 }
 
 /** Shows a path from its start. */
@@ -162,7 +174,7 @@ function watchPointer(view) {
   view.canvas.addEventListener("pointerdown", look);
   view.canvas.addEventListener("click", (event) => {
     const state = view.stateAt(event);
-    if (state) choose(state.id);
+    if (state) choose(state.id, "tiles");
   });
   view.canvas.addEventListener("pointerleave", () => {
     now.probe = null;
@@ -221,10 +233,11 @@ if (meetings) showMeetings();
 if (crowd) showCrowd();
 const ready = world ? showLandscape() : Promise.resolve();
 ready.then(
-  () => { document.documentElement.dataset.ready = "yes"; },
+  endPage,
   (error) => {
+    endPage();
     element("trouble").hidden = false;
     element("trouble").textContent = `The landscape cannot be shown: ${error.message}`;
     console.error(error);
   },
-);
+).then(() => { document.documentElement.dataset.ready = "yes"; });

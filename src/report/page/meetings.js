@@ -16,7 +16,7 @@ function drawMeeting() {
   const [i, j] = met;
   const canvas = element("meeting-tiles"), pose = meetings.poses[i][j];
   const over = meetings.over[i]?.[j] ?? false;
-  const { pen, width, height } = fresh(canvas, 0.8);
+  const { pen, width, height } = fresh(canvas, 0.7);
   const told = element("meeting-readout");
   const [first, second] = [meetings.names[i], meetings.names[j]];
   const codes = `${first} = ${meetings.codes[i]}, ${second} = ${meetings.codes[j]}`;
@@ -54,11 +54,17 @@ function showMeetings() {
   const map = element("meeting-map");
   const spots = [...document.querySelectorAll("#pictures [data-cell]")];
   // The picture of the map, which has the title, stands beside its tiles.
-  const picture = spots[0].ownerSVGElement;
-  if (picture.previousElementSibling?.tagName === "H2") picture.previousElementSibling.remove();
+  const pictures = new Set(spots.map((spot) => spot.ownerSVGElement));
+  const head = spots[0].ownerSVGElement.previousElementSibling;
+  if (head?.tagName === "H2") head.remove();
   else element("meetings-title").hidden = true;
-  map.append(picture);
-  for (const spot of spots) spot.addEventListener("click", () => showMeeting(spot.dataset.cell.split(" ").map(Number)));
+  map.append(...pictures);
+  for (const spot of spots) {
+    spot.addEventListener("click", () => {
+      showMeeting(spot.dataset.cell.split(" ").map(Number));
+      bring("meeting-tiles");
+    });
+  }
   map.addEventListener("keydown", (event) => {
     const move = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
     if (!move) return;

@@ -211,8 +211,8 @@ impl Meetings {
             numbers: numbers.table("crosstalk").csv(),
             shares,
             is_framed: |row, column, count| 2 * row.abs_diff(column) == count,
-            legend: "Attraction relative to the weakest bond. Framed: a word and its own mate"
-                .to_owned(),
+            legend: "attraction relative to the weakest bond",
+            remark: "framed: a word and its own mate",
         }
         .into()
     }

@@ -29,7 +29,7 @@ pub use pathways::Played;
 const MARKUP: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// In the order of their dependencies.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("data.js"),
     include_str!("draw.js"),
     include_str!("maps.js"),
@@ -41,6 +41,7 @@ const SCRIPTS: [&str; 12] = [
     include_str!("sweep.js"),
     include_str!("meetings.js"),
     include_str!("crowd.js"),
+    include_str!("glossary.js"),
     include_str!("main.js"),
 ];
 
@@ -97,6 +98,8 @@ pub struct Illustration {
     pub is_titled: bool,
     /// A complete document, embedded in the page unchanged.
     pub svg: String,
+    /// The same for a phone's screen; empty if another picture contains it.
+    pub narrow: String,
 }
 
 /// A sortable table.

@@ -15,6 +15,7 @@ function legend(series) {
       const pen = mark.getContext("2d");
       pen.strokeStyle = seriesColour(k);
       pen.lineWidth = 4;
+      pen.setLineDash(seriesDashes(k));
       line(pen, [[0, 5], [28, 5]]);
     });
   }
@@ -152,7 +153,10 @@ function showCharts() {
     row.addEventListener("pointerleave", () => hover(null));
     row.addEventListener("focus", () => hover(point));
     row.addEventListener("blur", () => hover(null));
-    choosable(row, () => pin(point));
+    choosable(row, () => {
+      pin(point);
+      bring("point");
+    });
     if (!charts.tiles.length) return;
     row.cells[0].prepend(make("canvas"));
   });
@@ -182,7 +186,7 @@ function addChosen(section, against, panels, watch, drawAll) {
     const { label, unit } = charts.figures[Number(ys.value)];
     const panel = new CurvePanel(grid, group, { heading: label, unit, figures: [Number(ys.value)] });
     panel.isChosen = true;
-    key.replaceChildren(legend(group.series.length > 7 ? [] : group.series));
+    key.replaceChildren(legend(group.series.length > 3 * COUNT ? [] : group.series));
     watch(panel);
     drawAll();
   };

@@ -41,15 +41,22 @@ function drawPathTiles() {
     : "";
 }
 
+/** Height over width in which all states have room. */
+let poseShape = null;
+
 function drawPose() {
   const state = world.states.find((s) => s.id === now.chosen);
   const canvas = element("pose");
+  poseShape ??= Math.min(0.9, 0.1 + Math.max(0.4, ...world.states.map(({ pose }) => {
+    const [left, bottom, right, top] = extent([pose]);
+    return (top - bottom) / (right - left);
+  })));
   if (!state) {
-    drawTiles(canvas, null, extent([]), 0.9);
+    drawTiles(canvas, null, extent([]), poseShape);
     element("pose-readout").textContent = "The tiles are apart: U = 0.";
     return;
   }
-  drawTiles(canvas, state.pose, extent([state.pose]), 0.9);
+  drawTiles(canvas, state.pose, extent([state.pose]), poseShape);
   element("pose-readout").textContent =
     `${state.name}: U = ${energyText(state.energy)}; ${poseText(state.pose)}`;
 }

@@ -12,6 +12,8 @@ function buildTree(choose) {
     choosable(leaf, () => choose(id));
     leaf.classList.add("leaf");
   }
+  // Narrower its words could not be read.
+  picture.style.minWidth = `${0.75 * picture.width.baseVal.value}px`;
   element("tree").replaceChildren(picture);
 }
 

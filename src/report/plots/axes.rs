@@ -165,6 +165,12 @@ impl Plot {
             (unit(left), unit(top)),
             (unit(right - left), unit(bottom - top)),
         );
+        let [wide, high] = [
+            right - left - margin[1] - margin[3],
+            bottom - top - margin[0] - margin[2],
+        ];
+        // Both names are of one size.
+        let named = LABEL.within(wide, &names[0]).within(high, &names[1]);
         let [edge, foot] = [margin[3], margin[2]].map(|wide| wide.min(EDGE));
         let built = ChartBuilder::on(&area)
             .margin_top(unit(margin[0]))
@@ -185,7 +191,7 @@ impl Plot {
             .axis_style(stroke(INK, 1.0))
             .set_all_tick_mark_size(unit(5.0))
             .label_style(SMALL.style(Anchor::Middle))
-            .axis_desc_style(LABEL.style(Anchor::Middle))
+            .axis_desc_style(named.style(Anchor::Middle))
             .x_desc(&names[0])
             .y_desc(&names[1])
             .draw();
@@ -230,8 +236,9 @@ impl Plot {
 
     /// Draws a heading above the plot.
     pub fn heading(&self, canvas: &mut Canvas, text: &str) {
-        let at = (self.frame[0], self.frame[1] - 8.0);
-        canvas.write(LABEL.bold(), text, at, Anchor::BottomLeft);
+        let [left, top, right, _] = self.frame;
+        let font = LABEL.bold().within(right - left, text);
+        canvas.write(font, text, (left, top - 8.0), Anchor::BottomLeft);
     }
 }
 

@@ -128,11 +128,11 @@ impl Canvas {
         self.line(points, colour, width);
     }
 
-    /// A dashed line.
-    pub fn dashed(&mut self, points: &[Pixel], colour: impl Color) {
-        let dash = unit(DASH);
+    /// A line of dashes with gaps between them (pixels).
+    pub fn dashed(&mut self, points: &[Pixel], colour: impl Color, dashes: [f64; 2]) {
+        let [dash, gap] = dashes.map(unit);
         let style = stroke(colour, 2.0);
-        self.draw(&DashedPathElement::new(units(points), dash, dash, style));
+        self.draw(&DashedPathElement::new(units(points), dash, gap, style));
     }
 
     /// A closed line.

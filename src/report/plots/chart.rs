@@ -12,7 +12,7 @@ use super::composition::{Composition, Panel, remark};
 use super::key::{Meanings, Sign, key};
 use super::picture::PictureError;
 use super::sheet::Sheet;
-use super::style::{COLOURS, INK, stroke, unit};
+use super::style::{COLOURS, INK, series_colour, stroke, unit};
 use super::{Drawing, Figure};
 use crate::csv::{number, table};
 use crate::document::{Unit, told};
@@ -21,6 +21,8 @@ use physics::units::si;
 const WIDTH: f64 = 860.0;
 /// Height over width of the plot.
 const FLATNESS: f64 = 0.5;
+/// Least height of the plot (pixels).
+const LOWEST: f64 = 240.0;
 /// Space around the plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [14.0, 30.0, 62.0, 92.0];
 /// Largest number of marked powers of ten along an axis.
@@ -60,7 +62,6 @@ impl Dimension {
     pub fn share(key: &'static str, name: impl Into<String>) -> Self {
         Self {
             unit: Unit::Share,
-            range: Some([0.0, 1.0]),
             ..Self::new(key, name)
         }
     }
@@ -158,9 +159,13 @@ impl Dimension {
         };
         match self.range {
             Some(_) => [low, high],
-            None if self.is_logarithmic || low < 0.0 => [low - margin, high + margin],
-            // An axis of counts begins at zero.
-            None => [0.0, high + margin],
+            None if self.unit == Unit::Share && !(0.0..0.7).contains(&(high - 1e-9)) => [0.0, 1.0],
+            None if self.unit == Unit::Share => [0.0, high + margin],
+            // The axis starts at zero where that leaves little empty space.
+            None if !self.is_logarithmic && (0.0..=0.25 * high).contains(&low) => {
+                [0.0, high + margin]
+            }
+            None => [low - margin, high + margin],
         }
     }
 
@@ -232,7 +237,7 @@ pub struct Series {
     pub name: String,
     /// Its style.
     pub look: Look,
-    /// The index of its colour.
+    /// The index of its colour; beyond the last colour lines are dashed.
     pub colour: usize,
     /// The points, from left to right.
     pub points: Vec<Point>,
@@ -249,17 +254,29 @@ impl Series {
         Self {
             name: name.into(),
             look,
-            colour: colour % COLOURS.len(),
+            colour,
             points: points.into_iter().map(Into::into).collect(),
+        }
+    }
+
+    /// Lengths of the line's dashes and gaps (pixels); `None` for a solid line.
+    fn dashes(&self) -> Option<[f64; 2]> {
+        match (self.look, self.colour / COLOURS.len()) {
+            (Look::Dashed, _) => Some([DASH; 2]),
+            (_, 0) => None,
+            (_, 1) => Some([3.0 * DASH, 0.5 * DASH]),
+            _ => Some([0.4 * DASH, 0.6 * DASH]),
         }
     }
 
     /// Its entry in the key.
     pub fn meaning(&self) -> (Sign, String) {
-        let colour = COLOURS[self.colour];
+        let (colour, dashes) = (series_colour(self.colour), self.dashes());
         let sign = match self.look {
-            Look::Line | Look::Steps => Sign::Line(colour),
-            Look::Dashed => Sign::Dashed(colour),
+            Look::Line | Look::Steps | Look::Dashed => match dashes {
+                None => Sign::Line(colour),
+                Some(dashes) => Sign::Dashed(colour, dashes),
+            },
             Look::Dots => Sign::Dot(colour),
             Look::Rings => Sign::Circle(colour),
             Look::Bars => Sign::Block(colour),
@@ -303,7 +320,7 @@ impl Chart {
     #[must_use]
     pub fn in_colour(mut self, number: usize) -> Self {
         if let Some(series) = self.series.last_mut() {
-            series.colour = number % COLOURS.len();
+            series.colour = number;
         }
         self
     }
@@ -313,7 +330,7 @@ impl Chart {
     /// # Errors
     /// See [`PictureError`].
     pub fn draw(&self, sheet: &Sheet) -> Result<Figure, PictureError> {
-        let height = |width| FLATNESS * width + MARGIN[0] + MARGIN[2];
+        let height = |width: f64| (FLATNESS * width).max(LOWEST) + MARGIN[0] + MARGIN[2];
         let panel = Panel::alone(height, |canvas, place| {
             plotted(canvas, place, MARGIN, [&self.x, &self.y], &self.series);
         });
@@ -374,6 +391,11 @@ pub fn plotted(
 ) -> Plot {
     let points = || series.iter().flat_map(|series| &series.points);
     let ends = |point: &Point| point.ends.unwrap_or([point.y; 2]);
+    // Bars begin at zero.
+    let foot = series
+        .iter()
+        .filter(|one| one.look == Look::Bars)
+        .map(|_| 0.0);
     let up = points().flat_map(|point| [&[point.y][..], &ends(point)].concat());
     let [width, height] = [place[2] - place[0], place[3] - place[1]];
     let axes = [
@@ -381,7 +403,7 @@ pub fn plotted(
             points().map(|point| point.x),
             if width < 420.0 { 5 } else { 7 },
         ),
-        y.axis(up, if height < 320.0 { 5 } else { 7 }),
+        y.axis(up.chain(foot), if height < 320.0 { 5 } else { 7 }),
     ];
     let is_crossed = !y.is_logarithmic && axes[1].ends[0] < 0.0 && axes[1].ends[1] > 0.0;
     let mut plot = Plot::new(canvas, place, margin, axes, true);
@@ -400,7 +422,7 @@ pub fn plotted(
         for point in beyond.filter(|point| point.y == f64::INFINITY) {
             let (x, top) = (plot.at(point.x, 0.0).0, plot.frame[1]);
             let arrow = [(x - 5.0, top + 10.0), (x, top + 2.0), (x + 5.0, top + 10.0)];
-            canvas.line(&arrow, COLOURS[series_drawn.colour], 2.0);
+            canvas.line(&arrow, series_colour(series_drawn.colour), 2.0);
         }
     }
     plot
@@ -408,13 +430,24 @@ pub fn plotted(
 
 /// Draws an unbroken run of a series' points, with a line of this width (pixels).
 fn drawn(canvas: &mut Canvas, plot: &mut Plot, series: &Series, run: &[Point], width: f64) {
-    let colour = COLOURS[series.colour];
+    let colour = series_colour(series.colour);
+    let dashes = series.dashes().map(|lengths| lengths.map(unit));
     let line: Vec<_> = run.iter().map(|one| plot.place(one.x, one.y)).collect();
     match series.look {
         Look::Line => {
             bands(canvas, plot, run, colour);
-            plot.series(canvas, LineSeries::new(line.clone(), stroke(colour, width)));
-            discs(canvas, plot, line, colour);
+            let style = stroke(colour, width);
+            match dashes {
+                None => plot.series(canvas, LineSeries::new(line.clone(), style)),
+                Some([dash, gap]) => {
+                    let series = DashedLineSeries::new(line.clone(), dash, gap, style);
+                    plot.series(canvas, series);
+                }
+            }
+            // Dots so close that they would hide the line are left out.
+            if 3.0 * RIM * run.len() as f64 <= plot.frame[2] - plot.frame[0] {
+                discs(canvas, plot, line, colour);
+            }
         }
         Look::Steps => plot.series(canvas, LineSeries::new(line, stroke(colour, 2.0))),
         Look::Dashed => {

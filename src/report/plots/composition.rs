@@ -9,6 +9,9 @@ use super::style::{Anchor, SMALL, SOFT, TITLE, Text};
 const HEADS: [f64; 3] = [50.0, 28.0, 6.0];
 /// Space at the sides of a title (pixels).
 const SIDE: f64 = 20.0;
+/// Height of a line of a title (pixels), and how far a title is made smaller to fit into one.
+const LINE: f64 = 26.0;
+const SMALLEST: f64 = 0.75;
 
 /// A function that draws a panel into a rectangle (pixels).
 type Draw<'a> = dyn Fn(&mut Canvas, Box4) + Send + Sync + 'a;
@@ -81,28 +84,52 @@ impl Composition<'_> {
     /// # Errors
     /// See [`PictureError`].
     pub fn draw(&self, sheet: &Sheet) -> Result<Vec<(String, Picture)>, PictureError> {
-        if !sheet.separate || self.panels.len() < 2 {
-            let all: Vec<&Panel> = self.panels.iter().collect();
-            return Ok(vec![(self.name.clone(), self.draw_of(sheet, &all)?)]);
+        if sheet.separate && self.panels.len() > 1 {
+            let stem = |panel: &Panel| format!("{}-{}", self.name, panel.name);
+            let alone = |panel| Ok((stem(panel), self.draw_of(sheet, &[panel])?));
+            return self.panels.iter().map(alone).collect();
         }
-        let alone = |panel| Ok((self.stem(panel), self.draw_of(sheet, &[panel])?));
-        self.panels.iter().map(alone).collect()
+        let pages = self.pages(sheet).into_iter().zip(1..);
+        let drawn = pages.map(|(panels, number)| {
+            let stem = match number {
+                1 => self.name.clone(),
+                _ => format!("{}-{number}", self.name),
+            };
+            Ok((stem, self.draw_of(sheet, &panels)?))
+        });
+        drawn.collect()
     }
 
-    fn stem(&self, panel: &Panel) -> String {
-        format!("{}-{}", self.name, panel.name)
+    /// The panels of the picture, or of each of several where one would be too high for a page.
+    fn pages(&self, sheet: &Sheet) -> Vec<Vec<&Panel<'_>>> {
+        let all: Vec<&Panel> = self.panels.iter().collect();
+        let width = sheet.width(self.width);
+        let keys: f64 = self.keys.iter().map(|key| (key.height)(width)).sum();
+        let room = sheet.tallest() - HEADS[0] - keys;
+        let (mut pages, mut used) = (vec![Vec::new()], 0.0);
+        for row in rows(&all, width) {
+            let high = tallest(&row);
+            if used > 0.0 && used + high > room {
+                pages.push(Vec::new());
+                used = 0.0;
+            }
+            used += high;
+            let page = pages.pop().unwrap_or_default();
+            let row = row.into_iter().map(|(panel, _)| panel);
+            pages.push(page.into_iter().chain(row).collect());
+        }
+        pages
     }
 
     fn draw_of(&self, sheet: &Sheet, panels: &[&Panel]) -> Result<Picture, PictureError> {
         let width = sheet.width(self.width);
-        let mut top = HEADS[match sheet.is_titled() && !self.title.is_empty() {
-            true => 0,
-            false => 1 + usize::from(self.note.is_empty()),
-        }];
+        let mut top = match sheet.is_titled() && !self.title.is_empty() {
+            true => HEADS[0] + LINE * (self.title_lines(width).len() - 1) as f64,
+            false => HEADS[1 + usize::from(self.note.is_empty())],
+        };
         let mut places: Vec<(&Panel, Box4)> = Vec::new();
         for row in rows(panels, width) {
-            let height = |(panel, wide): &(&Panel, f64)| (panel.height)(*wide);
-            let tallest = row.iter().map(height).fold(0.0, f64::max);
+            let tallest = tallest(&row);
             let mut left = 0.0;
             for (panel, wide) in row {
                 places.push((panel, [left, top, left + wide, top + tallest]));
@@ -123,21 +150,39 @@ impl Composition<'_> {
         Picture::new(sheet, &self.title, &canvas)
     }
 
+    /// Room for the title (pixels): a browser's bold letters may be a sixth wider.
+    fn title_room(&self, width: f64) -> f64 {
+        0.92 * (width - 2.0 * SIDE - 1.1 * SMALL.width(&self.note))
+    }
+
+    /// The title, in several lines where it would become too small in one.
+    fn title_lines(&self, width: f64) -> Vec<String> {
+        let (large, room) = (TITLE.bold(), self.title_room(width));
+        match large.room(&self.title) * SMALLEST > room {
+            true => large.lines(&self.title, room),
+            false => vec![self.title.clone()],
+        }
+    }
+
     fn head(&self, canvas: &mut Canvas, sheet: &Sheet, width: f64) {
-        let mut font = SMALL.colour(SOFT);
+        let font = SMALL.colour(SOFT);
         if !sheet.is_titled() || self.title.is_empty() {
-            // Smaller if there is no room.
-            let wide = font.room(&self.note).max(1.0);
-            font.size *= ((width - 2.0 * SIDE) / wide).min(1.0);
+            let font = font.within(width - 2.0 * SIDE, &self.note);
             return canvas.write(font, &self.note, (SIDE, 8.0), Anchor::TopLeft);
         }
-        let room = width - 2.0 * SIDE - 1.1 * font.width(&self.note);
-        let mut large = TITLE.bold();
-        // Smaller if there is no room; a browser's bold letters can be a sixth wider.
-        large.size *= (room / (1.17 * large.width(&self.title)).max(1.0)).min(1.0);
-        canvas.write(large, &self.title, (SIDE, 16.0), Anchor::TopLeft);
+        let room = self.title_room(width);
+        for (k, line) in self.title_lines(width).iter().enumerate() {
+            let at = (SIDE, 16.0 + LINE * k as f64);
+            canvas.write(TITLE.bold().within(room, line), line, at, Anchor::TopLeft);
+        }
         canvas.write(font, &self.note, (width - SIDE, 22.0), Anchor::TopRight);
     }
+}
+
+/// The height of a row of panels with their widths (pixels).
+fn tallest(row: &[(&Panel, f64)]) -> f64 {
+    let height = |(panel, wide): &(&Panel, f64)| (panel.height)(*wide);
+    row.iter().map(height).fold(0.0, f64::max)
 }
 
 /// Rows of panels with their widths (pixels): as many side by side as there is room for. Panels of

@@ -21,6 +21,8 @@ const SIZE: [f64; 2] = [1000.0, 640.0];
 const HEAD: f64 = 50.0;
 const FOOT: f64 = 190.0;
 const MARGIN: f64 = 40.0;
+/// Space around the tiles where they stand alone (pixels).
+const EDGE: f64 = 12.0;
 /// Height of a line of text (pixels).
 const LINE: f64 = 22.0;
 /// The explanation of the letters at the magnets.
@@ -28,7 +30,7 @@ const KEY: &str = "letters: outward pole of each magnet; U, D: north pole up, do
 /// Largest number of faults shown on the picture.
 const TOLD: usize = 3;
 
-/// Draws a design; for print only the tiles.
+/// Draws a design; for print and for narrow screens only the tiles.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -37,13 +39,19 @@ pub fn draw(
     inspection: &Inspection,
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
-    let canvas = match sheet.is_titled() {
+    let width = sheet.width(SIZE[0]);
+    let canvas = match sheet.is_titled() && width >= SIZE[0] {
         true => whole(design, inspection),
         false => {
-            let width = sheet.width(SIZE[0]);
-            let size = [width, (SIZE[1] - HEAD - FOOT) * width / SIZE[0]].map(f64::ceil);
+            let [low, high] = extent(&design.pair, [&design.pair.bound]);
+            let flatness = ((high.y - low.y) / (high.x - low.x)).min(1.0);
+            let size = [width, (width - 2.0 * EDGE) * flatness + 2.0 * EDGE].map(f64::ceil);
             let mut canvas = Canvas::new(size);
-            tiles(&mut canvas, design, [0.0, 0.0, size[0], size[1]]);
+            tiles(
+                &mut canvas,
+                design,
+                [EDGE, EDGE, size[0] - EDGE, size[1] - EDGE],
+            );
             canvas
         }
     };
@@ -64,16 +72,16 @@ fn whole(design: &Design, inspection: &Inspection) -> Canvas {
     ] {
         canvas.write(text, line, (middle, height), Anchor::Middle);
     }
-    tiles(&mut canvas, design, [0.0, HEAD, SIZE[0], SIZE[1] - FOOT]);
+    let (right, bottom) = (SIZE[0] - MARGIN, SIZE[1] - FOOT - MARGIN);
+    tiles(&mut canvas, design, [MARGIN, HEAD + MARGIN, right, bottom]);
     figures(&mut canvas, design, inspection);
     faults(&mut canvas, design, inspection);
     canvas
 }
 
 /// Both tiles where they bind, in a rectangle.
-fn tiles(canvas: &mut Canvas, design: &Design, [left, top, right, bottom]: Box4) {
+fn tiles(canvas: &mut Canvas, design: &Design, room: Box4) {
     let pair = &*design.pair;
-    let room = [left + MARGIN, top + MARGIN, right - MARGIN, bottom - MARGIN];
     let view = View::filling(room, extent(pair, [&pair.bound]));
     let tiles = [
         (&pair.fixed, ORIGIN, FIXED_FILL, "fixed"),

@@ -162,7 +162,8 @@ pub fn bar<'a>(
             let place = [left, top, right, bottom];
             canvas.image(shaded([COLOURS, 2], HATCH, &colour, |u, _| Some(u)), place);
             canvas.frame(place, INK);
-            canvas.note(&name, (left, top - 6.0), Anchor::BottomLeft);
+            let font = SMALL.within(right - left, &name);
+            canvas.write(font, &name, (left, top - 6.0), Anchor::BottomLeft);
             let mut taken: Vec<[f64; 2]> = Vec::new();
             for mark in &marks {
                 let x = left + (right - left) * mark.at;

@@ -16,7 +16,8 @@ pub enum Sign {
     Blocked,
     Block(RGBColor),
     Line(RGBColor),
-    Dashed(RGBColor),
+    /// With the lengths of dashes and of the gaps between them (pixels).
+    Dashed(RGBColor, [f64; 2]),
     Dot(RGBColor),
     Circle(RGBColor),
     Start,
@@ -58,7 +59,7 @@ impl Sign {
             Self::Pathway => canvas.seamed(&line, INK, 1.8),
             Self::Start => start(canvas, middle, SOFT),
             Self::Line(colour) => canvas.line(&line, colour, 2.4),
-            Self::Dashed(colour) => canvas.dashed(&line, colour),
+            Self::Dashed(colour, dashes) => canvas.dashed(&line, colour, dashes),
             Self::Dot(colour) => canvas.disc(middle, colour),
             Self::Circle(colour) => canvas.circle(middle, colour),
             Self::Block(colour) => canvas.block(block, colour),

@@ -1,7 +1,7 @@
 //! A matrix as a colour map.
 
 use super::canvas::{Box4, Canvas, Spot, corners};
-use super::composition::{Composition, Panel};
+use super::composition::{Composition, Panel, remark};
 use super::heat::{Marked, bar, cell};
 use super::picture::PictureError;
 use super::style::{Anchor, GRID, SMALL, VERMILLION};
@@ -27,7 +27,9 @@ pub struct Matrix {
     /// Whether rows and columns are framed.
     pub is_framed: fn(row: usize, column: usize, count: usize) -> bool,
     /// The meaning of its numbers.
-    pub legend: String,
+    pub legend: &'static str,
+    /// A remark; may be empty.
+    pub remark: &'static str,
     /// The numbers, as CSV.
     pub numbers: String,
 }
@@ -54,7 +56,10 @@ impl Matrix {
             title: self.title.clone(),
             width: WIDTH.min(names + CELL * count + EDGE).max(0.6 * WIDTH),
             panels: vec![panel],
-            keys: vec![bar(&self.legend, colour, ends)],
+            keys: vec![
+                bar(self.legend, colour, ends),
+                remark(self.remark.to_owned()),
+            ],
             ..Composition::default()
         };
         Figure::new(&composition, sheet, self.numbers.clone())

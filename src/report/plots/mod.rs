@@ -5,6 +5,7 @@
 //! - `profiles`: energy along the main pathways with their barriers;
 //! - `docking`: film strip of the way into the bound state;
 //! - `models`: point dipoles against blocks over the gap;
+//! - `roadmap`: milestones and the motions between them, by their costs;
 //! - `disconnectivity`: which states merge at which energy; `disconnectivity-linear`: the same on a
 //!   linear scale.
 //!
@@ -23,6 +24,7 @@ mod contour;
 pub(crate) mod disconnectivity;
 pub mod dock;
 mod energy_map;
+pub mod field;
 pub mod figure;
 mod film;
 mod font;
@@ -42,6 +44,7 @@ pub mod poses;
 mod profiles;
 pub mod ranking;
 mod recorder;
+pub mod roadmap;
 pub(crate) mod scale;
 pub(crate) mod scene;
 pub mod sheet;

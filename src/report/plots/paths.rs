@@ -1,12 +1,13 @@
 //! Trajectories of docking tiles.
 
+use nalgebra::Vector2;
 use plotters::style::RGBColor;
 
 use super::axes::{Axis, Plot};
-use super::canvas::{Box4, Canvas};
+use super::canvas::Canvas;
 use super::composition::{Composition, Panel};
 use super::key::{POLES, Sign, key, start};
-use super::marks::View;
+use super::marks::{View, extent};
 use super::picture::PictureError;
 use super::style::{GREEN, INK};
 use super::{Figure, Sheet};
@@ -16,8 +17,9 @@ use jobs::docking::Path;
 use physics::dynamics::docking::End;
 
 const WIDTH: f64 = 860.0;
-/// Space around the plot (pixels): top, right, bottom, left.
+/// Space around the plot (pixels): top, right, bottom, left; its greatest height.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
+const HIGHEST: f64 = 700.0;
 
 /// Paths of the moving tile's reference point by their ends, and the bound tile.
 ///
@@ -34,8 +36,21 @@ pub fn trajectories(
         (Sign::Line(FAINT), "ends free"),
         (Sign::Start, "start"),
     ];
-    let panel = Panel::alone(plot_height, |canvas, place| {
-        paths(canvas, place, design, trajectories);
+    let reach = reach(trajectories);
+    let [low, high] = seen(design, trajectories, reach);
+    let size = high - low;
+    let wide = move |width: f64| (width - MARGIN[1] - MARGIN[3]).min(HIGHEST * size.x / size.y);
+    let height = move |width| MARGIN[0] + wide(width) * size.y / size.x + MARGIN[2];
+    let panel = Panel::alone(height, |canvas, [left, top, right, bottom]| {
+        let right = left + MARGIN[3] + wide(right - left) + MARGIN[1];
+        let plotted = Plot::new(
+            canvas,
+            [left, top, right, bottom],
+            MARGIN,
+            [0, 1].map(|k| Axis::even([low[k], high[k]], 1.0, 6, ["x (m)", "y (m)"][k])),
+            true,
+        );
+        paths(canvas, &plotted, design, trajectories, reach);
     });
     let composition = Composition {
         name: "trajectories".to_owned(),
@@ -73,42 +88,40 @@ pub fn ending(end: &End) -> &'static str {
     }
 }
 
-/// The height of a square plot of this width (pixels).
-fn plot_height(width: f64) -> f64 {
-    MARGIN[0] + (width - MARGIN[1] - MARGIN[3]).min(700.0) + MARGIN[2]
+/// The largest |x| or |y| (m) that the picture shows.
+fn reach(trajectories: &[Path]) -> f64 {
+    let starts = trajectories.iter().filter_map(|(_, them)| them.first());
+    let distances = starts.map(|start| start.motion.configuration.position().amax());
+    1.02 * distances.fold(0.5, f64::max)
 }
 
-fn paths(
-    canvas: &mut Canvas,
-    [left, top, right, bottom]: Box4,
-    design: &Design,
-    trajectories: &[Path],
-) {
-    let reach = trajectories
-        .iter()
-        .filter_map(|(_, snapshots)| snapshots.first())
-        .map(|s| s.motion.configuration.position().amax())
-        .fold(0.5, f64::max)
-        * 1.08;
-    let side = plot_height(right - left) - MARGIN[0] - MARGIN[2];
-    let square = [left, top, left + side + MARGIN[1] + MARGIN[3], bottom];
-    let axes = ["x (m)", "y (m)"].map(|name| Axis::even([-reach, reach], 1.0, 8, name));
-    let plot = Plot::new(canvas, square, MARGIN, axes, true);
+/// Where a path leads, as far as it is followed.
+fn followed(path: &Path, reach: f64) -> impl Iterator<Item = Vector2<f64>> {
+    let points = path.1.iter().map(|it| it.motion.configuration.position());
+    points.take_while(move |p| p.amax() <= reach)
+}
+
+/// The corners of the rectangle (m) that holds the bound tiles and all paths, with a little room.
+fn seen(design: &Design, trajectories: &[Path], reach: f64) -> [Vector2<f64>; 2] {
+    let points = trajectories.iter().flat_map(|path| followed(path, reach));
+    let tiles = extent(&design.pair, [&design.pair.bound]);
+    let [low, high] = points.fold(tiles, |[low, high], p| [low.inf(&p), high.sup(&p)]);
+    let room = 0.04 * (high - low);
+    [low - room, high + room]
+}
+
+fn paths(canvas: &mut Canvas, plot: &Plot, design: &Design, trajectories: &[Path], reach: f64) {
+    let origin = plot.at(0.0, 0.0);
     let view = View {
-        origin: plot.at(0.0, 0.0),
-        scale: side / (2.0 * reach),
-        centre: nalgebra::Vector2::zeros(),
+        origin,
+        scale: plot.at(1.0, 0.0).0 - origin.0,
+        centre: Vector2::zeros(),
         turn: 0.0,
     };
     view.tiles(canvas, &design.pair, &design.pair.bound);
-    for (run, snapshots) in trajectories {
-        let points: Vec<_> = snapshots
-            .iter()
-            .map(|s| s.motion.configuration.position())
-            .take_while(|p| p.amax() <= reach)
-            .map(|p| view.pixel(p))
-            .collect();
-        let (colour, width) = match run.end {
+    for path in trajectories {
+        let points: Vec<_> = followed(path, reach).map(|p| view.pixel(p)).collect();
+        let (colour, width) = match path.0.end {
             End::Bound { .. } => (GREEN, 2.4),
             End::Trapped { .. } => (INK, 1.4),
             End::Free => (FAINT, 1.0),

@@ -11,8 +11,9 @@ use physics::configuration::Configuration;
 use physics::tile::Pair;
 
 const WIDTH: f64 = 1000.0;
-/// Smallest width of a panel, its text's height, and the space around its tiles (pixels).
-const LEAST: f64 = 240.0;
+/// Smallest width of a panel on wide and narrow sheets, its text's height, and the space around its
+/// tiles (pixels).
+const LEAST: [f64; 2] = [240.0, 170.0];
 const HEAD: f64 = 28.0;
 const SPACE: f64 = 14.0;
 
@@ -34,6 +35,7 @@ pub fn draw(
     });
     let size = sizes.fold(Vector2::zeros(), |size: Vector2<f64>, one| size.sup(&one));
     let height = move |width: f64| HEAD + (width - 2.0 * SPACE) * size.y / size.x + 2.0 * SPACE;
+    let least = LEAST[usize::from(sheet.width(WIDTH) < 2.0 * LEAST[0])];
     let panels = poses.iter().enumerate().map(|(number, (q, told))| {
         let draw = move |canvas: &mut Canvas, [left, top, right, bottom]: Box4| {
             let view = View {
@@ -42,9 +44,9 @@ pub fn draw(
             };
             view.tiles(canvas, pair, q);
             let at = ((left + right) / 2.0, top + 6.0);
-            canvas.write(LABEL, told, at, Anchor::Top);
+            canvas.write(LABEL.within(right - left, told), told, at, Anchor::Top);
         };
-        Panel::new((number + 1).to_string(), LEAST, height, draw)
+        Panel::new((number + 1).to_string(), least, height, draw)
     });
     let composition = Composition {
         name: name.to_owned(),

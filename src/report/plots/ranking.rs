@@ -3,7 +3,7 @@
 use plotters::style::{Color, RGBColor};
 
 use super::axes::{Axis, Plot};
-use super::canvas::{Box4, Canvas, Pixel};
+use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
 use super::picture::PictureError;
 use super::style::{Anchor, BLUE, GREEN, GRID, LABEL, SMALL, SOFT, VERMILLION};
@@ -26,12 +26,12 @@ const GAP: f64 = 40.0;
 const RIGHT: f64 = 20.0;
 /// Room (pixels) for the line at zero.
 const AXIS: f64 = 20.0;
-/// File names of the panels, shares of the width, headings, and extension of the axes beyond the
+/// File names of the panels, shares of the width, headings, and the space (pixels) beyond the
 /// largest value.
 const PLOTS: [(&str, f64, &str, f64); 3] = [
-    ("depth", 550.0, "depth", 1.22),
-    ("barrier", 320.0, "barrier, certified bounds", 1.06),
-    ("captured", 250.0, "captured, 95 % interval", 1.0),
+    ("depth", 550.0, "depth", 66.0),
+    ("barrier", 320.0, "barrier, certified bounds", 10.0),
+    ("captured", 250.0, "captured, 95 % interval", 0.0),
 ];
 const COLOURS: [RGBColor; 3] = [BLUE, GREEN, VERMILLION];
 
@@ -41,8 +41,8 @@ struct RankingPanel {
     number: usize,
     /// The unit of the numbers.
     shown: Shown,
-    /// Largest number on the axis (SI).
-    end: f64,
+    /// Largest number shown (SI).
+    most: f64,
     entries: Vec<(Place, &'static Quantity)>,
     /// Ratios, whose numbers are written beside the bars.
     ratios: Vec<&'static Quantity>,
@@ -75,8 +75,7 @@ pub fn draw(
             panel.draw(canvas, designs, [left + gap - AXIS, top, right, bottom]);
             if left == 0.0 {
                 for (row, design) in designs.iter().enumerate() {
-                    let mut font = LABEL;
-                    font.size *= ((names - 24.0) / font.width(&design.name)).min(1.0);
+                    let font = LABEL.within(names - 24.0, &design.name);
                     let at = (names - 14.0, top + HEAD + middle(row));
                     canvas.write(font, &design.name, at, Anchor::Right);
                 }
@@ -120,7 +119,7 @@ impl RankingPanel {
         Self {
             number,
             shown: Shown::new(measure, most),
-            end: PLOTS[number].3 * most,
+            most,
             entries,
             ratios: ratios.into_iter().map(|(_, one)| one).collect(),
         }
@@ -132,13 +131,15 @@ impl RankingPanel {
         } else {
             5
         };
+        let width = place[2] - place[0] - AXIS - RIGHT;
+        let end = self.most * width / (width - PLOTS[self.number].3);
         let axes = [
-            Axis::even([0.0, self.end], self.shown.unit, count, self.shown.axis()),
+            Axis::even([0.0, end], self.shown.unit, count, self.shown.axis()),
             Axis::places(designs.len()),
         ];
         let plot = Plot::new(canvas, place, [HEAD, RIGHT, FOOT, AXIS], axes, true);
         let [left, top, right, _] = plot.frame;
-        self.heading(canvas, (left, top));
+        self.heading(canvas, plot.frame);
         for (row, design) in designs.iter().enumerate() {
             let y = top + middle(row);
             if row > 0 {
@@ -153,16 +154,15 @@ impl RankingPanel {
     }
 
     /// The heading with a key for each colour.
-    fn heading(&self, canvas: &mut Canvas, (left, top): Pixel) {
+    fn heading(&self, canvas: &mut Canvas, [left, top, right, _]: Box4) {
         let heading = PLOTS[self.number].2;
-        canvas.write(
-            LABEL.bold(),
-            heading,
-            (left, top - 34.0),
-            Anchor::BottomLeft,
-        );
-        let mut x = left;
-        for (place, _) in self.entries.iter().filter(|_| self.entries.len() > 1) {
+        let font = LABEL.bold().within(right - left, heading);
+        canvas.write(font, heading, (left, top - 34.0), Anchor::BottomLeft);
+        let key = || self.entries.iter().filter(|_| self.entries.len() > 1);
+        let wide = key().map(|(place, _)| 29.0 + SMALL.room(place.heading));
+        // Further to the left where it is wider than the plot.
+        let mut x = left.min(right + RIGHT - wide.sum::<f64>()).max(4.0);
+        for (place, _) in key() {
             let y = top - 16.0;
             canvas.block([x, y - 5.0, x + 10.0, y + 5.0], colour(place));
             canvas.note(place.heading, (x + 15.0, y), Anchor::Left);
@@ -171,7 +171,7 @@ impl RankingPanel {
     }
 
     fn at(&self, plot: &Plot, value: f64) -> f64 {
-        plot.at(value.clamp(0.0, self.end), 0.0).0
+        plot.at(value.clamp(0.0, self.most), 0.0).0
     }
 
     /// Bars from zero, one below the other, with the ratios beside them.

@@ -6,6 +6,8 @@ use super::style::SMALL;
 const POINT: f64 = 25.4 / 72.0;
 /// Dots per millimetre of print: 600 per inch.
 const DOTS_A_MILLIMETRE: f64 = 600.0 / 25.4;
+/// The greatest height (mm) on a page of A4.
+const TALLEST: f64 = 240.0;
 /// Narrower layouts (pixels) have no room for axes and labels.
 const NARROWEST: f64 = 360.0;
 /// Wider ones only waste paper (pixels).
@@ -14,37 +16,36 @@ const WIDEST: f64 = 2400.0;
 /// The layout of pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sheet {
-    print: Option<Print>,
+    /// Width of the layout (pixels); `None` for each picture's own width.
+    width: Option<f64>,
+    /// Millimetres per pixel of the layout; `None` for a screen.
+    pixel: Option<f64>,
     /// Whether each panel is a separate picture.
     pub(super) separate: bool,
     /// Whether bitmaps are omitted.
     pub(super) vectors_only: bool,
 }
 
-/// A layout for print.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Print {
-    /// Width of the layout (pixels); `None` for each picture's own width, with its title.
-    width: Option<f64>,
-    /// Millimetres per pixel of the layout.
-    pixel: f64,
-}
-
 impl Sheet {
     /// Each picture at its own width in pixels, with its title.
     pub const SCREEN: Self = Self {
-        print: None,
+        width: None,
+        pixel: None,
         separate: false,
         vectors_only: false,
+    };
+
+    /// The same for a phone's screen, without bitmaps.
+    pub const PHONE: Self = Self {
+        width: Some(NARROWEST),
+        vectors_only: true,
+        ..Self::SCREEN
     };
 
     /// Pictures as on a screen, also as PDF with the given size of a pixel in mm.
     pub const fn of_pixels(millimetres: f64) -> Self {
         Self {
-            print: Some(Print {
-                width: None,
-                pixel: millimetres,
-            }),
+            pixel: Some(millimetres),
             ..Self::SCREEN
         }
     }
@@ -63,10 +64,8 @@ impl Sheet {
         // Whole pixels: the width is exact, the text size changes by at most a thousandth.
         let pixels = (width / pixel).round();
         Ok(Self {
-            print: Some(Print {
-                width: Some(pixels),
-                pixel: width / pixels,
-            }),
+            width: Some(pixels),
+            pixel: Some(width / pixels),
             ..Self::SCREEN
         })
     }
@@ -91,23 +90,27 @@ impl Sheet {
 
     /// The width of a picture (pixels) that has `width` on a screen.
     pub(super) fn width(&self, width: f64) -> f64 {
-        self.print.and_then(|print| print.width).unwrap_or(width)
+        self.width.unwrap_or(width)
     }
 
     /// Whether titles are drawn.
     pub(crate) fn is_titled(&self) -> bool {
-        self.print.is_none_or(|print| print.width.is_none())
+        self.width.is_none() || self.pixel.is_none()
     }
 
     /// Millimetres per pixel of the layout; `None` on a screen.
     pub(super) fn millimetres(&self) -> Option<f64> {
-        self.print.map(|print| print.pixel)
+        self.pixel
+    }
+
+    /// The greatest height (pixels) that a page has room for; a screen scrolls.
+    pub(super) fn tallest(&self) -> f64 {
+        self.pixel.map_or(f64::INFINITY, |pixel| TALLEST / pixel)
     }
 
     /// Dots of the bitmap per pixel of the layout.
     pub(super) fn dots(&self) -> f64 {
-        self.print
-            .map_or(1.0, |print| print.pixel * DOTS_A_MILLIMETRE)
+        self.pixel.map_or(1.0, |pixel| pixel * DOTS_A_MILLIMETRE)
     }
 }
 

@@ -34,6 +34,11 @@ pub const COLOURS: [RGBColor; 7] = [
     INK,
 ];
 
+/// The colour of a series by its number; beyond the last they repeat.
+pub fn series_colour(number: usize) -> RGBColor {
+    COLOURS[number % COLOURS.len()]
+}
+
 /// Pixels as drawing units.
 pub fn unit(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
@@ -118,6 +123,12 @@ impl Text {
     /// Room for a text (pixels): other fonts can be a tenth wider.
     pub fn room(&self, text: &str) -> f64 {
         1.08 * self.width(text)
+    }
+
+    /// The same font, smaller if the text does not fit into this width (pixels).
+    pub fn within(self, room: f64, text: &str) -> Self {
+        let size = self.size * (room / self.room(text).max(1.0)).min(1.0);
+        Self { size, ..self }
     }
 
     /// Wraps a text to a width (pixels), between words.

@@ -3,7 +3,7 @@
 use super::points::Sweep;
 use crate::assessments::view;
 use crate::document::{Table, rows};
-use crate::figures::{cell, heading};
+use crate::figures::cell;
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, ranking};
 use jobs::sweep::Point;
@@ -68,7 +68,17 @@ impl Sweep<'_> {
         if best.1.obstacle().is_some() {
             return Some(format!("no point reaches its bond; {}", told(best)));
         }
-        let mut sentence = format!("best {}", told(best));
+        let is_best = |(_, one): &&(usize, &Assessment)| {
+            degree(one) == 0 && value(one) >= (1.0 - 1e-6) * value(best.1)
+        };
+        let equal = ranked.iter().filter(is_best).count();
+        let mut sentence = match equal {
+            ..2 => format!("best {}", told(best)),
+            _ => format!(
+                "best undecided between {equal} points, such as {}",
+                told(best)
+            ),
+        };
         let ratio = value(best.1) / value(base.1);
         if best.0 != base.0 && ratio.is_finite() && value(base.1) > 0.0 {
             sentence += &format!(", {ratio:.1} x {}", self.called(&self.points[base.0]));
@@ -118,8 +128,7 @@ impl Sweep<'_> {
         }
         for (place, of_place) in placed(|quantity| quantity.column) {
             if of_place.iter().all(|one| !COLUMNS.contains(&one.key)) {
-                let name = heading(place.heading, of_place[0].measure);
-                table = view(table, name, of_place, of).on_page();
+                table = view(table, place.heading, of_place, of).on_page();
             }
         }
         table

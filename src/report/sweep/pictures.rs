@@ -10,7 +10,7 @@ use crate::plots::composition::{Composition, Panel, remark};
 use crate::plots::heat;
 use crate::plots::key::key;
 use crate::plots::scale::colour;
-use crate::plots::style::{Anchor, COLOURS, GRID, INK, SMALL, SOFT, minus};
+use crate::plots::style::{Anchor, COLOURS, GRID, INK, SMALL, SOFT, minus, series_colour};
 use crate::plots::{Drawing, Figure, PictureError, Sheet};
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
@@ -18,9 +18,9 @@ use jobs::sweep::Point;
 use ordered_float::OrderedFloat;
 use physics::order::Order;
 
-/// Largest number of pictures of a sweep; the series in one are limited by the colours.
+/// Largest number of pictures of a sweep, and of series in one picture.
 const MOST_PICTURES: usize = 24;
-const MOST_SERIES: usize = COLOURS.len();
+const MOST_SERIES: usize = 2 * COLOURS.len();
 const WIDTH: f64 = 1200.0;
 /// Height of a panel of curves and of a map, and the smallest width beside another (pixels).
 const HEIGHTS: [f64; 2] = [262.0, 380.0];
@@ -290,7 +290,7 @@ impl Content<'_> {
             for point in points {
                 let at = (plot.at(x_of(point), 0.0).0, bottom - 7.0 - step);
                 let Some(one) = self.sweep.assessment(point.index) else {
-                    canvas.cross(at, 3.5, COLOURS[number], 1.6);
+                    canvas.cross(at, 3.5, series_colour(number), 1.6);
                     canvas.spot(&around(at, 8, &[8.0]), self.told(point, quantities));
                     continue;
                 };
@@ -299,7 +299,7 @@ impl Content<'_> {
                     // Without a trap selectivity is infinite.
                     let is_best = measure == Measure::Ratio;
                     let at = (at.0, if is_best { top + 7.0 + step } else { at.1 });
-                    canvas.circle(at, COLOURS[number]);
+                    canvas.circle(at, series_colour(number));
                     canvas.spot(&around(at, 8, &[8.0]), self.told(point, quantities));
                 }
                 for estimate in quantities.iter().filter_map(|quantity| quantity.of(one)) {
