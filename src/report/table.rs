@@ -7,7 +7,7 @@ use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::request::Shard;
-use jobs::table::{About, Found, Interval, Lifetime, Moment, Request, Verdict};
+use jobs::table::{About, Found, Interval, Lifetime, Moment, Request, Statistics, Verdict};
 use jobs::yields::{Question, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
@@ -33,7 +33,7 @@ pub fn document<'a>(
             told(&statistics.bonds),
             told(&statistics.traps),
             duration(found.settings.duration, 3),
-            statistics.verdict.name(),
+            verdict(statistics),
             found.runs.len(),
             if found.runs.len() == 1 {
                 "run,"
@@ -52,6 +52,14 @@ pub fn document<'a>(
             .collect(),
         origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
+    }
+}
+
+/// The verdict for people.
+fn verdict(statistics: &Statistics) -> &'static str {
+    match statistics.is_undecided() {
+        true => "thermal within chance",
+        false => statistics.verdict.name(),
     }
 }
 
@@ -76,6 +84,10 @@ fn meaning(found: &Found) -> String {
         )
     });
     match (found.statistics.verdict, has) {
+        (Verdict::Thermal, Some(has)) if found.statistics.is_undecided() => format!(
+            "(thermal or not: {has}, but so few samples determine it only to {}: simulate for longer)",
+            share(found.statistics.kinetic_error)
+        ),
         (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
         (Verdict::Frozen, Some(has)) => format!(
             "(frozen: {has}; contact dissipates more than shaking supplies, so the table has no temperature \
@@ -104,7 +116,7 @@ fn compared(beside: Option<&Beside>) -> Entries {
             .fact("ln_K", "ln K", ln_k)
             .digits(3)
             .noted("of the bond, as `tilebind bond` computes it")
-            .fact("bound", "bound by `yield`", best.bound)
+            .fact("bound", "bound (yield)", best.bound)
             .share()
             .noted(in_pairs(question, best.interval))
             .fact("bound_interval", "", best.interval)
@@ -216,8 +228,10 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval)}))
         .fact("", "target", reached(about, found)).in_view().noted(aim(about))
         .data("clusters", json!(statistics.clusters))
-        .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).noted("per degree of freedom, over kT; 0.5 in equilibrium")
-        .fact("verdict", "verdict", statistics.verdict.name())
+        .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).digits(3).noted("per degree of freedom, over kT; 0.5 in equilibrium")
+        .data("kinetic_error", statistics.kinetic_error)
+        .data("verdict", statistics.verdict.name())
+        .fact("", "verdict", verdict(statistics)).in_view()
         .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
         .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
         .data("cut_off", cut_off(found))

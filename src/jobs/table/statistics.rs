@@ -104,6 +104,8 @@ pub struct Statistics {
     pub moments: Vec<Moment>,
     /// Kinetic energy per degree of freedom over kT, of the second half of the time.
     pub kinetic_kt: Option<f64>,
+    /// Statistical error of the kinetic energy of thermal tiles, as a share of it.
+    pub kinetic_error: f64,
     /// What the kinetic energy means.
     pub verdict: Verdict,
     /// The largest energy error of the runs.
@@ -117,6 +119,14 @@ pub struct Statistics {
 }
 
 impl Statistics {
+    /// Whether the kinetic energy is compatible with kT only because so few samples determine it.
+    pub fn is_undecided(&self) -> bool {
+        let off = self
+            .kinetic_kt
+            .map_or(0.0, |share| (2.0 * share - 1.0).abs());
+        self.verdict == Verdict::Thermal && off > THERMAL
+    }
+
     /// Computes the statistics of at least one run.
     pub fn of(runs: &[Run], settings: &TableSettings) -> Self {
         let at_end = |tie: Tie| {
@@ -126,8 +136,9 @@ impl Statistics {
         let kinetic = runs.iter().map(|run| run.kinetic).sum::<f64>() / runs.len() as f64;
         let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
         let is_driven = !settings.fans.is_empty() || settings.orbital.is_some();
+        let kinetic_error = chance(runs, settings);
         let verdict = match kinetic_kt {
-            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL.max(chance(runs, settings)) => {
+            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL.max(kinetic_error) => {
                 Verdict::Thermal
             }
             Some(share) if share < 0.5 => Verdict::Frozen,
@@ -140,6 +151,7 @@ impl Statistics {
             clusters: clusters(runs),
             moments: moments(runs),
             kinetic_kt,
+            kinetic_error,
             verdict,
             energy_error: runs.iter().map(|run| run.energy_error).fold(0.0, f64::max),
             step: runs

@@ -162,6 +162,31 @@ fn yield_is_compared() {
     assert!((here / there - 1.0).abs() < 1e-3, "{here} {there}");
 }
 
+/// Two tiles at rest have no kinetic energy yet, and half a second is too short to say more.
+#[test]
+fn too_few_samples_are_no_proof_of_a_temperature() {
+    let short = [
+        "table",
+        TILE,
+        "--count",
+        "1,1",
+        "--shaking",
+        "3e-3",
+        "--drag",
+        "0.5",
+        "--time",
+    ];
+    let output = tilebind(&[&short[..], &["0.5"]].concat());
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("(thermal within chance; "), "{said}");
+    assert!(said.contains("simulate for longer"), "{said}");
+    let found = json(&[&short[..], &["0.5", "--json"]].concat());
+    assert_eq!(found["verdict"], "thermal");
+    // Six degrees of freedom, each with one independent sample: 2 sqrt(2 / 6).
+    let error = found["kinetic_error"].as_f64().unwrap();
+    assert!((error - 2.0 / 3.0_f64.sqrt()).abs() < 1e-12, "{error}");
+}
+
 #[test]
 fn wrong_tables_are_refused_with_their_fix() {
     let folder = tempfile::tempdir().unwrap();
