@@ -22,7 +22,7 @@ const WIDTH: f64 = 860.0;
 /// Space around the plot (pixels): top, right, bottom, left.
 const MARGIN: [f64; 4] = [10.0, 24.0, 62.0, 84.0];
 /// Milestones and neighbours of each at most: more could not be told apart.
-const MOST: [usize; 2] = [500, 6];
+const MOST: [usize; 2] = [300, 6];
 
 /// The first milestones of a roadmap with the motions between the nearest of them.
 ///
