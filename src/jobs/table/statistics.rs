@@ -121,10 +121,8 @@ pub struct Statistics {
 impl Statistics {
     /// Whether the kinetic energy is compatible with kT only because so few samples determine it.
     pub fn is_undecided(&self) -> bool {
-        let off = self
-            .kinetic_kt
-            .map_or(0.0, |share| (2.0 * share - 1.0).abs());
-        self.verdict == Verdict::Thermal && off > THERMAL
+        self.verdict == Verdict::Thermal
+            && self.kinetic_kt.is_some_and(|share| off(share) > THERMAL)
     }
 
     /// Computes the statistics of at least one run.
@@ -138,9 +136,7 @@ impl Statistics {
         let is_driven = !settings.fans.is_empty() || settings.orbital.is_some();
         let kinetic_error = chance(runs, settings);
         let verdict = match kinetic_kt {
-            Some(share) if (2.0 * share - 1.0).abs() <= THERMAL.max(kinetic_error) => {
-                Verdict::Thermal
-            }
+            Some(share) if off(share) <= THERMAL.max(kinetic_error) => Verdict::Thermal,
             Some(share) if share < 0.5 => Verdict::Frozen,
             None if !is_driven => Verdict::Frozen,
             _ => Verdict::Driven,
@@ -162,6 +158,11 @@ impl Statistics {
             lifetimes: [Tie::Bond, Tie::Trap].map(|tie| lifetime(runs, tie)),
         }
     }
+}
+
+/// The relative deviation of a kinetic energy per degree of freedom (kT) from that in equilibrium.
+fn off(share: f64) -> f64 {
+    (2.0 * share - 1.0).abs()
 }
 
 /// The statistical error of the mean kinetic energy of thermal tiles, as a share of it: twice the

@@ -68,12 +68,7 @@ pub fn draw(design: &Design, sheet: &Sheet) -> Result<Figure, PictureError> {
         cells(canvas, &plot, [columns, rows], colour, |i, j| {
             Some(share(field[j * columns + i].1.norm()))
         });
-        let view = View {
-            origin: plot.at(0.0, 0.0),
-            scale: (plot.frame[2] - plot.frame[0]) / size.x,
-            centre: Vector2::zeros(),
-            turn: 0.0,
-        };
+        let view = View::plotted(&plot, size.x);
         for (at, b) in arrows(&field, columns) {
             let long = 0.35 * step * ARROW as f64 * b.normalize();
             let across = Vector2::new(-long.y, long.x);

@@ -3,6 +3,7 @@
 use nalgebra::{Rotation2, Vector2};
 use plotters::style::{RGBColor, WHITE};
 
+use super::axes::Plot;
 use super::canvas::{Box4, Canvas, Pixel, around, middle};
 use super::style::{Anchor, BLUE, FIXED_FILL, INK, MOVING_FILL, Text, VERMILLION, YELLOW};
 use physics::configuration::Configuration;
@@ -78,6 +79,16 @@ pub fn extent<'a>(
 }
 
 impl View {
+    /// The plane of a plot whose axes are in metres, as wide as `width` (m).
+    pub fn plotted(plot: &Plot, width: f64) -> Self {
+        Self {
+            centre: Vector2::zeros(),
+            origin: plot.at(0.0, 0.0),
+            turn: 0.0,
+            scale: (plot.frame[2] - plot.frame[0]) / width,
+        }
+    }
+
     /// A view in which a rectangle (m) fills a rectangle of the picture.
     pub fn filling([left, top, right, bottom]: Box4, [low, high]: [Vector2<f64>; 2]) -> Self {
         let size = high - low;

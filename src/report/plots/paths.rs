@@ -50,7 +50,8 @@ pub fn trajectories(
             [0, 1].map(|k| Axis::even([low[k], high[k]], 1.0, 6, ["x (m)", "y (m)"][k])),
             true,
         );
-        paths(canvas, &plotted, design, trajectories, reach);
+        let view = View::plotted(&plotted, size.x);
+        paths(canvas, &view, design, trajectories, reach);
     });
     let composition = Composition {
         name: "trajectories".to_owned(),
@@ -110,14 +111,7 @@ fn seen(design: &Design, trajectories: &[Path], reach: f64) -> [Vector2<f64>; 2]
     [low - room, high + room]
 }
 
-fn paths(canvas: &mut Canvas, plot: &Plot, design: &Design, trajectories: &[Path], reach: f64) {
-    let origin = plot.at(0.0, 0.0);
-    let view = View {
-        origin,
-        scale: plot.at(1.0, 0.0).0 - origin.0,
-        centre: Vector2::zeros(),
-        turn: 0.0,
-    };
+fn paths(canvas: &mut Canvas, view: &View, design: &Design, trajectories: &[Path], reach: f64) {
     view.tiles(canvas, &design.pair, &design.pair.bound);
     for path in trajectories {
         let points: Vec<_> = followed(path, reach).map(|p| view.pixel(p)).collect();

@@ -52,12 +52,7 @@ pub fn draw(
         let axes = [("x (m)", x), ("y (m)", y)];
         let axes = axes.map(|(name, end)| Axis::even([-end, end], 1.0, 7, name));
         let plot = Plot::new(canvas, place, MARGIN, axes, false);
-        let view = View {
-            origin: plot.at(0.0, 0.0),
-            scale: (plot.frame[2] - plot.frame[0]) / (2.0 * x),
-            centre: Vector2::zeros(),
-            turn: 0.0,
-        };
+        let view = View::plotted(&plot, 2.0 * x);
         view.tile(canvas, &scene.pair.fixed, &ORIGIN, FIXED_FILL);
         let seen = |p: &Vector2<f64>| p.x.abs() <= x && p.y.abs() <= y;
         for edge in &edges {
