@@ -354,7 +354,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
             told(
                 facts,
                 "certified bounds",
-                "wider than asked for".to_owned(),
+                "wider than requested".to_owned(),
                 note,
             )
         }

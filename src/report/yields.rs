@@ -102,7 +102,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .fact("yield", "bound", best.bound).viewed(within(best.bound, best.interval)).noted("of all pairs")
         .fact("yield_interval", "", best.interval)
         .fact("trapped", "in traps", best.trapped).share().in_view()
-        .fact("best_kT_J", "kT", best.kt).noted("best of those asked for")
+        .fact("best_kT_J", "kT", best.kt).noted("best of the requested values")
         .table(by_kt(question, found))
         .data("mixture", mixture(found))
         .data("rates", format!("{}; detachment {}", effort.told(), detachment(question)))

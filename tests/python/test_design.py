@@ -50,18 +50,19 @@ def test_a_key_is_replaced_in_another_design(tab):
         tab.replace("fixed.side", object())
 
 
-def test_errors_tell_line_column_and_mend(root):
+def test_errors_tell_line_column_and_fix(root):
     text = (root / "shapes/paper-tile.toml").read_text().replace("side = 0.43", "side = 430", 1)
     with pytest.raises(DesignError) as caught:
         Design.loads(text + "\n[tabel]\n", file="my.toml")
     error = caught.value
     line = 1 + text[: text.index("side = 430")].count("\n")
     assert (error.file, error.line, error.column) == ("my.toml", line, 8)
-    assert "0.43" in error.message + error.mend
+    assert "0.43" in error.message + error.fix
+    assert error.mend == error.fix
     assert f"my.toml:{line}:8" in str(error) and "help:" in str(error)
     assert len(error.also) == 1 and "tabel" in error.also[0].message
     for again in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
-        assert (again.line, again.mend, str(again)) == (error.line, error.mend, str(error))
+        assert (again.line, again.fix, str(again)) == (error.line, error.fix, str(error))
     assert isinstance(error, ValueError)
     with pytest.raises(FileNotFoundError, match="no/such/file.toml"):
         Design.load("no/such/file.toml")

@@ -164,7 +164,7 @@ impl Yields {
     pub fn best(&self) -> &Outcome {
         let all = self.outcomes.iter();
         all.reduce(|best, next| if next.bound > best.bound { next } else { best })
-            .expect("one setting at least is asked for")
+            .expect("there is at least one setting")
     }
 }
 

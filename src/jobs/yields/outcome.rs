@@ -160,7 +160,7 @@ pub(super) fn outcome(
         let (rates, times) = asked[k];
         shares(rates, crowd, times, MOST_STATES)
     });
-    let at_end = |k: usize| *found[k].bound.last().expect("the end is a time asked for");
+    let at_end = |k: usize| *found[k].bound.last().expect("the end is one of the times");
     let simulated = simulated(&rates, crowd, question);
     let bound = at_end(0);
     let exact = found[0].exact;

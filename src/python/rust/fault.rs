@@ -38,7 +38,7 @@ fn exception<'py>(py: Python<'py>, fault: &design::DesignError) -> PyResult<Boun
     more.set_item("line", place.map(|place| place.line))?;
     more.set_item("column", place.map(|place| place.column))?;
     more.set_item("message", &fault.message)?;
-    more.set_item("mend", &fault.help)?;
+    more.set_item("fix", &fault.help)?;
     more.set_item("also", also)?;
     let class = py.import("tilebind._errors")?.getattr("DesignError")?;
     class.call((fault.to_string(),), Some(&more))

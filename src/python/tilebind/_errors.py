@@ -17,21 +17,26 @@ class DesignError(ValueError):
         The place, counted from 1; None if the design as a whole is wrong.
     message : str
         What is wrong.
-    mend : str
+    fix : str
         How to fix it.
     also : tuple of DesignError
         Further mistakes, in the order of the file.
     """
 
-    def __init__(self, text, file=None, line=None, column=None, message=None, mend=None, also=()):
+    def __init__(self, text, file=None, line=None, column=None, message=None, fix=None, also=()):
         super().__init__(text)
         self.file = file
         self.line = line
         self.column = column
         self.message = text if message is None else message
-        self.mend = mend
+        self.fix = fix
         self.also = tuple(also)
 
     def __reduce__(self):
-        fields = (self.file, self.line, self.column, self.message, self.mend, self.also)
+        fields = (self.file, self.line, self.column, self.message, self.fix, self.also)
         return type(self), (self.args[0], *fields)
+
+    @property
+    def mend(self):
+        """The earlier name of `fix`."""
+        return self.fix

@@ -266,7 +266,7 @@ fn frontier_chart(answer: &Answer) -> Chart {
     Chart {
         name: "frontier",
         title: "Number of words versus gap".to_owned(),
-        x: Dimension::new("asked_gap", "gap asked for"),
+        x: Dimension::new("asked_gap", "requested gap"),
         y: Dimension::new("words", "words").counting(),
         series: Vec::new(),
         remark: String::new(),
