@@ -6,8 +6,8 @@ use crate::request::of_keywords;
 use crate::yields::{Question, YieldError, Yields, yields};
 use physics::observer::Observer;
 
-/// The corresponding request of `yield`: the same number of pairs, table area, time, drag and
-/// restitution. The scarcer kind of tile determines the number of pairs.
+/// The corresponding request of `yield`: the same number of pairs, table area, time, drag,
+/// restitution and friction. The scarcer kind of tile determines the number of pairs.
 fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
     let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
     let pairs = counts.into_iter().min().filter(|pairs| *pairs > 0)?;
@@ -20,6 +20,7 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
         ("coverage", (2.0 * pairs as f64 * area / table).to_string()),
         ("drag", request.motion.drag.to_string()),
         ("restitution", request.motion.restitution.to_string()),
+        ("friction", request.motion.friction.to_string()),
         ("simulations", "0".to_owned()),
         ("seed", request.seed.to_string()),
     ];
@@ -27,8 +28,7 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
     of_keywords(words).ok()
 }
 
-/// The yield by detailed balance, or why it cannot be computed; `None` if it is not requested or
-/// there is not exactly one design.
+/// The yield by detailed balance, or why it cannot be computed; `None` if it is not requested.
 pub fn compared(
     designs: &[Design],
     request: &Request,

@@ -126,12 +126,20 @@ impl Request {
     /// the number of designs, 0 for a tile set.
     ///
     /// # Errors
-    /// If the file is invalid, or the number of counts differs from the number of kinds.
+    /// If the file is invalid, the number of counts differs from the number of kinds, or there is no
+    /// single design to compare with.
     pub fn start(
         &self,
         (designs, crowd): (usize, &Crowd),
         file: Option<(&str, &str)>,
     ) -> Result<Start, String> {
+        if self.compare && designs != 1 {
+            return Err(
+                "--compare needs exactly one design, as `tilebind yield` counts pairs of one design: \
+                 remove it, or give one design"
+                    .into(),
+            );
+        }
         if let Some((name, text)) = file {
             let movers = start_file::read(text, crowd);
             let movers = movers.map_err(|error| format!("{name}: {error}"))?;

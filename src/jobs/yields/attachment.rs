@@ -47,6 +47,11 @@ pub struct Effort {
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = request::share)]
     pub restitution: f64,
+
+    /// Coefficient of friction, tile on tile and tile on rim
+    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
+          value_parser = request::not_negative)]
+    pub friction: f64,
 }
 
 impl Effort {
@@ -68,6 +73,7 @@ impl Effort {
         MotionSettings {
             drag: self.drag.unwrap_or(drag),
             restitution: self.restitution,
+            friction: self.friction,
             ..usual
         }
     }
@@ -75,12 +81,15 @@ impl Effort {
     /// A description of the source of its rates.
     pub fn told(&self) -> String {
         let MotionSettings {
-            drag, restitution, ..
+            drag,
+            restitution,
+            friction,
+            ..
         } = self.motion();
         match self.source {
             Source::Docking => format!(
                 "attachment counted in {} docking runs for each kT (drag {drag} per s, restitution \
-                 {restitution})",
+                 {restitution}, friction {friction})",
                 self.runs
             ),
             Source::Overdamped => format!(

@@ -1,9 +1,10 @@
 //! Bonds, traps and clusters at one instant.
 
+use petgraph::unionfind::UnionFind;
+
 use super::crowd::Crowd;
 use super::mover::Mover;
 use super::pair::{Two, configuration, relative};
-use super::union::{join, root};
 use crate::tile::outline::cross;
 
 /// Tiles with a clearance below this (m, for the paper's tile) count as touching.
@@ -97,11 +98,15 @@ fn inner(crowd: &Crowd, tiles: [&Mover; 2]) -> f64 {
 
 /// The cluster of connected tiles that each tile belongs to, named by the first of its tiles.
 pub fn cluster_of_each(tiles: usize, held: &[Held]) -> Vec<usize> {
-    let mut roots: Vec<usize> = (0..tiles).collect();
+    let mut sets = UnionFind::<usize>::new(tiles);
     for held in held {
-        join(&mut roots, held.tiles[0], held.tiles[1]);
+        sets.union(held.tiles[0], held.tiles[1]);
     }
-    (0..tiles).map(|k| root(&mut roots, k)).collect()
+    let mut first = vec![None; tiles];
+    let labels = sets.into_labeling().into_iter().enumerate();
+    labels
+        .map(|(tile, label)| *first[label].get_or_insert(tile))
+        .collect()
 }
 
 /// The sizes of all clusters of connected tiles, including single tiles, in descending order.

@@ -15,8 +15,8 @@
 //! act at the same point and are equal and opposite.
 
 use nalgebra::{Vector2, Vector3};
+use petgraph::unionfind::UnionFind;
 
-use super::union::{join, root};
 use crate::tile::outline::cross;
 
 /// Sweeps end when one changes no velocity (m/s) by more than this, which is 1/10,000 of a typical kick
@@ -265,10 +265,10 @@ pub fn hold_back(
 
 /// The clusters of points that share tiles, by index.
 fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
-    let mut roots: Vec<usize> = (0..tiles).collect();
+    let mut sets = UnionFind::<usize>::new(tiles);
     for hold in holds {
         if let [Some(a), Some(b)] = hold.tiles {
-            join(&mut roots, a, b);
+            sets.union(a, b);
         }
     }
     let mut found: Vec<Vec<usize>> = Vec::new();
@@ -277,7 +277,7 @@ fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
         let Some(tile) = hold.tiles.into_iter().flatten().next() else {
             continue;
         };
-        let top = root(&mut roots, tile);
+        let top = sets.find_mut(tile);
         if number[top] == usize::MAX {
             number[top] = found.len();
             found.push(Vec::new());

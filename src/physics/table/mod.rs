@@ -51,7 +51,6 @@ pub mod run;
 pub mod settings;
 pub mod start;
 mod stepper;
-mod union;
 
 pub use crowd::{Crowd, CrowdError, Kind};
 pub use mover::Mover;

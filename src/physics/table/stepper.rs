@@ -1,6 +1,7 @@
 //! Advances all tiles step by step, and keeps the energy balance.
 
 use nalgebra::{Vector2, Vector3};
+use petgraph::unionfind::UnionFind;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
@@ -10,7 +11,6 @@ use super::mover::Mover;
 use super::neighbours::Neighbours;
 use super::pair::{Two, configuration, pull, relative};
 use super::settings::TableSettings;
-use super::union::{join, root};
 use crate::parallel;
 
 /// Islands per task of a thread.
@@ -292,9 +292,9 @@ impl<'a> Stepper<'a> {
     /// Advances every island independently.
     fn move_all(&mut self, steady: &[Vector3<f64>]) -> Happened {
         let n = self.riders.len();
-        let mut roots: Vec<usize> = (0..n).collect();
+        let mut tied = UnionFind::<usize>::new(n);
         for near in &self.near {
-            join(&mut roots, near.two.first, near.two.second);
+            tied.union(near.two.first, near.two.second);
         }
         let mut number = vec![usize::MAX; n];
         let mut islands: Vec<Island> = Vec::new();
@@ -310,7 +310,7 @@ impl<'a> Stepper<'a> {
                 self.glide(k, &steady[k]);
                 continue;
             }
-            let top = root(&mut roots, k);
+            let top = tied.find_mut(k);
             if number[top] == usize::MAX {
                 number[top] = islands.len();
                 members.push(Vec::new());
@@ -331,7 +331,7 @@ impl<'a> Stepper<'a> {
             islands[island].steady.push(steady[k]);
         }
         for near in &mut self.near {
-            let top = root(&mut roots, near.two.first);
+            let top = tied.find_mut(near.two.first);
             let two = Two {
                 first: local[near.two.first],
                 second: local[near.two.second],

@@ -205,6 +205,18 @@ fn wrong_tables_are_refused_with_their_fix() {
         (&[TILE, "--shard", "3/2"][..], "parts of n are 1/n"),
         (&[TILE, "--shard", "2/2"], "this part has none"),
         (&[TILE, "--compare"], "--shaking"),
+        (
+            &[
+                TILE,
+                "shapes/tab-20mm.toml",
+                "--compare",
+                "--shaking",
+                "3e-3",
+                "--drag",
+                "1",
+            ],
+            "exactly one design",
+        ),
         (&[TILE, TILE], "give one of them another `name`"),
         (&[TILE, blocks], "give --model"),
         (
