@@ -141,6 +141,7 @@ fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
     let settings = Settings {
         milestones: 2000,
         far_starts: 20,
+        certify: Allowance::of(2.0),
         completeness: unsought(),
         ..Settings::default()
     };

@@ -67,7 +67,7 @@ fn analysed(name: &str, s: f64, model: MagnetModel) -> Analysis {
         milestones: 1000,
         added_milestones: 100,
         far_starts: 40,
-        certify: Allowance::of(10.0),
+        certify: Allowance::of(2.0),
         ..Settings::default()
     };
     pipeline::analyse(&design, &settings, &Silent)
@@ -118,7 +118,7 @@ fn designs_of_any_size_have_the_same_answers() {
         ("paper-tile", MagnetModel::Dipole),
         ("arc-20mm", MagnetModel::Dipole),
         ("tab-20mm", MagnetModel::Cuboid),
-        ("sine-teeth-10mm", MagnetModel::Dipole),
+        ("triangle-teeth-20mm", MagnetModel::Dipole),
         ("one-face", MagnetModel::Dipole),
     ] {
         let one = analysed(name, 1.0, model);

@@ -375,28 +375,27 @@ fn bounds_of_derivatives_are_as_narrow_as_the_plain_formula_s() {
             continue;
         };
         let plain = plain(&kind);
-        for level in Level::available() {
-            let potential = kind.energy(level);
-            let grouped = wider > 1.5;
-            let near = |q: &&Configuration| !grouped || q.x <= 1.5;
-            let reaches: &[f64] = if grouped {
-                &[0.002]
-            } else {
-                &[0.0, 0.002, 0.02]
-            };
-            for q in kind.anywhere.iter().filter(near) {
-                for &reach in reaches {
-                    let pairs = [
-                        (
-                            potential.curvature_bound(q, reach),
-                            plain.curvature_bound(q, reach),
-                        ),
-                        (
-                            potential.fourth_derivative_bound(q, reach),
-                            plain.fourth_derivative_bound(q, reach),
-                        ),
+        let levels = Level::available().into_iter();
+        let potentials: Vec<_> = levels.map(|level| (level, kind.energy(level))).collect();
+        let grouped = wider > 1.5;
+        let near = |q: &&Configuration| !grouped || q.x <= 1.5;
+        let reaches: &[f64] = if grouped {
+            &[0.002]
+        } else {
+            &[0.0, 0.002, 0.02]
+        };
+        for q in kind.anywhere.iter().filter(near) {
+            for &reach in reaches {
+                let expected = [
+                    plain.curvature_bound(q, reach),
+                    plain.fourth_derivative_bound(q, reach),
+                ];
+                for (level, potential) in &potentials {
+                    let bounds = [
+                        potential.curvature_bound(q, reach),
+                        potential.fourth_derivative_bound(q, reach),
                     ];
-                    for (bound, expected) in pairs {
+                    for (bound, expected) in bounds.into_iter().zip(expected) {
                         let ratio = bound / expected;
                         let at = format!("{}, {level}, {reach}: {q:?}", kind.name);
                         let alike = ratio <= wider && (grouped || ratio >= 2.0 - wider);

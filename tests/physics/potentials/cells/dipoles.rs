@@ -159,7 +159,7 @@ fn groups_enclose_what_their_magnets_do() {
     let contact = Contact::new(&a.outline, &b.outline);
     let mut rng = ChaCha8Rng::seed_from_u64(12);
     let (mut tested, mut wider) = (0, 0.0f64);
-    for _ in 0..150 {
+    for _ in 0..60 {
         let size = 10f64.powf(rng.random_range(-4.0..-1.0));
         let cell = Cell {
             centre: Configuration::new(
@@ -184,6 +184,6 @@ fn groups_enclose_what_their_magnets_do() {
             wider = wider.max(width(&enclosure) / width(&one_by_one));
         }
     }
-    assert!(tested > 500, "{tested}");
+    assert!(tested > 200, "{tested}");
     assert!(wider < 1.2, "{wider}");
 }

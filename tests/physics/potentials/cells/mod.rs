@@ -265,7 +265,9 @@ fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
             let mut rng = ChaCha8Rng::seed_from_u64(11);
             let (mut bounds, mut potential) = case.made(&mut rng, -3.0, *level);
             let mut met = [0; 2];
-            for _ in 0..case.cells {
+            // Bits are the same on all levels (`levels.rs`): the others need fewer cells.
+            let part = if *level == Level::best() { 1 } else { 20 };
+            for _ in 0..case.cells / part {
                 if case.shielded {
                     (bounds, potential) = case.made(&mut rng, -3.0, *level);
                 }
@@ -277,7 +279,8 @@ fn no_free_configuration_of_a_cell_lies_outside_its_enclosure() {
                 met[0] += free;
                 met[1] += if cell.half[0] > 0.01 { free } else { 0 };
             }
-            let enough = met[0] > case.met[0] && met[1] >= case.met[1];
+            let least = case.met.map(|least| least / (2 * part - 1));
+            let enough = met[0] > least[0] && met[1] >= least[1];
             assert!(enough, "{}, {level}: {met:?}", case.name);
         }
     }
