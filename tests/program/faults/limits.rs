@@ -2,7 +2,7 @@
 
 use std::fs::File;
 
-use super::{COMMANDS, after, arguments, assert_whole, undisturbed};
+use super::{COMMANDS, DESIGN, NO_BOUNDS, NO_SEARCH, after, arguments, assert_whole, undisturbed};
 use crate::program::{command, stderr};
 
 /// Files of at most so many blocks of 512 bytes.
