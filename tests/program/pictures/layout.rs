@@ -1,11 +1,14 @@
 //! Where things are in pictures, read back from their SVG: texts within the frame and apart from
 //! each other, cells of a matrix in rows and columns with their names beside them.
 
+use std::path::Path;
+
 use roxmltree::{Document, Node};
 use tilebind::report::plots::matrix::Matrix;
 use tilebind::report::plots::{Figure, Sheet};
 
 use super::figures;
+use crate::program::{command, stderr};
 
 /// A text with a box that it certainly fills: fonts are wider than 0.35 of their size a letter.
 struct Written {
@@ -181,6 +184,103 @@ fn a_matrix_has_its_numbers_in_rows_and_columns() {
                 side < 400.0 || (rows.len(), columns.len()) == (1, 1),
                 "{name}"
             );
+        }
+    }
+}
+
+/// All pictures in a folder and those below it.
+fn drawn(folder: &Path) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all.extend(drawn(&path));
+        } else if path.extension().is_some_and(|it| it == "svg") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            all.push((path.display().to_string(), text));
+        }
+    }
+    all
+}
+
+const TAB: &str = "shapes/tab-20mm.toml";
+
+/// The commands that draw, each with little work.
+const DRAWING: [&[&str]; 7] = [
+    &[
+        "compare",
+        TAB,
+        "shapes/one-face.toml",
+        "--milestones=200",
+        "--far-starts=10",
+        "--certify-cells=0",
+        "--complete-cells=0",
+    ],
+    &["dock", TAB, "--runs", "24", "--duration", "2"],
+    &["bond", TAB, "--kt", "3e-3", "--coverage", "0.3"],
+    &[
+        "yield",
+        TAB,
+        "--tiles",
+        "10",
+        "--time",
+        "600",
+        "--kt",
+        "2e-3,3e-3",
+        "--runs",
+        "16",
+    ],
+    &[
+        "table",
+        TAB,
+        "--count",
+        "2,2",
+        "--time",
+        "1",
+        "--shaking",
+        "3e-3",
+        "--drag",
+        "0.5",
+    ],
+    &[
+        "assemble",
+        "lattice",
+        "--lattice",
+        "2x3",
+        "--kt",
+        "4e-3",
+        "--coverage",
+        "0.1",
+    ],
+    &[
+        "sweep",
+        TAB,
+        "--vary",
+        "fixed.faces.east.profile.depth=0.01,0.02",
+        "--milestones=200",
+        "--far-starts=10",
+        "--certify-cells=0",
+        "--complete-cells=0",
+    ],
+];
+
+#[test]
+fn pictures_of_every_command_are_legible() {
+    for asked in DRAWING {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        let more = ["--quiet", "--out", out.to_str().unwrap()];
+        let output = command(&[asked, &more[..]].concat()).output().unwrap();
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{asked:?}: {}",
+            stderr(&output)
+        );
+        let all = drawn(&out);
+        assert!(!all.is_empty(), "{asked:?}");
+        for (name, svg) in all {
+            is_legible(&name, &svg);
         }
     }
 }
