@@ -169,7 +169,7 @@ fn a_matrix_has_its_numbers_in_rows_and_columns() {
             let named: Vec<&Written> = texts.iter().filter(|it| it.text == name).collect();
             let beside = |it: &&&Written| it.middle[0] < first[0];
             let (rows, columns): (Vec<&Written>, Vec<&Written>) =
-                named.iter().partition(|it| beside(&it));
+                named.iter().partition(|it| beside(it));
             for row in &rows {
                 assert!((row.middle[1] - first[1] - middle).abs() <= 1.5, "{name}");
             }
