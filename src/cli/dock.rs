@@ -9,7 +9,7 @@ use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Failure, input, memory};
 
 /// Launch the moving tile at the fixed one many times and count the outcomes
 #[derive(Args)]
@@ -55,6 +55,10 @@ impl Dock {
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&DOCK, inputs)?;
         self.threads.use_threads()?;
+        if self.release.overdamped {
+            // The bond and free tiles.
+            memory::check_meshes(2, self.threads.count())?;
+        }
         let settings = self.request.settings(&design.pair);
         if let Some(index) = self.trajectory.filter(|index| *index >= settings.runs) {
             return Err(Failure::Usage(format!(

@@ -13,3 +13,13 @@ pub fn check(milestones: usize, neighbours: Option<usize>, at_once: usize) -> Re
     }
     Ok(())
 }
+
+/// An error if the meshes of overdamped motion between a number of places do not fit into memory.
+pub fn check_meshes(places: usize, threads: usize) -> Result<(), Failure> {
+    memory::check_meshes(places + 1, threads).map_err(Failure::Usage)
+}
+
+/// An error if the process may not reserve what its threads need.
+pub fn check_threads(threads: usize) -> Result<(), Failure> {
+    memory::check_threads(threads).map_err(Failure::Usage)
+}

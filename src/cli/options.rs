@@ -11,7 +11,7 @@ use tilebind::output::{Command, Output};
 use tilebind::request;
 
 use super::progress::Progress;
-use super::{Failure, input, print, tell};
+use super::{Failure, input, memory, print, tell};
 
 /// A design and its magnet model.
 #[derive(Args)]
@@ -100,8 +100,10 @@ impl ThreadOption {
         self.threads.map_or_else(cores, useful)
     }
 
-    /// Makes the library use the requested number of threads, or all cores.
+    /// Makes the library use the requested number of threads, or all cores; an error if the
+    /// process may not reserve their memory.
     pub fn use_threads(&self) -> Result<(), Failure> {
+        memory::check_threads(self.count())?;
         let Some(threads) = self.threads else {
             return Ok(());
         };

@@ -67,6 +67,9 @@ impl Rates {
         request.check(&design, &problem).map_err(Failure::of)?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
+        // The bond, the traps and free tiles; an exit has one place.
+        let places = request.start.map_or(request.traps + 2, |_| 1);
+        memory::check_meshes(places, self.threads.count())?;
         if let Some(start) = request.start {
             input::doubt_pose(&design, &start);
             let (found, check) = request

@@ -8,6 +8,14 @@ const SUPPOSED: f64 = 8e9;
 /// than a sixth of it the program does not start, with four fifths the analysis of a shipped design
 /// finishes.
 const BESIDES: f64 = 1.2e8;
+/// Address space (bytes) that a process with a limit of it needs for itself, and for each thread: a
+/// stack and a heap of 64 MB, which the C library reserves as a whole. With less, allocations fail
+/// at places that differ from run to run.
+const RESERVED: f64 = 1.3e8;
+const RESERVED_BY_THREAD: f64 = 6.8e7;
+/// The memory (bytes) of rates per function on the mesh: up to 4 kB per unknown, and the default
+/// number of unknowns.
+const OF_A_FUNCTION: f64 = 4e3 * 6e4;
 /// Requests above this are reported (bytes).
 const WORTH_TELLING: f64 = 1e9;
 
@@ -26,10 +34,43 @@ pub fn check(
         _ => format!("work on {at_once} roadmaps at once takes"),
     };
     let needed = BESIDES + at_once as f64 * roadmap::memory(milestones, neighbours);
-    let told = fits(needed).map_err(|told| {
+    let told = fits(needed, available()).map_err(|told| {
         format!("{work} about {told}: use fewer --milestones, --neighbours or --threads")
     })?;
     Ok((needed > WORTH_TELLING).then(|| format!("{work} about {told}")))
+}
+
+/// Checks that the process may reserve what its threads need.
+///
+/// # Errors
+/// If its limit (`ulimit -v`) is lower.
+pub fn check_threads(threads: usize) -> Result<(), String> {
+    let needed = reserved(threads);
+    match limit() {
+        Some(allowed) if allowed < needed => Err(format!(
+            "the program with {threads} thread{} needs {} of address space, but is limited to {}: \
+             use fewer --threads or raise the limit (ulimit -v)",
+            if threads == 1 { "" } else { "s" },
+            gigabytes(needed),
+            gigabytes(allowed)
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that the meshes for a number of functions (one for each place of rates, and one for the
+/// mean time) fit into memory beside the threads. Requested accuracies can take more; how much is
+/// known only from the mesh.
+///
+/// # Errors
+/// If the machine does not have enough memory.
+pub fn check_meshes(functions: usize, threads: usize) -> Result<(), String> {
+    let needed = BESIDES + OF_A_FUNCTION * functions as f64;
+    let beside = limit().map(|allowed| (allowed - reserved(threads)).max(0.0));
+    let free = unused().into_iter().chain(beside).reduce(f64::min);
+    fits(needed, free)
+        .map(drop)
+        .map_err(|told| format!("the meshes of overdamped motion take up to about {told}"))
 }
 
 /// Checks that a number of bytes is available.
@@ -37,7 +78,7 @@ pub fn check(
 /// # Errors
 /// If the machine does not have enough memory.
 pub fn check_bytes(needed: f64) -> Result<(), String> {
-    fits(needed)
+    fits(needed, available())
         .map(drop)
         .map_err(|told| format!("this takes {told}"))
 }
@@ -46,12 +87,8 @@ pub fn check_bytes(needed: f64) -> Result<(), String> {
 ///
 /// # Errors
 /// The same message, if less is free.
-fn fits(needed: f64) -> Result<String, String> {
-    let free = available().unwrap_or(SUPPOSED);
-    let gigabytes = |bytes: f64| match bytes / 1e9 {
-        many if many >= 1e6 => format!("{many:.1e} GB"),
-        some => format!("{some:.1} GB"),
-    };
+fn fits(needed: f64, free: Option<f64>) -> Result<String, String> {
+    let free = free.unwrap_or(SUPPOSED);
     let told = format!(
         "{} of memory; {} are free",
         gigabytes(needed),
@@ -63,12 +100,32 @@ fn fits(needed: f64) -> Result<String, String> {
     }
 }
 
-/// Memory available without swapping (bytes), as reported by Linux: the machine's, or the process's
-/// limit (`ulimit -v`) if that is lower.
+fn gigabytes(bytes: f64) -> String {
+    match bytes / 1e9 {
+        many if many >= 1e6 => format!("{many:.1e} GB"),
+        some if some >= 0.95 => format!("{some:.1} GB"),
+        few => format!("{:.0} MB", 1e3 * few),
+    }
+}
+
+fn reserved(threads: usize) -> f64 {
+    RESERVED + RESERVED_BY_THREAD * threads as f64
+}
+
+/// Memory (bytes) available without swapping: the machine's, or the process's limit if that is
+/// lower.
 fn available() -> Option<f64> {
-    let free = first_number("/proc/meminfo", "MemAvailable:").map(|kibibytes| 1024.0 * kibibytes);
-    let allowed = first_number("/proc/self/limits", "Max address space");
-    free.into_iter().chain(allowed).reduce(f64::min)
+    unused().into_iter().chain(limit()).reduce(f64::min)
+}
+
+/// The machine's memory (bytes) available without swapping, as reported by Linux.
+fn unused() -> Option<f64> {
+    first_number("/proc/meminfo", "MemAvailable:").map(|kibibytes| 1024.0 * kibibytes)
+}
+
+/// The process's limit (`ulimit -v`, bytes), as reported by Linux.
+fn limit() -> Option<f64> {
+    first_number("/proc/self/limits", "Max address space")
 }
 
 /// The first number of the line with this beginning.

@@ -13,6 +13,7 @@ mod design_files;
 mod designs;
 mod dynamics;
 mod kinetics;
+mod mixtures;
 mod narrow;
 #[path = "../shared/plain.rs"]
 mod plain;
@@ -22,3 +23,4 @@ mod table;
 mod tiles;
 mod units;
 mod wells;
+mod word_sets;

@@ -16,6 +16,7 @@ use crate::design::Design;
 use crate::pipeline::{self, Settings};
 use crate::request::{self, Unanswered};
 use attachment::Effort;
+pub use attachment::Source;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
 use physics::dynamics::docking::DockingError;

@@ -18,6 +18,7 @@ mod starting;
 mod table;
 #[cfg(unix)]
 mod terminal;
+mod tile_sets;
 mod words;
 
 use std::process::Output;

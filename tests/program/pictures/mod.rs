@@ -1,6 +1,7 @@
 //! The pictures of an analysis, drawn from hand-made data.
 
 mod grids;
+mod layout;
 mod paper_tile;
 
 use std::sync::OnceLock;
