@@ -68,24 +68,27 @@
 //! - Effort is counted, not timed (see [`budget`]): results are the same bytes on any number of
 //!   threads, on an idle or a busy machine, unless a time limit (`--certify-seconds`,
 //!   `--complete-seconds`) ends a proof.
-//! - For tiles with 128 magnets and more, distant groups of point dipoles are replaced by fewer
-//!   dipoles, with a proved error. Blocks and shielded magnets are not grouped; their cost is
-//!   proportional to the number of pairs. From about 64 magnets per face on, surveys take long in
+//! - For two tiles with 16,384 pairs of magnets and more (128 each), distant groups of point dipoles
+//!   are replaced by fewer dipoles, with a proved error. Blocks, discs, upright and shielded magnets
+//!   are not grouped; their cost is proportional to the number of pairs. From about 64 magnets per face on, surveys take long in
 //!   any case, up to hours for hundreds of magnets: there are many states, and the motions that
 //!   join them are followed to a fraction of the pitch.
 //! - Curves are polygons: chords deviate from arcs and sine waves by up to a hundredth of their
 //!   depth, and from drawn curves by up to 1/2150 of the drawn shape (0.2 mm for a tile of 43 cm).
 //!   This changes the energy of shallow states, where two curved faces touch beside their bond, by
 //!   some per cent.
-//! - Drawings: style sheets, clip paths, `<use>` and nested `<svg>` are reported, not read; a tile
-//!   has one outline without holes and at most 64 faces.
+//! - Drawings: clip paths, masks, and style sheets that move or hide shapes are reported, not read
+//!   (`<use>`, `<symbol>` and nested `<svg>` are read); a tile has one outline without holes and at
+//!   most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
-//! - Barriers are not certified for discs, for upright magnets and for the nearest-face rule, whose
-//!   energy is discontinuous.
+//! - Barriers, lists of states and `crosstalk` are not certified for discs and for upright magnets,
+//!   nor barriers and states for the nearest-face rule, whose energy is discontinuous. `words` and
+//!   `crosstalk` take all magnets, but no shields.
 //! - Overdamped capture has neither inertia nor shaking. `tilebind dock` moves tiles with inertia,
 //!   contact and drag.
-//! - Magnets and tiles stay in one plane: there is no tilting, no lifting, and no iron in
-//!   `analyse`.
+//! - Magnets and tiles stay in one plane: there is no tilting and no lifting. Iron is a shield behind
+//!   a face's magnets, a factor of their energy that is to be calibrated; it is not magnetised
+//!   itself.
 //! - Bounds of very small barriers, and of barriers that took more than 20 000 additional cells,
 //!   stay wider than a twentieth of the barrier; `tilebind barrier --tolerance` narrows a single
 //!   one.

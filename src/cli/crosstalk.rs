@@ -48,7 +48,7 @@ impl Crosstalk {
         let output = self.results.output(&CROSSTALK, vec![self.set.clone()])?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        let found = self.request.crosstalk(&set);
+        let found = self.request.crosstalk(&set)?;
         if !found.settled {
             tell(
                 "note: the cells ran out before all bounds were as narrow as requested; they \

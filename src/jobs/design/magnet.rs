@@ -232,17 +232,29 @@ fn grade(entry: &Entry) -> Result<Grade> {
         let lower = name.to_lowercase();
         let help = match lower.starts_with("aln") || lower.starts_with("lng") {
             // Its remaining remanence depends on its length and its history.
-            true => {
-                "short AlNiCo magnets demagnetise themselves: measure the field at the pole, \
+            true => "short AlNiCo magnets demagnetise themselves: measure the field at the pole, \
                  surface_field = \"60 mT\", or give their pull"
-            }
-            false => {
-                "use N35 to N52 (also N42SH and similar), Y30 and other ferrites, YXG28 or SmCo \
-                 28; or give remanence = 1.2 (T), or pull = \"1.8 kg\""
-            }
+                .to_owned(),
+            false => format!(
+                "{}; or give remanence = 1.2 (T), or pull = \"1.8 kg\"",
+                known(name)
+            ),
         };
         entry.error(format!("`grade` cannot be \"{name}\""), help)
     })
+}
+
+/// The known grades near to an unknown one, or the kinds of grades.
+pub(super) fn known(name: &str) -> String {
+    match Grade::near(name).as_slice() {
+        [] => {
+            let kinds = "use N30 to N56 (also N42SH and similar), Y30 and other ferrites, C5, YXG28 or \
+                         SmCo 28";
+            kinds.to_owned()
+        }
+        [one] => format!("the nearest known grade is {one}"),
+        [first @ .., last] => format!("known grades near it are {} and {last}", first.join(", ")),
+    }
 }
 
 /// A remanence (T) far beyond any material; a moment or a surface field that implies more was given

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::Refused;
 use crate::design::{MagnetModel, WordSet};
 use crate::request;
 use physics::words::crosstalk::{Crosstalk, TOLERANCE};
@@ -26,12 +27,20 @@ pub struct CrosstalkRequest {
 
 impl CrosstalkRequest {
     /// The crosstalk of a set that was read with the requested model.
-    pub fn crosstalk(&self, set: &WordSet) -> Crosstalk {
+    ///
+    /// # Errors
+    /// If bounds are requested and its magnets have none.
+    pub fn crosstalk(&self, set: &WordSet) -> Result<Crosstalk, Refused> {
         let stage = set.carriers();
+        if self.certify.is_some()
+            && let Err(why) = stage.certifiable()
+        {
+            return Err(format!("--certify: {why}; leave it out").into());
+        }
         let certify = self.certify.map(|tolerance| {
             let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * stage.contact_energy());
             (tolerance, self.certify_cells)
         });
-        stage.crosstalk(&set.words, certify)
+        Ok(stage.crosstalk(&set.words, certify))
     }
 }

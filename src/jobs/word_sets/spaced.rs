@@ -139,9 +139,9 @@ fn of_gap(
     Ok(best)
 }
 
-/// Units of work for evaluating a number of words: each word and its mate have their own places.
+/// Units of work for evaluating a number of words.
 fn judging(wanted: &Wanted, count: usize) -> u64 {
-    sampling_work(2 * wanted.magnets * count)
+    sampling_work(&wanted.bar, wanted.face, count, wanted.magnets)
 }
 
 fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {

@@ -30,6 +30,7 @@ use super::shielding::{ShieldRule, Shields};
 use super::{
     BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
 };
+use crate::tile::magnet::{Form, Shape};
 use crate::tile::{Magnet, Tile};
 
 /// The interaction between two tiles.
@@ -101,6 +102,40 @@ impl Interaction {
             false => Box::new(ShieldedPotential::new(*model, fixed, moving, shields)),
         };
         Energy { potential, bounds }
+    }
+}
+
+/// What the energy of two magnets costs, in units of work (see [`crate::budget`]).
+#[derive(Clone, Copy, Debug)]
+pub struct PairWork {
+    /// Among many pairs far apart.
+    pub far: f64,
+    /// Closer than `reach`, in addition.
+    pub near: f64,
+    /// The distance (m) up to which charged faces are summed.
+    pub reach: f64,
+}
+
+/// What the energy of two like magnets of this size (m) costs, as measured with eight lanes.
+pub fn pair_work(model: MagnetModel, form: Form, size: [f64; 3]) -> PairWork {
+    if model == MagnetModel::Dipole {
+        return PairWork {
+            far: 1.0,
+            near: 0.0,
+            reach: 0.0,
+        };
+    }
+    let longest = size.into_iter().fold(0.0, f64::max);
+    let (near, reach) = match (form.shape, form.stands.is_some()) {
+        (Shape::Block, false) => (120.0, 4.0),
+        (Shape::Block, true) => (1500.0, 3.0),
+        (Shape::Disc, false) => (1000.0, 3.0),
+        (Shape::Disc, true) => (500.0, 3.0),
+    };
+    PairWork {
+        far: 5.0,
+        near,
+        reach: reach * longest,
     }
 }
 

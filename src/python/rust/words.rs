@@ -127,6 +127,7 @@ pub fn crosstalk<'py>(
         told.tell(0.0, "crosstalk".to_owned());
         asked.crosstalk(&set)
     })?;
+    let found = found.map_err(|why| fault::refused(py, &why))?;
     convert::json(py, &crosstalk_report::document(&set, &found).report())
 }
 

@@ -9,7 +9,7 @@ use super::key::{self, Sign, key};
 use super::marks::{Mark, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::{energy, length};
+use super::{Decimals, angle, energy};
 use crate::csv::table;
 use crate::names::face;
 use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};
@@ -98,15 +98,15 @@ pub fn composed<'a>(
 }
 
 /// The numbers of the picture.
-pub fn data(slices: &ApproachSlices) -> String {
+pub fn data(slices: &ApproachSlices, decimals: Decimals) -> String {
     let head = ["panel", "tilt_rad", "gap_or_slide_m", "energy_J"];
     let panels = [("gap", &slices.gap), ("slide", &slices.slide)];
     let rows = panels.into_iter().flat_map(|(name, grid)| {
         let samples = grid.values.iter().enumerate();
         samples.filter_map(move |(k, sample)| {
             let sample = sample.as_ref()?;
-            let at = [grid.x[k % grid.x.len()], grid.y[k / grid.x.len()]];
-            let [tilt, height] = at.map(length);
+            let tilt = angle(grid.x[k % grid.x.len()]);
+            let height = decimals.length(grid.y[k / grid.x.len()]);
             Some(vec![name.to_owned(), tilt, height, energy(sample.energy)])
         })
     });

@@ -14,7 +14,7 @@ use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::sheet::Sheet;
 use super::style::FIXED_FILL;
-use super::{energy, length};
+use super::{Decimals, energy};
 use crate::csv::table;
 use physics::configuration::Configuration;
 use physics::landscape::map::{EnergyMap, Window};
@@ -176,15 +176,14 @@ pub fn composed<'a>(
 }
 
 /// The numbers of the picture.
-pub fn data(maps: &Maps) -> String {
+pub fn data(maps: &Maps, decimals: Decimals) -> String {
     let head = ["panel", "x_m", "y_m", "theta_rad", "energy_J"];
     let panels = [("around", &maps.whole), ("target", &maps.target)];
     let rows = panels.into_iter().flat_map(|(name, map)| {
         let samples = map.lowest.values.iter().flatten();
         samples.map(move |sample| {
-            let [x, y, theta] = sample.configuration.to_array();
             let mut row = vec![name.to_owned()];
-            row.extend([x, y, theta].map(length));
+            row.extend(decimals.pose(sample.configuration.to_array()));
             row.push(energy(sample.energy));
             row
         })

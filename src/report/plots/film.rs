@@ -10,7 +10,7 @@ use super::marks::{View, extent};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Anchor, GRID, LABEL, SMALL, SOFT, minus};
-use super::{energy, length};
+use super::{Decimals, energy};
 use crate::csv::table;
 use physics::landscape::{Pathway, PathwayPoint};
 use physics::units::si;
@@ -54,11 +54,11 @@ impl Film {
     }
 
     /// The numbers of the picture.
-    pub fn data(&self) -> String {
+    pub fn data(&self, decimals: Decimals) -> String {
         let rows = self.frames.iter().enumerate().map(|(k, point)| {
             let mut row = vec![(k + 1).to_string()];
-            row.extend(point.configuration.to_array().map(length));
-            row.extend([energy(point.energy), length(point.clearance)]);
+            row.extend(decimals.pose(point.configuration.to_array()));
+            row.extend([energy(point.energy), decimals.length(point.clearance)]);
             row
         });
         let head = [

@@ -59,6 +59,7 @@ use super::csv::{number, rounded};
 use film::Film;
 use models::Curves;
 use physics::parallel;
+use physics::tile::Pair;
 use scale::EnergyScale;
 
 /// All pictures of an analysis; those without data are omitted.
@@ -108,21 +109,26 @@ pub fn draw(
     let film = Film::new(scene, &scale);
     let curves = Curves::new(scene);
     let linear = scale.linear_throughout();
+    let decimals = Decimals::of(scene.pair);
     let drawn = [
         Some((
             energy_map::composed(scene, &maps, sheet, &scale),
-            energy_map::data(&maps),
+            energy_map::data(&maps, decimals),
         )),
         Some((
             approach::composed(scene, &approach, &slices, &scale),
-            approach::data(&slices),
+            approach::data(&slices, decimals),
         )),
-        profiles::composed(scene, &scale).map(|profiles| (profiles, profiles::data(scene))),
+        profiles::composed(scene, &scale)
+            .map(|profiles| (profiles, profiles::data(scene, decimals))),
         film.as_ref()
-            .map(|film| (film::composed(scene, film, &scale), film.data())),
-        curves
-            .as_ref()
-            .map(|curves| (models::composed(scene, curves), models::data(curves))),
+            .map(|film| (film::composed(scene, film, &scale), film.data(decimals))),
+        curves.as_ref().map(|curves| {
+            (
+                models::composed(scene, curves),
+                models::data(curves, decimals),
+            )
+        }),
         disconnectivity::composed(scene, sheet, scale, "disconnectivity"),
         disconnectivity::composed(scene, sheet, linear, "disconnectivity-linear"),
     ];
@@ -134,8 +140,31 @@ pub fn draw(
     figures.into_iter().collect()
 }
 
-/// A length (m) or an angle (rad) in a table of numbers: to a micrometre.
-fn length(value: f64) -> String {
+/// Decimals of lengths (m) in tables of numbers: a micrometre for tiles of 5 to 50 cm, and in
+/// proportion for others.
+#[derive(Clone, Copy)]
+struct Decimals(i32);
+
+impl Decimals {
+    /// For two tiles.
+    fn of(pair: &Pair) -> Self {
+        Self(5 - libm::floor(libm::log10(pair.free_distance())) as i32)
+    }
+
+    /// A length (m).
+    fn length(self, value: f64) -> String {
+        let scale = 10f64.powi(self.0);
+        number((scale * value).round() / scale)
+    }
+
+    /// The two lengths (m) and the angle (rad) of a pose.
+    fn pose(self, [x, y, theta]: [f64; 3]) -> [String; 3] {
+        [self.length(x), self.length(y), angle(theta)]
+    }
+}
+
+/// An angle (rad) in a table of numbers.
+fn angle(value: f64) -> String {
     number((1e6 * value).round() / 1e6)
 }
 

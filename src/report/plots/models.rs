@@ -6,7 +6,7 @@ use super::chart::{Dimension, Look, Series, plotted};
 use super::composition::{Composition, Panel};
 use super::scene::Scene;
 use super::style::{Anchor, COLOURS, INK, LABEL, minus};
-use super::{energy, length};
+use super::{Decimals, energy};
 use crate::csv::table;
 use physics::landscape::StateKind;
 use physics::landscape::approach::Approach;
@@ -143,11 +143,12 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
 }
 
 /// The numbers of the picture.
-pub fn data(curves: &Curves) -> String {
+pub fn data(curves: &Curves, decimals: Decimals) -> String {
     let columns = curves.dipoles.iter().zip(&curves.blocks);
     let rows = curves.gaps.iter().zip(columns);
-    let rows =
-        rows.map(|(gap, (dipoles, blocks))| vec![length(*gap), energy(*dipoles), energy(*blocks)]);
+    let rows = rows.map(|(gap, (dipoles, blocks))| {
+        vec![decimals.length(*gap), energy(*dipoles), energy(*blocks)]
+    });
     table(["gap_m", "dipoles_J", "blocks_J"], rows)
 }
 

@@ -10,8 +10,8 @@ use super::key::{POLES, Sign, key, start};
 use super::marks::{View, extent};
 use super::picture::PictureError;
 use super::style::{GREEN, INK};
-use super::{Figure, Sheet};
-use crate::csv::table;
+use super::{Decimals, Figure, Sheet};
+use crate::csv::{rounded, table};
 use jobs::design::Design;
 use jobs::docking::Path;
 use physics::dynamics::docking::End;
@@ -65,6 +65,7 @@ pub fn trajectories(
         keys: vec![key(meanings.into_iter().chain(POLES))],
         ..Composition::default()
     };
+    let decimals = Decimals::of(&design.pair);
     let rows = trajectories
         .iter()
         .enumerate()
@@ -72,7 +73,8 @@ pub fn trajectories(
             snapshots.iter().map(move |snapshot| {
                 let q = snapshot.motion.configuration;
                 let mut row = vec![number.to_string(), ending(&run.end).to_owned()];
-                row.extend([snapshot.time, q.x, q.y, q.theta].map(super::length));
+                row.push(rounded(snapshot.time, 7));
+                row.extend(decimals.pose(q.to_array()));
                 row
             })
         });

@@ -13,7 +13,7 @@ use super::marks::{Mark, above, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Anchor, BLUE, GREEN, INK, LABEL, SMALL, SOFT, VERMILLION};
-use super::{energy, length};
+use super::{Decimals, energy};
 use crate::csv::{SEEN, table, thinned};
 use crate::names::place_name;
 use physics::landscape::{Barrier, Place, SaddleBounds};
@@ -53,7 +53,7 @@ pub fn composed<'a>(scene: &'a Scene, scale: &'a EnergyScale) -> Option<Composit
 }
 
 /// The numbers of the picture.
-pub fn data(scene: &Scene) -> String {
+pub fn data(scene: &Scene, decimals: Decimals) -> String {
     let barriers = scene.main_escapes().into_iter().take(MOST);
     let rows = barriers.flat_map(|barrier| {
         let ends = [barrier.from, barrier.to].map(place_name);
@@ -61,7 +61,7 @@ pub fn data(scene: &Scene) -> String {
             .into_iter()
             .map(move |point| {
                 let [from, to] = ends.clone();
-                vec![from, to, length(point.s), energy(point.energy)]
+                vec![from, to, decimals.length(point.s), energy(point.energy)]
             })
     });
     table(["from", "to", "s_m", "energy_J"], rows)

@@ -12,7 +12,7 @@ use super::marks::{ORIGIN, View, marker};
 use super::picture::PictureError;
 use super::scale::{EnergyScale, colour};
 use super::style::{FIXED_FILL, INK};
-use super::{Figure, Scene, Sheet, energy, length};
+use super::{Decimals, Figure, Scene, Sheet, energy};
 use crate::csv::table;
 use nalgebra::Vector2;
 use physics::order::Order;
@@ -86,10 +86,11 @@ pub fn draw(
         keys: vec![range.bar(&scale), key(STATES), remark(said)],
         ..Composition::default()
     };
+    let decimals = Decimals::of(scene.pair);
     let rows = edges.iter().map(|edge| {
-        let ends = ends(edge).into_iter().flat_map(|q| q.to_array());
-        let peak = energy(edge.costs.peak);
-        ends.map(length).chain([peak]).collect::<Vec<_>>()
+        let ends = ends(edge).into_iter();
+        let ends = ends.flat_map(|q| decimals.pose(q.to_array()));
+        ends.chain([energy(edge.costs.peak)]).collect::<Vec<_>>()
     });
     let head = [
         "from_x_m",

@@ -316,6 +316,37 @@ fn positions_and_poles_are_found_together_and_judged_over_all_poses() {
     assert!(text.contains("magnets = [{ at = "), "{text}");
 }
 
+/// Words of upright magnets that repel each other everywhere are not followed to infinity.
+#[test]
+fn faces_of_upright_magnets_that_only_repel_are_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("upright.toml");
+    let path = file.to_str().unwrap();
+    for magnet in [
+        "shape = \"disc\"\ndiameter = 0.010\nheight = 0.003",
+        "size = [0.003, 0.010, 0.010]",
+    ] {
+        let text = format!(
+            "words = [\"UUU\"]\n[magnet]\n{magnet}\naxis = \"up\"\n[potential]\nmodel = \
+             \"cuboid\"\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        let found = json(&["crosstalk", path, "--json"]);
+        let strongest = found["strongest_J"].as_array().unwrap();
+        let (alike, bond) = (&numbers(&strongest[0])[0], &numbers(&strongest[0])[1]);
+        assert!(*bond < -0.01, "{found}");
+        // It is least far apart, and less than a thousandth there.
+        assert!((0.0..-1e-3 * bond).contains(alike), "{found}");
+        let output = tilebind(&["crosstalk", path, "--certify"]);
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(
+            text.contains("upright") && text.contains("leave it out"),
+            "{text}"
+        );
+    }
+}
+
 #[test]
 fn outlines_match_longest_contact_first() {
     let found = json(&["match", "shapes/tab-20mm.toml", "--json"]);

@@ -1,7 +1,7 @@
 //! Magnets as shops describe them: `10 x 5 x 2 mm N42`, or discs: `10 x 3 mm N42`.
 
 use crate::design::quantity::{MAGNET_SIZE, PULL, REMANENCE, four_digits};
-use crate::design::units;
+use crate::design::{magnet, units};
 use physics::tile::grade::Grade;
 use physics::tile::magnet::Shape;
 use physics::tile::strength::Strength;
@@ -36,7 +36,7 @@ impl ShopMagnet {
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = |what: &str| format!("{what}; {HELP}");
         let plain = plain(text);
-        let parts: Vec<&str> = plain.splitn(3, 'x').map(str::trim).collect();
+        let parts: Vec<&str> = plain.splitn(3, BY).map(str::trim).collect();
         let (last, before) = parts.split_last().unwrap_or((&"", &[]));
         let (last, unit, rest) = last_length(last)
             .ok_or_else(|| wrong("the lengths have no unit, or an unknown one (use mm, cm, in)"))?;
@@ -61,7 +61,13 @@ impl ShopMagnet {
         let strength = match rest {
             "" => Strength::Remanence(1.2),
             rest => {
-                strength(rest).ok_or_else(|| wrong(&format!("`{rest}` is not a known grade")))?
+                let unknown = || {
+                    wrong(&format!(
+                        "`{rest}` is not a known grade: {}",
+                        magnet::known(rest)
+                    ))
+                };
+                strength(rest).ok_or_else(unknown)?
             }
         };
         Ok(Self {
@@ -98,22 +104,40 @@ impl ShopMagnet {
     }
 }
 
-/// Normalises the notation: `x` between lengths, `in` for inches, the grade after them, and no
+/// Between the lengths.
+const BY: char = '\u{d7}';
+
+/// Normalises the notation: one sign between lengths, `in` for inches, the grade after them, and no
 /// redundant words for the form.
 fn plain(text: &str) -> String {
     let text = text
-        .replace(['\u{d7}', 'X', '*'], "x")
         .replace(['"', '\u{2033}', '\u{201d}'], " in ")
         .replace([',', '\u{d8}', '\u{f8}', '\u{2300}'], " ");
+    let text = with_one_sign(&text);
     let is_shape = |word: &&str| ["disc", "disk", "block"].contains(&word.to_lowercase().as_str());
     let mut words: Vec<&str> = text.split_whitespace().filter(|w| !is_shape(w)).collect();
-    if words
-        .first()
-        .is_some_and(|word| Grade::named(word).is_some())
-    {
-        words.rotate_left(1);
+    // A grade has up to three words: samarium cobalt 28.
+    let leads = |count: &usize| Grade::named(&words[..*count].join(" ")).is_some();
+    if let Some(count) = (1..=words.len().min(3)).rev().find(leads) {
+        words.rotate_left(count);
     }
     words.join(" ")
+}
+
+/// The text with [`BY`] for the `x` or `*` between lengths, but not for that of `YX18`.
+fn with_one_sign(text: &str) -> String {
+    let sign = |(at, c): (usize, char)| {
+        let before = text[..at].trim_end().chars().last();
+        let after = text[at + c.len_utf8()..].trim_start().chars().next();
+        let between = after.is_some_and(|c| c.is_ascii_digit() || c == '.')
+            && !before.is_some_and(|c| c.eq_ignore_ascii_case(&'y'));
+        if ['x', 'X', '*'].contains(&c) && between {
+            BY
+        } else {
+            c
+        }
+    };
+    text.char_indices().map(sign).collect()
 }
 
 /// A length (m) at the beginning of a text, its unit and what is left.
@@ -148,6 +172,7 @@ mod tests {
     #[test]
     fn magnets_are_read_as_shops_write_them() {
         let n42 = Strength::Grade(Grade::named("N42").unwrap());
+        let yx18 = Strength::Grade(Grade::named("YX18").unwrap());
         let [block, disc] = [Shape::Block, Shape::Disc];
         for (text, size, shape, strength) in [
             ("10 x 5 x 2 mm N42", [0.002, 0.010, 0.005], block, n42),
@@ -178,6 +203,13 @@ mod tests {
             ),
             ("N42 10 x 5 x 2 mm block", [0.002, 0.010, 0.005], block, n42),
             ("\u{d8}10 x 3 mm N42", [0.003, 0.010, 0.010], disc, n42),
+            ("10x3mm YX18", [0.003, 0.010, 0.010], disc, yx18),
+            (
+                "samarium cobalt YX18 10 X 3 mm",
+                [0.003, 0.010, 0.010],
+                disc,
+                yx18,
+            ),
             (
                 "Disc N42, 1/2\" x 1/8\"",
                 [0.003175, 0.0127, 0.0127],

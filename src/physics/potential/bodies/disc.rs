@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::complex::{C, LEAST, sqrt};
+use super::complex::{Complexes, LEAST, Z};
 use super::elliptic::Complete;
+use crate::potential::batch::lanes::Lanes;
 
 /// The integral V of `1 / r` (m) over a disc of a radius R (m), at the distance s from its axis and the
 /// height h over it (m); its derivatives by both.
@@ -23,19 +24,34 @@ use super::elliptic::Complete;
 ///
 /// At complex places, `x + i v` with x and v real, V is continued from x; see [`super::line`] for the
 /// v to which that is possible.
-pub fn potential(radius: f64, s: C, h: C) -> (C, [C; 2]) {
-    let [inwards, under] = [s, h].map(|z| if z.re < 0.0 { -1.0 } else { 1.0 });
-    let (s, h) = (s * inwards, h * under);
-    let h = C::new(h.re.max(LEAST), h.im);
-    let [near, far] = [s - radius, s + radius].map(|d| sqrt(d * d + h * h));
-    let (kc, q) = (near / far, -(s - radius) / (s + radius));
+#[inline(always)]
+pub fn potential<L: Lanes>(l: L, radius: f64, s: Z<L::F>, h: Z<L::F>) -> (Z<L::F>, [Z<L::F>; 2]) {
+    let [inwards, under] = [l.sign(s.re), l.sign(h.re)];
+    let (s, h) = (l.z_times(s, inwards), l.z_times(h, under));
+    let h = Z {
+        re: l.max(h.re, l.splat(LEAST)),
+        im: h.im,
+    };
+    let rim = l.z_splat(radius, 0.0);
+    let (within, beyond) = (l.z_sub(s, rim), l.z_add(s, rim));
+    let square = l.z_mul(h, h);
+    let near = l.z_sqrt(l.z_mul_add(within, within, square));
+    let far = l.z_inverse(l.z_sqrt(l.z_mul_add(beyond, beyond, square)));
+    let kc = l.z_mul(near, far);
+    let q = l.z_times(l.z_div(within, beyond), l.splat(-1.0));
     // There are two continuations of `q P`, one infinite at q = kc, one at q = -kc; they differ by
     // the jump of the solid angle.
-    let over = (q + kc).norm_sqr() > (q - kc).norm_sqr();
-    let (sign, jump) = if over { (1.0, 2.0 * PI) } else { (-1.0, 0.0) };
-    let all = Complete::new(kc, q * sign);
-    let outwards = -all.tilted / far * (4.0 * radius);
-    let upwards = h / far * (all.first + q * all.third) * 2.0 - jump;
-    let value = all.first / far * (4.0 * radius * radius) + s * outwards + h * upwards;
-    (value, [outwards * inwards, upwards * under])
+    let over = l.sub(l.z_norm(l.z_add(q, kc)), l.z_norm(l.z_sub(q, kc)));
+    let jump = l.select(over, l.splat(2.0 * PI), l.splat(0.0));
+    let all = Complete::new(l, kc, l.z_times(q, l.sign(over)));
+    let outwards = l.z_times(l.z_mul(all.tilted, far), l.splat(-4.0 * radius));
+    let angle = l.z_mul(l.z_mul(h, far), l.z_mul_add(q, all.third, all.first));
+    let upwards = Z {
+        re: l.sub(l.mul(angle.re, l.splat(2.0)), jump),
+        im: l.mul(angle.im, l.splat(2.0)),
+    };
+    let value = l.z_times(l.z_mul(all.first, far), l.splat(4.0 * radius * radius));
+    let value = l.z_mul_add(s, outwards, l.z_mul_add(h, upwards, value));
+    let slopes = [l.z_times(outwards, inwards), l.z_times(upwards, under)];
+    (value, slopes)
 }

@@ -2,23 +2,27 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::complex::{C, sqrt};
+use super::complex::{Complexes, Z};
+use crate::potential::batch::lanes::Lanes;
 
 /// Three integrals over phi from 0 to pi/2, with `D = sqrt(cos^2 phi + kc^2 sin^2 phi)`.
 #[derive(Clone, Copy, Debug)]
-pub struct Complete {
+pub struct Complete<F> {
     /// The integral of `1 / D`: the first kind, K.
-    pub first: C,
+    pub first: Z<F>,
     /// The integral of `(sin^2 phi - cos^2 phi) / D`.
-    pub tilted: C,
+    pub tilted: Z<F>,
     /// The integral of `1 / ((cos^2 phi + q^2 sin^2 phi) D)`: the third kind.
-    pub third: C,
+    pub third: Z<F>,
 }
 
-/// The smallest complementary modulus, which replaces smaller ones: at 0, K is infinite.
-const LEAST: f64 = 1e-150;
+/// The smallest complementary modulus and the smallest q, which replace smaller ones: at 0, K and the
+/// third kind are infinite.
+const LEAST: [f64; 2] = [1e-150, 1e-60];
+/// More steps of the algorithm than any modulus takes.
+const MOST_STEPS: usize = 40;
 
-impl Complete {
+impl<F: Copy> Complete<F> {
     /// By the complementary modulus `kc` and by `q`, continued from where both are positive to all
     /// `kc` but the negative real axis, and to all `q` but where `q = -kc`.
     ///
@@ -26,42 +30,55 @@ impl Complete {
     /// agree to all digits after five or six steps. Each geometric mean is that root which is closer
     /// to the arithmetic one (Cox, *The arithmetic-geometric mean of Gauss*, Enseign. Math. 30 (1984)
     /// 275), and q enters as itself, not as its square, so that no branch is left.
-    pub fn new(kc: C, q: C) -> Self {
-        let one = C::new(1.0, 0.0);
-        let mut k = if kc.norm_sqr() < LEAST * LEAST {
-            C::new(LEAST, 0.0)
-        } else {
-            kc
-        };
+    #[inline(always)]
+    pub fn new<L: Lanes<F = F>>(l: L, kc: Z<F>, q: Z<F>) -> Self {
+        let one = l.z_splat(1.0, 0.0);
+        let (mut k, q) = (at_least(l, kc, LEAST[0]), at_least(l, q, LEAST[1]));
         let (mut e, mut m) = (k, one);
-        let mut all = [[one, one, one], [-one, one, one], [one, one / q, q]];
-        loop {
-            for [a, b, p] in &mut all {
-                let (inverse, before) = (one / *p, *a);
-                *a += *b * inverse;
-                let g = e * inverse;
-                *b = (before * g + *b) * 2.0;
-                *p += g;
+        // Numerators a and b, and the p that the first two have in common and that of the third.
+        let mut a = [one, l.z_splat(-1.0, 0.0), one];
+        let mut b = [one, one, l.z_inverse(q)];
+        let mut p = [one, q];
+        let two = l.splat(2.0);
+        for _ in 0..MOST_STEPS {
+            let inverse = [l.z_inverse(p[0]), l.z_inverse(p[1])];
+            let g = [l.z_mul(e, inverse[0]), l.z_mul(e, inverse[1])];
+            for i in 0..3 {
+                let (inverse, g, before) = (inverse[i / 2], g[i / 2], a[i]);
+                a[i] = l.z_mul_add(b[i], inverse, before);
+                b[i] = l.z_times(l.z_mul_add(before, g, b[i]), two);
             }
-            let before = m;
-            m += k;
-            if (before - k).norm_sqr() <= 1e-16 * before.norm_sqr() {
+            p = [l.z_add(p[0], g[0]), l.z_add(p[1], g[1])];
+            let apart = l.z_norm(l.z_sub(m, k));
+            let allowed = l.mul(l.z_norm(m), l.splat(1e-16));
+            m = l.z_add(m, k);
+            if l.least(l.sub(allowed, apart)) >= 0.0 {
                 break;
             }
-            let root = sqrt(e);
-            let closer = if (root * m.conj()).re < 0.0 {
-                -root
-            } else {
-                root
-            };
-            k = closer * 2.0;
-            e = k * m;
+            let root = l.z_times(l.z_sqrt(e), two);
+            let closer = l.mul_add(root.im, m.im, l.mul(root.re, m.re));
+            k = l.z_times(root, l.sign(closer));
+            e = l.z_mul(k, m);
         }
-        let [first, tilted, third] = all.map(|[a, b, p]| (a * m + b) / (m * (m + p)) * FRAC_PI_2);
         Self {
-            first,
-            tilted,
-            third,
+            first: integral(l, m, [a[0], b[0], p[0]]),
+            tilted: integral(l, m, [a[1], b[1], p[0]]),
+            third: integral(l, m, [a[2], b[2], p[1]]),
         }
     }
+}
+
+/// The integral whose numerators are a and b at the end, when both means are m.
+#[inline(always)]
+fn integral<L: Lanes>(l: L, m: Z<L::F>, [a, b, p]: [Z<L::F>; 3]) -> Z<L::F> {
+    let under = l.z_mul(m, l.z_add(m, p));
+    let ratio = l.z_div(l.z_mul_add(a, m, b), under);
+    l.z_times(ratio, l.splat(FRAC_PI_2))
+}
+
+/// A number, or the least one where it is smaller in magnitude.
+#[inline(always)]
+fn at_least<L: Lanes>(l: L, a: Z<L::F>, least: f64) -> Z<L::F> {
+    let enough = l.sub(l.z_norm(a), l.splat(least * least));
+    l.z_select(enough, a, l.z_splat(least, 0.0))
 }

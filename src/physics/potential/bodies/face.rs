@@ -2,7 +2,10 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::complex::{C, sqrt};
+use super::complex::{Complexes, Z};
+use super::{disc, rectangle};
+use crate::potential::batch::lanes::Lanes;
+use arrayvec::ArrayVec;
 
 /// A uniformly charged face.
 #[derive(Clone, Copy, Debug)]
@@ -59,32 +62,39 @@ impl Face {
         }
     }
 
-    /// The integral of `1 / r` over the face (m) at a place relative to its centre (m), and its
+    /// The integral of `1 / r` over the face (m) at places relative to its centre (m), and its
     /// gradient.
-    pub fn potential(&self, place: [C; 3]) -> (C, [C; 3]) {
-        let local = self
-            .frame
-            .map(|side| place[0] * side.x + place[1] * side.y + place[2] * side.z);
+    #[inline(always)]
+    pub fn potential<L: Lanes>(&self, l: L, place: [Z<L::F>; 3]) -> (Z<L::F>, [Z<L::F>; 3]) {
+        let [a, b, c] = self.frame;
+        let local = [along(l, a, place), along(l, b, place), along(l, c, place)];
         let (value, slopes) = match self.shape {
-            Shape::Rectangle(halves) => super::rectangle::potential(halves, local),
+            Shape::Rectangle(halves) => rectangle::potential(l, halves, local),
             Shape::Disc(radius) => {
                 let [x, y, h] = local;
-                let s = sqrt(x * x + y * y);
-                let (value, [outwards, upwards]) = super::disc::potential(radius, s, h);
-                let share = if s == C::default() { s } else { outwards / s };
-                (value, [x * share, y * share, upwards])
+                let s = l.z_sqrt(l.z_mul_add(x, x, l.z_mul(y, y)));
+                let (value, [outwards, upwards]) = disc::potential(l, radius, s, h);
+                // On the axis, where x and y are 0, the share does not matter.
+                let off = l.sub(l.z_norm(s), l.splat(f64::MIN_POSITIVE));
+                let share = l.z_div(outwards, l.z_select(off, s, l.z_splat(1.0, 0.0)));
+                (value, [l.z_mul(x, share), l.z_mul(y, share), upwards])
             }
         };
-        let [a, b, c] = self.frame;
+        // Its three columns.
+        let [x, y, z] = [0, 1, 2].map(|k| Vector3::new(a[k], b[k], c[k]));
         (
             value,
-            [0, 1, 2].map(|k| slopes[0] * a[k] + slopes[1] * b[k] + slopes[2] * c[k]),
+            [
+                along(l, x, slopes),
+                along(l, y, slopes),
+                along(l, z, slopes),
+            ],
         )
     }
 
     /// The points of its rim where its potential along an upright or flat line through `from`, at
     /// imaginary heights, is singular.
-    pub fn corners(&self, from: Vector3<f64>) -> Vec<Vector3<f64>> {
+    pub fn corners(&self, from: Vector3<f64>) -> ArrayVec<Vector3<f64>, 12> {
         let [a, b, normal] = self.frame;
         let way = from - self.centre;
         match self.shape {
@@ -99,12 +109,11 @@ impl Face {
                 };
                 let along = if along.norm_squared() < 0.5 { a } else { along };
 
-                [-1.0, 1.0]
-                    .map(|side| self.centre + along * (side * radius))
-                    .to_vec()
+                let points = [-1.0, 1.0].map(|side| self.centre + along * (side * radius));
+                points.into_iter().collect()
             }
             Shape::Rectangle([half, width]) => {
-                let mut points = Vec::new();
+                let mut points = ArrayVec::new();
                 for (sides, halves) in [([a, b], [half, width]), ([b, a], [width, half])] {
                     let foot = way.dot(&sides[0]).clamp(-halves[0], halves[0]);
                     for side in [-1.0, 1.0] {
@@ -118,4 +127,12 @@ impl Face {
             }
         }
     }
+}
+
+/// The product of a real and a complex vector.
+#[inline(always)]
+fn along<L: Lanes>(l: L, side: Vector3<f64>, place: [Z<L::F>; 3]) -> Z<L::F> {
+    let [x, y, z] = place;
+    let sum = l.z_add(l.z_times(x, l.splat(side.x)), l.z_times(y, l.splat(side.y)));
+    l.z_add(sum, l.z_times(z, l.splat(side.z)))
 }

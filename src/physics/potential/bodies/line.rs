@@ -26,39 +26,97 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Vector2;
+use arrayvec::ArrayVec;
+use nalgebra::{Complex, Vector2, Vector3};
 
-use super::complex::C;
+use super::complex::{Complexes, Z};
 use super::face::{Face, Integral};
 use super::panels::panels;
+use crate::potential::batch::Level;
+use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 
 /// Approximate relative error of the integral.
-const LOST: f64 = 1e-15;
+const LOST: f64 = 1e-13;
 /// The smallest and the largest number of equal steps; above the latter, panels take fewer nodes.
 const STEPS: [f64; 2] = [4.0, 36.0];
+
 /// The integral of a disc and another face, with the derivatives of the disc's motion or the other's.
 pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Integral {
-    let normal = disc.frame[2];
-    let from = disc.centre - other.centre;
-    let mut sum = Integral::default();
-    for (phi, weight) in angles(disc, radius, other) {
-        let (sin, cos) = libm::sincos(phi);
-        let (t, weight) = (radius * cos, 2.0 * weight * (radius * sin).powi(2));
-        let place = [0, 1, 2].map(|k| C::new(from[k], t * normal[k]));
-        let (value, gradient) = other.potential(place);
-        sum.value += weight * value.re;
-        let sign = if disc_moves { weight } else { -weight };
-        sum.gradient += Vector2::new(gradient[0].re, gradient[1].re) * sign;
-        // A turn of the other face is the opposite turn of the place about it; a turn of the disc
-        // turns its axis.
-        let turned = if disc_moves {
-            C::i() * t * (gradient[1] * normal.x - gradient[0] * normal.y)
-        } else {
-            gradient[0] * place[1] - gradient[1] * place[0]
-        };
-        sum.slope += weight * turned.re;
+    Level::best().run(Line {
+        axis: disc.frame[2],
+        from: disc.centre - other.centre,
+        radius,
+        other,
+        disc_moves,
+        angles: &angles(disc, radius, other),
+    })
+}
+
+/// A disc's axis and the other face.
+struct Line<'a> {
+    axis: Vector3<f64>,
+    /// The disc's centre from the other one's (m).
+    from: Vector3<f64>,
+    radius: f64,
+    other: &'a Face,
+    disc_moves: bool,
+    angles: &'a [(f64, f64)],
+}
+
+impl Task for Line<'_> {
+    type Output = Integral;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Integral {
+        let (from, axis) = (self.from, self.axis);
+        let zero = l.splat(0.0);
+        let [mut value, mut x, mut y, mut slope] = [zero; 4];
+        for angles in self.angles.chunks(WIDTH) {
+            // What is left over has no weight.
+            let (mut phi, mut weight) = ([1.0; WIDTH], [0.0; WIDTH]);
+            for (k, angle) in angles.iter().enumerate() {
+                (phi[k], weight[k]) = *angle;
+            }
+            let (sin, cos) = l.sin_cos(l.load(&phi));
+            let t = l.mul(cos, l.splat(self.radius));
+            let half = l.mul(sin, l.splat(self.radius));
+            let weight = l.mul(l.mul(half, half), l.mul(l.load(&weight), l.splat(2.0)));
+            let place = [
+                Z {
+                    re: l.splat(from.x),
+                    im: l.mul(t, l.splat(axis.x)),
+                },
+                Z {
+                    re: l.splat(from.y),
+                    im: l.mul(t, l.splat(axis.y)),
+                },
+                Z {
+                    re: l.splat(from.z),
+                    im: l.mul(t, l.splat(axis.z)),
+                },
+            ];
+            let (v, [gx, gy, _]) = self.other.potential(l, place);
+            value = l.mul_add(weight, v.re, value);
+            x = l.mul_add(weight, gx.re, x);
+            y = l.mul_add(weight, gy.re, y);
+            // A turn of the other face is the opposite turn of the place about it; a turn of the
+            // disc turns its axis: the real part of `i t n x grad`.
+            let turned = if self.disc_moves {
+                let across = l.neg_mul_add(l.splat(axis.x), gy.im, l.mul(l.splat(axis.y), gx.im));
+                l.mul(t, across)
+            } else {
+                let turned = l.z_sub(l.z_mul(gx, place[1]), l.z_mul(gy, place[0]));
+                turned.re
+            };
+            slope = l.mul_add(weight, turned, slope);
+        }
+        let sign = if self.disc_moves { 1.0 } else { -1.0 };
+        Integral {
+            value: l.sum(value),
+            gradient: Vector2::new(l.sum(x), l.sum(y)) * sign,
+            slope: l.sum(slope),
+        }
     }
-    sum
 }
 
 /// Angles phi (rad) in [0, pi / 2] and their weights: the value at `pi - phi` is the complex
@@ -66,13 +124,13 @@ pub fn integral(disc: &Face, radius: f64, other: &Face, disc_moves: bool) -> Int
 fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
     let normal = disc.frame[2];
     let corners = other.corners(disc.centre);
-    let singular: Vec<C> = corners
+    let singular: ArrayVec<Complex<f64>, 12> = corners
         .iter()
         .map(|point| {
             let way = point - disc.centre;
             let height = way.dot(&normal);
             let aside = (way - normal * height).norm();
-            arccosine(C::new(aside, height.abs()) / radius)
+            arccosine(Complex::new(aside, height.abs()) / radius)
         })
         .collect();
     // ln rho is the imaginary part of the angle of the singular place.
@@ -99,9 +157,9 @@ fn angles(disc: &Face, radius: f64, other: &Face) -> Vec<(f64, f64)> {
 
 /// The angle whose cosine a place in the first quadrant is, with its imaginary part positive:
 /// `cos(a + i b) = cos a cosh b - i sin a sinh b`.
-fn arccosine(z: C) -> C {
+fn arccosine(z: Complex<f64>) -> Complex<f64> {
     let [near, far] = [z - 1.0, z + 1.0].map(|d| d.norm_sqr().sqrt());
     let cosh = ((near + far) / 2.0).max(1.0);
     let sinh = ((cosh - 1.0) * (cosh + 1.0)).sqrt();
-    C::new(libm::acos((z.re / cosh).min(1.0)), libm::log(cosh + sinh))
+    Complex::new(libm::acos((z.re / cosh).min(1.0)), libm::log(cosh + sinh))
 }

@@ -36,10 +36,11 @@ mod near;
 mod panels;
 mod rectangle;
 mod series;
+mod sum;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{Complex, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 use super::lever::Lever;
 use super::{MagnetModel, Potential, finite, motion};
@@ -48,9 +49,8 @@ use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Shape};
 use crate::units::MU0_OVER_4PI;
 use limits::Limits;
-use series::{Coefficients, Series};
-
-pub use near::exact;
+use series::Series;
+use sum::Members;
 
 /// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
 /// which its terms are dropped one by one.
@@ -130,13 +130,12 @@ pub struct BodyPotential {
     feature: f64,
 }
 
-/// Magnets that differ only in place and moment.
+/// Magnets that differ only in place and moment, and by half a turn.
 #[derive(Clone, Debug)]
 struct Group {
     /// With the moment 1 A m^2, at the origin.
     like: Body,
-    /// Places (m) and moments (A m^2).
-    members: Vec<(Vector2<f64>, f64)>,
+    members: Members,
 }
 
 /// Data shared by the pairs of two groups.
@@ -149,27 +148,33 @@ struct Pairs {
     limits: Option<Limits>,
 }
 
-/// The sum over pairs (J), its gradient by the second tile's place (J/m) and turn (J/rad).
-type Sum = (f64, Vector3<f64>);
+/// Directions that differ by less than this (rad) count as equal.
+const SAME_DIRECTION: f64 = 1e-12;
 
+/// Magnets by size and axis, up to its sign: each looks the same after half a turn, but for the pole
+/// of one that lies.
 fn groups(magnets: &[Magnet]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for body in magnets.iter().map(Body::from) {
-        let is_like = |group: &&mut Group| {
-            group.like.is_like(&body) && group.like.direction == body.direction
+        let is_upright_disc = body.stands && body.shape == Shape::Disc;
+        let is_like = |group: &Group| {
+            let aside = group.like.direction.perp(&body.direction).abs();
+            group.like.is_like(&body) && (is_upright_disc || aside < SAME_DIRECTION)
         };
-        let member = (body.position, body.moment);
-        match groups.iter_mut().find(is_like) {
-            Some(group) => group.members.push(member),
-            None => groups.push(Group {
-                like: Body {
-                    position: Vector2::zeros(),
-                    moment: 1.0,
-                    ..body
-                },
-                members: vec![member],
-            }),
+        let number = groups.iter().position(is_like).unwrap_or(groups.len());
+        if number == groups.len() {
+            let like = Body {
+                position: Vector2::zeros(),
+                moment: 1.0,
+                ..body
+            };
+            let members = Members::default();
+            groups.push(Group { like, members });
         }
+        let group = &mut groups[number];
+        let turned = !body.stands && group.like.direction.dot(&body.direction) < 0.0;
+        let moment = if turned { -body.moment } else { body.moment };
+        group.members.push(body.position, moment);
     }
     groups
 }
@@ -194,12 +199,6 @@ impl Pairs {
             squares,
             limits,
         })
-    }
-
-    /// How many terms suffice at a squared distance (m^2); `None` if the faces are summed.
-    fn terms(&self, square: f64) -> Option<usize> {
-        let enough = self.squares.iter().position(|from| square >= *from);
-        enough.map(|k| k + 1)
     }
 }
 
@@ -238,42 +237,21 @@ impl BodyPotential {
         }
     }
 
-    fn sum<const SLOPE: bool>(&self, q: &Configuration) -> Sum {
-        let (sin, cos) = libm::sincos(q.theta);
-        let mut sum = Sum::default();
+    /// The distance (m) from which on the series is used for all pairs; 0 for dipoles.
+    #[cfg(test)]
+    fn reach(&self) -> f64 {
+        let pairs = self.pairs.iter().flatten().flatten();
+        let last = pairs.filter_map(|pairs| pairs.squares.last());
+        last.fold(0.0, |most: f64, square| most.max(square.sqrt()))
+    }
+
+    /// The sum over pairs (J), its gradient by the second tile's place (J/m) and turn (J/rad).
+    fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
+        let mut sum = (0.0, Vector3::zeros());
         self.for_each(q, |first, second, turned, pairs| {
-            let axis = first.like.direction;
-            let (a, b) = (axis, turned.direction);
-            let beta = Complex::new(a.dot(&b), a.perp(&b));
-            let mut known = Coefficients::default();
-            for (place, m2) in &second.members {
-                let arm =
-                    Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
-                for (from, m1) in &first.members {
-                    let way = arm + q.position() - from;
-                    let found = match pairs.terms(way.norm_squared()) {
-                        Some(terms) => {
-                            pairs.series.complete::<SLOPE>(&mut known, beta, terms);
-                            known.sum::<SLOPE>(terms, way, axis)
-                        }
-                        None => exact(
-                            &first.like,
-                            &Body {
-                                position: way,
-                                ..*turned
-                            },
-                        ),
-                    };
-                    let moments = m1 * m2;
-                    let gradient = found.gradient * moments;
-                    sum.0 += moments * found.energy;
-                    sum.1 += Vector3::new(
-                        gradient.x,
-                        gradient.y,
-                        moments * found.slope + arm.perp(&gradient),
-                    );
-                }
-            }
+            let of = sum::of::<SLOPE>([first, second], turned, pairs, q);
+            sum.0 += of.0;
+            sum.1 += of.1;
         });
         finite(sum.0, sum.1)
     }
@@ -293,10 +271,10 @@ impl BodyPotential {
                 Some(_) => first.like.radius() + second.like.radius(),
                 None => 0.0,
             };
-            for (place, m2) in &second.members {
+            for (place, m2) in second.members.iter() {
                 let arm =
                     Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
-                for (from, m1) in &first.members {
+                for (from, m1) in first.members.iter() {
                     let distance = (arm + q.position() - from).norm();
                     sum += bound(
                         radii,

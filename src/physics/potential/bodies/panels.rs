@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::complex::C;
+use nalgebra::Complex;
+
 use crate::potential::cuboid::quadrature::gauss_legendre;
 
 /// Nodes of a panel.
@@ -18,12 +19,13 @@ static RULE: LazyLock<[[f64; NODES]; 2]> = LazyLock::new(gauss_legendre::<NODES>
 /// halved below `shortest`: singularities are weak, and the remaining part is small.
 pub fn panels(
     [low, high]: [f64; 2],
-    singular: &[C],
+    singular: &[Complex<f64>],
     shortest: f64,
     each: &mut impl FnMut(f64, f64),
 ) {
     let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
-    let distance = |place: &C| libm::hypot(((place.re - middle).abs() - half).max(0.0), place.im);
+    let distance =
+        |place: &Complex<f64>| libm::hypot(((place.re - middle).abs() - half).max(0.0), place.im);
     let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
     if half > shortest && 2.0 * half > LONGEST * nearest {
         // Split at the singular place if it is well inside, otherwise in the middle.

@@ -19,44 +19,55 @@
 //! with beta the angle between the magnets' directions, phi the angle from the first one's
 //! direction to the line from the first to the second, and `C_kn = sum T e^(i turn beta)`.
 
-use nalgebra::{Complex, Vector2};
+use nalgebra::Complex;
 
 use super::Body;
-use crate::potential::cuboid::block::PairEnergy;
+use super::complex::{Complexes, Z};
+use crate::potential::batch::lanes::Lanes;
 use crate::potential::cuboid::multipole::{
     Form, along, composed, powers, product, rising_half, squares,
 };
 use crate::tile::magnet::Shape;
-use crate::units::MU0_OVER_4PI;
 
 /// Terms that are summed, the dipole included.
-pub const TERMS: usize = 8;
+pub const TERMS: usize = 12;
 /// Terms that enter the bound of the error.
-const BOUND_TERMS: usize = 16;
+const BOUND_TERMS: usize = 22;
 
 type C = Complex<f64>;
-
-/// A part of C_kn.
-#[derive(Clone, Copy, Debug)]
-struct Part {
-    n: usize,
-    turn: i32,
-    value: f64,
-}
 
 /// The part of the series that does not depend on places, angles and moments.
 #[derive(Clone, Debug)]
 pub struct Series {
-    terms: Vec<Vec<Part>>,
+    /// The T of each term k: by turns, in steps of 2 from `-last` to `last`, and by n.
+    terms: Vec<(usize, Vec<f64>)>,
     /// Bounds of the terms (m^(2k)).
     magnitudes: Vec<f64>,
 }
 
-/// The coefficients C_kn at one angle beta, computed on demand.
-#[derive(Default)]
+/// The index of C_k0 among the coefficients of all terms.
+const fn index(k: usize) -> usize {
+    k * (k + 3) / 2
+}
+
+/// The coefficients C_kn at one angle beta, and their derivatives by it, of the terms so far.
 pub struct Coefficients {
-    /// The coefficients of term k, and their derivatives by beta.
-    terms: Vec<Vec<[C; 2]>>,
+    count: usize,
+    re: [f64; index(TERMS)],
+    im: [f64; index(TERMS)],
+    turn_re: [f64; index(TERMS)],
+    turn_im: [f64; index(TERMS)],
+}
+
+impl Coefficients {
+    /// None yet.
+    pub const NONE: Self = Self {
+        count: 0,
+        re: [0.0; index(TERMS)],
+        im: [0.0; index(TERMS)],
+        turn_re: [0.0; index(TERMS)],
+        turn_im: [0.0; index(TERMS)],
+    };
 }
 
 /// The terms of degree 0, 2, 4 .. of S, in the magnet's own directions.
@@ -86,7 +97,7 @@ impl Series {
             false => [first, second].map(|body| times(average(body), &[1.0, 1.0])),
         };
         let terms: Vec<_> = (0..BOUND_TERMS).map(|k| term(&a, &b, k)).collect();
-        let magnitude = |parts: &Vec<Part>| parts.iter().map(|part| part.value.abs()).sum();
+        let magnitude = |(_, all): &(usize, Vec<f64>)| all.iter().map(|value| value.abs()).sum();
         Self {
             magnitudes: terms.iter().map(magnitude).collect(),
             terms: terms.into_iter().take(TERMS).collect(),
@@ -118,24 +129,35 @@ impl Series {
 
     /// Computes the missing coefficients of the first `terms` terms for `beta` = e^(i beta).
     pub fn complete<const SLOPE: bool>(&self, known: &mut Coefficients, beta: C, terms: usize) {
-        for parts in &self.terms[known.terms.len().min(terms)..terms] {
-            let k = known.terms.len();
-            let mut of = vec![[C::default(); 2]; k + 2];
-            for part in parts {
-                let phase = beta.powi(part.turn) * part.value;
-                of[part.n][0] += phase;
-                if SLOPE {
-                    of[part.n][1] += phase * C::new(0.0, f64::from(part.turn));
+        for k in known.count..terms {
+            let (last, values) = &self.terms[k];
+            let range = index(k)..index(k + 1);
+            let (re, im) = (&mut known.re[range.clone()], &mut known.im[range.clone()]);
+            let (turn_re, turn_im) = (&mut known.turn_re[range.clone()], &mut known.turn_im[range]);
+            let mut phase = beta.conj().powu(*last as u32);
+            for (i, row) in values.chunks(k + 2).enumerate() {
+                for (n, value) in row.iter().enumerate() {
+                    re[n] += value * phase.re;
+                    im[n] += value * phase.im;
                 }
+                if SLOPE {
+                    let turn = 2.0 * i as f64 - *last as f64;
+                    for (n, value) in row.iter().enumerate() {
+                        turn_re[n] -= value * turn * phase.im;
+                        turn_im[n] += value * turn * phase.re;
+                    }
+                }
+                phase *= beta * beta;
             }
-            known.terms.push(of);
         }
+        known.count = known.count.max(terms);
     }
 }
 
-/// Term k, combined with its complex conjugate.
-fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Part> {
-    let mut parts: Vec<Part> = Vec::new();
+/// Term k, combined with its complex conjugate: the largest turn, and T by turn and n.
+fn term(first: &[Form], second: &[Form], k: usize) -> (usize, Vec<f64>) {
+    let last = second[k].len() - 1;
+    let mut values = vec![0.0; (last + 1) * (k + 2)];
     for j in 0..=k {
         let (a, b) = (&first[j], &second[k - j]);
         for (m1, x) in a.iter().enumerate() {
@@ -145,59 +167,73 @@ fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Part> {
                     continue;
                 }
                 let fold = if p == q { 1.0 } else { 2.0 };
-                let value = fold * x * y * rising_half(p) * rising_half(q);
-                let (n, turn) = ((p - q) / 2, 2 * m2 as i32 + 1 - b.len() as i32);
-                let same = |part: &&mut Part| (part.n, part.turn) == (n, turn);
-                match parts.iter_mut().find(same) {
-                    Some(part) => part.value += value,
-                    None => parts.push(Part { n, turn, value }),
-                }
+                // The turn is `2 m2 + 1 - b.len()`.
+                let (n, turn) = ((p - q) / 2, (last + 2 * m2 + 1 - b.len()) / 2);
+                values[turn * (k + 2) + n] += fold * x * y * rising_half(p) * rising_half(q);
             }
         }
     }
-    parts
+    (last, values)
+}
+
+/// The sums over pairs of moments of 1 A m^2, of the energy, of its derivatives along and across the way
+/// from the first to the second magnet times its length, and by the second one's turn.
+pub struct Sums<F> {
+    pub energy: F,
+    pub radial: F,
+    pub angular: F,
+    pub turn: F,
 }
 
 impl Coefficients {
-    /// The sum of the first `terms` terms for two magnets of moments 1 A m^2, the second one `way`
-    /// (m) from the first one, whose direction is `axis`. Derivatives are zero unless requested.
-    pub fn sum<const SLOPE: bool>(
+    /// The first `terms` terms for the second magnet `way` (m) from the first one, along and across
+    /// the first one's direction, without the factor `-mu0 / (4 pi)`. `square` is the squared length
+    /// of the way. Derivatives are zero unless requested.
+    #[inline(always)]
+    pub fn sum<L: Lanes, const SLOPE: bool>(
         &self,
+        l: L,
         terms: usize,
-        way: Vector2<f64>,
-        axis: Vector2<f64>,
-    ) -> PairEnergy {
-        let square = way.norm_squared();
-        let d = C::new(axis.dot(&way), axis.perp(&way));
-        let inverse = 1.0 / square;
+        way: Z<L::F>,
+        square: L::F,
+    ) -> Sums<L::F> {
+        let zero = l.splat(0.0);
+        let inverse = l.div(l.splat(1.0), square);
         // e^(-2 i phi).
-        let v = d.conj() * d.conj() * inverse;
-        let (mut energy, mut radial, mut angular, mut turning) = (0.0, 0.0, 0.0, 0.0);
-        let mut scale = -MU0_OVER_4PI * inverse * inverse.sqrt();
-        for (k, of) in self.terms[..terms].iter().enumerate() {
-            let (mut value, mut slope, mut turn) = (0.0, 0.0, 0.0);
-            let mut power = C::new(1.0, 0.0);
-            for (n, [c, by_turn]) in of.iter().enumerate() {
-                let part = c * power;
-                value += part.re;
+        let back = Z {
+            re: way.re,
+            im: l.sub(zero, way.im),
+        };
+        let v = l.z_times(l.z_mul(back, back), inverse);
+        let mut scale = l.mul(inverse, l.sqrt(inverse));
+        let mut sums = Sums {
+            energy: zero,
+            radial: zero,
+            angular: zero,
+            turn: zero,
+        };
+        for k in 0..terms {
+            let from = index(k);
+            let mut value = l.z_splat(0.0, 0.0);
+            let (mut slope, mut turn) = (value, value);
+            for n in (from..index(k + 1)).rev() {
                 if SLOPE {
-                    // The derivative of e^(-2 i n phi) by phi.
-                    slope += 2.0 * n as f64 * part.im;
-                    turn += (by_turn * power).re;
+                    slope = l.z_mul_add(slope, v, value);
+                    turn = l.z_mul_add(turn, v, l.z_splat(self.turn_re[n], self.turn_im[n]));
                 }
-                power *= v;
+                value = l.z_mul_add(value, v, l.z_splat(self.re[n], self.im[n]));
             }
-            energy += scale * value;
-            radial -= scale * (3 + 2 * k) as f64 * value;
-            angular += scale * slope;
-            turning += scale * turn;
-            scale *= inverse;
+            sums.energy = l.mul_add(scale, value.re, sums.energy);
+            if SLOPE {
+                let power = l.mul(scale, l.splat(-((3 + 2 * k) as f64)));
+                sums.radial = l.mul_add(power, value.re, sums.radial);
+                // The derivative of e^(-2 i n phi) by phi: of v by it is -2 i v.
+                let angular = l.mul(l.splat(2.0), l.z_mul(slope, v).im);
+                sums.angular = l.mul_add(scale, angular, sums.angular);
+                sums.turn = l.mul_add(scale, turn.re, sums.turn);
+            }
+            scale = l.mul(scale, inverse);
         }
-        let across = Vector2::new(-way.y, way.x);
-        PairEnergy {
-            energy,
-            gradient: (way * radial + across * angular) * inverse,
-            slope: turning,
-        }
+        sums
     }
 }

@@ -138,7 +138,7 @@ fn both_heights<L: Lanes>(l: L, s: [L::F; 2], h: L::F, heights: [f64; 2]) -> [At
 
 /// `ln (s2 + r2) / (s1 + r1)`, with `s + r = edge / (r - s)` where s is negative.
 #[inline(always)]
-fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
+pub fn log<L: Lanes>(l: L, s: [L::F; 2], r: [L::F; 2], edge: L::F) -> L::F {
     let one = l.splat(1.0);
     let over = l.mul(
         l.select(s[0], one, l.sub(r[0], s[0])),
@@ -215,7 +215,7 @@ fn in_plane<L: Lanes>(l: L, s: [L::F; 2], h: L::F, hh: L::F) -> AtHeight<L::F> {
 
 /// Square root of a positive number.
 #[inline(always)]
-fn sqrt<L: Lanes>(l: L, a: L::F) -> L::F {
+pub fn sqrt<L: Lanes>(l: L, a: L::F) -> L::F {
     l.mul(a, l.reciprocal_sqrt(a))
 }
 

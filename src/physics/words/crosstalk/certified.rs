@@ -149,7 +149,7 @@ impl Stage {
             return Vec::new();
         };
         let by_magnets: Vec<Enclosure> = self
-            .magnets
+            .magnets()
             .iter()
             .map(|energy| match &energy.bounds {
                 Ok(bounds) => bounds.enclose(cell),

@@ -4,8 +4,8 @@
 //! One tile carries the first word on its target face, the other the second on its own; their other
 //! faces are empty. The energy is bilinear in the two words, so the energies of all pairs of
 //! magnets in a pose, or their bounds in a cell of poses, give those of all pairs of words:
-//! `sampled` finds the strongest attraction of all pairs from one grid of poses, `certified` bounds
-//! it from one subdivision.
+//! `grid` evaluates all pairs on one grid of poses, `sampled` finds the strongest attraction from
+//! it, `certified` bounds it from one subdivision, and `work` counts what sampling costs.
 //!
 //! Around the bond of a word and its own mate everything lies on the bond's slope; the wrong
 //! contacts of these two are their `traps`, other stable contacts.
@@ -14,17 +14,21 @@
 //! pairs of two words and their mates are computed, and the others follow.
 
 mod certified;
+mod grid;
 mod sampled;
 mod traps;
+mod work;
+
+use std::sync::OnceLock;
 
 use super::Word;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::Contact;
-use crate::potential::{Energy, Interaction};
+use crate::potential::{Energy, Interaction, Unbounded};
 use crate::problem::Problem;
-use crate::tile::{Magnet, Pair, Tile};
+use crate::tile::{Pair, Tile};
 
-pub use sampled::work as sampling_work;
+pub use work::sampling_work;
 
 /// The default width of bounds, as a fraction of two magnets' energy.
 pub const TOLERANCE: f64 = 0.25;
@@ -36,8 +40,9 @@ pub struct Stage {
     interaction: Interaction,
     contact: Contact,
     places: usize,
-    /// The energy of magnet k of the fixed tile and magnet j of the moving one, at k places + j.
-    magnets: Vec<Energy>,
+    /// The energy of magnet k of the fixed tile and magnet j of the moving one, at k places + j;
+    /// built on first use.
+    magnets: OnceLock<Vec<Energy>>,
 }
 
 /// The results for all pairs of faces: rows and columns are words, then their mates.
@@ -94,6 +99,11 @@ struct Couple {
 }
 
 impl Couple {
+    /// The number of its pairs of magnets.
+    fn pairs(&self) -> usize {
+        (self.first.magnets() * self.second.magnets()) as usize
+    }
+
     /// The sign of the energy of magnets k and j relative to both with their north poles out.
     fn sign(&self, k: usize, j: usize) -> f64 {
         f64::from(self.first.at(k) * self.second.at(j))
@@ -104,44 +114,56 @@ impl Stage {
     /// The stage for tiles with as many magnets on their target faces as words have places, and
     /// none elsewhere.
     pub fn new(pair: Pair, interaction: Interaction) -> Self {
-        let places = pair.fixed.magnets.len();
-        let alone = |tile: &Tile, magnet: &Magnet| Tile {
-            magnets: vec![magnet.clone()],
-            ..tile.clone()
-        };
-        let mut magnets = Vec::new();
-        for first in &pair.fixed.magnets {
-            let fixed = alone(&pair.fixed, first);
-            for second in &pair.moving.magnets {
-                magnets.push(interaction.between(&fixed, &alone(&pair.moving, second)));
-            }
-        }
         Self {
             contact: Contact::new(&pair.fixed.outline, &pair.moving.outline),
-            places,
-            magnets,
+            places: pair.fixed.magnets.len(),
+            magnets: OnceLock::new(),
             interaction,
             pair,
         }
     }
 
+    /// The energy of magnet k of the fixed tile and magnet j of the moving one.
+    fn alone(&self, k: usize, j: usize) -> Energy {
+        let alone = |tile: &Tile, at: usize| Tile {
+            magnets: vec![tile.magnets[at].clone()],
+            ..tile.clone()
+        };
+        let (fixed, moving) = (&self.pair.fixed, &self.pair.moving);
+        self.interaction
+            .between(&alone(fixed, k), &alone(moving, j))
+    }
+
+    /// The energies of all pairs of magnets, at k places + j.
+    fn magnets(&self) -> &[Energy] {
+        let pair = |number| self.alone(number / self.places, number % self.places);
+        let all = || (0..self.places * self.places).map(pair).collect();
+        self.magnets.get_or_init(all)
+    }
+
+    /// Whether bounds can be proved.
+    ///
+    /// # Errors
+    /// Why the energy of these magnets has no bounds over cells.
+    pub fn certifiable(&self) -> Result<(), Unbounded> {
+        self.alone(0, 0).bounds.map(|_| ())
+    }
+
     /// The depth (J) of the contact of two facing magnets.
     pub fn contact_energy(&self) -> f64 {
-        let last = self.places - 1;
-        let facing = self.magnets.get(last);
-        facing.map_or(0.0, |energy| {
-            energy.potential.energy(&self.pair.bound).abs()
-        })
+        let facing = self.alone(0, self.places - 1);
+        facing.potential.energy(&self.pair.bound).abs()
     }
 
     /// The energies (J) of all pairs of magnets for flush, aligned faces: place k of the first face
     /// and j of the second one, north poles out, at the index k times places + j.
     pub fn flush(&self) -> Vec<f64> {
-        energies(&self.magnets, &self.pair.bound)
+        energies(self.magnets(), &self.pair.bound)
     }
 
     /// The crosstalk of words; with bounds closer than the given `tolerance` (J), if any, from at
-    /// most this many `cells`.
+    /// most this many `cells`. Without [bounds over cells](Self::certifiable) nothing is proved, after
+    /// all these cells.
     pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {
         let m = words.len();
         let couples: Vec<Couple> = couples_of(m)
@@ -150,13 +172,19 @@ impl Stage {
                 second: if mate { words[j].mate() } else { words[j] },
             })
             .collect();
-        let found = self.sampled(&couples);
+        let own: Vec<usize> = couples_of(m)
+            .enumerate()
+            .filter(|(_, (i, j, mate))| i == j && *mate)
+            .map(|(number, _)| number)
+            .collect();
+        let grid = self.grid(&couples, &own);
+        let found = self.sampled(&couples, &grid);
         let bounds =
             certify.map(|(tolerance, cells)| self.certified(&couples, &found, tolerance, cells));
         let mut crosstalk = Crosstalk {
             words: words.to_vec(),
             strongest: vec![vec![0.0; 2 * m]; 2 * m],
-            traps: self.traps(words),
+            traps: self.traps(words, &grid),
             poses: vec![vec![Configuration::new(0.0, 0.0, 0.0); 2 * m]; 2 * m],
             lower: bounds.as_ref().map(|_| vec![vec![0.0; 2 * m]; 2 * m]),
             settled: bounds.as_ref().is_none_or(|bounds| bounds.settled),

@@ -5,43 +5,38 @@
 
 use ordered_float::OrderedFloat;
 
-use super::sampled::{Setting, tilts};
-use super::{Couple, Stage, energies};
+use super::Stage;
+use super::grid::{AtTilt, Setting, tilts};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::parallel;
 use crate::words::Word;
 
 /// Number of minima of the grid that are refined for a word.
-const POLISHED: usize = 8;
+pub(super) const POLISHED: usize = 8;
 /// Poses closer to the bond than this (m, rad) are the bond.
 const SAME: f64 = 2e-3;
 
 impl Stage {
     /// For each word and its mate, the deepest trap found: energy (J) and pose.
-    pub(super) fn traps(&self, words: &[Word]) -> Vec<Option<(f64, Configuration)>> {
-        let own = |word: &Word| Couple {
-            first: *word,
-            second: word.mate(),
-        };
-        let couples: Vec<Couple> = words.iter().map(own).collect();
-        let mut tilts = tilts();
-        tilts.order_by(f64::total_cmp);
+    pub(super) fn traps(
+        &self,
+        words: &[Word],
+        grid: &[AtTilt],
+    ) -> Vec<Option<(f64, Configuration)>> {
+        let mut rows: Vec<(f64, &AtTilt)> = tilts().into_iter().zip(grid).collect();
+        rows.order_by(|a, b| a.0.total_cmp(&b.0));
         let slides = self.slides();
-        let rows = parallel::map(&tilts, |tilt| -> Vec<Vec<f64>> {
-            let at = |slide: &f64| self.all_at([*tilt, *slide, 0.0], &couples);
-            slides.iter().map(at).collect()
-        });
         parallel::map(0..words.len(), |number| {
-            let level = |i: usize, j: usize| rows[i][j][number];
+            let level = |i: usize, j: usize| rows[i].1.own[j][number];
             let mut minima: Vec<(f64, Setting)> = Vec::new();
-            for i in 0..tilts.len() {
+            for i in 0..rows.len() {
                 for j in 0..slides.len() {
                     let about = |k: usize, count: usize| k.saturating_sub(1)..(k + 2).min(count);
                     let here = level(i, j);
                     let lies_low = |i: usize| about(j, slides.len()).all(|j| level(i, j) >= here);
-                    if here < 0.0 && about(i, tilts.len()).all(lies_low) {
-                        minima.push((here, [tilts[i], slides[j], 0.0]));
+                    if here < 0.0 && about(i, rows.len()).all(lies_low) {
+                        minima.push((here, [rows[i].0, slides[j], 0.0]));
                     }
                 }
             }
@@ -58,19 +53,5 @@ impl Stage {
                 });
             polished.min_by_key(|(energy, _)| OrderedFloat(*energy))
         })
-    }
-
-    /// The energies (J) of couples at a setting; infinite if the tiles do not touch.
-    fn all_at(&self, setting: Setting, couples: &[Couple]) -> Vec<f64> {
-        let Some(q) = self.placed(setting) else {
-            return vec![f64::INFINITY; couples.len()];
-        };
-        let by_magnets = energies(&self.magnets, &q);
-        let energy = |couple: &Couple| {
-            let sign = |number: usize| couple.sign(number / self.places, number % self.places);
-            let pairs = by_magnets.iter().enumerate();
-            pairs.map(|(number, energy)| energy * sign(number)).sum()
-        };
-        couples.iter().map(energy).collect()
     }
 }
