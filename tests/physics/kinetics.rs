@@ -286,7 +286,7 @@ fn outlines_with_walls_along_the_way_out_have_bounds_from_one_side() {
 #[test]
 fn a_tab_has_bounds_from_both_sides() {
     let [coarse, fine] =
-        [1, 14_000].map(|unknowns| bounded_rates("tab-20mm", [0.43, 0.0], 2.5e-3, unknowns));
+        [1, 30_000].map(|unknowns| bounded_rates("tab-20mm", [0.43, 0.0], 2.5e-3, unknowns));
     let leaving = |found: &Rates| found.bounds.as_ref().unwrap().leaving[0];
     let ([a, b], [lower, upper]) = (leaving(&coarse), leaving(&fine));
     // The mesh without fitted cells is the last but the one between the bounds.
@@ -356,7 +356,7 @@ fn far_below_the_passes_the_mean_time_lies_between_its_bounds() {
         certify: Some(Certify {
             pieces: 0,
             distance: 0.5,
-            unknowns: 6_000,
+            unknowns: 10_000,
         }),
         ..ExitSettings::new(1.6e-4, start, basin, 0.61)
     };

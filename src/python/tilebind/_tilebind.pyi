@@ -170,6 +170,7 @@ class Design:
         rates: str = "docking",
         drag: float | None = None,
         restitution: float | None = None,
+        friction: float | None = None,
         simulations: int = 1000,
         seed: int = 1,
         progress: bool | None = None,

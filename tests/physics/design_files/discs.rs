@@ -54,7 +54,8 @@ fn design(magnet: &str, codes: [&str; 2]) -> Design {
     Design::parse(&text(magnet, codes), "disc.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Against magpylib 6.3, whose field of 16 cylinders was summed over the other 16 by Gauss's rule.
+/// Against magpylib 6.3, whose field of 16 cylinders was summed over the other 16 by Gauss's rule. The
+/// series of distant pairs ends where its error is small beside the energy in contact.
 #[test]
 fn energies_of_discs_agree_with_independent_numbers() {
     let poses = [(0.1, 0.0, 0.0), (0.12, 0.03, 0.4)].map(|(x, y, t)| Configuration::new(x, y, t));
@@ -70,7 +71,8 @@ fn energies_of_discs_agree_with_independent_numbers() {
         let problem = design(magnet, codes).problem();
         for (q, expected) in poses.iter().zip(energies) {
             let found = problem.energy(q);
-            assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+            let off = (found - expected).abs();
+            assert!(off < 2e-11 * energies[0].abs(), "{found} {expected}");
         }
     }
 }

@@ -233,8 +233,8 @@ impl Design {
     ///     Duration of each run (s).
     /// rates : str, optional
     ///     Source of attachment rates: "docking" runs or "overdamped" motion.
-    /// drag, restitution : float, optional
-    ///     Drag rate (1/s) and coefficient of restitution.
+    /// drag, restitution, friction : float, optional
+    ///     Drag rate (1/s), coefficient of restitution, coefficient of friction.
     /// simulations : int, optional
     ///     Runs of the exact simulation that checks the result; 0 for none.
     /// seed : int, optional
