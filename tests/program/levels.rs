@@ -78,6 +78,42 @@ fn every_level_writes_the_same_bytes() {
     }
 }
 
+/// Magnets that the shipped designs do not have, in contact, near and far.
+#[test]
+fn energies_of_discs_and_upright_magnets_are_the_same_with_every_level() {
+    let folder = tempfile::tempdir().unwrap();
+    let tile = std::fs::read_to_string("shapes/paper-tile.toml").unwrap();
+    let tile = tile.replace("\"dipole\"", "\"cuboid\"");
+    let size = "size = [0.010, 0.010, 0.003]";
+    assert!(tile.contains(size));
+    let disc = "shape = \"disc\"\ndiameter = 0.01\nheight = 0.004";
+    let up = "axis = \"up\"";
+    for (magnet, stands) in [
+        (disc.to_owned(), false),
+        (format!("{disc}\n{up}"), true),
+        (format!("size = [0.006, 0.01, 0.004]\n{up}"), true),
+    ] {
+        let mut design = tile.replace(size, &magnet);
+        if stands {
+            design = design.replace("NNNS", "UUUD").replace("NSSS", "UDDD");
+        }
+        let file = folder.path().join("tile.toml");
+        std::fs::write(&file, design).unwrap();
+        let energies = |level: Level| {
+            let mut energy = command(&["energy", file.to_str().expect("UTF-8")]);
+            for pose in ["0.43,0,0", "0.44,-0.07,0.08", "0.5,0.3,-2.1", "0.9,-0.2,3"] {
+                energy.args(["--pose", pose]);
+            }
+            let output = energy.env("TILEBIND_KERNEL", level.word()).output();
+            let output = output.expect("it starts");
+            assert!(output.status.success(), "{}", stderr(&output));
+            output.stdout
+        };
+        let found: Vec<Vec<u8>> = Level::available().into_iter().map(energies).collect();
+        assert!(found.iter().all(|it| *it == found[0]), "{magnet}");
+    }
+}
+
 #[test]
 fn a_level_that_is_not_there_is_told() {
     let energy = |word: &str| {

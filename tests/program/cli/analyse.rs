@@ -86,7 +86,7 @@ fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
     std::fs::write(&design, MANY).unwrap();
     let on = |threads: &str| {
         let out = folder.path().join(threads);
-        let few = "--milestones 400 --far-starts 10 --kinds 4 --certify-work 0 --complete-work 0";
+        let few = "--milestones 250 --far-starts 10 --kinds 4 --certify-work 0 --complete-work 0";
         let mut arguments = vec!["analyse", design.to_str().unwrap(), "--compact", "--quiet"];
         arguments.extend(["--out", out.to_str().unwrap(), "--threads", threads]);
         arguments.extend(few.split(' '));
@@ -99,11 +99,9 @@ fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
     };
     let one = on("1");
     assert!(one.1.iter().all(Value::is_u64));
-    for threads in ["2", "3"] {
-        let more = on(threads);
-        assert_same(&more.0, &one.0, threads);
-        assert_eq!(more.1, one.1, "{threads} threads");
-    }
+    let three = on("3");
+    assert_same(&three.0, &one.0, "three threads");
+    assert_eq!(three.1, one.1, "three threads");
 }
 
 /// Does work while every core is busy with something else, twice over.

@@ -288,7 +288,7 @@ fn yield_and_rates_have_one_answer_for_one_drag() {
     }
     for (command, other) in [
         (
-            &["rates", &file, "--certify", "0.9", "--kt", kt][..],
+            &["rates", &file, "--kt", kt, "--traps", "0"][..],
             "tilebind yield",
         ),
         (
