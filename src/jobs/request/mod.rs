@@ -12,7 +12,7 @@ mod values;
 mod word;
 
 pub use keywords::{Misused, of_keywords, options};
-pub use motion::{MotionOptions, fan};
+pub use motion::{ContactOptions, MotionOptions, fan};
 pub use shard::{Shard, shard};
 pub use unanswered::Unanswered;
 pub use values::{

@@ -6,14 +6,9 @@ use super::{not_negative, numbers, share};
 use crate::design::{energy, length};
 use physics::dynamics::{Fan, MotionSettings};
 
-/// Drag, contact and fans.
-#[derive(Clone, Debug, PartialEq, Args)]
-pub struct MotionOptions {
-    /// Drag rate (1/s)
-    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = not_negative)]
-    pub drag: f64,
-
+/// What collisions take from the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
+pub struct ContactOptions {
     /// Coefficient of friction, tile on tile and tile on rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
           value_parser = not_negative)]
@@ -23,6 +18,19 @@ pub struct MotionOptions {
     #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
           value_parser = share)]
     pub restitution: f64,
+}
+
+/// Drag, contact and fans.
+#[derive(Clone, Debug, PartialEq, Args)]
+pub struct MotionOptions {
+    /// Drag rate (1/s)
+    #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
+          value_parser = not_negative)]
+    pub drag: f64,
+
+    /// Friction and restitution.
+    #[command(flatten)]
+    pub contact: ContactOptions,
 
     /// Fan at X,Y (m) that repels tile centres with energy E_J and width S (m); repeatable
     ///
@@ -36,8 +44,8 @@ impl MotionOptions {
     pub fn settings(&self) -> MotionSettings {
         MotionSettings {
             drag: self.drag,
-            friction: self.friction,
-            restitution: self.restitution,
+            friction: self.contact.friction,
+            restitution: self.contact.restitution,
             fans: self.fan.clone(),
             ..MotionSettings::default()
         }

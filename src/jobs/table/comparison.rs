@@ -19,8 +19,11 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
         ("kt", request.shaking?.to_string()),
         ("coverage", (2.0 * pairs as f64 * area / table).to_string()),
         ("drag", request.motion.drag.to_string()),
-        ("restitution", request.motion.restitution.to_string()),
-        ("friction", request.motion.friction.to_string()),
+        (
+            "restitution",
+            request.motion.contact.restitution.to_string(),
+        ),
+        ("friction", request.motion.contact.friction.to_string()),
         ("simulations", "0".to_owned()),
         ("seed", request.seed.to_string()),
     ];

@@ -99,8 +99,8 @@ impl Request {
         TableSettings {
             duration: self.time,
             drag: self.motion.drag,
-            friction: self.motion.friction,
-            restitution: self.motion.restitution,
+            friction: self.motion.contact.friction,
+            restitution: self.motion.contact.restitution,
             shaking: self.shaking,
             kicks,
             orbital: self.orbital,

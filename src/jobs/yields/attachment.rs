@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 
 use super::{Question, YieldError};
 use crate::pipeline::Analysis;
-use crate::request;
+use crate::request::{self, ContactOptions};
 use physics::dynamics::MotionSettings;
 use physics::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
 use physics::kinetics::OVERDAMPED;
@@ -43,15 +43,9 @@ pub struct Effort {
     #[arg(long, value_name = "C", value_parser = request::positive)]
     pub drag: Option<f64>,
 
-    /// Coefficient of restitution
-    #[arg(long, value_name = "E", default_value_t = MotionSettings::default().restitution,
-          value_parser = request::share)]
-    pub restitution: f64,
-
-    /// Coefficient of friction, tile on tile and tile on rim
-    #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = request::not_negative)]
-    pub friction: f64,
+    /// Friction and restitution.
+    #[command(flatten)]
+    pub contact: ContactOptions,
 }
 
 impl Effort {
@@ -72,8 +66,8 @@ impl Effort {
         };
         MotionSettings {
             drag: self.drag.unwrap_or(drag),
-            restitution: self.restitution,
-            friction: self.friction,
+            restitution: self.contact.restitution,
+            friction: self.contact.friction,
             ..usual
         }
     }

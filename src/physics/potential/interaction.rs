@@ -116,7 +116,8 @@ pub struct PairWork {
     pub reach: f64,
 }
 
-/// What the energy of two like magnets of this size (m) costs, as measured with eight lanes.
+/// What the energy of two like magnets of this size (m) costs: estimates from a few runs, which decide
+/// budgets only.
 pub fn pair_work(model: MagnetModel, form: Form, size: [f64; 3]) -> PairWork {
     if model == MagnetModel::Dipole {
         return PairWork {
