@@ -17,5 +17,6 @@ mod pictures;
 mod program;
 mod readme;
 mod results;
+mod snapshots;
 mod structure;
 mod sweep;
