@@ -42,10 +42,7 @@ Bounds: upper bounds of capacities come from trial committors (Dirichlet), for a
 come from divergence-free fluxes (Thomson), for tiles whose contact boundary every ray from the
 centre crosses once: convex tiles, tabs, slots, teeth and arcs, but not dovetails or square teeth.
 The bounds exclude the discretisation error, which is estimated separately: they are \"bracketed on the
-mesh\". --prove bounds the integrals and the sets as well. It proves how often tiles leave the well
-around the start, or each basin, and bounds on the mean time until they arrive. These bounds are
-tight only when the well holds nearly all of the probability. --prove needs dipoles, with or without
-shields, but not shields with the nearest-face rule.
+mesh\".
 
 kT is the effective energy of the shaking. It exists for a drag of at least 50 /s and elastic
 collisions. Tiles that glide far between collisions, or lose energy in them, have no such kT.";
@@ -56,15 +53,13 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
     --basin-energy -0.03 --free-at 0.75 --json
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05 --prove
-  tilebind rates shapes/paper-tile.toml --kt 1e-3 --prove";
+  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05";
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
         let output = self.results.output(&RATES, self.design.inputs(&design))?;
         let (problem, request) = (design.problem(), &self.request);
-        request.check(&design, &problem).map_err(Failure::of)?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         // The bond, the traps and free tiles; an exit has one place.

@@ -86,8 +86,3 @@ pub fn paper_tile() -> Problem {
 pub fn one_face() -> Problem {
     pair(4, 0.43, [&[0], &[2]])
 }
-
-/// Hexagons with codes all around.
-pub fn hexagon() -> Problem {
-    pair(6, 0.25, [&[0, 1, 2, 3, 4, 5]; 2])
-}

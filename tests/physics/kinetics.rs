@@ -196,7 +196,6 @@ fn bounds_of_rates_hold_the_rates_and_the_integrals() {
     let kt = 0.4;
     let settings = RateSettings {
         certify: Some(Certify {
-            pieces: 0,
             distance: 0.3,
             unknowns: 8_000,
         }),
@@ -230,7 +229,6 @@ fn coarse_bounds_do_not_take_the_place_of_a_fine_mesh() {
         let settings = RateSettings {
             tolerance,
             certify: Some(Certify {
-                pieces: 0,
                 distance: 0.1,
                 unknowns,
             }),
@@ -256,7 +254,6 @@ fn a_pair_without_symmetry_has_bounds_on_as_many_cells() {
         tolerance: 0.3,
         unknowns: 1,
         certify: Some(Certify {
-            pieces: 0,
             distance: 0.2,
             unknowns: 20_000,
         }),
@@ -311,7 +308,6 @@ fn bounded_rates(name: &str, [x, y]: [f64; 2], kt: f64, unknowns: usize) -> Rate
         tolerance: 0.1,
         unknowns: 8_000,
         certify: Some(Certify {
-            pieces: 0,
             distance: 0.1,
             unknowns,
         }),
@@ -328,7 +324,6 @@ fn bounds_hold_the_paper_tiles_exit() {
     let settings = ExitSettings {
         tolerance: 0.1,
         certify: Some(Certify {
-            pieces: 0,
             distance: 0.6,
             unknowns: 12_000,
         }),
@@ -354,7 +349,6 @@ fn far_below_the_passes_the_mean_time_lies_between_its_bounds() {
         tolerance: 0.3,
         unknowns: 1,
         certify: Some(Certify {
-            pieces: 0,
             distance: 0.5,
             unknowns: 10_000,
         }),

@@ -292,20 +292,8 @@ def test_shaken_tiles(design, analysis):
         design.exits([0.43, -0.04, 0], kt=-1)
     with pytest.raises(ValueError, match="certify"):
         design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
-    with pytest.raises(ValueError, match="dipole model"):
-        design.replace("potential.model", "cuboid").exits([0.43, -0.04, 0], kt=3e-3, prove=True)
     lower, upper = left["mean_exit_bounds_s"]
-    assert lower < left["mean_exit_s"] < upper and left["proved"] is None
-    closely = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75, certify=0.6, prove=True)
-    least, most = closely["proved"]["mean_exit_s"]
-    assert least < lower and upper < most
-    # Of a well far below the passes next to all is in it: proved from both sides. Nothing is proved of
-    # outlines that are not convex.
-    of_squares = design.analyse(progress=False, **SMALL)
-    bond = of_squares.rates(3e-3, traps=0, certify=0.3, prove=True)["places"][0]
-    least, most = bond["proved"]["mean_exit_s"]
-    assert least < 1 / bond["leaving_per_s"] < most < 2 * least
-    assert analysis.rates(8e-3, traps=0, prove=True)["places"][0]["proved"] is None
+    assert lower < left["mean_exit_s"] < upper
     with pytest.raises(ValueError, match="certify"):
         analysis.rates(3e-3, certify=-0.1)
     with pytest.raises(ValueError, match="coverage"):

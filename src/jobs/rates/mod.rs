@@ -18,7 +18,7 @@ use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
 use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit, half_bond};
 use physics::kinetics::rates::{RateSettings, RatesError, rates};
-use physics::kinetics::{Certify, OVERDAMPED, why_unprovable};
+use physics::kinetics::{Certify, OVERDAMPED};
 use physics::problem::Problem;
 
 /// Number of mean exit times after which a moving tile is abandoned.
@@ -55,13 +55,6 @@ pub struct Question {
     /// every rate that is at least a tenth of these.
     #[arg(long, value_name = "REL", value_parser = request::positive)]
     pub certify: Option<f64>,
-
-    /// Prove bounds on the mean time until bound or free; simple convex tiles only
-    ///
-    /// Also proves how often tiles leave the well around the start, or each basin. The tiles must be
-    /// convex about their centres of mass and have few corners.
-    #[arg(long)]
-    pub prove: bool,
 }
 
 /// The options of rates between states, or of the exit from a pose.
@@ -97,9 +90,6 @@ pub struct Request {
 /// Why there are no rates.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RateFault {
-    /// A proof is requested that does not exist.
-    #[error("{0}")]
-    Unprovable(String),
     /// The exit from a pose has no answer.
     #[error(transparent)]
     Exit(#[from] ExitError),
@@ -114,7 +104,6 @@ pub enum RateFault {
 impl Unanswered for RateFault {
     fn is_of_the_question(&self) -> bool {
         match self {
-            Self::Unprovable(_) => true,
             Self::Exit(error) => error.is_of_the_question(),
             Self::Rates(error) => error.is_of_the_question(),
             Self::Motion(error) => error.is_of_the_question(),
@@ -123,16 +112,6 @@ impl Unanswered for RateFault {
 }
 
 impl Request {
-    /// Rejects requests for proofs that do not exist.
-    ///
-    /// # Errors
-    /// See [`RateFault`].
-    pub fn check(&self, design: &Design, problem: &Problem) -> Result<(), RateFault> {
-        let why = || why_unprovable(problem, design.interaction.model);
-        let why = self.question.prove.then(why).flatten();
-        why.map_or(Ok(()), |why| Err(RateFault::Unprovable(why)))
-    }
-
     /// The mean exit time of a tile released at a pose, the end that it reaches first, and the
     /// result of rigid bodies, if requested.
     ///
@@ -143,7 +122,6 @@ impl Request {
         posed: (&Design, &Problem),
         start: Configuration,
     ) -> Result<(PoseExit, Option<ExitRuns>), RateFault> {
-        self.check(posed.0, posed.1)?;
         let found = self.question.exit(posed, start)?;
         let checked = |runs| found.checked(posed, runs, self.restitution, self.seed);
         let check = self.check.map(checked).transpose()?;
@@ -161,7 +139,6 @@ impl Request {
         analysis: &Analysis,
         is_pictured: bool,
     ) -> Result<StateRates, RateFault> {
-        self.check(design, &analysis.problem)?;
         let question = &self.question;
         Ok(question.rates(design, analysis, self.traps, is_pictured)?)
     }
@@ -243,13 +220,9 @@ impl Question {
         Ok(found)
     }
 
-    /// The requested accuracy of bounds, and whether they are proved.
+    /// The requested accuracy of bounds.
     fn certified(&self, usual: fn() -> Certify) -> Certify {
-        let certify = self.certify.map_or_else(usual, Certify::to);
-        match self.prove {
-            true => certify.proved(),
-            false => certify,
-        }
+        self.certify.map_or_else(usual, Certify::to)
     }
 
     fn free_at(&self, design: &Design) -> f64 {
@@ -275,12 +248,6 @@ impl PoseExit {
             (Some(midway), Some([_, upper])) => upper / midway - 1.0,
             _ => self.found.spread()[0].max(self.found.finest().error),
         }
-    }
-
-    /// Whether a proof was requested.
-    pub fn is_to_be_proved(&self) -> bool {
-        let certify = self.asked.certify;
-        certify.is_some_and(|certify| certify.pieces > 0)
     }
 
     /// Simulates a number of rigid bodies with inertia from the same start to the same ends, with

@@ -6,7 +6,7 @@ use super::states::RatedState;
 use physics::kinetics::Way;
 use physics::kinetics::chain::Chain;
 use physics::kinetics::map::Map;
-use physics::kinetics::rates::{Leaving, RateSettings, Rates};
+use physics::kinetics::rates::{RateSettings, Rates};
 
 /// Rates out of states at one kT.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,16 +131,5 @@ impl StateRates {
         let rate = |i: usize, j: usize| self.rate(i, j);
         let chain = Chain::new(DMatrix::from_fn(self.count(), self.count(), rate));
         chain.mean_times(&[to])[from]
-    }
-
-    /// The proved bounds of leaving a basin.
-    pub fn proved(&self, place: usize) -> Option<&Leaving> {
-        self.found.proved.get(place)?.as_ref()
-    }
-
-    /// Whether a proof was requested.
-    pub fn is_to_be_proved(&self) -> bool {
-        let certify = self.asked.certify;
-        certify.is_some_and(|certify| certify.pieces > 0)
     }
 }

@@ -2,27 +2,9 @@
 
 use super::field::{DIVIDED, Field};
 use super::results::{Certify, MeshRates};
-use crate::potential::MagnetModel;
-use crate::problem::Problem;
 
 /// Additional share of the error that is refined near the goal.
 const MARGIN: f64 = 0.1;
-
-/// Why nothing is proved for blocks.
-const BLOCKS_HAVE_NO_PROOF: &str = "for blocks nothing can be proved here: the bounds on their \
-    energy in contact are too wide; use the dipole model, or leave out --prove";
-
-/// Why nothing can be proved for a pair of tiles with this magnet model, independent of their
-/// shapes; `None` if it can be tried.
-pub fn why_unprovable(problem: &Problem, model: MagnetModel) -> Option<String> {
-    if model == MagnetModel::Cuboid {
-        return Some(BLOCKS_HAVE_NO_PROOF.to_owned());
-    }
-    let why = problem.bounds().err()?;
-    Some(format!(
-        "nothing can be proved here: {why}; leave out --prove"
-    ))
-}
 
 /// The bounds of one mesh.
 pub(super) struct Step {
@@ -48,7 +30,7 @@ pub(super) fn narrowed<E>(
     certify: &Certify,
     step: impl Fn(&mut Field) -> Result<Option<Step>, E>,
 ) -> Result<Vec<Step>, E> {
-    let goal = certify.on_mesh();
+    let goal = certify.distance;
     let mut all: Vec<Step> = Vec::new();
     loop {
         let Some(found) = step(field)? else {

@@ -5,7 +5,6 @@ use super::certify::{Step, narrowed};
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
-use super::proof::{self, Capacity, Set};
 use super::results::{DEEPEST, MESHES, enough};
 pub use super::results::{Exit, ExitError, ExitSettings, MeshExit, half_bond};
 use super::rim::Rims;
@@ -51,7 +50,7 @@ pub fn exit(
         });
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
-            let (mut bounds, proved) = bounds(problem, bond, settings)?;
+            let mut bounds = bounds(problem, bond, settings)?;
             if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
                 let lower = ends.lower_bound(&field, &nodes)?;
                 bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
@@ -72,7 +71,6 @@ pub fn exit(
                 meshes,
                 bounds,
                 midway,
-                proved,
                 way,
             });
         }
@@ -81,29 +79,24 @@ pub fn exit(
     }
 }
 
-/// Bounds of the mean exit time times D (m^2) on increasingly fine meshes that begin at contact,
-/// and the proved bounds of the capacity on the last mesh.
+/// Bounds of the mean exit time times D (m^2) on increasingly fine meshes that begin at contact.
 fn bounds(
     problem: &Problem,
     bond: &Configuration,
     settings: &ExitSettings,
-) -> Result<(Vec<[f64; 2]>, Option<Capacity>), ExitError> {
+) -> Result<Vec<[f64; 2]>, ExitError> {
     let ground = problem.energy(&settings.start);
     let seeds = [settings.start, *bond];
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok((Vec::new(), None));
+        return Ok(Vec::new());
     };
     let all = narrowed(&mut field, &certify, |field| {
         let ends = Ends::new(field, bond, settings, Way::Open)?;
         let nodes = Nodes::new(&field.mesh);
         Ok::<_, ExitError>(ends.bounds(field, &nodes)?)
     })?;
-    let proved = certify.proof().and_then(|asked| {
-        let sets = Ends::sets(&field, bond, settings);
-        proof::capacity(&mut field, &sets, asked)
-    });
-    Ok((all.iter().map(|step| step.bounds[0]).collect(), proved))
+    Ok(all.iter().map(|step| step.bounds[0]).collect())
 }
 
 fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Result<(), ExitError> {
@@ -201,20 +194,6 @@ impl Ends {
     /// Whether the start is so deep in its well that all starts in the well are equivalent.
     fn is_deep(&self) -> bool {
         self.well.is_some()
-    }
-
-    /// The start's well, half way up to the pass, and the bond's basin, as sets whose capacity is
-    /// proved.
-    fn sets(field: &Field, bond: &Configuration, asked: &ExitSettings) -> [Set; 2] {
-        let deep = field.deep();
-        let energy = field.problem.energy(&asked.start);
-        let half = 0.5 * (energy + field.level());
-        let set = |at: &Configuration, below: f64| Set {
-            at: *at,
-            below,
-            wide: below.max(deep),
-        };
-        [set(&asked.start, half), set(bond, asked.basin_energy)]
     }
 
     /// The rims of the ends and of the start's well.

@@ -45,14 +45,7 @@
 //! approximated within cells as decaying along s between its end values and as tilted along phi and
 //! theta. Second, a basin consists of the cells whose mean of U is below its limit; the resulting
 //! error of capacities is estimated by Hadamard's formula, stated for each mesh, and the mesh is
-//! refined accordingly. The capacity of the well around an exit's start against its ends, or of
-//! each basin against the others and free tiles, and the rates at which tiles leave it for them,
-//! are *proved* on request: `proof` encloses integrals and sets by the energies' bounds over cells
-//! ([`crate::potential::CellBounds`]), see [`Capacity`]. This requires outlines that are convex
-//! about their centres of mass and have few corners. The mean exit time also includes the region
-//! between well and ends, by the probability to return from there, of which only the upper bound 1
-//! is proved: its proved bounds ([`Capacity::mean_exit`]) are narrow only if nearly nothing is
-//! there. A mesh begins at contact if every ray from the centre leaves contact once and for all
+//! refined accordingly. A mesh begins at contact if every ray from the centre leaves contact once and for all
 //! ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots with draft, sine and
 //! triangle teeth, arcs. Dovetails interlock and square teeth have walls along the way out: there
 //! only one-sided bounds, Dirichlet's, are available.
@@ -92,7 +85,6 @@ mod narrow;
 pub mod numbers;
 mod places;
 pub mod population;
-mod proof;
 pub mod rates;
 mod results;
 mod rim;
@@ -103,9 +95,7 @@ pub mod volume;
 pub mod well;
 
 pub use bond::{BondError, Hold};
-pub use certify::why_unprovable;
 pub use corridor::{NARROW, Way};
-pub use proof::Capacity;
 pub use results::Certify;
 pub use volume::Estimate;
 pub use well::Well;

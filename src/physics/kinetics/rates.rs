@@ -9,8 +9,7 @@ use super::links::links;
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
-use super::proof::{self, Set};
-pub use super::results::{Basin, Leaving, MeshRates, RateBounds, RateSettings, Rates, RatesError};
+pub use super::results::{Basin, MeshRates, RateBounds, RateSettings, Rates, RatesError};
 use super::results::{DEEPEST, MESHES, enough, half_bond};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -78,7 +77,7 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
             let found = bounded(problem, settings, [ground, beyond])?;
-            let (between, bounds, proved) = found.unwrap_or_default();
+            let (between, bounds) = found.unwrap_or_default();
             // Values lie between their bounds. The more accurate of two sets is taken: the error of
             // the middle of bounds is at most half their width.
             let is_better = |between: &MeshRates| {
@@ -103,10 +102,6 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
                 inside,
                 ways,
                 links,
-                proved: match proved.is_empty() {
-                    true => vec![None; settings.basins.len()],
-                    false => proved,
-                },
             });
         }
         for &(cell, _) in &places.shared {
@@ -117,8 +112,8 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// The rates of a mesh with bounds, the bounds, and the proofs on it.
-type Certified = (Option<MeshRates>, Option<RateBounds>, Vec<Option<Leaving>>);
+/// The rates of a mesh with bounds, and the bounds.
+type Certified = (Option<MeshRates>, Option<RateBounds>);
 
 /// The results of the finest mesh that begins at contact, and its bounds, if any. Energies are
 /// relative to `ground` (J), and `beyond` is the occupation of the table outside the mesh.
@@ -138,48 +133,14 @@ fn bounded(
         Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
     })?;
     let count = settings.basins.len() + 1;
-    let proved = proved(&mut field, settings);
     Ok(all.pop().map(|step| {
         let rates = step.bounds[count..].chunks(count);
         let bounds = RateBounds {
             leaving: step.bounds[..count].to_vec(),
             rates: rates.map(<[_]>::to_vec).collect(),
         };
-        (step.rates, Some(bounds), proved)
+        (step.rates, Some(bounds))
     }))
-}
-
-/// Proved bounds of leaving each basin, if requested. A basin that is reached extends as high as on
-/// the mesh, one that is left is below its limit.
-fn proved(field: &mut Field, settings: &RateSettings) -> Vec<Option<Leaving>> {
-    let Some(asked) = settings.certify.and_then(|certify| certify.proof()) else {
-        return Vec::new();
-    };
-    let deep = field.deep();
-    let end = |basin: &Basin| Set {
-        at: basin.at,
-        below: basin.below.max(deep),
-        wide: basin.below.max(deep),
-    };
-    let basins = settings.basins.iter().enumerate();
-    basins
-        .map(|(own, basin)| {
-            let first = Set {
-                below: basin.below,
-                ..end(basin)
-            };
-            let others = settings.basins.iter().enumerate();
-            let others = others.filter(|(other, _)| *other != own);
-            let sets: Vec<Set> = [first]
-                .into_iter()
-                .chain(others.map(|(_, other)| end(other)))
-                .collect();
-            Some(Leaving {
-                capacity: proof::capacity(field, &sets, asked)?,
-                end_below: end(basin).below,
-            })
-        })
-        .collect()
 }
 
 /// The rates at which tiles leave a bond for good in overdamped motion, divided by D (1/m^2) unless

@@ -3,7 +3,6 @@
 use super::corridor::Way;
 use super::map::Map;
 use super::mesh::Unsolved;
-use super::proof::{Capacity, Closeness};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
@@ -15,16 +14,7 @@ pub struct Certify {
     pub distance: f64,
     /// Largest number of unknowns of meshes.
     pub unknowns: usize,
-    /// Largest number of pieces of cells for enclosing integrals; 0 for no proof.
-    pub pieces: usize,
 }
-
-/// Largest width of bounds on the mesh if they are to be proved: fluxes then have the same
-/// distribution over the whole mesh, and cost more.
-const TO_PROVE: f64 = 0.5;
-
-/// Share of the requested width for the enclosures of integrals.
-const OF_INTEGRALS: f64 = 0.5;
 
 impl Default for Certify {
     /// As narrow as possible within seconds.
@@ -32,7 +22,6 @@ impl Default for Certify {
         Self {
             distance: 0.1,
             unknowns: 60_000,
-            pieces: 0,
         }
     }
 }
@@ -51,32 +40,7 @@ impl Certify {
         Self {
             distance,
             unknowns: 400_000,
-            pieces: 0,
         }
-    }
-
-    /// The same, with proofs.
-    pub fn proved(self) -> Self {
-        Self {
-            pieces: 800_000,
-            ..self
-        }
-    }
-
-    /// The requested width of bounds on a mesh.
-    pub(super) fn on_mesh(&self) -> f64 {
-        match self.pieces {
-            0 => self.distance,
-            _ => self.distance.min(TO_PROVE),
-        }
-    }
-
-    /// The requested accuracy of enclosed integrals, if bounds are to be proved.
-    pub(super) fn proof(&self) -> Option<Closeness> {
-        (self.pieces > 0).then_some(Closeness {
-            apart: OF_INTEGRALS * self.distance,
-            pieces: self.pieces,
-        })
     }
 }
 
@@ -193,8 +157,6 @@ pub struct Rates {
     pub ways: Vec<Way>,
     /// For each place (row) and each other place, the known paths between them.
     pub links: Vec<Vec<Way>>,
-    /// For each basin the proved bounds, if requested and possible.
-    pub proved: Vec<Option<Leaving>>,
 }
 
 impl Rates {
@@ -257,15 +219,6 @@ pub(super) const MESHES: usize = 3;
 /// first mesh.
 pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
-}
-
-/// Proved bounds of leaving a basin for any other or free tiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leaving {
-    /// Its capacity against the others and free tiles.
-    pub capacity: Capacity,
-    /// Energy limit (J) of this basin in the other basins' proofs.
-    pub end_below: f64,
 }
 
 /// Bounds of rates, from below and above, divided by D (1/m^2). They exclude the errors of
@@ -381,9 +334,6 @@ pub struct Exit {
     /// The middle of the bounds, if the finest mesh's mean exit time is not between them: far below
     /// the passes, cells that do not begin at contact may be too coarse for the well's occupation.
     pub midway: Option<f64>,
-    /// Proved bounds of the capacity of the well around the start, half way up to the pass, against
-    /// the ends, if requested and possible.
-    pub proved: Option<Capacity>,
     /// Whether a path leads from the start to free tiles.
     pub way: Way,
 }

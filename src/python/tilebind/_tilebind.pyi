@@ -153,7 +153,6 @@ class Design:
         basin_energy: float | None = None,
         free_at: float | None = None,
         certify: float | None = None,
-        prove: bool = False,
         check: int | None = None,
         restitution: float = 1.0,
         seed: int = 1,
@@ -222,7 +221,6 @@ class Analysis:
         basin_energy: float | None = None,
         free_at: float | None = None,
         certify: float | None = None,
-        prove: bool = False,
     ) -> dict[str, Any]: ...
     def bond(self, kt: float, coverage: float) -> dict[str, Any]: ...
     def disconnectivity(self) -> _Table: ...

@@ -2,10 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{
-    NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, digits,
-    finite, leaving_set, mean_exit, mean_exit_words, outwards, proved_entry,
-};
+use super::{NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
@@ -13,7 +10,7 @@ use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
 use physics::kinetics::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
-use physics::units::{duration, duration_to, plain, si};
+use physics::units::{duration, duration_to, si};
 
 /// The document of an exit, with the check by moving tiles if requested.
 pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
@@ -70,8 +67,6 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
         // The inequalities are proved, the integrals over cells are not.
         .data("bounds_hold", bounds.map(|_| "on the mesh"))
         .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
-        // For the well around the start, independent of any mesh.
-        .data("proved", proved_entry(exit.diffusion, found.proved.as_ref()))
         .group("exits", Entries::default()
             .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("probability")
             .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("probability"))
@@ -188,22 +183,6 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
         }
         None => NO_BOUNDS.to_owned(),
     });
-    match &exit.found.proved {
-        Some(proved) => {
-            let leaving = leaving_set(exit.diffusion, proved);
-            let [low, high] = outwards(leaving).map(|end| plain(end, 3));
-            notes.push(format!(
-                "{PROVED}: from the well around the start, U < {}, a tile leaves for an exit \
-                 without returning {low} to {high} times per second ({} apart); after it last \
-                 leaves the well the mean exit time is {}",
-                si(proved.below, "J", 4),
-                apart(leaving),
-                mean_exit_words(mean_exit(exit.diffusion, proved)),
-            ));
-        }
-        None if exit.is_to_be_proved() => notes.push(NOT_PROVED.to_owned()),
-        None => {}
-    }
     notes.push(SCOPE.to_owned());
     notes.extend(check.into_iter().flat_map(|runs| check_notes(exit, runs)));
     notes

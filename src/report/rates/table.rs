@@ -3,8 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{
-    FAR, NO_BOUNDS, NOT_BOUNDED, NOT_PROVED, ON_THE_MESH, ONE_SIDED, PROVED, SCOPE, apart, digits,
-    finite, leaving_set, mean_exit, mean_exit_ends, outwards, proved_entry,
+    NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite, outwards,
 };
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
@@ -144,7 +143,6 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
             .fact("unknowns", "", finest.unknowns)
             .fact("of_basins", "", of_basins)
             .fact("error", "", error))
-        .more(found.is_to_be_proved().then(|| Entry::Table(proofs(found))))
         .more((!found.over_kt.is_empty()).then(|| Entry::Data("over_kT", by_kt(found))))
         .more((!found.over_kt.is_empty()).then(|| Entry::Table(courses(found))))
         .more(found.map().map(|map| Entry::Table(squares(map))))
@@ -158,14 +156,6 @@ fn places(found: &StateRates) -> Table {
     let told = |part: Option<f64>| part.map_or("-".to_owned(), share);
     let occupation = shared(|it, k| it.found.finest().occupation[k]);
     let inside = shared(|it, k| it.found.inside[k]);
-    let proved = |k: &usize| {
-        let leaving = found.proved(*k);
-        let mut entry = proved_entry(found.diffusion, leaving.map(|it| &it.capacity));
-        if let Some(leaving) = leaving {
-            entry["end_below_J"] = json!(leaving.end_below);
-        }
-        entry
-    };
     rows(0..found.count())
         .column("name", "place", "", |k| found.name(*k)).without_csv()
         .column("place", "", "", |k| found.name(*k)).in_csv()
@@ -186,7 +176,6 @@ fn places(found: &StateRates) -> Table {
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
         .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
         .column("bounds", "bounds", "bounds of that rate", |k| told_bounds(found, *k)).in_view()
-        .column("proved", "", "", proved).in_json()
         .table("places").titled("Places", "").in_file("occupation")
 }
 
@@ -214,42 +203,6 @@ fn pairs(found: &StateRates) -> Table {
         .column("free_at_m", "", "", |_| found.asked.free_at).in_csv()
         .column("bounds_hold", "", "", move |_| hold).in_csv()
         .table("rates").titled("Rates", "").in_file("rates")
-}
-
-/// Proved bounds of leaving basins, beside the mesh's values.
-#[rustfmt::skip]
-fn proofs(found: &StateRates) -> Table {
-    let proved = |k: &usize| found.proved(*k);
-    let mean = move |k: &usize| proved(k).map(|it| mean_exit(found.diffusion, &it.capacity));
-    let leaving = move |k: &usize| proved(k).map(|it| leaving_set(found.diffusion, &it.capacity));
-    let told = |end: usize| move |k: &usize| mean(k).and_then(|ends| mean_exit_ends(ends)[end].clone()).unwrap_or("-".to_owned());
-    let on_mesh = |k: &usize| found.known_rate_out(*k).map(|rate| 1.0 / rate);
-    let others = |k: &usize| {
-        proved(k)?;
-        let others = (0..found.states.len()).filter(|other| other != k);
-        let limits = others.filter_map(|other| Some(crate::csv::number(found.proved(other)?.end_below)));
-        Some(limits.collect::<Vec<_>>().join(" "))
-    };
-    let is_known = (0..found.states.len()).any(|k| found.proved(k).is_some());
-    let note = match is_known {
-        true => format!(
-            "{PROVED}: mean time for a tile that leaves a basin to reach another or to become \
-             free; no upper bound if it would be {FAR} times the lower one or more"
-        ),
-        false => NOT_PROVED.to_owned(),
-    };
-    rows(0..found.states.len())
-        .column("from", "from", "the basin left", |k| found.name(*k))
-        .column("set_below_J", "its set", "", move |k| proved(k).map(|it| it.capacity.below)).viewed(move |k| proved(k).map_or("-".to_owned(), |it| below(it.capacity.below)))
-        .column("others_below_J", "", "", others).in_data()
-        .column("free_at_m", "", "", |_| found.asked.free_at).in_data()
-        .column("mean_exit_lower_s", "proved: at least", "", move |k| mean(k).map(|it| it[0])).viewed(told(0))
-        .column("mesh", "on the mesh", "", on_mesh).viewed(move |k| on_mesh(k).map_or("-".to_owned(), |time| duration(time, digits_out(found, *k)))).without_csv()
-        .column("mean_exit_upper_s", "proved: at most", "", move |k| mean(k).map(|it| it[1])).viewed(told(1))
-        .column("sets_out_lower_per_s", "", "", move |k| leaving(k).map(|it| it[0])).in_data()
-        .column("sets_out_upper_per_s", "", "", move |k| leaving(k).map(|it| it[1])).in_data()
-        .column("end", "as an end", "its set as an end for the other states", move |k| proved(k).map(|it| below(it.end_below))).in_view()
-        .table("proved").titled("Proved", note).in_view().in_file("proved")
 }
 
 /// The rates out of states over kT, by the states' names.

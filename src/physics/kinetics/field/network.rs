@@ -15,31 +15,11 @@ const MOST: f64 = 4.0;
 pub(super) struct Costs {
     /// The decay of e^(-U/kT) in each cell.
     own: Vec<Option<Spread>>,
-    /// The last distribution of fluxes, if it was the same for the whole mesh.
-    profile: Option<Profile>,
     /// The cost of fluxes in each cell (1/rad), for a distribution.
     known: Vec<Option<(Spread, Box<Resistance>)>>,
 }
 
 impl Field<'_> {
-    /// The average decay of a function's flux along contact with the distance.
-    fn profile(&self, nodes: &Nodes, values: &[f64]) -> Profile {
-        let (mut sum, mut all) = (0.0, 0.0);
-        for (id, leaf, element) in self.mesh.live().filter(|(_, leaf, _)| leaf.low[0] == 0) {
-            let energy = element.energy(&nodes.of(id, values));
-            let [_, phi, theta] = self.mesh.chart.coordinates(leaf.at([0.5; 3]));
-            let ray = self.mesh.chart.ray([phi, theta]);
-            let potential = self.problem.potential();
-            let (_, slope) = potential.energy_and_gradient(&ray.configuration(0.0));
-            let rate = (slope.x * libm::cos(phi) + slope.y * libm::sin(phi)) * ray.length / self.kt;
-            if rate.is_finite() {
-                sum += energy * rate.max(0.0);
-                all += energy;
-            }
-        }
-        Profile::layer(if all > 0.0 { sum / all } else { 0.0 })
-    }
-
     /// The cells as conductors between the places of corners and the rim, for fluxes that follow
     /// e^(-U/kT) along s.
     pub fn network(&self, nodes: &Nodes, pins: &[Option<usize>], rim: usize) -> Option<Network> {
@@ -60,24 +40,7 @@ impl Field<'_> {
             places.all(|other| other == Some(first)).then_some(first)
         };
         let spreads = spreads(&self.mesh, &costs.own);
-        self.spread(&mut costs, &spreads, &place, &|_| false, rim)
-    }
-
-    /// Undivided cells with free configurations that satisfy a condition.
-    fn live(&self, holds: impl Fn(usize) -> bool) -> Vec<usize> {
-        let cells = self.mesh.live().map(|(id, ..)| id);
-        cells.filter(|&id| holds(id)).collect()
-    }
-
-    /// The cells as conductors of fluxes with a given distribution.
-    fn spread(
-        &self,
-        Costs { known, .. }: &mut Costs,
-        spreads: &[Spread],
-        place: &dyn Fn(usize) -> Option<usize>,
-        is_left_out: &dyn Fn(usize) -> bool,
-        rim: usize,
-    ) -> Option<Network> {
+        let known = &mut costs.known;
         known.resize_with(spreads.len(), || None);
         let new = self.live(|id| known[id].as_ref().is_none_or(|it| it.0 != spreads[id]));
         let found = parallel::map(&new, |&id| {
@@ -88,7 +51,13 @@ impl Field<'_> {
         for (id, cost) in new.into_iter().zip(found) {
             known[id] = cost;
         }
-        Network::new(&self.mesh, place, is_left_out, rim, known)
+        Network::new(&self.mesh, &place, rim, known)
+    }
+
+    /// Undivided cells with free configurations that satisfy a condition.
+    fn live(&self, holds: impl Fn(usize) -> bool) -> Vec<usize> {
+        let cells = self.mesh.live().map(|(id, ..)| id);
+        cells.filter(|&id| holds(id)).collect()
     }
 
     /// The decay of e^(-U/kT) along s in the middles of a cell's sides 2 to 5 and in its centre.
@@ -108,24 +77,5 @@ impl Field<'_> {
             profiles: sides.map(at),
             tilts: leaf.element.as_ref().map_or([0.0; 2], |it| it.tilts()),
         }
-    }
-
-    /// The cells as conductors between places given by their cells, without the omitted cells, for
-    /// fluxes similar to a function's; fluxes have the same distribution over the whole mesh.
-    pub fn network_between(
-        &self,
-        nodes: &Nodes,
-        place: &dyn Fn(usize) -> Option<usize>,
-        is_left_out: &dyn Fn(usize) -> bool,
-        rim: usize,
-        like: &[f64],
-    ) -> Option<(Network, Profile)> {
-        let found = self.profile(nodes, like);
-        let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = costs.profile.filter(|known| known.is_like(&found));
-        let profile = *costs.profile.insert(known.unwrap_or(found));
-        let spreads = vec![Spread::even(profile); self.mesh.leaves.len()];
-        let network = self.spread(&mut costs, &spreads, place, is_left_out, rim)?;
-        Some((network, profile))
     }
 }

@@ -95,11 +95,6 @@ impl Chart {
         }
     }
 
-    /// Where s begins, if that is the same everywhere (m).
-    pub fn circle(&self) -> f64 {
-        self.ray([0.0; 2]).radius(0.0)
-    }
-
     /// Whether all of it is free because it begins at contact.
     pub fn is_fitted(&self) -> bool {
         !matches!(self.wall, Wall::Circle(_))

@@ -46,14 +46,13 @@ pub(in crate::kinetics) struct Network {
 }
 
 impl Network {
-    /// A network between places given by their cells, and the rim, which is the place `rim`,
-    /// without the omitted cells; `None` if the chart contains blocked configurations.
+    /// A network between places given by their cells, and the rim, which is the place `rim`;
+    /// `None` if the chart contains blocked configurations.
     ///
     /// `costs` gives the distribution of fluxes in a cell, and their cost.
     pub fn new(
         mesh: &Octree,
         place: &dyn Fn(usize) -> Option<usize>,
-        is_left_out: &dyn Fn(usize) -> bool,
         rim: usize,
         costs: &[Option<(Spread, Box<Resistance>)>],
     ) -> Option<Self> {
@@ -62,7 +61,7 @@ impl Network {
         }
         let (sides, mut ends) = sides(mesh, rim, costs);
         let mut cells = Vec::new();
-        for (id, ..) in mesh.live().filter(|(id, ..)| !is_left_out(*id)) {
+        for (id, ..) in mesh.live() {
             let Some(place) = place(id) else {
                 cells.push(id);
                 continue;
@@ -172,7 +171,6 @@ impl Network {
         let carried = (current - lost).max(0.0);
         Flux {
             out: all,
-            carried,
             cost,
             capacity: if carried > 0.0 {
                 carried * carried / cost
@@ -180,21 +178,6 @@ impl Network {
                 0.0
             },
         }
-    }
-
-    /// The upward flows through the six sides of each cell.
-    pub fn upwards<'a>(&'a self, flux: &'a Flux) -> impl Iterator<Item = (usize, [f64; 6])> + 'a {
-        let conductors = self.conductors.iter().zip(&flux.out);
-        conductors.map(|(conductor, out)| {
-            let upwards = |side: usize| {
-                if side.is_multiple_of(2) {
-                    -out[side]
-                } else {
-                    out[side]
-                }
-            };
-            (conductor.cell, std::array::from_fn(upwards))
-        })
     }
 
     /// The potentials on faces of a function on the mesh: its means there, a guess.
@@ -319,8 +302,6 @@ const ROUNDING: f64 = 1e-12;
 pub(in crate::kinetics) struct Flux {
     /// Out of each conductor's sides.
     pub out: Vec<Vector6<f64>>,
-    /// The current from its place, less everything lost or added on the way.
-    pub carried: f64,
     /// Its cost.
     pub cost: f64,
     /// Its lower bound of the capacity; for fluxes from a place.

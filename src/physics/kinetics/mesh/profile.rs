@@ -2,62 +2,37 @@
 
 use nalgebra::SMatrix;
 
-/// Relative difference of rates that count as equal.
-const ALIKE: f64 = 0.1;
-
 /// A flux along contact is confined to the layer given by e^(-U/kT): its density is `e^(-rate (s -
-/// start))` plus a constant.
+/// start))`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinetics) struct Profile {
     /// Inverse decay length in s; negative if the density grows.
     pub rate: f64,
-    /// The s at which the density is 1 plus the constant.
+    /// The s at which the density is 1.
     start: f64,
-    /// The constant part.
-    even: f64,
 }
 
 impl Profile {
-    /// The constant part if one profile is used for a whole mesh: beyond four decay lengths (this
-    /// is e^-4) fluxes are distributed evenly.
-    pub(in crate::kinetics) const EVENLY: f64 = 0.018_315_638_888_734_18;
-
-    /// The profile of a layer at contact, for a whole mesh.
-    pub fn layer(rate: f64) -> Self {
-        Self {
-            rate,
-            start: 0.0,
-            even: Self::EVENLY,
-        }
-    }
-
     /// The profile between two s over which the density decreases by this power of e.
     pub fn falling(fall: f64, [from, to]: [f64; 2]) -> Self {
         Self {
             rate: fall / (to - from),
             start: from,
-            even: 0.0,
         }
-    }
-
-    /// Whether it is nearly equal to another: any profile gives valid bounds.
-    pub(in crate::kinetics) fn is_like(&self, other: &Self) -> bool {
-        (self.rate - other.rate).abs() <= ALIKE * other.rate
     }
 
     /// The integral of the density from its start to s.
     fn below(&self, s: f64) -> f64 {
         let along = s - self.start;
-        let even = self.even * along;
         match self.rate == 0.0 {
-            true => along + even,
-            false => -libm::expm1(-self.rate * along) / self.rate + even,
+            true => along,
+            false => -libm::expm1(-self.rate * along) / self.rate,
         }
     }
 
     /// The density at s.
     pub(in crate::kinetics) fn density(&self, s: f64) -> f64 {
-        libm::exp(-self.rate * (s - self.start)) + self.even
+        libm::exp(-self.rate * (s - self.start))
     }
 
     /// The integral of the density between two s.
@@ -96,14 +71,6 @@ pub(in crate::kinetics) struct Spread {
 pub(in crate::kinetics) type Resistance = SMatrix<f64, 7, 7>;
 
 impl Spread {
-    /// The same everywhere.
-    pub fn even(profile: Profile) -> Self {
-        Self {
-            profiles: [profile; 5],
-            tilts: [0.0; 2],
-        }
-    }
-
     /// The profile of a side, 2 or more.
     pub fn of(&self, side: usize) -> &Profile {
         &self.profiles[side - 2]

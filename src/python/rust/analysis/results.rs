@@ -215,10 +215,6 @@ impl Analysis {
     /// certify : float, optional
     ///     Target relative width of the bounds of the rates out of the bond and the traps, and
     ///     of every rate that is at least a tenth of these.
-    /// prove : bool, optional
-    ///     Prove how often tiles leave each basin, and bounds on the mean time until they reach
-    ///     another or are free. Only for dipoles in tiles that are convex about their centres
-    ///     of mass.
     ///
     /// Returns
     /// -------

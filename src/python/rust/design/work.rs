@@ -186,18 +186,13 @@ impl Design {
     ///     Their coefficient of restitution; 1 by default.
     /// seed : int, optional
     ///     Their random seed.
-    /// prove : bool, optional
-    ///     Prove how often tiles leave the well around the start, and bounds on the mean time
-    ///     until they are bound or free. Only for dipoles in tiles that are convex about their
-    ///     centres of mass.
     ///
     /// Returns
     /// -------
     /// dict
     ///     As ``tilebind rates --start --json``: ``mean_exit_s`` and ``mean_exit_bounds_s``,
     ///     ``exits`` (probabilities of bound first and free first), ``diffusion_m2_s``,
-    ///     ``proved`` (None if nothing is proved), ``mesh`` (difference between the two finest
-    ///     meshes).
+    ///     ``mesh`` (difference between the two finest meshes).
     #[pyo3(signature = (start, **settings))]
     fn exits<'py>(
         &self,
