@@ -4,6 +4,8 @@
 //! empty places, whose positions are part of the code. In all wrong contacts of all words, slid
 //! ones included, the attraction is at most (1 - gap) times the weakest bond of strength 1.
 
+use std::collections::BTreeMap;
+
 use super::Request;
 use super::wiring::Group;
 use crate::word_sets::least_spacing;
@@ -68,6 +70,8 @@ const LEAST_BESIDE: usize = 256;
 const NEAR: f64 = 0.1;
 /// The progress stage while increasingly long faces are tried.
 const PLACES: &str = "words";
+/// Share of the effort with which all lengths are tried first.
+const QUICK: f64 = 0.05;
 /// The longest face that is tried.
 pub const MOST_PLACES: usize = 48;
 
@@ -187,7 +191,12 @@ pub fn choose(
     trials
 }
 
-/// The answers for increasingly long faces, up to the first that carries the words.
+/// The answers for faces of different lengths; the last is that of the shortest face on which the
+/// words were found, or of the longest one.
+///
+/// Words are found sooner on faces that are not the shortest possible ones. So all lengths are tried
+/// with a small effort first, up to one that carries the words, and then shorter ones, one by one,
+/// with the whole effort.
 pub fn shortest(
     (demand, groups): (&[(f64, usize)], &[Group]),
     most: usize,
@@ -195,7 +204,6 @@ pub fn shortest(
     request: &Request,
     observer: &dyn Observer,
 ) -> Vec<Choice> {
-    let mut tried: Vec<Choice> = Vec::new();
     let asked = |places: usize| Asked {
         demand,
         groups,
@@ -207,22 +215,61 @@ pub fn shortest(
     let tells_apart = |places: &usize| asked(*places).tells_apart();
     let first = request.magnets.unwrap_or(1);
     let first = (first..=most).find(tells_apart).unwrap_or(first);
-    for places in first..=most {
+    let mut tried: BTreeMap<usize, Vec<Choice>> = BTreeMap::new();
+    let mut attempt = |places: usize, share: f64| {
         observer.part(PLACES, places, most);
-        tried.extend(choose((demand, groups), places, bar, request));
-        let refuted = |it: &&Choice| it.verdict == Verdict::Refuted;
-        observer.known(&format!(
-            "no such words are known on faces of up to {places} positions ({} of {} tries are \
-             proved impossible); continue with --length {}",
-            tried.iter().filter(refuted).count(),
-            tried.len(),
-            places + 1
-        ));
-        if tried.last().is_some_and(|it| it.verdict == Verdict::Found) {
+        let request = Request {
+            seconds: share * request.seconds,
+            ..request.clone()
+        };
+        let choices = choose((demand, groups), places, bar, &request);
+        let verdict = choices.last().map(|it| it.verdict);
+        tried.insert(places, choices);
+        let is_found = |it: &&Choice| it.verdict == Verdict::Found;
+        let refuted = tried.values().flatten();
+        let refuted = refuted.filter(|it| it.verdict == Verdict::Refuted);
+        observer.known(&match tried.values().flatten().find(is_found) {
+            Some(known) => format!(
+                "words are known on faces of {0} positions, and shorter ones are being tried; \
+                 --length {0} takes them",
+                known.places
+            ),
+            None => format!(
+                "no such words are known on faces of up to {places} positions ({} of {} lengths \
+                 are proved impossible); continue with --length {}",
+                refuted.count(),
+                tried.len(),
+                places + 1
+            ),
+        });
+        verdict
+    };
+    let mut is_open = vec![false; most + 1];
+    let mut best = None;
+    for places in first..=most {
+        let verdict = attempt(places, QUICK);
+        is_open[places] = verdict == Some(Verdict::Open);
+        if verdict == Some(Verdict::Found) {
+            best = Some(places);
             break;
         }
     }
-    tried
+    if let Some(found) = best {
+        for places in (first..found).rev().take_while(|places| is_open[*places]) {
+            if attempt(places, 1.0) != Some(Verdict::Found) {
+                break;
+            }
+            best = Some(places);
+        }
+    } else {
+        // Short faces, for which the small effort did not suffice.
+        let open = (first..=most).filter(|places| is_open[*places]);
+        best = open
+            .into_iter()
+            .find(|places| attempt(*places, 1.0) == Some(Verdict::Found));
+    }
+    tried.retain(|places, _| best.is_none_or(|best| *places <= best));
+    tried.into_values().flatten().collect()
 }
 
 fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {

@@ -198,25 +198,39 @@ impl<'a> Kinetics<'a> {
         }
     }
 
-    /// The cells of tiles that are not connected to a seed.
-    fn adrift(&self, tiles: &[Option<usize>]) -> Vec<usize> {
-        let mut joined = vec![false; tiles.len()];
-        let mut open: Vec<usize> = self.seeds.iter().map(|seed| seed.0).collect();
-        open.iter().for_each(|cell| joined[*cell] = true);
-        while let Some(cell) = open.pop() {
-            let Some(tile) = tiles[cell] else { continue };
-            for (side, near) in self.near(cell).into_iter().enumerate() {
-                let Some((near, other)) = near.and_then(|near| Some((near, tiles[near]?))) else {
-                    continue;
-                };
-                if !joined[near] && self.holds.between(tile, side, other) > 0.0 {
-                    joined[near] = true;
-                    open.push(near);
+    /// Tiles that no path of bonds joins to the seed, given that all were joined before a tile left
+    /// this place. `marks` is false everywhere, before and after.
+    fn adrift(&self, tiles: &[Option<usize>], left: usize, marks: &mut [bool]) -> Vec<usize> {
+        let mut seen: Vec<usize> = Vec::new();
+        let mut adrift = Vec::new();
+        for start in self.near(left).into_iter().flatten() {
+            let first = seen.len();
+            let mut visit = |cell: usize, seen: &mut Vec<usize>| {
+                if tiles[cell].is_some() && !std::mem::replace(&mut marks[cell], true) {
+                    seen.push(cell);
+                }
+            };
+            visit(start, &mut seen);
+            let mut next = first;
+            while let Some(&cell) = seen.get(next) {
+                next += 1;
+                for (side, near) in self.near(cell).into_iter().enumerate() {
+                    let pair = near.and_then(|near| Some((near, tiles[cell]?, tiles[near]?)));
+                    if let Some((near, tile, other)) = pair
+                        && self.holds.between(tile, side, other) > 0.0
+                    {
+                        visit(near, &mut seen);
+                    }
                 }
             }
+            let found = &seen[first..];
+            let is_seed = |cell: &usize| self.seeds.iter().any(|seed| seed.0 == *cell);
+            if !found.iter().any(is_seed) {
+                adrift.extend(found);
+            }
         }
-        let there = (0..tiles.len()).filter(|cell| tiles[*cell].is_some());
-        there.filter(|cell| !joined[*cell]).collect()
+        seen.iter().for_each(|cell| marks[*cell] = false);
+        adrift
     }
 
     /// Whether a tile is right: the intended one or, where there is a choice, one without a
@@ -260,6 +274,7 @@ impl<'a> Kinetics<'a> {
         let limit = WAITS[0] + WAITS[1] * self.target as f64;
         let mut waits = 0.0;
         let mut is_done = false;
+        let mut marks = vec![false; cells];
         for event in 0..MOST_EVENTS {
             if event % 256 == 0 {
                 interruption::check();
@@ -282,7 +297,7 @@ impl<'a> Kinetics<'a> {
                 self.put(&mut state, cell, None);
                 let near = self.near(cell).into_iter().flatten();
                 if near.filter(|it| state.tiles[*it].is_some()).count() > 1 {
-                    for cell in self.adrift(&state.tiles) {
+                    for cell in self.adrift(&state.tiles, cell, &mut marks) {
                         self.put(&mut state, cell, None);
                     }
                 }
@@ -456,9 +471,13 @@ mod tests {
         };
         let kinetics = Kinetics::new(&set, &grow(&set, 10));
         let mut tiles = [Some(0), Some(1), Some(2), Some(3)];
-        assert!(kinetics.adrift(&tiles).is_empty());
+        let mut marks = [false; 4];
+        tiles[3] = None;
+        assert!(kinetics.adrift(&tiles, 3, &mut marks).is_empty());
+        tiles[3] = Some(3);
         tiles[1] = None;
-        assert_eq!(kinetics.adrift(&tiles), [2, 3]);
+        assert_eq!(kinetics.adrift(&tiles, 1, &mut marks), [2, 3]);
+        assert_eq!(marks, [false; 4]);
     }
 
     /// The lower kT, the more errors. Near standstill a lattice with mismatches of 25 % of a bond

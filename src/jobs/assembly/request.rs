@@ -64,7 +64,10 @@ pub struct Request {
     #[arg(long, value_name = "MODEL", value_parser = request::model(), hide_possible_values = true)]
     pub model: Option<MagnetModel>,
 
-    /// Effort of the word search in core-seconds, counted in steps
+    /// Effort of the word search in core-seconds for each length of face, counted in steps
+    ///
+    /// Without --length all lengths are tried with a twentieth of it first, up to one that carries
+    /// the words, and then shorter ones with all of it.
     ///
     /// Steps are counted, not timed, so the same effort gives the same words on any machine.
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]

@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::word_sets::{self, file};
 use physics::observer::Observer;
 use physics::units::si;
-use physics::words::{Bar, Word};
+use physics::words::{Bar, Shape, Word};
 
 /// The result of a search.
 pub(super) struct Sought {
@@ -54,7 +54,7 @@ impl Request {
                 let side = face.unwrap_or_else(|| word_sets::side(&bar, last.places));
                 Ok(Sought { bar, side, tried })
             }
-            Some(last) => Err(missing(last)),
+            Some(last) => Err(missing(last, self.shape)),
             None => Err("the face has no magnets".to_owned()),
         }
     }
@@ -84,7 +84,7 @@ impl Request {
 }
 
 /// Describes which words are missing, and whether there can be more.
-fn missing(choice: &Choice) -> String {
+fn missing(choice: &Choice, shape: Shape) -> String {
     let classes = &choice.classes;
     let sum = |of: fn(&Class) -> usize| classes.iter().map(of).sum::<usize>();
     let magnets = |class: &Class| match class.magnets {
@@ -101,9 +101,13 @@ fn missing(choice: &Choice) -> String {
         ),
         None => "more may exist; increase --seconds to search longer".to_owned(),
     };
+    let shaped = match shape {
+        Shape::None => "faces whose shape prevents slid contacts (--shape shared), ",
+        _ => "",
+    };
     format!(
-        "{} words ({}) with a gap of {:.3} on faces of {} positions: {} were found, {why}; use a \
-         longer face, a narrower gap, or given words",
+        "{} words ({}) with a gap of {:.3} on faces of {} positions: {} were found, {why}; use \
+         {shaped}a longer face, a narrower gap, or given words",
         sum(|it| it.needed),
         needed.collect::<Vec<_>>().join(", "),
         choice.gap,

@@ -50,7 +50,7 @@ use crate::{convert, fault, job};
 /// model : {"dipole", "cuboid"}, optional
 ///     Magnet model; the design's by default.
 /// seconds : float, optional
-///     Effort of the word search in core-seconds, counted in steps.
+///     Effort of the word search in core-seconds for each length of face, counted in steps.
 /// seed : int, optional
 /// progress : bool, optional
 ///
