@@ -119,14 +119,19 @@ pub fn percent(proportion: &Proportion) -> String {
     if proportion.of == 0 {
         return "not counted".to_owned();
     }
-    let [share, low, high] = [proportion.share(), proportion.low, proportion.high].map(|x| {
-        let percent = 100.0 * x;
-        // Whole per cents, but 0 only for none and 100 only for all.
-        if (percent > 0.0 && percent < 1.0) || (percent > 99.0 && percent < 100.0) {
-            format!("{percent:.1}")
-        } else {
-            format!("{percent:.0}")
-        }
+    let percents = [proportion.share(), proportion.low, proportion.high].map(|x| 100.0 * x);
+    let [_, low, high] = percents;
+    // Whole per cents, unless the interval is narrower than two; but 0 only for none and 100 only
+    // for all.
+    let decimals = if high - low < 0.2 {
+        2
+    } else {
+        usize::from(high - low < 2.0)
+    };
+    let [share, low, high] = percents.map(|percent| {
+        let is_near_the_end = (0.0..1.0).contains(&percent) || (99.0..100.0).contains(&percent);
+        let decimals = decimals.max(usize::from(is_near_the_end && percent > 0.0));
+        format!("{percent:.decimals$}")
     });
     format!("{share} % ({low}-{high})")
 }

@@ -49,7 +49,11 @@ fn outputs(command: &str, folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// JSON without the lines of wall times and of threads.
 fn without_times(text: &str) -> String {
-    let varies = |line: &&str| line.contains("wall_s") || line.contains("\"threads\"");
+    let varies = |line: &&str| {
+        ["wall_s", "core_s_per", "\"threads\""]
+            .iter()
+            .any(|it| line.contains(it))
+    };
     let lines = text.lines().filter(|line| !varies(line));
     lines.collect::<Vec<_>>().join("\n")
 }
