@@ -122,15 +122,18 @@ pub fn percent(proportion: &Proportion) -> String {
     let percents = [proportion.share(), proportion.low, proportion.high].map(|x| 100.0 * x);
     let [_, low, high] = percents;
     // Whole per cents, unless the interval is narrower than two; but 0 only for none and 100 only
-    // for all.
+    // for all, and these without decimals.
     let decimals = if high - low < 0.2 {
         2
     } else {
         usize::from(high - low < 2.0)
     };
     let [share, low, high] = percents.map(|percent| {
-        let is_near_the_end = (0.0..1.0).contains(&percent) || (99.0..100.0).contains(&percent);
-        let decimals = decimals.max(usize::from(is_near_the_end && percent > 0.0));
+        let is_near_an_end = !(1.0..=99.0).contains(&percent);
+        let decimals = match percent {
+            0.0 | 100.0 => 0,
+            _ => decimals.max(usize::from(is_near_an_end)),
+        };
         format!("{percent:.decimals$}")
     });
     format!("{share} % ({low}-{high})")

@@ -30,10 +30,10 @@ fn outputs(command: &str, folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let output = run(command, folder);
     assert!(output.status.success(), "{command}\n{}", stderr(&output));
     let mut all = BTreeMap::from([("standard output".to_owned(), stdout(&output).into_bytes())]);
-    let out = command
+    let mut words = command
         .split_whitespace()
         .skip_while(|word| *word != "--out");
-    if let Some(out) = out.skip(1).next().map(|out| folder.join(out)) {
+    if let Some(out) = words.nth(1).map(|out| folder.join(out)) {
         match out.is_dir() {
             true => all.extend(contents(&out)),
             false => drop(all.insert("file".to_owned(), fs::read(&out).expect("a file"))),

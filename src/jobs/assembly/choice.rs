@@ -244,29 +244,27 @@ pub fn shortest(
         });
         verdict
     };
-    let mut is_open = vec![false; most + 1];
+    // The lengths on which words were neither found nor proved impossible, shortest first.
+    let mut open = Vec::new();
     let mut best = None;
     for places in first..=most {
-        let verdict = attempt(places, QUICK);
-        is_open[places] = verdict == Some(Verdict::Open);
-        if verdict == Some(Verdict::Found) {
-            best = Some(places);
-            break;
-        }
-    }
-    if let Some(found) = best {
-        for places in (first..found).rev().take_while(|places| is_open[*places]) {
-            if attempt(places, 1.0) != Some(Verdict::Found) {
+        match attempt(places, QUICK) {
+            Some(Verdict::Found) => {
+                best = Some(places);
                 break;
             }
-            best = Some(places);
+            Some(Verdict::Open) => open.push(places),
+            _ => {}
         }
-    } else {
-        // Short faces, for which the small effort did not suffice.
-        let open = (first..=most).filter(|places| is_open[*places]);
-        best = open
-            .into_iter()
-            .find(|places| attempt(*places, 1.0) == Some(Verdict::Found));
+    }
+    let mut carries = |places: &usize| attempt(*places, 1.0) == Some(Verdict::Found);
+    match best {
+        Some(_) => {
+            let shorter = open.into_iter().rev();
+            best = shorter.take_while(|places| carries(places)).last().or(best);
+        }
+        // Faces of limited length, for which the small effort did not suffice.
+        None => best = open.into_iter().find(|places| carries(places)),
     }
     tried.retain(|places, _| best.is_none_or(|best| *places <= best));
     tried.into_values().flatten().collect()
