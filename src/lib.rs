@@ -95,9 +95,9 @@
 //! - Edges of blocks in contact are checked at their midpoints, not bounded: the guarantee for them
 //!   is the certificate.
 //! - Uncertified barriers (minor traps in `compare` and `sweep`) are upper estimates; moving tiles
-//!   found some of them too high. Bounds behind shields are wider for blocks than for dipoles. An escape is the lowest certified path to
-//!   the bond, to `free` or to the lower state that is nearest in the roadmap; nothing is proved
-//!   about other lower states.
+//!   found some of them too high. Bounds behind shields are wider for blocks than for dipoles. An
+//!   escape is the lowest certified path to the bond, to `free` or to the lower state that is
+//!   nearest in the roadmap; nothing is proved about other lower states.
 //! - Docking shares depend on the restitution more than on anything else: of the paper's tile 8.0 %
 //!   of 20,000 runs of `tilebind dock` bind at 0.01 and 5.5 % at 0.1 (both within 0.4 %). The
 //!   restitution of real tiles has not been measured.

@@ -41,8 +41,7 @@ null). A rate of 0 is printed only where contact proves that there is no path.
 Bounds: upper bounds of capacities come from trial committors (Dirichlet), for all tiles. Lower bounds
 come from divergence-free fluxes (Thomson), for tiles whose contact boundary every ray from the
 centre crosses once: convex tiles, tabs, slots, teeth and arcs, but not dovetails or square teeth.
-The bounds exclude the discretisation error, which is estimated separately: they are \"bracketed on the
-mesh\".
+The bounds exclude the discretisation error, which is estimated separately: they hold \"on the mesh\".
 
 kT is the effective energy of the shaking. It exists for a drag of at least 50 /s and elastic
 collisions. Tiles that glide far between collisions, or lose energy in them, have no such kT.";

@@ -165,7 +165,7 @@ impl<'a> Kinetics<'a> {
     /// The total rate (1/wait) of all events in a cell.
     fn rate(&self, tiles: &[Option<usize>], cell: usize) -> f64 {
         match tiles[cell] {
-            Some(_) if self.seeds.iter().any(|seed| seed.0 == cell) => 0.0,
+            Some(_) if self.is_seed(cell) => 0.0,
             Some(tile) => {
                 let stay = self.held(tiles, cell, tile) - self.gmc;
                 libm::exp(-stay.clamp(-FOR_GOOD, FOR_GOOD))
@@ -198,6 +198,10 @@ impl<'a> Kinetics<'a> {
         }
     }
 
+    fn is_seed(&self, cell: usize) -> bool {
+        self.seeds.iter().any(|seed| seed.0 == cell)
+    }
+
     /// Tiles that no path of bonds joins to the seed, given that all were joined before a tile left
     /// this place. `marks` is false everywhere, before and after.
     fn adrift(&self, tiles: &[Option<usize>], left: usize, marks: &mut [bool]) -> Vec<usize> {
@@ -224,8 +228,7 @@ impl<'a> Kinetics<'a> {
                 }
             }
             let found = &seen[first..];
-            let is_seed = |cell: &usize| self.seeds.iter().any(|seed| seed.0 == *cell);
-            if !found.iter().any(is_seed) {
+            if !found.iter().any(|cell| self.is_seed(*cell)) {
                 adrift.extend(found);
             }
         }
@@ -316,8 +319,7 @@ impl<'a> Kinetics<'a> {
         // Weakly bound tiles are about to leave.
         let stays = |cell: &usize| {
             let tile = state.tiles[*cell]?;
-            let is_seed = self.seeds.iter().any(|seed| seed.0 == *cell);
-            (is_seed || self.held(&state.tiles, *cell, tile) > self.gmc).then_some(tile)
+            (self.is_seed(*cell) || self.held(&state.tiles, *cell, tile) > self.gmc).then_some(tile)
         };
         let staying: Vec<(usize, usize)> = (0..cells)
             .filter_map(|cell| Some((cell, stays(&cell)?)))

@@ -176,7 +176,7 @@ impl Question {
         let half = || half_bond(problem, bound);
         let basin = self.basin_energy.unwrap_or_else(half);
         let asked = ExitSettings {
-            certify: Some(self.certified(Certify::of_exit)),
+            certify: Some(self.certify.map_or_else(Certify::of_exit, Certify::to)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
         Ok(PoseExit {
@@ -202,7 +202,7 @@ impl Question {
         let states = RatedState::held(analysis, self.kt, traps, self.basin_energy);
         let basins = states.iter().map(RatedState::basin).collect();
         let asked = RateSettings {
-            certify: Some(self.certified(Certify::default)),
+            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
             map: is_pictured.then_some(SQUARES),
             ..RateSettings::new(self.kt, basins, self.free_at(design))
         };
@@ -218,11 +218,6 @@ impl Question {
             found.over_kt = found.at_other_kts(design, &analysis.problem);
         }
         Ok(found)
-    }
-
-    /// The requested accuracy of bounds.
-    fn certified(&self, usual: fn() -> Certify) -> Certify {
-        self.certify.map_or_else(usual, Certify::to)
     }
 
     fn free_at(&self, design: &Design) -> f64 {

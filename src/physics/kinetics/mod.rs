@@ -36,19 +36,19 @@
 //! definition of bound matters. `yield --rates overdamped` takes all rates from `rates`, including
 //! those from state to state, so that both commands agree.
 //!
-//! # What is proved
-//! There are two kinds of bounds. The bounds of mean exit times and of rates between places hold
-//! *on the mesh*: it is a theorem that a trial function bounds a capacity from above and a flux
-//! from below, and losses of the flux by rounding and the solver's tolerance are subtracted. They
-//! exclude two errors. First, the integrals of e^(-U/kT) and e^(U/kT) over cells are computed by
+//! # What bounds exclude
+//! The bounds of mean exit times and of rates between places hold *on the mesh*: it is a theorem
+//! that a trial function bounds a capacity from above and a flux from below, and losses of the flux
+//! by rounding and the solver's tolerance are subtracted. They exclude two errors. First, the
+//! integrals of e^(-U/kT) and e^(U/kT) over cells are computed by
 //! Gauss quadrature; where e^(-U/kT) is the source of the flux of the mean exit time, it is
 //! approximated within cells as decaying along s between its end values and as tilted along phi and
 //! theta. Second, a basin consists of the cells whose mean of U is below its limit; the resulting
 //! error of capacities is estimated by Hadamard's formula, stated for each mesh, and the mesh is
-//! refined accordingly. A mesh begins at contact if every ray from the centre leaves contact once and for all
-//! ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots with draft, sine and
-//! triangle teeth, arcs. Dovetails interlock and square teeth have walls along the way out: there
-//! only one-sided bounds, Dirichlet's, are available.
+//! refined accordingly. A mesh begins at contact if every ray from the centre leaves contact once
+//! and for all ([`crate::contact::Contact::least_lever`]): convex outlines, tabs and slots with
+//! draft, sine and triangle teeth, arcs. Dovetails interlock and square teeth have walls along the
+//! way out: there only one-sided bounds, Dirichlet's, are available.
 //!
 //! # What a mesh may miss
 //! Corridors between contacts that are narrower than cells. If no path out of a state is found,

@@ -77,7 +77,10 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             let inside = inside.iter().map(|own| own / all).collect();
             let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
             let found = bounded(problem, settings, [ground, beyond])?;
-            let (between, bounds) = found.unwrap_or_default();
+            let (between, bounds) = match found {
+                Some((between, bounds)) => (between, Some(bounds)),
+                None => (None, None),
+            };
             // Values lie between their bounds. The more accurate of two sets is taken: the error of
             // the middle of bounds is at most half their width.
             let is_better = |between: &MeshRates| {
@@ -112,16 +115,13 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
     }
 }
 
-/// The rates of a mesh with bounds, and the bounds.
-type Certified = (Option<MeshRates>, Option<RateBounds>);
-
 /// The results of the finest mesh that begins at contact, and its bounds, if any. Energies are
 /// relative to `ground` (J), and `beyond` is the occupation of the table outside the mesh.
 fn bounded(
     problem: &Problem,
     settings: &RateSettings,
     [ground, beyond]: [f64; 2],
-) -> Result<Option<Certified>, RatesError> {
+) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
@@ -139,7 +139,7 @@ fn bounded(
             leaving: step.bounds[..count].to_vec(),
             rates: rates.map(<[_]>::to_vec).collect(),
         };
-        (step.rates, Some(bounds))
+        (step.rates, bounds)
     }))
 }
 

@@ -23,6 +23,7 @@ const NO_BOUNDS: &str = "no bounds: they need a start in a well";
 /// The note for outlines with walls along rays, or crossed twice by rays.
 const ONE_SIDED: &str = "the other bound needs a flux along the contact, which exists only if \
     every ray from the centre crosses the contact boundary once";
+
 /// Bounds rounded outwards to three digits.
 fn outwards([lower, upper]: [f64; 2]) -> [f64; 2] {
     let unit = |end: f64| 10f64.powi(libm::log10(end).floor() as i32 - 2);

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::kinetics) struct Profile {
     /// Inverse decay length in s; negative if the density grows.
-    pub rate: f64,
+    rate: f64,
     /// The s at which the density is 1.
     start: f64,
 }
