@@ -142,12 +142,15 @@ fn grown_at(kt: f64, growth: &Kinetic) -> String {
     let Kinetic {
         runs, right, wrong, ..
     } = growth;
+    let unfinished = match runs - right - wrong {
+        0 => String::new(),
+        some => format!(", {some} do not finish"),
+    };
     format!(
-        "kinetic growth (kTAM) at kT = {}: {right} of {runs} runs correct, {wrong} with errors \
-         that remain, {} unfinished; errors per tile {:.2e}",
+        "kinetic growth (kTAM) at kT = {}: {right} of {runs} growths are right, {wrong} keep errors \
+         ({} a tile){unfinished}",
         si(kt, "J", 3),
-        runs - right - wrong,
-        growth.errors_a_tile
+        plain(growth.errors_a_tile, 2)
     )
 }
 

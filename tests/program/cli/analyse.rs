@@ -86,7 +86,7 @@ fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
     std::fs::write(&design, MANY).unwrap();
     let on = |threads: &str| {
         let out = folder.path().join(threads);
-        let few = "--milestones 250 --far-starts 10 --kinds 4 --certify-work 0 --complete-work 0";
+        let few = "--milestones 120 --far-starts 5 --kinds 2 --certify-work 0 --complete-work 0";
         let mut arguments = vec!["analyse", design.to_str().unwrap(), "--compact", "--quiet"];
         arguments.extend(["--out", out.to_str().unwrap(), "--threads", threads]);
         arguments.extend(few.split(' '));

@@ -33,7 +33,7 @@ pub use level::Level;
 use super::Potential;
 use super::dipole::{Dipole, dipoles};
 use super::groups::are_many;
-use super::groups::tree::{Group, Tree};
+use super::groups::tree::{Grain, Group, Tree};
 use super::groups::walk::Sight;
 use super::lever::Lever;
 use super::motion;
@@ -102,7 +102,8 @@ impl DipolePotential {
     /// The potential of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         if are_many(fixed.len(), moving.len()) {
-            let trees = [Tree::new(fixed, TOGETHER), Tree::new(moving, WIDTH)];
+            let trees = [(fixed, TOGETHER), (moving, WIDTH)]
+                .map(|(dipoles, fill)| Tree::new(dipoles, Grain::of_dipoles(fill)));
             if trees.iter().any(Tree::has_stands) {
                 let patches = Patches::new(&scaled_and_filled(fixed, 1), level);
                 return Self::of_trees(trees, patches, level);

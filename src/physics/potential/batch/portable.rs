@@ -3,6 +3,8 @@
 use super::lanes::{
     Arithmetic, GUESS, Lanes, Task, WIDTH, angle, ln_ratio, reciprocal_sqrt, sin_cos,
 };
+#[cfg(target_arch = "x86_64")]
+use super::x86::Avx2;
 
 /// Eight lanes in plain Rust.
 ///
@@ -20,6 +22,24 @@ impl Portable {
 }
 
 type F = [f64; WIDTH];
+
+/// `a b + c`, rounded once. A processor that has an instruction for it, and runs this level as a check
+/// of the others, uses it: the bits are those of the software, which takes ten times as long.
+#[cfg(target_arch = "x86_64")]
+struct Fused(F, F, F);
+
+#[cfg(target_arch = "x86_64")]
+impl Task for Fused {
+    type Output = F;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> F {
+        let Self(a, b, c) = self;
+        let mut sums = [0.0; WIDTH];
+        l.store(l.mul_add(l.load(&a), l.load(&b), l.load(&c)), &mut sums);
+        sums
+    }
+}
 
 /// Operations, lane by lane.
 macro_rules! lane_by_lane {
@@ -48,12 +68,25 @@ impl Arithmetic for Portable {
         reciprocal_sqrt(self, a)
     }
 
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+    fn mul_add(self, a: F, b: F, c: F) -> F {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(lanes) = Avx2::detect() {
+            return lanes.run(Fused(a, b, c));
+        }
+        std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
+    }
+
+    #[inline(always)]
+    fn neg_mul_add(self, a: F, b: F, c: F) -> F {
+        self.mul_add(a.map(|a| -a), b, c)
+    }
+
     lane_by_lane! {
         add(a, b) = a + b;
         sub(a, b) = a - b;
         mul(a, b) = a * b;
-        mul_add(a, b, c) = a.mul_add(b, c);
-        neg_mul_add(a, b, c) = (-a).mul_add(b, c);
         min(a, b) = smaller(a, b);
         reciprocal_sqrt_guess(a) = f64::from_bits((GUESS as u64).wrapping_sub(a.to_bits() >> 1));
         reciprocal_single(a) = f64::from(1.0 / a as f32);

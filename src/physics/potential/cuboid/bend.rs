@@ -2,8 +2,8 @@
 
 use nalgebra::Complex;
 
-use super::CuboidPotential;
 use super::far::{Group, Pairs};
+use super::{CuboidPotential, Meeting};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::motion;
@@ -25,12 +25,17 @@ impl Task for FourthDerivative<'_> {
         let rotation = Complex::new(cos, sin);
         let terms = motion::fourth_derivative(self.potential.lever.turn());
         let mut bound = 0.0;
-        for moving in &self.potential.moving_groups {
-            for fixed in &self.potential.fixed_groups {
-                match self.of_groups(l, [fixed, moving], rotation, &terms) {
-                    Some(share) => bound += share,
-                    None => return f64::INFINITY,
-                }
+        let ([all_fixed, all_moving], meetings) = self.potential.meetings(self.q, Some(self.reach));
+        for Meeting { groups, replaced } in meetings.iter() {
+            let [fixed, moving] = [&all_fixed[groups[0]], &all_moving[groups[1]]];
+            if let Some((moments, distance)) = replaced {
+                let limits = &self.potential.far[fixed.size][moving.size].limits;
+                bound += motion::bound(&terms, moments * limits.dipole(), *distance);
+                continue;
+            }
+            match self.of_groups(l, [fixed, moving], rotation, &terms) {
+                Some(share) => bound += share,
+                None => return f64::INFINITY,
             }
         }
         bound
@@ -51,7 +56,7 @@ impl FourthDerivative<'_> {
         let mut sum = l.splat(0.0);
         let radii = l.splat(far.radii);
         let lost = l.splat(far.radii + self.reach);
-        for j in 0..moving.members.len() {
+        for j in 0..moving.count {
             let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
             for from in (0..fixed.x.len()).step_by(WIDTH) {
                 let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);

@@ -207,8 +207,10 @@ pub struct Group {
     pub size: usize,
     /// The axis of all of them.
     pub axis: Complex<f64>,
-    /// Which of the tile's blocks they are.
+    /// Which of the tile's blocks they are; empty if they replace others.
     pub members: Vec<usize>,
+    /// Their number, without the padding.
+    pub count: usize,
     /// Places (m) in the frame whose x axis is the axis.
     pub x: Vec<f64>,
     pub y: Vec<f64>,
@@ -228,6 +230,7 @@ impl Group {
             size,
             axis: Complex::new(axis.x, axis.y),
             members: Vec::new(),
+            count: 0,
             x: Vec::new(),
             y: Vec::new(),
             moment: Vec::new(),
@@ -238,8 +241,14 @@ impl Group {
 
     /// Adds a block, pointing along the axis (sign 1) or against it (-1).
     pub fn push(&mut self, member: usize, position: Vector2<f64>, moment: f64) {
-        let place = Complex::new(position.x, position.y) * self.axis.conj();
         self.members.push(member);
+        self.push_stand(position, moment);
+    }
+
+    /// Adds a block that replaces others.
+    pub fn push_stand(&mut self, position: Vector2<f64>, moment: f64) {
+        let place = Complex::new(position.x, position.y) * self.axis.conj();
+        self.count += 1;
         self.x.push(place.re);
         self.y.push(place.im);
         self.moment.push(moment);
@@ -262,7 +271,7 @@ impl Group {
 
     /// Pads to whole vectors.
     pub fn fill(&mut self) {
-        let length = self.members.len().next_multiple_of(WIDTH);
+        let length = self.count.next_multiple_of(WIDTH);
         // Far from everything, so that padding never counts as near.
         self.x.resize(length, AWAY.sqrt());
         self.y.resize(length, 0.0);

@@ -13,6 +13,8 @@
 //!   omitted terms decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, for the strongest pair if pairs are
 //!   summed.
 //!
+//! * Very many blocks far away are replaced by a few (`many`).
+//!
 //! # Accuracy
 //! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7 at
 //! worst in the tests) and 1e-4 closer, contact and sliding contact included (4e-6 at worst), for
@@ -34,12 +36,15 @@ mod cloud;
 pub(in crate::potential) mod correction;
 mod far;
 pub mod limits;
+mod many;
 pub(in crate::potential) mod multipole;
 mod panel;
 pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;
 
 mod sum;
+
+use std::borrow::Cow;
 
 use nalgebra::{Complex, Vector3};
 
@@ -52,6 +57,7 @@ use bend::FourthDerivative;
 pub use block::{Block, PairEnergy};
 use far::{Group, STEPS};
 use limits::Limits;
+use many::{Many, Meeting};
 use multipole::{Multipole, TERMS};
 pub use panel::exact;
 use sum::{Each, Sum};
@@ -71,6 +77,9 @@ pub struct CuboidPotential {
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
     far: Vec<Vec<Far>>,
+    /// All pairs of a fixed and a moving group.
+    all: Vec<Meeting>,
+    many: Option<Many>,
     lever: Lever,
 }
 
@@ -203,13 +212,25 @@ impl CuboidPotential {
         for group in &mut fixed_groups {
             group.fill();
         }
-        let far = fixed_sizes
+        let far: Vec<Vec<Far>> = fixed_sizes
             .iter()
             .map(|first| {
                 moving_sizes
                     .iter()
                     .map(|second| Far::new(*first, *second))
                     .collect()
+            })
+            .collect();
+        let many = Many::new([&fixed, &moving], [&fixed_groups, &moving_groups], &far);
+        let lever = many.as_ref().map_or(lever, |many| {
+            let radii = moving.iter().map(|it| it.block.radius());
+            many.lever(radii.fold(0.0, f64::max))
+        });
+        let all = (0..moving_groups.len())
+            .flat_map(|j| (0..fixed_groups.len()).map(move |i| [i, j]))
+            .map(|groups| Meeting {
+                groups,
+                replaced: None,
             })
             .collect();
         Self {
@@ -219,6 +240,8 @@ impl CuboidPotential {
             fixed_groups,
             moving_groups,
             far,
+            all,
+            many,
             lever,
         }
     }
@@ -230,6 +253,24 @@ impl CuboidPotential {
     pub(in crate::potential) fn hand_over(&self) -> f64 {
         let all = self.far.iter().flatten();
         all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
+    }
+
+    /// The groups of either tile whose pairs make up the energy in a configuration or, if a `reach` (m)
+    /// is given, its bounds within it; and these pairs.
+    fn meetings(
+        &self,
+        q: &Configuration,
+        reach: Option<f64>,
+    ) -> ([&[Group]; 2], Cow<'_, [Meeting]>) {
+        let Some(many) = &self.many else {
+            let all = [self.fixed_groups.as_slice(), &self.moving_groups];
+            return (all, Cow::Borrowed(&self.all));
+        };
+        let meetings = match reach {
+            None => many.meetings(q),
+            Some(reach) => many.meetings_within(q, reach),
+        };
+        (many.groups(), Cow::Owned(meetings))
     }
 
     /// The bounds of the derivatives of the fixed block `i` and the moving block `j`, for moments of
@@ -285,26 +326,48 @@ impl Potential for CuboidPotential {
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let (sin, cos) = libm::sincos(q.theta);
         let turn = self.lever.turn();
-        let mut bound = 0.0;
-        for second in &self.moving {
+        let of_pair = |first: &SizedBlock, second: &SizedBlock| {
             let moved = second.block.moved(cos, sin, q.position());
-            for first in &self.fixed {
-                let Far { limits, radii, .. } = &self.far[first.size][second.size];
-                let r = (moved.position - first.block.position).norm();
-                let distance = r - radii - reach;
-                let apart = limits.curvature(turn, distance);
-                let strength = (first.block.moment * moved.moment).abs();
-                bound += strength
-                    * if distance > 2.0 * radii {
-                        apart
-                    } else {
-                        let distances = limits::face_distances(&first.block, &moved)
-                            .map(|d| (d - reach).max(reach / 16.0));
-                        apart.min(limits.curvature_of_faces(turn, distances))
-                    };
+            let Far { limits, radii, .. } = &self.far[first.size][second.size];
+            let r = (moved.position - first.block.position).norm();
+            let distance = r - radii - reach;
+            let apart = limits.curvature(turn, distance);
+            let strength = (first.block.moment * moved.moment).abs();
+            strength
+                * if distance > 2.0 * radii {
+                    apart
+                } else {
+                    let distances = limits::face_distances(&first.block, &moved)
+                        .map(|d| (d - reach).max(reach / 16.0));
+                    apart.min(limits.curvature_of_faces(turn, distances))
+                }
+        };
+        let Some(many) = &self.many else {
+            let all = self.moving.iter();
+            let pairs = all.flat_map(|second| self.fixed.iter().map(move |first| (first, second)));
+            return pairs.fold(0.0, |sum, (first, second)| sum + of_pair(first, second));
+        };
+        let [fixed, moving] = many.groups();
+        let of_groups = |meeting: Meeting| {
+            let [first, second] = [&fixed[meeting.groups[0]], &moving[meeting.groups[1]]];
+            if let Some((moments, distance)) = meeting.replaced {
+                let limits = &self.far[first.size][second.size].limits;
+                return moments * limits.curvature(turn, distance);
             }
-        }
-        bound
+            let blocks = second.members.iter().map(|j| &self.moving[*j]);
+            blocks
+                .flat_map(|b| {
+                    first
+                        .members
+                        .iter()
+                        .map(move |i| of_pair(&self.fixed[*i], b))
+                })
+                .sum()
+        };
+        let meetings = many.meetings_within(q, reach).into_iter();
+        meetings
+            .map(of_groups)
+            .fold(0.0, |sum: f64, share: f64| sum + share)
     }
 
     /// Known only if all blocks are farther apart than their own size: closer, the second
@@ -319,6 +382,10 @@ impl Potential for CuboidPotential {
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {
         self.lever.displacement(step)
+    }
+
+    fn is_dear(&self) -> bool {
+        self.many.is_some()
     }
 
     /// Half the shortest side in the plane of any block.

@@ -6,7 +6,7 @@ use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::{self, Near};
-use super::{CuboidPotential, Far};
+use super::{CuboidPotential, Far, Meeting};
 use crate::configuration::Configuration;
 use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -24,27 +24,28 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let (sin, cos) = libm::sincos(self.q.theta);
         let rotation = Complex::new(cos, sin);
-        let strongest = self.strongest(l, rotation);
+        let ([all_fixed, all_moving], meetings) = self.potential.meetings(self.q, None);
+        let mut strongest = Strongest::new(l);
+        for Meeting { groups, replaced } in meetings.iter() {
+            if replaced.is_none() {
+                let groups = [&all_fixed[groups[0]], &all_moving[groups[1]]];
+                self.find_strongest(l, groups, rotation, &mut strongest);
+            }
+        }
+        let strongest = strongest.value(l);
         let mut sums = Sums::zero(l);
-        let mut coefficients = Coefficients::NONE;
+        let mut known = Known::none();
         let mut near = Vec::new();
         let (mut energy, mut gradient) = (0.0, Vector3::zeros());
-        for moving in &self.potential.moving_groups {
-            for fixed in &self.potential.fixed_groups {
-                self.add_far(
-                    l,
-                    [fixed, moving],
-                    (rotation, strongest),
-                    &mut coefficients,
-                    &mut sums,
-                    &mut near,
-                );
-                if !near.is_empty() {
-                    let sum = self.near([fixed, moving], rotation, &near);
-                    energy += sum.0;
-                    gradient += sum.1;
-                    near.clear();
-                }
+        for Meeting { groups, .. } in meetings.iter() {
+            let groups = [&all_fixed[groups[0]], &all_moving[groups[1]]];
+            let context = (rotation, strongest);
+            self.add_far(l, groups, context, &mut known, &mut sums, &mut near);
+            if !near.is_empty() {
+                let sum = self.near(groups, rotation, &near);
+                energy += sum.0;
+                gradient += sum.1;
+                near.clear();
             }
         }
         let scale = -MU0_OVER_4PI;
@@ -57,30 +58,74 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     }
 }
 
-impl<const SLOPE: bool> Sum<'_, SLOPE> {
-    /// The greatest `|m1 m2| / r^3` of any pair (A^2 m).
+/// The pair of blocks with the greatest `|m1 m2| / r^3`: the smallest of its powers -2/3, in lanes.
+struct Strongest<F>(F);
+
+impl<F: Copy> Strongest<F> {
     #[inline(always)]
-    fn strongest<L: Lanes>(&self, l: L, rotation: Complex<f64>) -> f64 {
-        let mut least = l.splat(f64::MAX);
-        for moving in &self.potential.moving_groups {
-            for fixed in &self.potential.fixed_groups {
-                let (_, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
-                for j in 0..moving.members.len() {
-                    let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
-                    let (x, y) = (l.splat(place.re), l.splat(place.im));
-                    let weakness = l.splat(moving.weakness[j]);
-                    for from in (0..fixed.x.len()).step_by(WIDTH) {
-                        let dx = l.sub(x, l.load(&fixed.x[from..]));
-                        let dy = l.sub(y, l.load(&fixed.y[from..]));
-                        let square = l.mul_add(dx, dx, l.mul(dy, dy));
-                        let weakness = l.mul(weakness, l.load(&fixed.weakness[from..]));
-                        least = l.min(least, l.mul(square, weakness));
-                    }
-                }
+    fn new<L: Lanes<F = F>>(l: L) -> Self {
+        Self(l.splat(f64::MAX))
+    }
+
+    /// `|m1 m2| / r^3` (A^2 m).
+    #[inline(always)]
+    fn value<L: Lanes<F = F>>(self, l: L) -> f64 {
+        let least = l.least(self.0);
+        1.0 / (least * least.sqrt())
+    }
+}
+
+/// Coefficients of the far form that are computed, for two groups and those of the same kinds.
+struct Known {
+    coefficients: Coefficients,
+    terms: usize,
+    sizes: [usize; 2],
+    axes: [Complex<f64>; 2],
+}
+
+impl Known {
+    fn none() -> Self {
+        Self {
+            coefficients: Coefficients::NONE,
+            terms: 0,
+            sizes: [0; 2],
+            axes: [Complex::new(0.0, 0.0); 2],
+        }
+    }
+
+    /// Forgets what does not apply to these groups.
+    fn look_at(&mut self, groups: [&Group; 2]) {
+        let (sizes, axes) = (groups.map(|it| it.size), groups.map(|it| it.axis));
+        if sizes != self.sizes || axes != self.axes {
+            self.terms = 0;
+            (self.sizes, self.axes) = (sizes, axes);
+        }
+    }
+}
+
+impl<const SLOPE: bool> Sum<'_, SLOPE> {
+    /// Takes the pairs of two groups into account.
+    #[inline(always)]
+    fn find_strongest<L: Lanes>(
+        &self,
+        l: L,
+        [fixed, moving]: [&Group; 2],
+        rotation: Complex<f64>,
+        strongest: &mut Strongest<L::F>,
+    ) {
+        let (_, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
+        for j in 0..moving.count {
+            let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
+            let (x, y) = (l.splat(place.re), l.splat(place.im));
+            let weakness = l.splat(moving.weakness[j]);
+            for from in (0..fixed.x.len()).step_by(WIDTH) {
+                let dx = l.sub(x, l.load(&fixed.x[from..]));
+                let dy = l.sub(y, l.load(&fixed.y[from..]));
+                let square = l.mul_add(dx, dx, l.mul(dy, dy));
+                let weakness = l.mul(weakness, l.load(&fixed.weakness[from..]));
+                strongest.0 = l.min(strongest.0, l.mul(square, weakness));
             }
         }
-        let least = l.least(least);
-        1.0 / (least * least.sqrt())
     }
 
     /// Adds the pairs of two groups that are far enough apart, and lists the others by their
@@ -91,15 +136,15 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
         l: L,
         [fixed, moving]: [&Group; 2],
         (rotation, strongest): (Complex<f64>, f64),
-        coefficients: &mut Coefficients,
+        known: &mut Known,
         total: &mut Sums<L::F>,
         near_pairs: &mut Vec<[usize; 2]>,
     ) {
         let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
         let steps = far.steps(strongest / (fixed.strongest * moving.strongest));
         let mut sums = Sums::zero(l);
-        let mut known = 0;
-        for j in 0..moving.members.len() {
+        known.look_at([fixed, moving]);
+        for j in 0..moving.count {
             let arm = turn * Complex::new(moving.x[j], moving.y[j]);
             let place = centre + arm;
             for from in (0..fixed.x.len()).step_by(WIDTH) {
@@ -121,10 +166,11 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                     least = l.least(pairs.rr);
                 }
                 let terms = Far::terms(steps, least);
-                if known < terms {
+                let coefficients = &mut known.coefficients;
+                if known.terms < terms {
                     far.series
-                        .evaluate::<L, SLOPE>(l, turn, known..terms, coefficients);
-                    known = terms;
+                        .evaluate::<L, SLOPE>(l, turn, known.terms..terms, coefficients);
+                    known.terms = terms;
                 }
                 far::add_terms::<L, SLOPE>(l, terms, coefficients, &pairs, &mut sums);
             }

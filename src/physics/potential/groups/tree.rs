@@ -8,10 +8,26 @@ use nalgebra::Vector2;
 use super::interpolation::{least_distance, lebesgue, lost, nodes, shares};
 use crate::potential::dipole::Dipole;
 
-/// The largest error of a pair of groups, as a fraction of `mu0 M1 M2 / (4 pi r^3)`, with M the
-/// sums of the moments' magnitudes and r the distance of the groups. (Actual errors are a hundred
+/// The largest error of a pair of groups of dipoles, as a fraction of `mu0 M1 M2 / (4 pi r^3)`, with M
+/// the sums of the moments' magnitudes and r the distance of the groups. (Actual errors are a hundred
 /// times smaller, and far groups are weak compared with those in contact.)
 pub const LOST: f64 = 1e-11;
+
+/// How dipoles are grouped.
+#[derive(Clone, Copy, Debug)]
+pub struct Grain {
+    /// Each group's dipoles are padded to a multiple of this.
+    pub fill: usize,
+    /// The largest error of a pair of groups, as [`LOST`] is.
+    pub lost: f64,
+}
+
+impl Grain {
+    /// For groups of dipoles.
+    pub fn of_dipoles(fill: usize) -> Self {
+        Self { fill, lost: LOST }
+    }
+}
 
 /// The allowed error is divided by this. Either group has an error along and across; the second
 /// one's is multiplied by Lebesgue's constants of the first one's grid, at most 3.03 for 24 nodes
@@ -74,9 +90,14 @@ pub struct Stand {
 }
 
 impl Tree {
-    /// Groups of dipoles, given in their order along a tile's outline. Each group's dipoles are
-    /// padded to a multiple of `fill`.
-    pub fn new(dipoles: &[Dipole], fill: usize) -> Self {
+    /// Groups of dipoles, given in their order along a tile's outline.
+    pub fn new(dipoles: &[Dipole], grain: Grain) -> Self {
+        Self::of_kinds(dipoles, &vec![0; dipoles.len()], grain)
+    }
+
+    /// Groups of dipoles each of which has a kind, those of one kind given one after the other in
+    /// their order along a tile's outline. Only dipoles of one kind are replaced together.
+    pub fn of_kinds(dipoles: &[Dipole], kinds: &[usize], grain: Grain) -> Self {
         let distances = dipoles.iter().map(|dipole| dipole.position.norm());
         let lever = distances.fold(0.0, f64::max);
         let mut tree = Self {
@@ -84,30 +105,37 @@ impl Tree {
             ..Self::default()
         };
         if !dipoles.is_empty() {
-            tree.add(dipoles, fill, WIDER * lever);
+            tree.add(dipoles, kinds, grain, WIDER * lever);
         }
         tree
     }
 
     /// Adds a group and its parts; returns its number. A group whose box reaches farther than
     /// `farthest` (m) from the reference point is not replaced.
-    fn add(&mut self, dipoles: &[Dipole], fill: usize, farthest: f64) -> usize {
+    fn add(&mut self, dipoles: &[Dipole], kinds: &[usize], grain: Grain, farthest: f64) -> usize {
         let number = self.groups.len();
         let mut group = Group::around(dipoles);
         self.groups.push(group.clone());
-        if dipoles.len() <= FEW.max(2 * fill) {
-            group.own = self.append(dipoles.to_vec(), fill);
+        let is_of_one_kind = kinds.first() == kinds.last();
+        if is_of_one_kind && dipoles.len() <= FEW.max(2 * grain.fill) {
+            group.own = self.append(dipoles.to_vec(), grain.fill);
         } else {
-            let stands = ORDERS.map(|order| group.stand(dipoles, order));
-            let is_within = group.lever <= farthest;
-            for (stand, from) in stands.into_iter().flatten().filter(|_| is_within) {
-                let dipoles = self.append(stand, fill);
+            let stands = ORDERS.map(|order| group.stand(dipoles, order, grain.lost));
+            let is_replaced = is_of_one_kind && group.lever <= farthest;
+            for (stand, from) in stands.into_iter().flatten().filter(|_| is_replaced) {
+                let dipoles = self.append(stand, grain.fill);
                 group.stands.push(Stand { from, dipoles });
                 self.lever = self.lever.max(group.lever);
             }
-            let cut = cut(dipoles);
-            let parts = [&dipoles[..cut], &dipoles[cut..]];
-            group.parts = Some(parts.map(|part| self.add(part, fill, farthest)));
+            let cut = if is_of_one_kind {
+                cut(dipoles)
+            } else {
+                between_kinds(kinds)
+            };
+            let (first, second) = (0..cut, cut..dipoles.len());
+            let parts = [first, second]
+                .map(|part| self.add(&dipoles[part.clone()], &kinds[part], grain, farthest));
+            group.parts = Some(parts);
         }
         self.groups[number] = group;
         number
@@ -146,6 +174,13 @@ fn cut(dipoles: &[Dipole]) -> usize {
         .filter(|k| worth(*k) >= widest * (1.0 - 1e-9))
         .min_by_key(|k| k.abs_diff(count / 2))
         .unwrap_or(count / 2)
+}
+
+/// Where to divide dipoles of several kinds: between two kinds, near the middle.
+fn between_kinds(kinds: &[usize]) -> usize {
+    let changes = (1..kinds.len()).filter(|k| kinds[*k] != kinds[k - 1]);
+    let nearest = changes.min_by_key(|k| k.abs_diff(kinds.len() / 2));
+    nearest.expect("several kinds")
 }
 
 impl Group {
@@ -189,10 +224,10 @@ impl Group {
     /// The error of a grid of n by k nodes is at most that of n nodes along, plus that of k nodes
     /// across times Lebesgue's constant of the n. If both groups of a pair are replaced, it is at
     /// most the error of one plus that of the other times the constants of the first.
-    fn stand(&self, dipoles: &[Dipole], order: usize) -> Option<(Vec<Dipole>, f64)> {
+    fn stand(&self, dipoles: &[Dipole], order: usize, allowed: f64) -> Option<(Vec<Dipole>, f64)> {
         let [length, width] = self.half;
-        let from = least_distance(order, length, LOST / SHARES);
-        let across = LOST / (SHARES * lebesgue(order));
+        let from = least_distance(order, length, allowed / SHARES);
+        let across = allowed / (SHARES * lebesgue(order));
         let widths = (1..=8).find(|k| lost(*k, width, from) <= across)?;
         if 4 * order * widths > 3 * dipoles.len() {
             return None;

@@ -15,6 +15,13 @@ pub struct Leeway {
     pub turn: f64,
     /// Groups closer than this many times a group's own leeway are split.
     pub near: f64,
+    /// So are groups closer than this (m).
+    pub least: f64,
+    /// So are groups closer than this many times half the length of the longer one, whose parts are at
+    /// too different distances.
+    pub lengths: f64,
+    /// The magnets of a pair reach this much (m) from their centres, both together.
+    pub radii: f64,
 }
 
 /// Two interacting groups, as indices of their dipoles in the trees.
@@ -107,8 +114,12 @@ impl Iterator for Walk<'_> {
             let (fixed, moving) = (&groups[0][f], &groups[1][m]);
             let leeway = self.leeway.travel + self.leeway.turn * moving.lever;
             let distance = self.sight.distance(fixed, moving);
-            let clear = if distance > self.leeway.near * leeway {
-                distance - leeway
+            let left = distance - leeway;
+            let length = fixed.half[0].max(moving.half[0]);
+            let is_far = distance > self.leeway.near * leeway
+                && left > self.leeway.least.max(self.leeway.lengths * length);
+            let clear = if is_far {
+                left - self.leeway.radii
             } else {
                 0.0
             };

@@ -7,7 +7,7 @@ use super::{DipoleBounds, NEAR};
 use crate::cell::Cell;
 use crate::potential::bounds::{Enclosure, depths};
 use crate::potential::dipole::{Dipole, dipoles};
-use crate::potential::groups::tree::{self, Group, Tree};
+use crate::potential::groups::tree::{self, Grain, Group, Tree};
 use crate::potential::groups::walk::{Leeway, Walk};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
@@ -20,6 +20,7 @@ impl DipoleBounds {
             turn: cell.half[2],
             // A little farther than single pairs, so that no replacement is near.
             near: NEAR * (1.0 + 1e-6),
+            ..Leeway::default()
         };
         let mut out = Enclosure::default();
         let mut weights = Vec::new();
@@ -71,7 +72,7 @@ const SLOPE_OF_LOST: f64 = 100.0;
 /// The tree of a tile's dipoles, and the dipoles of its groups with their distances to the outline,
 /// which replacements lack.
 pub(super) fn in_groups(tile: &Tile, fill: usize) -> (Vec<(Dipole, f64)>, Vec<Group>) {
-    let tree = Tree::new(&dipoles(&tile.magnets), fill);
+    let tree = Tree::new(&dipoles(&tile.magnets), Grain::of_dipoles(fill));
     let mut all: Vec<_> = tree.dipoles.iter().map(|dipole| (*dipole, 0.0)).collect();
     let mut depths = depths(tile).into_iter();
     for group in &tree.groups {
