@@ -75,10 +75,10 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
     let grown = &built.grown;
     let window = built.window().map(|[low, high]| match low > 0.0 {
         true => format!(
-            "it grows between kT {} at this coverage",
+            "it grows at kT from {} at this coverage",
             si_range(low, high, "J", 3)
         ),
-        false => format!("it grows below kT {} at this coverage", si(high, "J", 3)),
+        false => format!("it grows at kT below {} at this coverage", si(high, "J", 3)),
     });
     let lattice = assembly.request.lattice.map(|[rows, columns]| {
         let needed = lattice::words(rows, columns);
