@@ -120,12 +120,13 @@ impl Tree {
         if is_of_one_kind && dipoles.len() <= FEW.max(2 * grain.fill) {
             group.own = self.append(dipoles.to_vec(), grain.fill);
         } else {
-            let stands = ORDERS.map(|order| group.stand(dipoles, order, grain.lost));
             let is_replaced = is_of_one_kind && group.lever <= farthest;
-            for (stand, from) in stands.into_iter().flatten().filter(|_| is_replaced) {
-                let dipoles = self.append(stand, grain.fill);
-                group.stands.push(Stand { from, dipoles });
-                self.lever = self.lever.max(group.lever);
+            for order in ORDERS.into_iter().filter(|_| is_replaced) {
+                if let Some((stand, from)) = group.stand(dipoles, order, grain.lost) {
+                    let dipoles = self.append(stand, grain.fill);
+                    group.stands.push(Stand { from, dipoles });
+                    self.lever = self.lever.max(group.lever);
+                }
             }
             let cut = if is_of_one_kind {
                 cut(dipoles)
