@@ -115,8 +115,8 @@
 //!
 //! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour; `drawing`, `tileset`,
 //! `words`, `plan` and `table` fuzz those of drawings, tile sets, sets of words, manifests of
-//! sweeps and tables, and `bounds` compares the bounds of energies over cells with interval
-//! arithmetic of `inari`. It is built separately, with its own compiler flags. `cargo mutants
+//! sweeps and tables, and `bounds` compares the bounds of energies over cells with plain interval
+//! arithmetic. It is built separately, with its own compiler flags. `cargo mutants
 //! --file 'src/physics/roadmap/**'` finds changes of the code that no test notices
 //! (`.cargo/mutants.toml`). `.ci/deny` checks the dependencies against `.ci/deny.toml`.
 //! `rust-version` in `Cargo.toml` is what the dependencies state; a compiler that old has not been

@@ -1,5 +1,10 @@
-//! Properties that every answer of the readers must have.
+//! Properties that every answer of the readers, and every bound of energies, must have.
 
+mod check_bounds;
+mod interval;
+mod truth;
+
+use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use jobs::Design;
@@ -12,11 +17,36 @@ use jobs::table::{About, read_start};
 use jobs::text::with_commas;
 use physics::Configuration;
 
+pub use check_bounds::bounds;
+
+/// Tiles that are drawn, and a face that is.
+const DRAWN: [&str; 2] = [include_str!("outline.toml"), include_str!("line.toml")];
+
+/// Checks that any design has an answer. No drawings, because the fuzzer must not read files of this
+/// machine.
+///
+/// # Panics
+/// Where it has not.
+pub fn design(text: &str) {
+    check(Design::parse_with(text, "fuzz.toml", &BTreeMap::new()));
+}
+
+/// Checks that any drawing has an answer, as a tile's outline and as a face's profile.
+///
+/// # Panics
+/// Where it has not.
+pub fn drawing(text: &str) {
+    let drawings = BTreeMap::from([("a.svg".to_owned(), text.to_owned())]);
+    for design in DRAWN {
+        check(Design::parse_with(design, "fuzz.toml", &drawings));
+    }
+}
+
 /// Checks that an answer can be printed in a terminal, and that a design that was read is valid.
 ///
 /// # Panics
 /// Where it cannot, or is not.
-pub fn check(answer: Result<Design, DesignError>) {
+fn check(answer: Result<Design, DesignError>) {
     tell(answer.map(|design| {
         let pair = &design.pair;
         assert!(design.space().contains(&pair.bound));

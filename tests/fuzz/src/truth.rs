@@ -1,18 +1,15 @@
 //! Energies of dipoles and blocks, enclosed in plain interval arithmetic.
 
-use inari::Interval;
 use physics::Configuration;
 use physics::tile::{Magnet, Tile};
 use physics::units::MU0_OVER_4PI;
 
+use super::interval::Interval;
+
 type Pair = [Interval; 2];
 
 fn number(x: f64) -> Interval {
-    Interval::try_from((x, x)).expect("a number")
-}
-
-fn around_zero(x: f64) -> Interval {
-    Interval::try_from((-x, x)).expect("a number")
+    Interval::of(x)
 }
 
 /// Sine and cosine of an angle between -4 and 4, by their series: what follows the term of degree
@@ -28,7 +25,7 @@ fn sin_cos(x: Interval) -> Pair {
             _ => cosine = cosine + term,
         }
     }
-    [sine, cosine].map(|value| value + around_zero(1e-25))
+    [sine, cosine].map(|value| value + Interval::around_zero(1e-25))
 }
 
 fn turned([x, y]: Pair, [sine, cosine]: Pair) -> Pair {
@@ -201,7 +198,7 @@ fn mean_of_reciprocals(
         720.0 / 1_935_360.0 * (length / panels / distance).powi(6) / distance
     };
     let error: f64 = lengths.into_iter().zip(panels).map(remainder).sum();
-    Some(mean + around_zero(1.0001 * error))
+    Some(mean + Interval::around_zero(1.0001 * error))
 }
 
 /// A lower bound of the distance (m) of two segments, each given by its middle and its whole edge:
@@ -212,12 +209,12 @@ fn least_distance(at: Pair, edge: Pair, other_at: Pair, other_edge: Pair) -> f64
         let share = |k: usize| number(k as f64 / STEPS as f64 - 0.5);
         (0..=STEPS).map(move |k| plus(at, times(edge, share(k))))
     };
-    let length = |edge: Pair| dot(edge, edge).sqrt().sup();
+    let length = |edge: Pair| dot(edge, edge).sqrt().most();
     let mut least = f64::INFINITY;
     for p in points(at, edge) {
         for q in points(other_at, other_edge) {
             let apart = minus(p, q);
-            least = least.min(dot(apart, apart).sqrt().inf());
+            least = least.min(dot(apart, apart).sqrt().least());
         }
     }
     least - (length(edge) + length(other_edge)) / (2.0 * STEPS as f64)

@@ -1,8 +1,9 @@
 //! The fuzzer's seeds and findings, replayed: see `tests/fuzz`.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use tilebind::Design;
 
 #[path = "../../fuzz/src/lib.rs"]
@@ -24,7 +25,7 @@ fn every_design_of_the_fuzzer_has_an_answer() {
     let all = cases("design");
     assert!(!all.is_empty());
     for text in all {
-        answers::check(Design::parse_with(&text, "fuzz.toml", &BTreeMap::new()));
+        answers::design(&text);
     }
 }
 
@@ -33,13 +34,7 @@ fn every_drawing_of_the_fuzzer_has_an_answer() {
     let all = cases("drawing");
     assert!(!all.is_empty());
     for text in all {
-        let drawings = BTreeMap::from([("a.svg".to_owned(), text)]);
-        for design in [
-            include_str!("../../fuzz/src/outline.toml"),
-            include_str!("../../fuzz/src/line.toml"),
-        ] {
-            answers::check(Design::parse_with(design, "fuzz.toml", &drawings));
-        }
+        answers::drawing(&text);
     }
 }
 
@@ -67,5 +62,15 @@ fn every_table_of_the_fuzzer_has_an_answer() {
     let pair = Design::load("shapes/tab-20mm.toml".as_ref()).unwrap();
     for text in cases("table") {
         answers::table(&text, &pair);
+    }
+}
+
+/// The fuzzer's check of bounds of energies over cells, on bytes by chance.
+#[test]
+fn energies_in_plain_intervals_lie_within_their_bounds() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    for _ in 0..60 {
+        let bytes: [u8; 160] = std::array::from_fn(|_| rng.random());
+        answers::bounds(&bytes);
     }
 }

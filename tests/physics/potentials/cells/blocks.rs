@@ -51,8 +51,7 @@ fn one_block(size: [f64; 3]) -> Tile {
 /// Energies of two blocks of 0.3 A m^2, the first of 10 x 10 x 3 mm, to 14 digits: the integral of
 /// the charges' Coulomb energy, heights closed, along both pole faces by mpmath's tanh-sinh
 /// quadrature with 18 digits. Nothing of it is shared with this crate's formulas but the integrand
-/// `g`. (The interval crate `inari` cannot check the bounds here: it demands compiler flags of
-/// everything built with it.)
+/// `g`.
 #[test]
 fn bounds_hold_numbers_of_many_digits_with_no_room() {
     const SECOND: [[f64; 3]; 2] = [[0.010, 0.010, 0.003], [0.006, 0.016, 0.005]];
