@@ -56,6 +56,8 @@ pub struct Kinetics<'a> {
     gmc: f64,
     rows: usize,
     columns: usize,
+    /// The neighbours of each cell, by side; `None` beyond the canvas.
+    near: Vec<[Option<usize>; 4]>,
     /// The right tile of each cell.
     wanted: Vec<Option<usize>>,
     seeds: Vec<(usize, usize)>,
@@ -88,6 +90,7 @@ impl<'a> Kinetics<'a> {
     pub fn new(set: &'a TileSet, grown: &Grown) -> Self {
         let [rows, columns] = set.size.unwrap_or([1; 2]);
         let first = set.seed.first().copied().unwrap_or((0, 0, 0));
+        let near = (0..rows * columns).map(|cell| neighbours(cell, [rows, columns]));
         let mut wanted = vec![None; rows * columns];
         for ((x, y), tile) in &grown.tiles {
             let (row, column) = (first.0 as i32 - y, first.1 as i32 + x);
@@ -104,6 +107,7 @@ impl<'a> Kinetics<'a> {
             gmc: set.gmc.unwrap_or_default(),
             rows,
             columns,
+            near: near.collect(),
             wanted,
             seeds: set.seed.iter().map(cell).collect(),
             target: grown.tiles.len().min(MOST_TILES),
@@ -132,31 +136,28 @@ impl<'a> Kinetics<'a> {
         }
     }
 
-    /// The neighbours of a cell, by side; `None` beyond the canvas.
     fn near(&self, cell: usize) -> [Option<usize>; 4] {
-        let (row, column) = ((cell / self.columns) as i32, (cell % self.columns) as i32);
-        STEPS.map(|(dx, dy)| {
-            let (row, column) = (row - dy, column + dx);
-            let inside =
-                (0..self.rows as i32).contains(&row) && (0..self.columns as i32).contains(&column);
-            inside.then(|| row as usize * self.columns + column as usize)
-        })
+        self.near[cell]
     }
 
-    /// The strength with which neighbours bind a tile in a cell (kT).
-    fn held(&self, tiles: &[Option<usize>], cell: usize, tile: usize) -> f64 {
-        let sides = self.near(cell).into_iter().enumerate();
-        let hold = |(side, near): (usize, Option<usize>)| {
-            Some(self.holds.between(tile, side, tiles[near?]?))
+    /// The neighbouring tiles of a cell, by side.
+    fn beside(&self, tiles: &[Option<usize>], cell: usize) -> [Option<usize>; 4] {
+        self.near(cell).map(|near| tiles[near?])
+    }
+
+    /// The strength with which neighbours bind a tile (kT).
+    fn held(&self, beside: &[Option<usize>; 4], tile: usize) -> f64 {
+        let sides = beside.iter().enumerate();
+        let hold = |(side, other): (usize, &Option<usize>)| {
+            Some(self.holds.between(tile, side, (*other)?))
         };
         self.gse * sides.filter_map(hold).sum::<f64>()
     }
 
-    /// The tiles that may dock in a free cell and stay a while, with their rates (1/wait).
-    fn docking(&self, tiles: &[Option<usize>], cell: usize) -> impl Iterator<Item = (usize, f64)> {
+    /// The tiles that may dock between neighbours and stay a while, with their rates (1/wait).
+    fn docking(&self, beside: [Option<usize>; 4]) -> impl Iterator<Item = (usize, f64)> {
         let stays = move |tile: &usize| {
-            self.set.tiles[*tile].stoic > 0.0
-                && self.held(tiles, cell, *tile) - self.gmc >= FLEETING
+            self.set.tiles[*tile].stoic > 0.0 && self.held(&beside, *tile) - self.gmc >= FLEETING
         };
         let all = (0..self.set.tiles.len()).filter(stays);
         all.map(|tile| (tile, self.set.tiles[tile].stoic))
@@ -164,21 +165,15 @@ impl<'a> Kinetics<'a> {
 
     /// The total rate (1/wait) of all events in a cell.
     fn rate(&self, tiles: &[Option<usize>], cell: usize) -> f64 {
+        let beside = self.beside(tiles, cell);
         match tiles[cell] {
             Some(_) if self.is_seed(cell) => 0.0,
             Some(tile) => {
-                let stay = self.held(tiles, cell, tile) - self.gmc;
+                let stay = self.held(&beside, tile) - self.gmc;
                 libm::exp(-stay.clamp(-FOR_GOOD, FOR_GOOD))
             }
-            None if self
-                .near(cell)
-                .iter()
-                .flatten()
-                .all(|it| tiles[*it].is_none()) =>
-            {
-                0.0
-            }
-            None => self.docking(tiles, cell).map(|it| it.1).sum(),
+            None if beside == [None; 4] => 0.0,
+            None => self.docking(beside).map(|it| it.1).sum(),
         }
     }
 
@@ -306,7 +301,7 @@ impl<'a> Kinetics<'a> {
                 }
                 continue;
             }
-            let kinds: Vec<(usize, f64)> = self.docking(&state.tiles, cell).collect();
+            let kinds: Vec<(usize, f64)> = self.docking(self.beside(&state.tiles, cell)).collect();
             let mut rest = rng.random::<f64>() * kinds.iter().map(|it| it.1).sum::<f64>();
             let chosen = kinds.iter().find(|(_, rate)| {
                 rest -= rate;
@@ -319,7 +314,8 @@ impl<'a> Kinetics<'a> {
         // Weakly bound tiles are about to leave.
         let stays = |cell: &usize| {
             let tile = state.tiles[*cell]?;
-            (self.is_seed(*cell) || self.held(&state.tiles, *cell, tile) > self.gmc).then_some(tile)
+            let beside = self.beside(&state.tiles, *cell);
+            (self.is_seed(*cell) || self.held(&beside, tile) > self.gmc).then_some(tile)
         };
         let staying: Vec<(usize, usize)> = (0..cells)
             .filter_map(|cell| Some((cell, stays(&cell)?)))
@@ -334,6 +330,16 @@ impl<'a> Kinetics<'a> {
             waits,
         }
     }
+}
+
+/// The neighbours of a cell of a canvas with rows and columns, by side; `None` beyond it.
+fn neighbours(cell: usize, [rows, columns]: [usize; 2]) -> [Option<usize>; 4] {
+    let (row, column) = ((cell / columns) as i32, (cell % columns) as i32);
+    STEPS.map(|(dx, dy)| {
+        let (row, column) = (row - dy, column + dx);
+        let inside = (0..rows as i32).contains(&row) && (0..columns as i32).contains(&column);
+        inside.then(|| row as usize * columns + column as usize)
+    })
 }
 
 /// Rates of cells in a sum tree: choosing and changing one takes a logarithmic number of steps, and
