@@ -11,14 +11,17 @@ use super::interrupt;
 /// Steps of the bar.
 const STEPS: u64 = 100;
 
+const BAR: &str = "{bar:30} {elapsed:>4}  {msg}";
+/// The same, and below it the latest intermediate result.
+const BAR_AND_RESULT: &str = "{bar:30} {elapsed:>4}  {msg}\n{prefix}";
+
 /// A bar with the name of the stage, on standard error.
 pub struct Progress(ProgressBar);
 
 impl Progress {
     /// A bar if standard error is a terminal and `quiet` is false.
     pub fn new(quiet: bool) -> Self {
-        let template = "{bar:30} {elapsed:>4}  {msg}";
-        Self(bar(STEPS, template, Duration::from_millis(200), quiet))
+        Self(bar(STEPS, BAR, Duration::from_millis(200), quiet))
     }
 
     /// Shows the stage and its finished share (0 to 1).
@@ -45,6 +48,10 @@ impl Observer for Progress {
 
     fn known(&self, what: &str) {
         interrupt::keep(what);
+        if let Ok(style) = ProgressStyle::with_template(BAR_AND_RESULT) {
+            self.0.set_style(style);
+        }
+        self.0.set_prefix(what.to_owned());
     }
 }
 

@@ -66,8 +66,9 @@ impl Rates {
         memory::check_meshes(places, self.threads.count())?;
         if let Some(start) = request.start {
             input::doubt_pose(&design, &start);
+            progress.stage("exit", 0.1);
             let (found, check) = request
-                .exit((&design, &problem), start)
+                .exit((&design, &problem), start, &progress)
                 .map_err(Failure::of)?;
             let document = exit_document(&design, &found, check.as_ref());
             return self.results.deliver(&document, output, &progress);
@@ -80,7 +81,7 @@ impl Rates {
         memory::check(settings.milestones, None, 1)?;
         let analysis = pipeline::analyse_problem(&design, problem, &settings, &progress);
         progress.stage("rates", 0.9);
-        let found = request.rates(&design, &analysis, output.is_some());
+        let found = request.rates(&design, &analysis, output.is_some(), &progress);
         let found = found.map_err(Failure::of)?;
         let document = document(&design, &found, request.seed);
         self.results.deliver(&document, output, &progress)

@@ -1,6 +1,7 @@
 //! Exits of overdamped motion: exact where the energy depends only on the distance, the paper's
 //! tile, and properties of all exits.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -8,7 +9,9 @@ use nalgebra::{Vector2, Vector3};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::kinetics::Certify;
 use tilebind::kinetics::exit::{Exit, ExitError, ExitSettings, exit};
-use tilebind::kinetics::rates::{Basin, RateSettings, Rates, RatesError, rates};
+use tilebind::kinetics::rates::{
+    Basin, MeshRates, RateSettings, Rates, RatesError, rates, rates_on,
+};
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};
 use tilebind::tile::{Outline, Pair, Tile};
@@ -377,7 +380,11 @@ fn rates_balance_in_detail_and_are_those_of_the_integrals() {
         certify: None,
         ..RateSettings::new(kt, double_well_basins(), 0.6)
     };
-    let found = rates(&radial(double_well), &settings).unwrap();
+    // Each mesh is told as soon as it is known.
+    let told = RefCell::new(Vec::new());
+    let tell = |mesh: &MeshRates| told.borrow_mut().push(mesh.clone());
+    let found = rates_on(&radial(double_well), &settings, tell).unwrap();
+    assert_eq!(told.into_inner(), found.meshes);
     let finest = found.finest();
     assert!((finest.occupation.iter().sum::<f64>() - 1.0).abs() < 1e-12);
     for i in 0..3 {

@@ -16,10 +16,12 @@ use crate::request::{self, Unanswered};
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
-use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit, half_bond};
-use physics::kinetics::rates::{RateSettings, RatesError, rates};
+use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit_on, half_bond};
+use physics::kinetics::rates::{MeshRates, RateSettings, RatesError, rates_on};
 use physics::kinetics::{Certify, OVERDAMPED};
+use physics::observer::Observer;
 use physics::problem::Problem;
+use physics::units::{duration, plain};
 
 /// Number of mean exit times after which a moving tile is abandoned.
 const PATIENCE: f64 = 30.0;
@@ -113,7 +115,8 @@ impl Unanswered for RateFault {
 
 impl Request {
     /// The mean exit time of a tile released at a pose, the end that it reaches first, and the
-    /// result of rigid bodies, if requested.
+    /// result of rigid bodies, if requested. The observer is told a first figure at once, and better
+    /// ones as meshes become finer.
     ///
     /// # Errors
     /// See [`RateFault`].
@@ -121,15 +124,16 @@ impl Request {
         &self,
         posed: (&Design, &Problem),
         start: Configuration,
+        observer: &dyn Observer,
     ) -> Result<(PoseExit, Option<ExitRuns>), RateFault> {
-        let found = self.question.exit(posed, start)?;
+        let found = self.question.exit(posed, start, observer)?;
         let checked = |runs| found.checked(posed, runs, self.restitution, self.seed);
         let check = self.check.map(checked).transpose()?;
         Ok((found, check))
     }
 
     /// Rates between the bond, the deepest traps and free tiles; with additional results if they
-    /// are to be plotted.
+    /// are to be plotted. The observer is told first figures at once, as for [`Self::exit`].
     ///
     /// # Errors
     /// See [`RateFault`].
@@ -138,9 +142,12 @@ impl Request {
         design: &Design,
         analysis: &Analysis,
         is_pictured: bool,
+        observer: &dyn Observer,
     ) -> Result<StateRates, RateFault> {
         let question = &self.question;
-        Ok(question.rates(design, analysis, self.traps, is_pictured)?)
+        let states = RatedState::held(analysis, question.kt, self.traps, question.basin_energy);
+        let posed = (design, &*analysis.problem);
+        Ok(question.rates(posed, states, is_pictured, observer)?)
     }
 }
 
@@ -157,6 +164,17 @@ pub struct PoseExit {
     pub found: Exit,
 }
 
+/// The sentence of a first result, on a mesh with this estimated relative error.
+fn so_far(result: &str, error: f64) -> String {
+    match error.is_finite() {
+        true => format!(
+            "so far {result} (mesh error about {} %)",
+            plain(100.0 * error, 1)
+        ),
+        false => format!("so far {result} (error of the mesh unknown)"),
+    }
+}
+
 /// D = kT / c (m^2/s) of a design's moving tile at kT (J) with this drag rate (1/s).
 pub fn diffusion(design: &Design, kt: f64, drag: f64) -> f64 {
     kt / (drag * design.pair.moving.mass)
@@ -171,6 +189,7 @@ impl Question {
         &self,
         (design, problem): (&Design, &Problem),
         start: Configuration,
+        observer: &dyn Observer,
     ) -> Result<PoseExit, ExitError> {
         let bound = &design.pair.bound;
         let half = || half_bond(problem, bound);
@@ -179,43 +198,56 @@ impl Question {
             certify: Some(self.certify.map_or_else(Certify::of_exit, Certify::to)),
             ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
         };
+        let diffusion = diffusion(design, self.kt, self.drag);
+        let found = exit_on(problem, bound, &asked, |mesh| {
+            let time = duration(mesh.time / diffusion, 2);
+            observer.known(&so_far(&format!("it leaves after {time}"), mesh.error));
+        })?;
         Ok(PoseExit {
-            found: exit(problem, bound, &asked)?,
+            found,
             drag: self.drag,
-            diffusion: diffusion(design, self.kt, self.drag),
+            diffusion,
             asked,
         })
     }
 
-    /// Rates between the bond, at most the given number of the deepest traps, and free tiles; with
-    /// a map of the committor and the rates at other kT if they are to be plotted.
+    /// Rates between states and free tiles; with a map of the committor and the rates at other kT if
+    /// they are to be plotted.
     ///
     /// # Errors
     /// See [`RatesError`].
     fn rates(
         &self,
-        design: &Design,
-        analysis: &Analysis,
-        traps: usize,
+        (design, problem): (&Design, &Problem),
+        states: Vec<RatedState>,
         is_pictured: bool,
+        observer: &dyn Observer,
     ) -> Result<StateRates, RatesError> {
-        let states = RatedState::held(analysis, self.kt, traps, self.basin_energy);
         let basins = states.iter().map(RatedState::basin).collect();
         let asked = RateSettings {
             certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
             map: is_pictured.then_some(SQUARES),
             ..RateSettings::new(self.kt, basins, self.free_at(design))
         };
+        let diffusion = diffusion(design, self.kt, self.drag);
+        let leaving = |mesh: &MeshRates| {
+            let left = states.iter().zip(&mesh.rates).map(|(state, rates)| {
+                let rate = diffusion * rates.iter().sum::<f64>();
+                format!("{} {} /s", state.name, plain(rate, 2))
+            });
+            let left = left.collect::<Vec<_>>().join(", ");
+            observer.known(&so_far(&format!("rates of leaving: {left}"), mesh.error));
+        };
         let mut found = StateRates {
-            found: rates(&analysis.problem, &asked)?,
+            found: rates_on(problem, &asked, leaving)?,
             drag: self.drag,
-            diffusion: diffusion(design, self.kt, self.drag),
+            diffusion,
             asked,
             states,
             over_kt: Vec::new(),
         };
         if is_pictured {
-            found.over_kt = found.at_other_kts(design, &analysis.problem);
+            found.over_kt = found.at_other_kts(design, problem);
         }
         Ok(found)
     }

@@ -65,24 +65,16 @@ impl Bracket {
         let system = System::new(mesh, nodes, pins);
         let loads = loads(mesh, nodes, asked.left_out);
         // The last is the mean time.
-        let values = parallel::map(0..count + 1, |place| match place == count {
-            true => system.loaded(&loads, None),
-            false => system.committor(place, None),
-        });
-        let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
+        let places = (0..count).map(|place| system.committor(place, None));
+        let sought: Vec<_> = places.chain([system.loaded(&loads, None)]).collect();
+        let values = system.solve_all(&sought)?;
         let network = field.network(nodes, pins, asked.rim).ok_or(Unsolved)?;
         let source = |cell: usize| match asked.left_out[cell] {
             true => 0.0,
             false => mesh.held(cell),
         };
-        let found = parallel::map(0..count + 1, |place| {
-            let like = network.potentials(nodes, &values[place]);
-            match place == count {
-                true => network.of(&source, &like),
-                false => network.from(place, &like),
-            }
-        });
-        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let guesses = parallel::map(&values[..], |values| network.potentials(nodes, values));
+        let found = network.fluxes(&source, &guesses)?;
         let gap = |place: usize| Gap {
             flux: &found[place],
             values: &values[place],

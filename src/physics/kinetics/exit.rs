@@ -22,6 +22,19 @@ pub fn exit(
     bond: &Configuration,
     settings: &ExitSettings,
 ) -> Result<Exit, ExitError> {
+    exit_on(problem, bond, settings, |_| ())
+}
+
+/// The same; `on_mesh` gets the exit on each mesh as soon as it is known, coarse meshes first.
+///
+/// # Errors
+/// As [`exit()`].
+pub fn exit_on(
+    problem: &Problem,
+    bond: &Configuration,
+    settings: &ExitSettings,
+    on_mesh: impl Fn(&MeshExit),
+) -> Result<Exit, ExitError> {
     let start = settings.start;
     check(problem, bond, settings)?;
     let seeds = [start, *bond];
@@ -48,6 +61,7 @@ pub fn exit(
             of_rims: errors.of_rims,
             ..found
         });
+        meshes.last().into_iter().for_each(&on_mesh);
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
             let mut bounds = bounds(problem, bond, settings)?;
@@ -248,12 +262,15 @@ impl Ends {
             of_rims: f64::INFINITY,
         };
         if self.well.is_none() {
-            let committor = system.committor(BOUND, guess(0))?;
-            let time = system.loaded(&loads, guess(1))?;
+            let sought = [
+                system.committor(BOUND, guess(0)),
+                system.loaded(&loads, guess(1)),
+            ];
+            let [committor, time] = system.solve(sought)?;
             let at = |values: &[f64]| nodes.at(&field.mesh, values, start).unwrap_or(f64::NAN);
             return Ok((exit(at(&time), at(&committor)), vec![committor, time]));
         }
-        let back = system.committor(WELL, guess(0))?;
+        let [back] = system.solve([system.committor(WELL, guess(0))])?;
         let flows = system.flows(&back, FREE + 1);
         let (bound, free) = (flows[BOUND], flows[FREE]);
         let products = loads.iter().zip(&back).map(|(load, value)| load * value);
@@ -268,7 +285,8 @@ impl Ends {
             return Ok(None);
         };
         let pins = self.pins(field, nodes, Some(near));
-        let trial = System::new(&field.mesh, nodes, &pins).committor(WELL, None)?;
+        let system = System::new(&field.mesh, nodes, &pins);
+        let [trial] = system.solve([system.committor(WELL, None)])?;
         let own = field.mesh.live().filter(|(id, ..)| near[*id]);
         let held: f64 = own.map(|(.., element)| element.held()).sum();
         let scale = scale(field);

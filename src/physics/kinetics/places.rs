@@ -106,9 +106,8 @@ impl Places {
         let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
         let guess = |place: usize| guesses.as_ref().map(|guesses| &guesses[place]);
         let last = self.count - 1;
-        let mut committors: Vec<Vec<f64>> = (0..last)
-            .map(|place| system.committor(place, guess(place)))
-            .collect::<Result<_, _>>()?;
+        let sought = (0..last).map(|place| system.committor(place, guess(place)));
+        let mut committors = system.solve_all(&sought.collect::<Vec<_>>())?;
         let flows: Vec<Vec<f64>> = committors
             .iter()
             .map(|committor| system.flows(committor, self.count))
@@ -176,7 +175,9 @@ impl Places {
         for pin in &mut pins {
             *pin = pin.filter(|place| *place == 0 || *place + 1 == self.count);
         }
-        System::new(&field.mesh, nodes, &pins).committor(0, None)
+        let system = System::new(&field.mesh, nodes, &pins);
+        let [found] = system.solve([system.committor(0, None)])?;
+        Ok(found)
     }
 
     /// Upper bounds of the rates out of each place, then of those from each place to each other,

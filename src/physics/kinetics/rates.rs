@@ -19,6 +19,18 @@ use crate::problem::Problem;
 /// # Errors
 /// If the places are not separate, or a linear system cannot be solved.
 pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesError> {
+    rates_on(problem, settings, |_| ())
+}
+
+/// The same; `on_mesh` gets the rates on each mesh as soon as they are known, coarse meshes first.
+///
+/// # Errors
+/// As [`rates()`].
+pub fn rates_on(
+    problem: &Problem,
+    settings: &RateSettings,
+    on_mesh: impl Fn(&MeshRates),
+) -> Result<Rates, RatesError> {
     let RateSettings { kt, free_at, .. } = *settings;
     let area = problem.space.half_size.map(|half| 2.0 * half);
     let outside = area[0] * area[1] - PI * free_at * free_at;
@@ -60,6 +72,9 @@ pub fn rates(problem: &Problem, settings: &RateSettings) -> Result<Rates, RatesE
             of_rims: errors.of_rims,
             ..found
         });
+        if places.shared.is_empty() {
+            meshes.last().into_iter().for_each(&on_mesh);
+        }
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
         let is_done = is_fine || unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows;
         if let Some(&(_, limit)) = places.shared.first() {

@@ -19,18 +19,18 @@ fn the_gap_of_the_mean_time_is_the_same_by_cells_and_in_all() {
     let network = field.network(&nodes, &pins, 1).unwrap();
     let loads = loads(mesh, &nodes, &left_out);
     let system = System::new(mesh, &nodes, &pins);
-    let time = system.loaded(&loads, None).unwrap();
+    let [time] = system.solve([system.loaded(&loads, None)]).unwrap();
     let source = |cell: usize| mesh.held(cell);
     let like = network.potentials(&nodes, &time);
-    let flux = network.of(&source, &like).unwrap();
+    let fluxes = network.fluxes(&source, &[like]).unwrap();
     let held: f64 = time.iter().zip(&loads).map(|(a, b)| a * b).sum();
     let gap = Gap {
-        flux: &flux,
+        flux: &fluxes[0],
         values: &time,
         source: &source,
     };
     let by_cells: f64 = network.products(mesh, &nodes, &gap, &gap).iter().sum();
-    let in_all = flux.cost - held;
+    let in_all = fluxes[0].cost - held;
     assert!(
         (by_cells / in_all - 1.0).abs() < 0.15,
         "{by_cells} {in_all}"

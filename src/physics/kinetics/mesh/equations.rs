@@ -2,16 +2,19 @@
 
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
-use crate::interruption;
+use crate::{interruption, parallel};
 
 /// Relative size of the preconditioned residual at which a system counts as solved.
 const SHRUNK: f64 = 1e-9;
 /// Steps of conjugate gradients at most.
 const MOST_STEPS: usize = 20_000;
+/// Most solutions computed together. The sweeps of one wait for each other's results; those of three
+/// take hardly longer.
+const TOGETHER: usize = 3;
 
 /// Calls a function with every entry (row, column, value) of a matrix; entries at one position are
 /// summed.
-pub(super) type Entries<'a> = dyn Fn(&mut dyn FnMut(usize, usize, f64)) + 'a;
+pub(super) type Entries<'a> = dyn Fn(&mut dyn FnMut(usize, usize, f64)) + Sync + 'a;
 
 /// Equations with a positive definite matrix in which some values are given and the others unknown;
 /// rows and columns are scaled so that the diagonal is 1.
@@ -26,6 +29,16 @@ pub(super) struct Equations {
     columns: Vec<u32>,
     /// ... and values.
     entries_before: Vec<f64>,
+}
+
+/// What a solution is sought for.
+pub(in crate::kinetics) struct Sought<'a> {
+    /// All values; those of unknowns do not matter.
+    pub given: Vec<f64>,
+    /// The right side; `None` for zeros.
+    pub right: Option<&'a [f64]>,
+    /// A guess of all values; `None` for zeros.
+    pub guess: Option<&'a [f64]>,
 }
 
 /// The solver did not converge.
@@ -77,95 +90,144 @@ impl Equations {
         self.scale.len()
     }
 
-    /// All values, with unknowns such that the matrix times the values equals `right` in the rows
-    /// of unknowns; starts from a guess.
+    /// All values of each solution, with unknowns such that the matrix times the values equals the
+    /// right side in the rows of unknowns.
     ///
     /// # Errors
     /// If the solver does not converge.
-    pub fn solve(
+    pub fn solve(&self, entries: &Entries, sought: &[Sought]) -> Result<Vec<Vec<f64>>, Unsolved> {
+        let parts = sought.len().div_ceil(TOGETHER).max(1);
+        let part = sought.len().div_ceil(parts).max(1);
+        let parts: Vec<&[Sought]> = sought.chunks(part).collect();
+        let found = parallel::map(&parts[..], |part| match part {
+            [a] => self.solved(entries, [a]).map(Vec::from),
+            [a, b] => self.solved(entries, [a, b]).map(Vec::from),
+            [a, b, c] => self.solved(entries, [a, b, c]).map(Vec::from),
+            _ => unreachable!("at most {TOGETHER} together"),
+        });
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Solutions computed together; each has the same bits as alone.
+    fn solved<const N: usize>(
         &self,
         entries: &Entries,
-        given: &[f64],
-        right: &[f64],
-        guess: &[f64],
-    ) -> Result<Vec<f64>, Unsolved> {
-        let mut sides = vec![0.0; self.len()];
-        let mut x = vec![0.0; self.len()];
+        sought: [&Sought; N],
+    ) -> Result<[Vec<f64>; N], Unsolved> {
+        let mut sides = vec![[0.0; N]; self.len()];
+        let mut x = vec![[0.0; N]; self.len()];
         let unknowns = || {
             let all = self.unknown.iter().enumerate();
             all.filter_map(|(i, unknown)| Some((i, (*unknown)? as usize)))
         };
         for (i, k) in unknowns() {
-            sides[k] = right[i];
-            x[k] = guess[i] / self.scale[k];
+            sides[k] = sought.map(|it| it.right.map_or(0.0, |right| right[i]));
+            x[k] = sought.map(|it| it.guess.map_or(0.0, |guess| guess[i]) / self.scale[k]);
         }
         entries(&mut |i, j, entry| {
             if let (Some(i), None) = (self.unknown[i], self.unknown[j]) {
-                sides[i as usize] -= entry * given[j];
+                let side = &mut sides[i as usize];
+                for (side, it) in side.iter_mut().zip(sought) {
+                    *side -= entry * it.given[j];
+                }
             }
         });
-        for (value, scale) in sides.iter_mut().zip(&self.scale) {
-            *value *= scale;
+        for (values, scale) in sides.iter_mut().zip(&self.scale) {
+            *values = values.map(|value| value * scale);
         }
-        self.conjugate_gradients(&sides, &mut x)?;
-        let mut values = given.to_vec();
-        for (i, k) in unknowns() {
-            values[i] = x[k] * self.scale[k];
-        }
-        Ok(values)
+        let solutions = self.conjugate_gradients(&sides, x)?;
+        Ok(std::array::from_fn(|n| {
+            let mut values = sought[n].given.clone();
+            for (i, k) in unknowns() {
+                values[i] = solutions[n][k] * self.scale[k];
+            }
+            values
+        }))
     }
 
+    /// The solutions for some right sides, starting from x.
+    ///
     /// Hestenes and Stiefel's method (1952), preconditioned by a symmetric Gauss-Seidel sweep, (1 +
     /// L)(1 + L^T) for the matrix 1 + L + L^T. As Eisenstat (1981, doi:10.1137/0902001) showed, the
     /// two halves of a sweep also give the matrix product: with `y = (1 + L^T)^-1 p` the
     /// preconditioned matrix times p is `y + (1 + L)^-1 (p - y)`.
-    fn conjugate_gradients(&self, right: &[f64], x: &mut [f64]) -> Result<(), Unsolved> {
+    fn conjugate_gradients<const N: usize>(
+        &self,
+        right: &[[f64; N]],
+        mut x: Vec<[f64; N]>,
+    ) -> Result<[Vec<f64>; N], Unsolved> {
+        let column = |x: &[[f64; N]], n: usize| x.iter().map(|values| values[n]).collect();
         let mut swept = right.to_vec();
         self.forwards(&mut swept);
-        let goal = SHRUNK * SHRUNK * dot(&swept, &swept);
-        if goal == 0.0 {
-            x.fill(0.0);
-            return Ok(());
-        }
-        let mut residual = self.left(right, x);
+        let goals = dot(&swept, &swept).map(|size| SHRUNK * SHRUNK * size);
+        let mut residual = self.left(right, &x);
         self.forwards(&mut residual);
         let mut direction = residual.clone();
-        let mut size = dot(&residual, &residual);
-        let mut along = vec![0.0; x.len()];
+        let mut sizes = dot(&residual, &residual);
+        let mut along = vec![[0.0; N]; x.len()];
+        // Those that are found take part in further steps, which are not used.
+        let mut found: [Option<Vec<f64>>; N] = goals.map(|goal| {
+            let nothing = || vec![0.0; x.len()];
+            (goal == 0.0).then(nothing)
+        });
         for _ in 0..MOST_STEPS {
-            if size <= goal {
-                return Ok(());
+            for n in 0..N {
+                if found[n].is_none() && sizes[n] <= goals[n] {
+                    found[n] = Some(column(&x, n));
+                }
+            }
+            if found.iter().all(Option::is_some) {
+                break;
             }
             interruption::check();
             along.copy_from_slice(&direction);
             self.backwards(&mut along);
             for ((rest, d), y) in swept.iter_mut().zip(&direction).zip(&along) {
-                *rest = d - y;
+                *rest = std::array::from_fn(|n| d[n] - y[n]);
             }
             self.forwards(&mut swept);
-            let product = |i: usize| along[i] + swept[i];
-            let curvature: f64 = (0..x.len()).map(|i| direction[i] * product(i)).sum();
-            let length = size / curvature;
-            for i in 0..x.len() {
-                residual[i] -= length * product(i);
-                x[i] += length * along[i];
+            let mut curvatures = [-0.0; N];
+            for ((d, y), rest) in direction.iter().zip(&along).zip(&swept) {
+                for n in 0..N {
+                    curvatures[n] += d[n] * (y[n] + rest[n]);
+                }
+            }
+            let lengths: [f64; N] = std::array::from_fn(|n| sizes[n] / curvatures[n]);
+            for ((residual, x), (y, rest)) in residual
+                .iter_mut()
+                .zip(&mut x)
+                .zip(along.iter().zip(&swept))
+            {
+                for n in 0..N {
+                    residual[n] -= lengths[n] * (y[n] + rest[n]);
+                    x[n] += lengths[n] * y[n];
+                }
             }
             let next = dot(&residual, &residual);
             for (d, r) in direction.iter_mut().zip(&residual) {
-                *d = r + next / size * *d;
+                *d = std::array::from_fn(|n| r[n] + next[n] / sizes[n] * d[n]);
             }
-            size = next;
+            sizes = next;
         }
-        Err(Unsolved)
+        match found.iter().all(Option::is_some) {
+            true => Ok(found.map(Option::unwrap_or_default)),
+            false => Err(Unsolved),
+        }
     }
 
     /// The residual.
-    fn left(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut left: Vec<f64> = right.iter().zip(x).map(|(b, x)| b - x).collect();
+    fn left<const N: usize>(&self, right: &[[f64; N]], x: &[[f64; N]]) -> Vec<[f64; N]> {
+        let both = right.iter().zip(x);
+        let mut left: Vec<[f64; N]> = both
+            .map(|(b, x)| std::array::from_fn(|n| b[n] - x[n]))
+            .collect();
         for i in 0..x.len() {
             for (j, entry) in self.row(i) {
-                left[i] -= entry * x[j];
-                left[j] -= entry * x[i];
+                for n in 0..N {
+                    left[i][n] -= entry * x[j][n];
+                    left[j][n] -= entry * x[i][n];
+                }
             }
         }
         left
@@ -181,24 +243,39 @@ impl Equations {
     }
 
     /// Solves (1 + L) z = r in place.
-    fn forwards(&self, z: &mut [f64]) {
+    fn forwards<const N: usize>(&self, z: &mut [[f64; N]]) {
         for i in 0..z.len() {
-            let sum: f64 = self.row(i).map(|(j, entry)| entry * z[j]).sum();
-            z[i] -= sum;
+            let mut sums = [-0.0; N];
+            for (j, entry) in self.row(i) {
+                for (sum, z) in sums.iter_mut().zip(z[j]) {
+                    *sum += entry * z;
+                }
+            }
+            for (z, sum) in z[i].iter_mut().zip(sums) {
+                *z -= sum;
+            }
         }
     }
 
     /// Solves (1 + L^T) z = r in place.
-    fn backwards(&self, z: &mut [f64]) {
+    fn backwards<const N: usize>(&self, z: &mut [[f64; N]]) {
         for i in (0..z.len()).rev() {
             let own = z[i];
             for (j, entry) in self.row(i) {
-                z[j] -= entry * own;
+                for (z, own) in z[j].iter_mut().zip(own) {
+                    *z -= entry * own;
+                }
             }
         }
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+fn dot<const N: usize>(a: &[[f64; N]], b: &[[f64; N]]) -> [f64; N] {
+    let mut sums = [-0.0; N];
+    for (a, b) in a.iter().zip(b) {
+        for n in 0..N {
+            sums[n] += a[n] * b[n];
+        }
+    }
+    sums
 }

@@ -14,7 +14,7 @@ use crate::parallel;
 use nalgebra::{Matrix6, Vector6};
 
 use super::element::value;
-use super::equations::{Equations, Unsolved};
+use super::equations::{Equations, Sought, Unsolved};
 use super::nodes::Nodes;
 use super::octree::Octree;
 use super::profile::{Resistance, Spread};
@@ -86,42 +86,49 @@ impl Network {
         })
     }
 
-    fn solved(&self, given: &[f64], right: &[f64], like: &[f64]) -> Result<Vec<f64>, Unsolved> {
-        let entries = entries(&self.conductors);
-        self.equations.solve(&entries, given, right, like)
-    }
-
     /// For each face 1 if it belongs to a place, and 0 otherwise.
     pub fn given(&self, place: usize) -> Vec<f64> {
         let one = |end: &Option<usize>| if *end == Some(place) { 1.0 } else { 0.0 };
         self.ends.iter().map(one).collect()
     }
 
-    /// The flux from a place to all others, starting from a guess of the potentials. Its capacity
-    /// (rad) is a lower bound, up to the quadrature.
+    /// The fluxes from each of the first places to all others, and last that from a source in each
+    /// cell to all places, starting from guesses of the potentials.
     ///
-    /// # Errors
-    /// If the linear system cannot be solved.
-    pub fn from(&self, place: usize, like: &[f64]) -> Result<Flux, Unsolved> {
-        let given = self.given(place);
-        let none = vec![0.0; given.len()];
-        let potentials = self.solved(&given, &none, like)?;
-        Ok(self.flux(&potentials, &|_| 0.0, &given))
-    }
-
-    /// The flux from a source in each cell to the places, starting from a guess of the potentials.
-    /// Its cost is an upper bound of the integral of the source times its function, up to the
+    /// The capacity (rad) of a place's flux is a lower bound, up to the quadrature. The cost of the
+    /// source's is an upper bound of the integral of the source times its function, up to the
     /// quadrature and the approximation of the source within cells.
     ///
     /// # Errors
     /// If the linear system cannot be solved.
-    pub fn of(
+    pub fn fluxes(
         &self,
         source: &(dyn Fn(usize) -> f64 + Sync),
-        like: &[f64],
-    ) -> Result<Flux, Unsolved> {
-        let none = vec![0.0; self.ends.len()];
-        let mut right = none.clone();
+        guesses: &[Vec<f64>],
+    ) -> Result<Vec<Flux>, Unsolved> {
+        let places = guesses.len() - 1;
+        let right = self.right(source);
+        let sought = guesses.iter().enumerate().map(|(place, guess)| Sought {
+            given: match place < places {
+                true => self.given(place),
+                false => vec![0.0; self.ends.len()],
+            },
+            right: (place == places).then_some(&right[..]),
+            guess: Some(guess),
+        });
+        let sought: Vec<Sought> = sought.collect();
+        let found = self.equations.solve(&entries(&self.conductors), &sought)?;
+        Ok(parallel::map(0..guesses.len(), |place| {
+            match place < places {
+                true => self.flux(&found[place], &|_| 0.0, &sought[place].given),
+                false => self.flux(&found[place], source, &sought[place].given),
+            }
+        }))
+    }
+
+    /// What a source in each cell adds to the equations of faces.
+    fn right(&self, source: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
+        let mut right = vec![0.0; self.ends.len()];
         for conductor in &self.conductors {
             let shares = conductor.share * source(conductor.cell);
             for (side, own) in conductor.sides.iter().zip(&shares) {
@@ -130,8 +137,7 @@ impl Network {
                 }
             }
         }
-        let potentials = self.solved(&none, &right, like)?;
-        Ok(self.flux(&potentials, source, &none))
+        right
     }
 
     fn flux(&self, potentials: &[f64], source: &dyn Fn(usize) -> f64, given: &[f64]) -> Flux {
@@ -221,7 +227,7 @@ impl Network {
 }
 
 /// Calls with every entry of the potentials' matrix.
-fn entries(conductors: &[Conductor]) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) {
+fn entries(conductors: &[Conductor]) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) + Sync {
     move |call| {
         for conductor in conductors {
             for (a, first) in conductor.sides.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The linear system for the values at the corners of a mesh.
 
-use super::equations::{Equations, Unsolved};
+use super::equations::{Equations, Sought, Unsolved};
 use super::nodes::Nodes;
 use super::octree::Octree;
 
@@ -32,35 +32,45 @@ impl<'a> System<'a> {
 
     /// The function that is 1 in a place and 0 in the others, starting from a guess if there is
     /// one.
-    ///
-    /// # Errors
-    /// If the solver does not converge.
-    pub fn committor(&self, place: usize, guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
+    pub fn committor<'b>(&self, place: usize, guess: Option<&'b Vec<f64>>) -> Sought<'b> {
         let one = |pin: &Option<usize>| if *pin == Some(place) { 1.0 } else { 0.0 };
-        let given: Vec<f64> = self.pins.iter().map(one).collect();
-        self.solve(&given, &vec![0.0; self.pins.len()], guess)
+        Sought {
+            given: self.pins.iter().map(one).collect(),
+            right: None,
+            guess: guess.map(Vec::as_slice),
+        }
     }
 
     /// The function that is 0 in all places, with this load at each corner.
+    pub fn loaded<'b>(&self, load: &'b [f64], guess: Option<&'b Vec<f64>>) -> Sought<'b> {
+        Sought {
+            given: vec![0.0; self.pins.len()],
+            right: Some(load),
+            guess: guess.map(Vec::as_slice),
+        }
+    }
+
+    /// The values of functions at all corners.
     ///
     /// # Errors
     /// If the solver does not converge.
-    pub fn loaded(&self, load: &[f64], guess: Option<&Vec<f64>>) -> Result<Vec<f64>, Unsolved> {
-        self.solve(&vec![0.0; self.pins.len()], load, guess)
+    pub fn solve<const N: usize>(&self, sought: [Sought; N]) -> Result<[Vec<f64>; N], Unsolved> {
+        let found = self.solve_all(&sought)?;
+        Ok(found.try_into().expect("as many as were sought"))
     }
 
-    fn solve(
-        &self,
-        given: &[f64],
-        load: &[f64],
-        guess: Option<&Vec<f64>>,
-    ) -> Result<Vec<f64>, Unsolved> {
-        let none = vec![0.0; self.pins.len()];
-        let guess = guess.unwrap_or(&none);
-        let entries = entries(self.mesh, self.nodes);
-        let mut values = self.equations.solve(&entries, given, load, guess)?;
-        self.nodes.interpolate(&mut values);
-        Ok(values)
+    /// The same for any number of functions.
+    ///
+    /// # Errors
+    /// If the solver does not converge.
+    pub fn solve_all(&self, sought: &[Sought]) -> Result<Vec<Vec<f64>>, Unsolved> {
+        let mut found = self
+            .equations
+            .solve(&entries(self.mesh, self.nodes), sought)?;
+        for values in &mut found {
+            self.nodes.interpolate(values);
+        }
+        Ok(found)
     }
 
     /// The flow into each place (rad).
@@ -79,7 +89,7 @@ impl<'a> System<'a> {
 }
 
 /// Calls a function with every entry that a cell adds to the stiffness of corners that do not hang.
-fn entries(mesh: &Octree, nodes: &Nodes) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) {
+fn entries(mesh: &Octree, nodes: &Nodes) -> impl Fn(&mut dyn FnMut(usize, usize, f64)) + Sync {
     move |call| {
         for (id, _, element) in mesh.live() {
             let corners = nodes.corners[id];

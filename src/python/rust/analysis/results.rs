@@ -230,7 +230,9 @@ impl Analysis {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked: rates::Request = request_with(py, settings, "kt", kt)?;
         let (design, found) = (&self.content.design, &self.found);
-        let rates = job::answer(py, Some(false), |_| asked.rates(design, found, false))?;
+        let rates = job::answer(py, Some(false), |told| {
+            asked.rates(design, found, false, told)
+        })?;
         let document = report::rates::document(design, &rates, found.settings.seed);
         shown::report(py, &document)
     }

@@ -204,7 +204,7 @@ impl Design {
         let place = start.to_array().to_vec();
         let asked: rates::Request = request_with(py, settings, "start", place)?;
         let posed = (&self.content.design, &**self.content.problem(None));
-        let (found, check) = job::answer(py, Some(false), |_| asked.exit(posed, start))?;
+        let (found, check) = job::answer(py, Some(false), |told| asked.exit(posed, start, told))?;
         let document = report::rates::exit_document(posed.0, &found, check.as_ref());
         shown::report(py, &document)
     }
