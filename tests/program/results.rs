@@ -7,14 +7,22 @@ use std::path::Path;
 use crate::program::{stderr, stdout};
 use crate::readme::{run, with_shapes};
 
-/// Tables, pictures and the summary of a design: dipoles, with flat faces, with shaped ones, and
-/// behind shields.
+/// Designs of which results are compared: dipoles, with flat faces, with shaped ones, and behind
+/// shields.
+pub const KEPT: [&str; 3] = ["paper-tile", "tab-20mm", "shielded-backs"];
+
+/// The command of a design's results.
+pub fn analysis(design: &str) -> String {
+    format!("tilebind analyse shapes/{design}.toml --out target/{design}")
+}
+
+/// Tables, pictures and the summary of a design.
 #[test]
 fn what_is_kept_of_three_designs_is_what_the_program_gives() {
-    for design in ["paper-tile", "tab-20mm", "shielded-backs"] {
+    for design in KEPT {
         let folder = with_shapes();
         let out = format!("target/{design}");
-        let command = format!("tilebind analyse shapes/{design}.toml --out {out}");
+        let command = analysis(design);
         let output = run(&command, folder.path());
         assert!(output.status.success(), "{command}\n{}", stderr(&output));
         let out = folder.path().join(out);

@@ -262,7 +262,10 @@ fn a_gas_has_the_temperature_of_its_shaking() {
 
 #[test]
 fn bound_tiles_have_the_temperature_of_their_shaking() {
-    for model in [MagnetModel::Dipole, MagnetModel::Cuboid] {
+    for (model, duration, runs, largest) in [
+        (MagnetModel::Dipole, 30.0, 8, 0.005),
+        (MagnetModel::Cuboid, 12.0, 4, 0.01),
+    ] {
         let (problem, crowd) = one_face(model);
         let bound = problem.pair.as_ref().unwrap().bound;
         let movers = vec![
@@ -271,11 +274,11 @@ fn bound_tiles_have_the_temperature_of_their_shaking() {
         ];
         let settings = TableSettings {
             walls: false,
-            ..shaken(30.0, 2e-3, 100.0)
+            ..shaken(duration, 2e-3, 100.0)
         };
-        let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), 8);
+        let [mean, error] = kinetic(&crowd, &settings, &Start::Given(movers), runs);
         assert!(
-            error < 0.005 && (mean - 0.5).abs() < 0.01,
+            error < largest && (mean - 0.5).abs() < 2.0 * largest,
             "{mean} +- {error} {model:?}"
         );
     }
@@ -288,15 +291,6 @@ fn is_on_table(problem: &Problem, tile: &Tile, q: &Configuration) -> bool {
         let p = q.transform(*corner);
         p.x.abs() <= half[0] && p.y.abs() <= half[1]
     })
-}
-
-/// Two small tiles of dipoles that bind by one face, on a table with this half size.
-fn two_small(half: f64) -> (Problem, Crowd) {
-    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
-    let model = MagnetModel::Dipole;
-    let problem = problem(tiles, model, [half; 2]);
-    let crowd = crowd(&problem, model);
-    (problem, crowd)
 }
 
 /// The share of time in which two tiles are bound on a small table, by the method of Metropolis.
@@ -334,19 +328,6 @@ fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
         bound += usize::from(rule.holds(&relative(places)));
     }
     bound as f64 / moves as f64
-}
-
-#[test]
-fn two_tiles_are_bound_as_often_as_boltzmann_says() {
-    let (problem, crowd) = two_small(0.14);
-    let kt = problem.depth() / 12.5;
-    let expected = share_by_metropolis(&problem, kt);
-    let [mean, error] = share_bound(&crowd, kt);
-    assert!((0.1..0.9).contains(&expected), "{expected}");
-    assert!(
-        error < 0.03 && (mean - expected).abs() < 3.0 * error,
-        "{mean} +- {error}, {expected}"
-    );
 }
 
 /// The share of time in which two tiles of a table are bound, with its standard error.
@@ -396,23 +377,31 @@ fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
     bound / apart
 }
 
+/// On a small table, two tiles that bind by one face: as the method of Metropolis finds, and as ln K of
+/// one partner says.
 #[test]
-fn two_tiles_are_bound_as_often_as_ln_k_says() {
-    let (problem, crowd) = two_small(0.16);
+fn two_tiles_are_bound_as_often_as_boltzmann_and_ln_k_say() {
+    let tiles = [square(0.04, "N", &[0]), square(0.04, "S", &[2])];
+    let model = MagnetModel::Dipole;
+    let problem = problem(tiles, model, [0.16; 2]);
+    let crowd = crowd(&problem, model);
     let minimum = Point::new(&problem, problem.pair.as_ref().unwrap().bound);
     let kt = -minimum.energy / 14.0;
-    // ln K of one partner on the table, as `tilebind bond` has it.
+    // As `tilebind bond` has it.
     let volume = Well::new(&problem, &minimum, 0.0, &[]).volume(kt, 1e-3);
     let ln_k = 14.0 + libm::log(volume.value / TAU / crowd.area());
     let odds = libm::exp(ln_k) * crowding(&problem, &crowd, kt);
-    let expected = odds / (1.0 + odds);
     let [mean, error] = share_bound(&crowd, kt);
-    println!("{mean} +- {error}, {expected}");
-    assert!((0.1..0.9).contains(&expected), "{expected}");
-    assert!(
-        error < 0.04 && (mean - expected).abs() < 3.0 * error,
-        "{mean} +- {error}, {expected}"
-    );
+    let expected = [share_by_metropolis(&problem, kt), odds / (1.0 + odds)];
+    println!("{mean} +- {error}, {expected:?}");
+    assert!(error < 0.04, "{error}");
+    for expected in expected {
+        assert!((0.1..0.9).contains(&expected), "{expected}");
+        assert!(
+            (mean - expected).abs() < 3.0 * error,
+            "{mean} +- {error}, {expected}"
+        );
+    }
 }
 
 #[test]

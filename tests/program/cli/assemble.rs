@@ -339,7 +339,7 @@ fn no_state_of_a_lattice_is_deeper_than_the_matrix_says() {
             fixed.contains(&format!("{side} = {{ code = \"{code}\" }}"))
         };
         let bond = number(&bonds.iter().find(word).expect("its word")["energy_J"]);
-        let few = "--complete-seconds 0 --certify-seconds 0 --milestones 60 --far-starts 10";
+        let few = "--complete-seconds 0 --certify-seconds 0 --milestones 60 --far-starts 4";
         let few: Vec<&str> = few.split(' ').collect();
         let (file, folder) = (design.to_str().unwrap(), out.join("pair"));
         let common = ["analyse", file, "--json", "--compact", "--out"];

@@ -174,7 +174,7 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
         "--kt=1.6e-3,2.1e-3",
         "--runs=120",
         "--duration=6",
-        "--simulations=2000",
+        "--simulations=1000",
         "--json",
     ]);
     let mut best: f64 = 0.0;
@@ -257,7 +257,7 @@ fn yield_and_rates_have_one_answer_for_one_drag() {
     let file = design(PAPER);
     let kt = "6e-3";
     let common = ["--kt", kt, "--drag", "20", "--json"];
-    let rates = json(&[&["rates", &file, "--certify", "0.9"][..], &common].concat());
+    let rates = json(&[&["rates", &file, "--certify", "1.8"][..], &common].concat());
     let asked = "--rates overdamped --tiles 2 --time 60 --simulations 0";
     let asked: Vec<&str> = asked.split(' ').collect();
     let yields = json(&[&["yield", &file][..], &asked, &common].concat());

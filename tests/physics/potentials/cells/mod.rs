@@ -165,8 +165,8 @@ fn all() -> Vec<Enclosed> {
         energy: shielded_blocks,
         bounds: shielded_block_bounds,
         levels: vec![Level::best()],
-        cells: 500,
-        met: [2_500, 500],
+        cells: 300,
+        met: [1_500, 300],
         // The potential's quadrature at contact, as of bare blocks.
         off: [3e-6 * 0.03, 3e-6],
         centres: vec![[0.085, -0.02, 0.03], [0.2, 0.1, 2.0]],
@@ -185,7 +185,7 @@ fn all() -> Vec<Enclosed> {
     };
     let mut all = vec![
         of_dipoles,
-        of_blocks(paper(), Level::available(), 3000, 15_000),
+        of_blocks(paper(), Level::available(), 1200, 6_000),
         behind_shields(),
         blocks_behind_shields,
     ];
@@ -194,7 +194,7 @@ fn all() -> Vec<Enclosed> {
         Enclosed {
             name: "blocks of all shapes",
             shrinking: Vec::new(),
-            ..of_blocks(tiles, vec![Level::best()], 1000, 5_000)
+            ..of_blocks(tiles, vec![Level::best()], 400, 2_000)
         }
     }));
     all
