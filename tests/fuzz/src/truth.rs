@@ -171,7 +171,10 @@ fn mean_of_reciprocals(
     let [_, other_across, other_high] = second.magnet.size;
     let lengths = [across, other_across, high, other_high];
     let panels = lengths.map(|length| (length / (PANEL * distance)).ceil().max(1.0));
-    if !(distance > 0.0) || panels.iter().product::<f64>() * 625.0 > MOST_POINTS as f64 {
+    if distance.is_nan()
+        || distance <= 0.0
+        || panels.iter().product::<f64>() * 625.0 > MOST_POINTS as f64
+    {
         return None;
     }
     let [s, t, z, w] = panels.map(|count| nodes(count as usize));

@@ -187,8 +187,7 @@ impl<'a> Lines<'a> {
             let [from, to] = face[axis];
             from + GAUSS[k] * (to - from)
         };
-        let lines: [Line; 4] =
-            std::array::from_fn(|k| self.line([place(0, k & 1), place(1, k >> 1)]));
+        let lines = self.lines(std::array::from_fn(|k| [place(0, k & 1), place(1, k >> 1)]));
         if let Some(axis) = uneven(&lines, self.cut, self.leaf.level, halved) {
             let [from, to] = face[axis];
             let middle = 0.5 * (from + to);
@@ -221,18 +220,61 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line through a cell.
-    fn line(&mut self, at: [f64; 2]) -> Line {
-        let mut line = Line {
+    /// Lines through a cell. The energies along all of them are computed at once, which is faster
+    /// than a few at a time.
+    fn lines(&mut self, at: [[f64; 2]; 4]) -> [Line; 4] {
+        let Integrator { kt, .. } = *self.of;
+        let mut lines = at.map(|at| Line {
             ray: self.ray(at),
             at,
             points: Vec::new(),
             sums: [0.0; 2],
-        };
-        for ends in self.free_parts(&line.ray) {
-            self.extend(&mut line, ends);
+        });
+        let parts = lines.iter().enumerate().flat_map(|(k, line)| {
+            let free = self.free_parts(&line.ray).into_iter();
+            free.map(move |ends| (k, ends))
+        });
+        let parts: Vec<(usize, [f64; 2])> = parts.collect();
+        let ends = parts.iter().flat_map(|&(k, [from, to])| {
+            let three = [from, 0.5 * (from + to), to];
+            three.map(|u| (k, u))
+        });
+        let at_ends = self.energies(&lines, ends);
+        // The line of each point, its place on it, and the width of its panel.
+        let mut points: Vec<(usize, f64, f64)> = Vec::new();
+        for (&(k, [from, to]), ends) in parts.iter().zip(at_ends.chunks(3)) {
+            let change = (ends[0] - ends[1]).abs().max((ends[1] - ends[2]).abs()) / kt;
+            let panels = (2.0 * change / PANEL).ceil().clamp(1.0, PANELS);
+            let width = (to - from) / panels;
+            for panel in 0..panels as usize {
+                let all = GAUSS.map(|t| (k, from + (panel as f64 + t) * width, width));
+                points.extend(all);
+            }
+            let [lowest, highest] = self.range;
+            self.range = [
+                ends.iter().copied().fold(lowest, f64::min),
+                ends.iter().copied().fold(highest, f64::max),
+            ];
         }
-        line
+        let energies = self.energies(&lines, points.iter().map(|&(k, u, _)| (k, u)));
+        for ((k, u, width), energy) in points.into_iter().zip(energies) {
+            let load = ((self.of.ground - energy) / kt).min(FARTHEST);
+            let weights = [self.of.power(energy), load].map(libm::exp);
+            for (sum, weight) in lines[k].sums.iter_mut().zip(weights) {
+                *sum += weight * width / 2.0;
+            }
+            lines[k].points.push((u, width / 2.0, weights, energy));
+        }
+        lines
+    }
+
+    /// U (J) at places on lines, given by the line's number and the part of s's size.
+    fn energies(&self, lines: &[Line; 4], places: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
+        let qs = places.map(|(k, u)| lines[k].ray.configuration(self.along(u)));
+        let qs: Vec<Configuration> = qs.collect();
+        let mut energies = vec![0.0; qs.len()];
+        self.of.problem.potential().energies(&qs, &mut energies);
+        energies
     }
 
     /// The free parts of a line.
@@ -248,37 +290,6 @@ impl<'a> Lines<'a> {
         free.into_iter()
             .map(|ends| ends.map(|end| end / length))
             .collect()
-    }
-
-    /// Adds a free part to a line.
-    fn extend(&mut self, line: &mut Line, [from, to]: [f64; 2]) {
-        let Integrator { kt, .. } = *self.of;
-        let place = |u: f64| line.ray.configuration(self.along(u));
-        let potential = self.of.problem.potential();
-        let mut ends = [0.0; 3];
-        potential.energies(&[from, 0.5 * (from + to), to].map(place), &mut ends);
-        let change = (ends[0] - ends[1]).abs().max((ends[1] - ends[2]).abs()) / kt;
-        let panels = (2.0 * change / PANEL).ceil().clamp(1.0, PANELS);
-        let width = (to - from) / panels;
-        let us: Vec<f64> = (0..panels as usize)
-            .flat_map(|panel| GAUSS.map(|t| from + (panel as f64 + t) * width))
-            .collect();
-        let qs: Vec<Configuration> = us.iter().map(|&u| place(u)).collect();
-        let mut energies = vec![0.0; qs.len()];
-        potential.energies(&qs, &mut energies);
-        let [lowest, highest] = self.range;
-        self.range = [
-            ends.into_iter().fold(lowest, f64::min),
-            ends.into_iter().fold(highest, f64::max),
-        ];
-        for (u, energy) in us.into_iter().zip(energies) {
-            let load = ((self.of.ground - energy) / kt).min(FARTHEST);
-            let weights = [self.of.power(energy), load].map(libm::exp);
-            for (sum, weight) in line.sums.iter_mut().zip(weights) {
-                *sum += weight * width / 2.0;
-            }
-            line.points.push((u, width / 2.0, weights, energy));
-        }
     }
 }
 
