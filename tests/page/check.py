@@ -56,8 +56,8 @@ def main():
                 print(f"tests/page: {name}")
                 out = pathlib.Path(folder, name)
                 subprocess.run([arguments.program, "analyse", SHAPES / f"{name}.toml", "--out", out, "--quiet",
-                                "--certify-seconds", "2", "--complete-seconds", "10",
-                                "--milestones", "3000"], check=True)
+                                "--certify-seconds", "2", "--complete-seconds", "4",
+                                "--milestones", "1000"], check=True)
                 check_page(check, name, out / "report.html")
             print("tests/page: compare, sweep")
             check_comparison(check, arguments.program, pathlib.Path(folder))

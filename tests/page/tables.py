@@ -28,8 +28,8 @@ def column(k, table=0):
 def check_comparison(check, program, folder):
     out = folder / "compare"
     designs = [SHAPES / f"{name}.toml" for name in ("dovetail", "tab-20mm", "tab-10mm", "square-teeth-10mm")]
-    subprocess.run([program, "compare", *designs, "--out", out, "--quiet", "--milestones", "2000",
-                    "--far-starts", "100", "--certify-cells", "20000"], check=True)
+    subprocess.run([program, "compare", *designs, "--out", out, "--quiet", "--milestones", "600",
+                    "--far-starts", "30", "--certify-cells", "5000"], check=True)
 
     def use(browser):
         browser.wait("document.querySelector('#pictures svg').getBoundingClientRect().width > 300")

@@ -312,10 +312,10 @@ def test_yields(design):
 
 def test_tile_sets_of_words(root):
     tiles = root / "shapes/assemblies" / "unary-square.yaml"
-    found = tilebind.words(10, gap=0.4, seconds=5, progress=False)
+    found = tilebind.words(10, gap=0.4, seconds=1, progress=False)
     files = tilebind.assemble(tiles, found["words"], kt=3e-3, progress=False)
     assert {"assembly.yaml", "assembly.tiles", "matrix.csv", "report.json"} <= files.keys()
-    sought = tilebind.assemble(tiles, kt=3e-3, gap=0.3, seconds=5, progress=False)
+    sought = tilebind.assemble(tiles, kt=3e-3, gap=0.3, seconds=1, progress=False)
     assert sought.keys() >= {"words.toml", "report.json"} and b"words = [" in sought["words.toml"]
     with pytest.raises(ValueError, match="positions"):
         tilebind.assemble(tiles, kt=3e-3, length=3, magnets=4)
