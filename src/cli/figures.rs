@@ -37,9 +37,11 @@ impl FigureOptions {
         };
         let font = self.figure_font.unwrap_or(FONT);
         let sheet = Sheet::for_print(width, font).map_err(|[least, most]| {
+            // Rounded inwards, so that both widths are accepted.
+            let (least, most) = (least.ceil(), most.floor());
             Failure::Usage(format!(
                 "--figure-width {width}mm: with text of {font} points pictures can be \
-                 {least:.0}mm to {most:.0}mm wide\n  help: change the width or --figure-font"
+                 {least}mm to {most}mm wide\n  help: change the width or --figure-font"
             ))
         })?;
         Ok(match self.figure_panels {
@@ -133,6 +135,28 @@ mod tests {
         for wrong in ["85", "mm", "-85mm", "85 m", ""] {
             assert!(millimetres(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn the_widths_that_a_refusal_names_are_accepted() {
+        let sheet = |width: f64| {
+            let options = FigureOptions {
+                figure_width: Some(width),
+                figure_font: None,
+                figure_panels: false,
+            };
+            options.sheet()
+        };
+        let Err(Failure::Usage(refused)) = sheet(10.0) else {
+            panic!("too narrow");
+        };
+        let range = refused.split("can be ").nth(1).expect("a range");
+        let named = range
+            .split("mm")
+            .take(2)
+            .map(|word| word.trim_start_matches(" to "));
+        let named: Vec<f64> = named.map(|word| word.parse().expect("a number")).collect();
+        assert!(named.iter().all(|width| sheet(*width).is_ok()), "{named:?}");
     }
 
     #[test]
