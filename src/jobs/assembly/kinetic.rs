@@ -56,8 +56,6 @@ pub struct Kinetics<'a> {
     gmc: f64,
     rows: usize,
     columns: usize,
-    /// The neighbours of each cell, by side; `None` beyond the canvas.
-    near: Vec<[Option<usize>; 4]>,
     /// The right tile of each cell.
     wanted: Vec<Option<usize>>,
     seeds: Vec<(usize, usize)>,
@@ -90,7 +88,6 @@ impl<'a> Kinetics<'a> {
     pub fn new(set: &'a TileSet, grown: &Grown) -> Self {
         let [rows, columns] = set.size.unwrap_or([1; 2]);
         let first = set.seed.first().copied().unwrap_or((0, 0, 0));
-        let near = (0..rows * columns).map(|cell| neighbours(cell, [rows, columns]));
         let mut wanted = vec![None; rows * columns];
         for ((x, y), tile) in &grown.tiles {
             let (row, column) = (first.0 as i32 - y, first.1 as i32 + x);
@@ -107,7 +104,6 @@ impl<'a> Kinetics<'a> {
             gmc: set.gmc.unwrap_or_default(),
             rows,
             columns,
-            near: near.collect(),
             wanted,
             seeds: set.seed.iter().map(cell).collect(),
             target: grown.tiles.len().min(MOST_TILES),
@@ -136,8 +132,15 @@ impl<'a> Kinetics<'a> {
         }
     }
 
+    /// The neighbours of a cell, by side; `None` beyond the canvas.
     fn near(&self, cell: usize) -> [Option<usize>; 4] {
-        self.near[cell]
+        let (row, column) = ((cell / self.columns) as i32, (cell % self.columns) as i32);
+        STEPS.map(|(dx, dy)| {
+            let (row, column) = (row - dy, column + dx);
+            let inside =
+                (0..self.rows as i32).contains(&row) && (0..self.columns as i32).contains(&column);
+            inside.then(|| row as usize * self.columns + column as usize)
+        })
     }
 
     /// The neighbouring tiles of a cell, by side.
@@ -330,16 +333,6 @@ impl<'a> Kinetics<'a> {
             waits,
         }
     }
-}
-
-/// The neighbours of a cell of a canvas with rows and columns, by side; `None` beyond it.
-fn neighbours(cell: usize, [rows, columns]: [usize; 2]) -> [Option<usize>; 4] {
-    let (row, column) = ((cell / columns) as i32, (cell % columns) as i32);
-    STEPS.map(|(dx, dy)| {
-        let (row, column) = (row - dy, column + dx);
-        let inside = (0..rows as i32).contains(&row) && (0..columns as i32).contains(&column);
-        inside.then(|| row as usize * columns + column as usize)
-    })
 }
 
 /// Rates of cells in a sum tree: choosing and changing one takes a logarithmic number of steps, and

@@ -56,12 +56,13 @@ pub fn exit_on(
             &ends.rims(&field),
             &functions.iter().collect::<Vec<_>>(),
         );
-        meshes.push(MeshExit {
+        let found = MeshExit {
             error: errors.largest,
             of_rims: errors.of_rims,
             ..found
-        });
-        meshes.last().into_iter().for_each(&on_mesh);
+        };
+        on_mesh(&found);
+        meshes.push(found);
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
             let mut bounds = bounds(problem, bond, settings)?;

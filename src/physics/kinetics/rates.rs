@@ -67,14 +67,16 @@ pub fn rates_on(
         };
         let mut shares = errors.shares;
         let unknowns = found.unknowns;
-        meshes.push(MeshRates {
+        let found = MeshRates {
             error,
             of_rims: errors.of_rims,
             ..found
-        });
+        };
+        // Basins that share cells are not told apart yet.
         if places.shared.is_empty() {
-            meshes.last().into_iter().for_each(&on_mesh);
+            on_mesh(&found);
         }
+        meshes.push(found);
         let is_fine = error < settings.tolerance && meshes.len() >= MESHES;
         let is_done = is_fine || unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows;
         if let Some(&(_, limit)) = places.shared.first() {

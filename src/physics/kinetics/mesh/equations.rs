@@ -178,7 +178,7 @@ impl Equations {
                 }
             }
             if found.iter().all(Option::is_some) {
-                break;
+                return Ok(found.map(Option::unwrap_or_default));
             }
             interruption::check();
             along.copy_from_slice(&direction);
@@ -210,10 +210,7 @@ impl Equations {
             }
             sizes = next;
         }
-        match found.iter().all(Option::is_some) {
-            true => Ok(found.map(Option::unwrap_or_default)),
-            false => Err(Unsolved),
-        }
+        Err(Unsolved)
     }
 
     /// The residual.
