@@ -212,15 +212,13 @@ fn glues_that_bind_each_other_less_than_themselves_have_words_alike_in_part() {
 
 #[test]
 fn strengths_near_each_other_share_words() {
-    for strengths in ["1 0.95", "1.15 0.92", "1 1.5"] {
+    for strengths in ["1 0.95", "1 2", "1.15 0.92", "1 1.5"] {
         let text = format!(
             "num tile types=1\nnum binding types=2\ntile edges={{\n{{1 2 1 2}}\n}}\nbinding \
              strengths={{{strengths}}}\n"
         );
         let set = TileSet::parse(&text, "a.tiles").unwrap();
-        let keywords = [("kt", "1e-3"), ("seconds", "2")];
-        let keywords = keywords.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]));
-        let request: Request = of_keywords(keywords).unwrap();
+        let request: Request = of_keywords([("kt".to_owned(), vec!["1e-3".to_owned()])]).unwrap();
         let built = request.build(&set, None, None, &Silent).unwrap().built;
         let (_, asked, has) = built.unlike().unwrap();
         assert!(
