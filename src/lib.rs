@@ -151,7 +151,8 @@ pub use jobs::{
 pub use physics::table as many_bodies;
 pub use physics::{
     Configuration, ConfigurationSpace, Problem, budget, cell, configuration, contact, dynamics,
-    interruption, kinetics, landscape, observer, potential, problem, roadmap, tile, units, words,
+    interruption, kinetics, landscape, observer, parallel, potential, problem, roadmap, tile,
+    units, words,
 };
 pub use report;
 

@@ -210,7 +210,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
     };
     let identity = json!({"name": about.name, "sha256": checksum});
     let designs = about.designs.iter().map(|(name, sha256)| json!({"name": name, "sha256": sha256}));
-    Entries::default()
+    let entries = Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity)
         .data("designs", designs.collect::<Value>())
@@ -241,8 +241,11 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .table(course(found))
         .table(energy(found))
         .table(bonds(found))
-        .table(clusters(found))
-        .table(places(found))
+        .table(clusters(found));
+    match found.frames {
+        true => entries.table(places(found)),
+        false => entries,
+    }
 }
 
 /// The share of the target, for people.
@@ -385,11 +388,10 @@ fn clusters(found: &Found) -> Table {
         .in_csv("clusters")
 }
 
-/// `trajectory.csv`, if frames are requested.
+/// `trajectory.csv`.
 fn places(found: &Found) -> Table {
     let kinds = &found.crowd.kinds;
-    let kept = samples(found).filter(|_| found.frames);
-    let tiles = kept.flat_map(|(run, at)| {
+    let tiles = samples(found).flat_map(|(run, at)| {
         let movers = at.movers.iter().flatten().enumerate();
         movers.map(move |(tile, mover)| (run.index, at.time, tile, *mover))
     });

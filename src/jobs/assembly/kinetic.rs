@@ -13,6 +13,8 @@
 //! Tiles that would leave within 1e-5 of a wait are ignored, which is about the share of errors
 //! that they could cause at each place.
 
+use std::ops::Range;
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -54,6 +56,7 @@ pub struct Kinetics<'a> {
     holds: Holds,
     gse: f64,
     gmc: f64,
+    /// Those that growth can reach.
     rows: usize,
     columns: usize,
     /// The right tile of each cell.
@@ -86,28 +89,43 @@ impl<'a> Kinetics<'a> {
     /// From a set in the engines' form (with a canvas, a seed, Gse and Gmc), and its growth without
     /// errors.
     pub fn new(set: &'a TileSet, grown: &Grown) -> Self {
-        let [rows, columns] = set.size.unwrap_or([1; 2]);
+        let ends = grown.complete && grown.tiles.len() <= MOST_TILES;
+        let [height, width] = set.size.unwrap_or([1; 2]);
+        let (rows, columns) = match ends {
+            true => (0..height, 0..width),
+            // Tiles are connected with the seed, and there are never more than the largest number.
+            false => (
+                within_reach(height, set.seed.iter().map(|seed| seed.0)),
+                within_reach(width, set.seed.iter().map(|seed| seed.1)),
+            ),
+        };
+        let cell = |row: usize, column: usize| {
+            let is_there = rows.contains(&row) && columns.contains(&column);
+            is_there.then(|| (row - rows.start) * columns.len() + column - columns.start)
+        };
         let first = set.seed.first().copied().unwrap_or((0, 0, 0));
-        let mut wanted = vec![None; rows * columns];
+        let mut wanted = vec![None; rows.len() * columns.len()];
         for ((x, y), tile) in &grown.tiles {
-            let (row, column) = (first.0 as i32 - y, first.1 as i32 + x);
-            let inside = (0..rows as i32).contains(&row) && (0..columns as i32).contains(&column);
-            if inside {
-                wanted[row as usize * columns + column as usize] = Some(*tile);
+            let place = [first.0 as i32 - y, first.1 as i32 + x].map(usize::try_from);
+            if let [Ok(row), Ok(column)] = place
+                && let Some(cell) = cell(row, column)
+            {
+                wanted[cell] = Some(*tile);
             }
         }
-        let cell = |(row, column, tile): &(usize, usize, usize)| (row * columns + column, *tile);
+        let seeds = set.seed.iter();
+        let seeds = seeds.filter_map(|(row, column, tile)| Some((cell(*row, *column)?, *tile)));
         Self {
             set,
             holds: Holds::new(set),
             gse: set.gse.unwrap_or_default(),
             gmc: set.gmc.unwrap_or_default(),
-            rows,
-            columns,
+            seeds: seeds.collect(),
+            rows: rows.len(),
+            columns: columns.len(),
             wanted,
-            seeds: set.seed.iter().map(cell).collect(),
             target: grown.tiles.len().min(MOST_TILES),
-            ends: grown.complete && grown.tiles.len() <= MOST_TILES,
+            ends,
             directed: grown.choices == 0,
         }
     }
@@ -333,6 +351,13 @@ impl<'a> Kinetics<'a> {
             waits,
         }
     }
+}
+
+/// The rows or columns, of a number of them, that growth up to the largest number of tiles may reach.
+fn within_reach(count: usize, seeds: impl Iterator<Item = usize> + Clone) -> Range<usize> {
+    let first = seeds.clone().min().unwrap_or(0);
+    let last = seeds.max().unwrap_or(0);
+    first.saturating_sub(MOST_TILES)..count.min(last + MOST_TILES + 1)
 }
 
 /// Rates of cells in a sum tree: choosing and changing one takes a logarithmic number of steps, and

@@ -12,7 +12,7 @@
 //!   line between them; otherwise along the normal of the one of their four edges that separates
 //!   the two corners most (separating axis theorem, with corners cut off at twice the margin).
 
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2};
 
 use super::Contact;
 use super::shape::Shape;
@@ -53,6 +53,9 @@ pub struct NearPairs {
     on_moving: Vec<[usize; 2]>,
 }
 
+/// Where a tile lies in another one's frame: its rotation and its position (m).
+type Placed = (Rotation2<f64>, Vector2<f64>);
+
 /// A corner of one tile against the other tile, in the other's frame.
 enum Obstacle {
     /// In front of an edge, with the gap (m).
@@ -84,10 +87,11 @@ impl Contact {
         let mut found = Vec::new();
         let mut corners: Vec<[usize; 2]> = Vec::new();
         let (fixed, moving) = (&self.fixed, &self.moving);
+        let (rotation, position) = (q.rotation(), q.position());
+        let back = rotation.inverse();
         meet(
-            fixed,
-            moving,
-            q,
+            [fixed, moving],
+            (rotation, position),
             margin,
             &pairs.on_fixed,
             |i, p, what| match what {
@@ -99,12 +103,9 @@ impl Contact {
                 }),
             },
         );
-        let rotation = q.rotation();
-        let back = q.inverse();
         meet(
-            moving,
-            fixed,
-            &back,
+            [moving, fixed],
+            (back, back * -position),
             margin,
             &pairs.on_moving,
             |k, _, what| match what {
@@ -123,14 +124,18 @@ impl Contact {
         corners.dedup();
         let between = corners
             .iter()
-            .map(|&pair| self.between_corners(pair, q, 2.0 * margin));
+            .map(|&pair| self.between_corners(pair, (rotation, position), 2.0 * margin));
         found.extend(between.filter(|point| point.gap <= margin));
         found
     }
 
     /// The point of two convex corners, of the fixed and of the moving tile.
-    fn between_corners(&self, [k, i]: [usize; 2], q: &Configuration, reach: f64) -> ContactPoint {
-        let (rotation, position) = (q.rotation(), q.position());
+    fn between_corners(
+        &self,
+        [k, i]: [usize; 2],
+        (rotation, position): Placed,
+        reach: f64,
+    ) -> ContactPoint {
         let fixed = self.fixed.corner(k, reach);
         let moving = self
             .moving
@@ -204,16 +209,14 @@ fn near(ours: &Shape, theirs: &Shape, pose: &Configuration, distance: f64) -> Ve
 }
 
 /// Calls `found(vertex, where it is, what it meets)` for convex corners of `theirs` near `ours`,
-/// in whose frame `theirs` lies at `pose`.
+/// in whose frame `theirs` is placed.
 fn meet(
-    ours: &Shape,
-    theirs: &Shape,
-    pose: &Configuration,
+    [ours, theirs]: [&Shape; 2],
+    (rotation, position): Placed,
     margin: f64,
     pairs: &[[usize; 2]],
     mut found: impl FnMut(usize, Vector2<f64>, Obstacle),
 ) {
-    let (rotation, position) = (pose.rotation(), pose.position());
     let outline = &ours.outline;
     for &[edge, i] in pairs {
         let p = position + rotation * theirs.outline.vertices()[i];

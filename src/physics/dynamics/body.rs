@@ -1,6 +1,6 @@
 //! The moving tile as a rigid body.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Rotation2, Vector2, Vector3};
 
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::Tile;
@@ -90,9 +90,16 @@ impl Body {
 
     /// The configuration whose centre of mass and orientation are given.
     pub fn configuration(&self, place: &Vector3<f64>) -> Configuration {
+        self.pose(place).0
+    }
+
+    /// The same, and the rotation by its angle.
+    pub fn pose(&self, place: &Vector3<f64>) -> (Configuration, Rotation2<f64>) {
         let theta = wrap_angle(place.z);
-        let lever = self.lever(theta);
-        Configuration::new(place.x - lever.x, place.y - lever.y, theta)
+        let rotation = Rotation2::new(theta);
+        let lever = rotation * self.centre;
+        let at = Configuration::new(place.x - lever.x, place.y - lever.y, theta);
+        (at, rotation)
     }
 
     /// The vector from the reference point to the centre of mass, in the table's axes (m).

@@ -4,7 +4,7 @@ use petgraph::unionfind::UnionFind;
 
 use super::crowd::Crowd;
 use super::mover::Mover;
-use super::pair::{Two, configuration, relative};
+use super::pair::{Pose, Two};
 use crate::tile::outline::cross;
 
 /// Tiles with a clearance below this (m, for the paper's tile) count as touching.
@@ -55,8 +55,7 @@ fn tie(crowd: &Crowd, movers: &[Mover], two: Two) -> Option<Held> {
     let tiles = [two.first, two.second].map(|k| &movers[k]);
     let [first, second] = tiles;
     let couple = crowd.couple(first.kind, second.kind).0;
-    let [a, b] = tiles.map(|it| configuration(crowd, it));
-    let q = relative(&a, &b);
+    let q = Pose::of(crowd, first).to(&second.motion(crowd).configuration);
     let pair = [two.first.min(two.second), two.first.max(two.second)];
     if couple.bonds.iter().any(|rule| rule.holds(&q)) {
         let energy = couple.pull(&q).0;

@@ -225,6 +225,9 @@ pub fn hold_back(
     holds: &mut [Hold],
     friction: f64,
 ) {
+    if holds.is_empty() {
+        return;
+    }
     let mut local = vec![usize::MAX; velocities.len()];
     for cluster in clusters(velocities.len(), holds) {
         let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - ERROR;

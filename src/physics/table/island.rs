@@ -24,7 +24,7 @@ use super::crowd::Crowd;
 use super::drive::Rider;
 use super::hold::{Hold, hold_back, kinetic, share_within};
 use super::mover::Mover;
-use super::pair::{Two, configuration, pull, relative};
+use super::pair::{Pose, Pull, Two, pull};
 use super::settings::TableSettings;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
@@ -70,6 +70,8 @@ pub struct NearPair {
     /// The tiles are apart by at least this (m) at `room_at`.
     room: f64,
     room_at: Configuration,
+    /// The last places of both tiles, and their pull there.
+    pulled: Option<([Vector3<f64>; 2], Pull)>,
     /// The last contact points, in the frame of the first tile, and their forces (N).
     held: Vec<(Vector2<f64>, [f64; 2])>,
 }
@@ -83,7 +85,23 @@ impl NearPair {
             at: Configuration::new(0.0, 0.0, 0.0),
             room: f64::NEG_INFINITY,
             room_at: Configuration::new(0.0, 0.0, 0.0),
+            pulled: None,
             held: Vec::new(),
+        }
+    }
+
+    /// The pull of the tiles on each other, which is known from the end of the last step unless one
+    /// has moved since.
+    fn pull(&mut self, crowd: &Crowd, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
+        let places = movers.map(|mover| mover.place);
+        match self.pulled {
+            Some((at, known)) if at == places => known,
+            _ => {
+                let couple = crowd.couple(movers[0].kind, movers[1].kind).0;
+                let found = pull(couple, movers, poses);
+                self.pulled = Some((places, found));
+                found
+            }
         }
     }
 
@@ -128,15 +146,6 @@ impl NearPair {
     }
 }
 
-/// The outcome of a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Happened {
-    /// Kinetic energy lost in contact (J).
-    pub contact_loss: f64,
-    /// Number of steps.
-    pub steps: usize,
-}
-
 /// A group of tiles connected by being near each other.
 pub struct Island<'a> {
     pub crowd: &'a Crowd,
@@ -145,12 +154,14 @@ pub struct Island<'a> {
     pub feature: f64,
     /// The tiles.
     pub riders: Vec<Rider>,
+    /// Their poses.
+    pub poses: Vec<Pose>,
     /// Their accelerations by other tiles, fans and the table's motion (m/s^2, m/s^2, rad/s^2).
     pub steady: Vec<Vector3<f64>>,
     /// Pairs, by indices of this island's tiles.
     pub pairs: Vec<(Two, &'a mut NearPair)>,
-    /// The outcome for them.
-    pub happened: Happened,
+    /// Kinetic energy lost in contact (J).
+    pub contact_loss: f64,
 }
 
 /// Accelerations and energies at one time.
@@ -182,13 +193,7 @@ impl Island<'_> {
             potential,
             debt: self.riders.iter().map(|it| it.debt).sum(),
         };
-        let mut happened = Happened::default();
-        self.go_on(
-            &mut state,
-            [&masses, &inverse],
-            self.settings.step,
-            &mut happened,
-        );
+        self.contact_loss = self.go_on(&mut state, [&masses, &inverse], self.settings.step);
         for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
             rider.mover.velocity = *velocity;
         }
@@ -196,17 +201,11 @@ impl Island<'_> {
         for rider in &mut self.riders {
             rider.debt = share;
         }
-        self.happened = happened;
     }
 
-    /// Advances by a time (s) with constant external forces.
-    fn go_on(
-        &mut self,
-        state: &mut State,
-        masses: [&[Vector3<f64>]; 2],
-        duration: f64,
-        happened: &mut Happened,
-    ) {
+    /// Advances by a time (s) with constant external forces; returns the energy lost in contact (J).
+    fn go_on(&mut self, state: &mut State, masses: [&[Vector3<f64>]; 2], duration: f64) -> f64 {
+        let mut lost = 0.0;
         let mut time = 0.0;
         while time < duration {
             crate::interruption::check();
@@ -215,28 +214,29 @@ impl Island<'_> {
             let points = self.points(state, longest);
             let longest = longest.min(self.time_to_travel(state, &points));
             let h = self.until_knock(state, &points, longest);
-            happened.contact_loss += self.step(state, points, masses, h);
-            happened.steps += 1;
+            lost += self.step(state, points, masses, h);
             time = if h == left { duration } else { time + h };
         }
+        lost
     }
 
     /// All accelerations, those of the fastest points of each pair by its own force (m/s^2), and
     /// the energy of the pairs (J).
-    fn accelerations(&self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, Vec<f64>, f64) {
+    fn accelerations(&mut self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, Vec<f64>, f64) {
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
-        for (two, _) in &self.pairs {
-            let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
-            let couple = self.crowd.couple(first.kind, second.kind).0;
-            let (energy, pulls) = pull(self.crowd, couple, [first, second]);
+        let (crowd, riders, poses) = (self.crowd, &self.riders, &self.poses);
+        for (two, near) in &mut self.pairs {
+            let tiles = [two.first, two.second];
+            let movers = tiles.map(|k| &riders[k].mover);
+            let (energy, pulls) = near.pull(crowd, movers, tiles.map(|k| &poses[k]));
             potential += energy;
             let mut strength = 0.0;
-            for (tile, pull) in [two.first, two.second].into_iter().zip(pulls) {
+            for ((tile, mover), pull) in tiles.into_iter().zip(movers).zip(pulls) {
                 let own = pull.component_div(&masses[tile]);
                 all[tile] += own;
-                strength += self.fastest(tile, &own);
+                strength += fastest(crowd, mover, &own);
             }
             strengths.push(strength);
         }
@@ -247,10 +247,8 @@ impl Island<'_> {
         TRAVEL * self.settings.fineness()
     }
 
-    /// An upper bound of the speed or acceleration of a tile's fastest point.
     fn fastest(&self, tile: usize, of: &Vector3<f64>) -> f64 {
-        let reach = self.crowd.kinds[self.riders[tile].mover.kind].reach;
-        of.xy().norm() + reach * of.z.abs()
+        fastest(self.crowd, &self.riders[tile].mover, of)
     }
 
     /// The same for the second tile of a pair, relative to the first one in its rotating frame.
@@ -307,16 +305,16 @@ impl Island<'_> {
         let own: Vec<f64> = own.collect();
         let margin = |way: f64| LEAST_MARGIN.max(3.0 * way);
         let mut holds = Vec::new();
-        let (crowd, riders) = (self.crowd, &self.riders);
+        let (crowd, riders, poses) = (self.crowd, &self.riders, &self.poses);
         let centre = |tile: usize| riders[tile].mover.place.xy();
         for (k, ((two, near), way)) in self.pairs.iter_mut().zip(ways).enumerate() {
             let tiles = [two.first, two.second];
-            let [a, b] = tiles.map(|tile| configuration(crowd, &riders[tile].mover));
+            let [a, b] = tiles.map(|tile| &poses[tile]);
             let kinds = tiles.map(|tile| riders[tile].mover.kind);
             let margin = margin(way);
-            for point in near.points(crowd, &relative(&a, &b), kinds, margin) {
+            for point in near.points(crowd, &a.to(&b.at), kinds, margin) {
                 let at = a.transform(point.on_moving);
-                let axis = a.rotation() * point.normal;
+                let axis = a.rotation * point.normal;
                 let gap = point.gap - SKIN;
                 let mut hold = Hold::new(tiles.map(Some), at, axis, gap, centre);
                 hold.pair = Some(k);
@@ -328,7 +326,7 @@ impl Island<'_> {
             for (tile, rider) in riders.iter().enumerate() {
                 at_rim(
                     crowd,
-                    &rider.mover,
+                    (&rider.mover, &poses[tile]),
                     margin(own[tile]),
                     &mut |point, axis, gap| {
                         holds.push(Hold::new([None, Some(tile)], point, axis, gap, centre));
@@ -408,14 +406,15 @@ impl Island<'_> {
         }
         for (hold, _) in &touched {
             if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
-                let q = configuration(self.crowd, &self.riders[first].mover);
                 let force = hold.impulses.map(|impulse| impulse / (0.5 * h));
                 let (_, near) = &mut self.pairs[pair];
-                near.held.push((q.inverse_transform(hold.point), force));
+                near.held
+                    .push((self.poses[first].inverse_transform(hold.point), force));
             }
         }
-        for (rider, way) in self.riders.iter_mut().zip(&way) {
+        for ((rider, pose), way) in self.riders.iter_mut().zip(&mut self.poses).zip(&way) {
             rider.mover.place += way * h;
+            *pose = Pose::of(self.crowd, &rider.mover);
         }
         let (accelerations, pulls, potential) = self.accelerations(masses);
         state.pulls = pulls;
@@ -472,6 +471,11 @@ impl Island<'_> {
         state.velocities = stopped;
         energy - kinetic(masses, &state.velocities)
     }
+}
+
+/// An upper bound of the speed or acceleration of a tile's fastest point.
+fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
+    of.xy().norm() + crowd.kinds[mover.kind].reach * of.z.abs()
 }
 
 /// Corrects the velocities along the forces of the pairs, by less than a step (s) changed them, so
@@ -531,7 +535,7 @@ fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
 /// The corners of a tile within a margin (m) of the rim: position, the rim's normal, and the gap.
 pub fn at_rim(
     crowd: &Crowd,
-    mover: &Mover,
+    (mover, pose): (&Mover, &Pose),
     margin: f64,
     found: &mut dyn FnMut(Vector2<f64>, Vector2<f64>, f64),
 ) {
@@ -540,10 +544,8 @@ pub fn at_rim(
     if room > margin {
         return;
     }
-    let q = configuration(crowd, mover);
-    let (rotation, position) = (q.rotation(), q.position());
     for corner in kind.tile.outline.vertices() {
-        let p = position + rotation * corner;
+        let p = pose.transform(*corner);
         for axis in 0..2 {
             let gap = crowd.half_size[axis] - p[axis].abs();
             if gap <= margin {

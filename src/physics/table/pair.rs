@@ -1,6 +1,6 @@
 //! Two tiles in the frame of one of them, and the interaction between them.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::crowd::{Couple, Crowd};
 use super::mover::Mover;
@@ -14,15 +14,45 @@ pub struct Two {
     pub second: usize,
 }
 
-/// The configuration of a tile's reference point.
-pub fn configuration(crowd: &Crowd, mover: &Mover) -> Configuration {
-    crowd.kinds[mover.kind].body.configuration(&mover.place)
+/// The configuration of a tile's reference point, with its rotation.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    /// The configuration.
+    pub at: Configuration,
+    /// The rotation by its angle.
+    pub rotation: Rotation2<f64>,
 }
 
-/// The pose of the second in the frame of the first.
-pub fn relative(first: &Configuration, second: &Configuration) -> Configuration {
-    let p = first.rotation().inverse() * (second.position() - first.position());
-    Configuration::new(p.x, p.y, wrap_angle(second.theta - first.theta))
+impl Pose {
+    /// That of a configuration.
+    pub fn new(at: Configuration) -> Self {
+        Self {
+            at,
+            rotation: at.rotation(),
+        }
+    }
+
+    /// That of a tile.
+    pub fn of(crowd: &Crowd, mover: &Mover) -> Self {
+        let (at, rotation) = crowd.kinds[mover.kind].body.pose(&mover.place);
+        Self { at, rotation }
+    }
+
+    /// A point of the tile's frame on the table (m).
+    pub fn transform(&self, local: Vector2<f64>) -> Vector2<f64> {
+        self.at.position() + self.rotation * local
+    }
+
+    /// A point on the table in the tile's frame (m).
+    pub fn inverse_transform(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.rotation.inverse() * (point - self.at.position())
+    }
+
+    /// The configuration of another tile in the frame of this one.
+    pub fn to(&self, other: &Configuration) -> Configuration {
+        let p = self.inverse_transform(other.position());
+        Configuration::new(p.x, p.y, wrap_angle(other.theta - self.at.theta))
+    }
 }
 
 impl Two {
@@ -41,20 +71,18 @@ impl Two {
     }
 }
 
-/// The energy (J) of two tiles of a couple, and the force and torque on each about its centre of
-/// mass (N, N, N m).
-pub fn pull(
-    crowd: &Crowd,
-    couple: &Couple,
-    [first, second]: [&Mover; 2],
-) -> (f64, [Vector3<f64>; 2]) {
-    let [a, b] = [first, second].map(|it| configuration(crowd, it));
-    let (energy, force, torque) = couple.pull(&relative(&a, &b));
-    let force: Vector2<f64> = a.rotation() * force;
-    let about = |mover: &Mover, q: &Configuration| q.position() - mover.place.xy();
+/// The energy (J) of two tiles, and the force and torque on each about its centre of mass (N, N,
+/// N m).
+pub type Pull = (f64, [Vector3<f64>; 2]);
+
+/// The pull of two tiles of a couple on each other.
+pub fn pull(couple: &Couple, [first, second]: [&Mover; 2], [a, b]: [&Pose; 2]) -> Pull {
+    let (energy, force, torque) = couple.pull(&a.to(&b.at));
+    let force: Vector2<f64> = a.rotation * force;
+    let arm = |mover: &Mover| b.at.position() - mover.place.xy();
     // The forces are equal and opposite, and so are their torques about any one point.
-    let of_second = torque + cross(about(second, &b), force);
-    let of_first = -torque - cross(b.position() - first.place.xy(), force);
+    let of_second = torque + cross(arm(second), force);
+    let of_first = -torque - cross(arm(first), force);
     let pulls = [
         Vector3::new(-force.x, -force.y, of_first),
         Vector3::new(force.x, force.y, of_second),

@@ -81,8 +81,6 @@ pub struct Run {
     pub energy_error: f64,
     /// The step (s) after any halving.
     pub step: f64,
-    /// Numbers of steps of the table and of islands.
-    pub steps: [u64; 2],
     /// The lifetimes of bonds and traps, ended or not.
     pub lives: Vec<Life>,
 }
@@ -199,7 +197,6 @@ fn once(
             0.0
         },
         step: settings.step,
-        steps: [steps, stepper.short_steps],
         movers: stepper.movers(),
         samples,
         lives,

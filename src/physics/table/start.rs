@@ -7,10 +7,11 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
+use super::island::SKIN;
 use super::mover::Mover;
 use super::neighbours::Neighbours;
+use super::pair::Pose;
 use crate::configuration::{Configuration, wrap_angle};
-use crate::contact::TOUCH;
 use crate::dynamics::{Motion, thermal_velocity};
 
 /// Smallest distance of randomly placed tiles from each other and from the rim, as a share of the
@@ -86,7 +87,7 @@ fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) ->
     if apart > enough {
         return apart;
     }
-    let q = super::pair::relative(&first.1, &second.1);
+    let q = Pose::new(first.1).to(&second.1);
     let bound = couple.contact.clearance_bound(&q);
     if bound > enough {
         return bound;
@@ -260,18 +261,16 @@ fn shuffle(placed: &mut Placed, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Checks that tiles do not overlap and are on the table.
+/// Checks that tiles do not overlap and are on the table, within what the first step puts right: a
+/// frame of another run, as its file has it, is a valid start.
 ///
 /// # Errors
 /// If they are not.
 pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartError> {
-    let place = |mover: &Mover| {
-        let q = super::pair::configuration(crowd, mover);
-        (mover.kind, q)
-    };
+    let place = |mover: &Mover| (mover.kind, mover.motion(crowd).configuration);
     for (tile, mover) in movers.iter().enumerate() {
         let beyond = mover.beyond(crowd);
-        if walls && beyond > TOUCH {
+        if walls && beyond > SKIN {
             return Err(StartError::BeyondRim { tile, beyond });
         }
     }
@@ -279,7 +278,7 @@ pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartEr
     let positions: Vec<_> = places.iter().map(|it| it.1.position()).collect();
     let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
     let widest = 2.0 * widest.fold(0.0, f64::max);
-    let mut worst = (TOUCH, None);
+    let mut worst = (SKIN, None);
     for &[first, second] in Neighbours::default().within(widest, &positions) {
         let depth = -clearance(crowd, [places[first], places[second]], 0.0);
         if depth > worst.0 {

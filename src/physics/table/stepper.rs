@@ -6,10 +6,10 @@ use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::drive::{Drive, Rider};
-use super::island::{Happened, Island, NearPair, rim_room};
+use super::island::{Island, NearPair, rim_room};
 use super::mover::Mover;
 use super::neighbours::Neighbours;
-use super::pair::{Two, configuration, pull, relative};
+use super::pair::{Pose, Two, pull};
 use super::settings::TableSettings;
 use crate::parallel;
 
@@ -43,8 +43,6 @@ pub struct Stepper<'a> {
     pub time: f64,
     /// The energy balance.
     pub account: Account,
-    /// Steps of islands so far.
-    pub short_steps: u64,
     since_kick: usize,
     neighbours: Neighbours,
     near: Vec<NearPair>,
@@ -92,7 +90,6 @@ impl<'a> Stepper<'a> {
             random,
             time: 0.0,
             account: Account::default(),
-            short_steps: 0,
             since_kick: 0,
             neighbours: Neighbours::default(),
             near: Vec::new(),
@@ -132,30 +129,17 @@ impl<'a> Stepper<'a> {
 
     /// Magnetic energy of all pairs (J).
     pub fn potential(&mut self) -> f64 {
-        let places = self.references(0.0);
-        let positions: Vec<_> = places.iter().map(|q| q.position()).collect();
         let (crowd, movers) = (self.crowd, self.movers());
+        let poses: Vec<_> = movers.iter().map(|it| Pose::of(crowd, it)).collect();
+        let positions: Vec<_> = poses.iter().map(|pose| pose.at.position()).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let energy = |&[i, j]: &[usize; 2]| {
             let two = Two::of([movers[i].kind, movers[j].kind], [i, j]);
             let [first, second] = [two.first, two.second];
             let couple = crowd.couple(movers[first].kind, movers[second].kind).0;
-            couple.pull(&relative(&places[first], &places[second])).0
+            couple.pull(&poses[first].to(&poses[second].at)).0
         };
         pairs.iter().map(energy).sum()
-    }
-
-    /// The configurations of all tiles, extrapolated by a time (s) with their velocities.
-    fn references(&self, ahead: f64) -> Vec<crate::Configuration> {
-        let ahead = |rider: &Rider| {
-            let mover = rider.mover;
-            let mover = Mover {
-                place: mover.place + mover.velocity * ahead,
-                ..mover
-            };
-            configuration(self.crowd, &mover)
-        };
-        self.riders.iter().map(ahead).collect()
     }
 
     /// Pairs of tiles that are near each other, with their poses.
@@ -191,9 +175,7 @@ impl<'a> Stepper<'a> {
             .map(|push| Vector3::new(push.x, push.y, 0.0))
             .collect();
         self.sort_pairs(&middle, &masses, &mut steady);
-        let happened = self.move_all(&steady);
-        self.account.contact_loss += happened.contact_loss;
-        self.short_steps += happened.steps as u64;
+        self.account.contact_loss += self.move_all(&steady);
         for (k, before) in movers.iter().enumerate() {
             let way = self.riders[k].mover.place - before.place;
             self.account.work += masses[k].x * driven[k].dot(&way.xy());
@@ -241,8 +223,9 @@ impl<'a> Stepper<'a> {
         outside: &mut [Vector3<f64>],
     ) {
         let crowd = self.crowd;
-        let now = self.references(0.0);
-        let positions: Vec<_> = now.iter().map(|q| q.position()).collect();
+        let movers = self.movers();
+        let now: Vec<_> = movers.iter().map(|it| Pose::of(crowd, it)).collect();
+        let positions: Vec<_> = now.iter().map(|pose| pose.at.position()).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let mut known = std::mem::take(&mut self.near).into_iter().peekable();
         let mut far: Vec<Two> = Vec::new();
@@ -257,7 +240,7 @@ impl<'a> Stepper<'a> {
             let apart = (positions[i] - positions[j]).norm();
             let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
             let is_near = apart <= couple.radii() + near && {
-                let q = relative(&now[two.first], &now[two.second]);
+                let q = now[two.first].to(&now[two.second].at);
                 couple.contact.clearance_bound(&q) <= near
             };
             if is_near {
@@ -269,16 +252,18 @@ impl<'a> Stepper<'a> {
             }
             far.push(two);
         }
-        let riders = &self.riders;
+        let moved = movers.iter().zip(middle);
+        let moved = moved.map(|(mover, place)| Mover {
+            place: *place,
+            ..*mover
+        });
+        let moved: Vec<_> = moved.map(|it| (it, Pose::of(crowd, &it))).collect();
         let parts: Vec<&[Two]> = far.chunks(FAR_TOGETHER).collect();
         let pulls = parallel::flat_map(&parts, |part| {
             let pull_of = |two: &Two| {
-                let [first, second] = [two.first, two.second].map(|k| Mover {
-                    place: middle[k],
-                    ..riders[k].mover
-                });
+                let [(first, a), (second, b)] = [two.first, two.second].map(|k| &moved[k]);
                 let couple = crowd.couple(first.kind, second.kind).0;
-                pull(crowd, couple, [&first, &second]).1
+                pull(couple, [first, second], [a, b]).1
             };
             part.iter().map(pull_of).collect::<Vec<_>>()
         });
@@ -289,8 +274,8 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Advances every island independently.
-    fn move_all(&mut self, steady: &[Vector3<f64>]) -> Happened {
+    /// Advances every island independently; returns the energy lost in contact (J).
+    fn move_all(&mut self, steady: &[Vector3<f64>]) -> f64 {
         let n = self.riders.len();
         let mut tied = UnionFind::<usize>::new(n);
         for near in &self.near {
@@ -319,15 +304,20 @@ impl<'a> Stepper<'a> {
                     settings: self.settings,
                     feature: self.feature,
                     riders: Vec::new(),
+                    poses: Vec::new(),
                     steady: Vec::new(),
                     pairs: Vec::new(),
-                    happened: Happened::default(),
+                    contact_loss: 0.0,
                 });
             }
             let island = number[top];
             local[k] = members[island].len();
             members[island].push(k);
-            islands[island].riders.push(self.riders[k]);
+            let rider = self.riders[k];
+            islands[island].riders.push(rider);
+            islands[island]
+                .poses
+                .push(Pose::of(self.crowd, &rider.mover));
             islands[island].steady.push(steady[k]);
         }
         for near in &mut self.near {
@@ -338,18 +328,16 @@ impl<'a> Stepper<'a> {
             };
             islands[number[top]].pairs.push((two, near));
         }
-        let mut all = Happened::default();
+        let mut lost = 0.0;
         let mut parts: Vec<&mut [Island]> = islands.chunks_mut(TOGETHER).collect();
         parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
         for (island, members) in islands.into_iter().zip(members) {
-            let happened = island.happened;
-            all.contact_loss += happened.contact_loss;
-            all.steps += happened.steps;
+            lost += island.contact_loss;
             for (rider, k) in island.riders.into_iter().zip(members) {
                 self.riders[k] = rider;
             }
         }
-        all
+        lost
     }
 
     /// Advances a tile that meets nothing.

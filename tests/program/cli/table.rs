@@ -39,6 +39,34 @@ fn bound_pairs_count_as_the_target_and_are_on_the_page() {
         "the page plays the bond"
     );
     assert_eq!(report(&out)["designs"].as_array().unwrap().len(), 1);
+    assert!(!out.join("trajectory.csv").exists(), "nobody asked");
+}
+
+#[test]
+fn a_table_goes_on_from_a_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, next, out] = ["first.csv", "next.csv", "out"].map(|it| folder.path().join(it));
+    let [first_file, next_file, folder] =
+        [&first, &next, &out].map(|path| path.to_str().expect("UTF-8"));
+    // Tiles in contact overlap by up to 0.1 um.
+    std::fs::write(&first, START.replace("-0.169", "-0.17000005")).unwrap();
+    let asked = ["--time", "0.2", "--drag", "5", "--frames", "0.1"];
+    let table = |start, more: &[&str]| {
+        let command = [&["table", TILE, "--start", start], &asked[..], more].concat();
+        json(&command)
+    };
+    table(first_file, &["--out", folder, "--json"]);
+    let frames = std::fs::read_to_string(out.join("trajectory.csv")).unwrap();
+    let head = "run,time_s,";
+    let last = format!("0,{},", "0.2");
+    let rows = frames
+        .lines()
+        .filter_map(|line| line.strip_prefix(head).or_else(|| line.strip_prefix(&last)));
+    let rows: Vec<&str> = rows.collect();
+    assert_eq!(rows.len(), 5, "{frames}");
+    std::fs::write(&next, rows.join("\n") + "\n").unwrap();
+    let found = table(next_file, &["--json"]);
+    assert_eq!(found["bonds"]["mean"], 1.0);
 }
 
 #[test]

@@ -5,6 +5,8 @@
 //! iterator of rayon is about 10 kB of code. Those are still used for items that take less than a
 //! microsecond.
 
+pub mod split;
+
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -128,8 +130,14 @@ fn size(count: usize) -> usize {
 /// Runs this many parts on all threads; no further part starts once one has failed or was
 /// interrupted.
 fn shared_out(parts: usize, work: &(dyn Fn(usize) + Sync)) {
-    let parts = (0..parts).into_par_iter().with_max_len(1);
-    parts.panic_fuse().for_each(work);
+    let part = |part| split::part(|| work(part));
+    split::region(|| match parts {
+        1 => part(0),
+        _ => {
+            let parts = (0..parts).into_par_iter().with_max_len(1);
+            parts.panic_fuse().for_each(part);
+        }
+    });
 }
 
 #[cfg(test)]

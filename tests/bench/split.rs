@@ -1,0 +1,123 @@
+//! How analyses divide over threads: the time of each stage on one thread, its critical path, and
+//! the least speed-up that these two allow on 2 to 64 threads (threads that cost nothing and never
+//! idle while there is work); beside it the speed-up measured on all threads of this machine, in the
+//! same run. Proofs have their usual effort.
+//!
+//! `cargo bench --bench split`, or `-- --design FILE` for one design, or `-- --model cuboid` for one
+//! model.
+
+#![allow(clippy::disallowed_methods)]
+
+#[path = "../shared/designs.rs"]
+mod designs;
+mod ratio;
+
+use std::sync::Mutex;
+use std::time::Instant;
+
+use clap::Parser;
+use tilebind::design::{Design, MagnetModel};
+use tilebind::observer::{Observer, Silent};
+use tilebind::parallel::split::{Split, recorded, so_far};
+use tilebind::pipeline::{Settings, analyse};
+
+const THREADS: [usize; 6] = [2, 4, 8, 16, 32, 64];
+
+#[derive(Parser)]
+struct Options {
+    /// The designs
+    #[arg(long)]
+    design: Vec<String>,
+    /// The model of the magnets
+    #[arg(long, value_parser = tilebind::request::model())]
+    model: Option<MagnetModel>,
+    /// Given by `cargo bench`
+    #[arg(long)]
+    bench: bool,
+}
+
+/// Records what was done when each stage began.
+#[derive(Default)]
+struct Stages(Mutex<Vec<(String, Split)>>);
+
+impl Observer for Stages {
+    fn stage(&self, name: &str, _: f64) {
+        let mut stages = self.0.lock().expect("one thread");
+        stages.push((name.to_owned(), so_far()));
+    }
+}
+
+fn main() {
+    let options = Options::parse();
+    let mut names = options.design;
+    if names.is_empty() {
+        names = ["paper-tile", "hexagon", "sine-teeth-20mm", "tab-20mm"]
+            .map(|name| format!("shapes/{name}.toml"))
+            .into();
+    }
+    let models = options
+        .model
+        .map_or(vec![MagnetModel::Dipole, MagnetModel::Cuboid], |model| {
+            vec![model]
+        });
+    let mut sixteen = Vec::new();
+    for name in &names {
+        for model in &models {
+            let mut design = designs::load(name);
+            design.interaction.model = *model;
+            sixteen.push(measure(&design));
+        }
+    }
+    ratio::ratio("sixteen-threads-at-least", sixteen.into_iter());
+}
+
+/// Prints how an analysis divides; returns the least speed-up on 16 threads.
+fn measure(design: &Design) -> f64 {
+    let settings = Settings::of([design]);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.expect("one thread");
+    let stages = Stages::default();
+    let (_, whole) = pool.install(|| recorded(|| analyse(design, &settings, &stages)));
+    let on_all = Instant::now();
+    let all = analyse(design, &settings, &Silent);
+    let on_all = on_all.elapsed().as_secs_f64();
+    println!(
+        "\n{}, {}; seconds on one thread, and how many times as fast on more",
+        design.name,
+        design.interaction.model.name()
+    );
+    print!("{:<28} {:>8} {:>8} {:>8}", "", "work", "serial", "path");
+    for threads in THREADS {
+        print!(" {threads:>6}");
+    }
+    println!(" measured on {}", rayon::current_num_threads());
+    let mut begun = stages.0.into_inner().expect("one thread");
+    begun.push((String::new(), whole));
+    let mut known: Vec<(String, Split)> = Vec::new();
+    for pair in begun.windows(2) {
+        let (name, split) = (&pair[0].0, pair[1].1.since(&pair[0].1));
+        match known.iter_mut().find(|it| it.0 == *name) {
+            Some((_, before)) => {
+                before.work += split.work;
+                before.serial += split.serial;
+                before.path += split.path;
+            }
+            None => known.push((name.clone(), split)),
+        }
+    }
+    for (name, split) in &known {
+        let on_all = all.stages.iter().find(|stage| stage.name == *name);
+        print(name, split, on_all.map_or(f64::NAN, |stage| stage.wall_s));
+    }
+    print("whole", &whole, on_all);
+    whole.work / whole.time_on(16)
+}
+
+fn print(name: &str, split: &Split, measured: f64) {
+    let Split { work, serial, path } = split;
+    print!("{name:<28} {work:>8.3} {serial:>8.3} {path:>8.3}");
+    for threads in THREADS {
+        print!(" {:>6.2}", work / split.time_on(threads));
+    }
+    println!(" {:>6.2}", work / measured);
+}
