@@ -8,7 +8,7 @@ use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::request::Shard;
 use jobs::table::{About, Found, Interval, Lifetime, Moment, Request, Statistics, Verdict};
-use jobs::yields::{Question, YieldError, Yields};
+use jobs::yields::{Question, StateRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -108,7 +108,11 @@ fn compared(beside: Option<&Beside>) -> Entries {
         return Entries::default();
     };
     let best = yields.best();
-    let ln_k = best.states.first().map(|bond| bond.ln_k);
+    let (bond, traps) = (
+        best.states.first(),
+        best.states.get(1..).unwrap_or_default(),
+    );
+    let ln_k = bond.map(|bond| bond.ln_k);
     Entries::default().group(
         "yield",
         Entries::default()
@@ -122,8 +126,30 @@ fn compared(beside: Option<&Beside>) -> Entries {
             .fact("bound_interval", "", best.interval)
             .fact("equilibrium", "in equilibrium", best.equilibrium)
             .share()
-            .fact("trapped", "", best.trapped),
+            .fact("trapped", "", best.trapped)
+            .fact(
+                "bond_lifetime_s",
+                "bonds last (yield)",
+                bond.map(|bond| 1.0 / bond.off),
+            )
+            .noted("by detailed balance")
+            .fact(
+                "trap_lifetime_s",
+                "traps last (yield)",
+                mean_lifetime(traps),
+            )
+            .noted("by detailed balance; the mean of all attachments"),
     )
+}
+
+/// How long (s) attachments to traps last on average; `None` if there was none.
+fn mean_lifetime(traps: &[StateRates]) -> Option<f64> {
+    let attachments: usize = traps.iter().map(|trap| trap.attachments).sum();
+    let time: f64 = traps
+        .iter()
+        .map(|trap| trap.attachments as f64 / trap.off)
+        .sum();
+    (attachments > 0).then(|| time / attachments as f64)
 }
 
 fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
@@ -234,6 +260,8 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("", "verdict", verdict(statistics)).in_view()
         .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
         .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
+        .fact("", "bonds last", lasting(&statistics.lifetimes[0])).in_view().noted(lasting_is(found))
+        .fact("", "traps last", lasting(&statistics.lifetimes[1])).in_view().noted(lasting_is(found))
         .data("cut_off", cut_off(found))
         .fact("wall_s", "", found.wall_s)
         .data("threads", found.threads)
@@ -245,6 +273,32 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
     match found.frames {
         true => entries.table(places(found)),
         false => entries,
+    }
+}
+
+/// What lifetimes are, for people.
+fn lasting_is(found: &Found) -> String {
+    format!(
+        "the time that all of them held over the number that ended, with its 95 % interval; seen every {}, \
+         so shorter ones are missed",
+        duration(found.settings.sampling, 2)
+    )
+}
+
+/// A lifetime for people.
+fn lasting(lifetime: &Lifetime) -> String {
+    let Lifetime { begun, ended, .. } = *lifetime;
+    let [low, high] = lifetime.interval.map(|end| match end {
+        Some(end) => duration(end, 2),
+        None => "any time".to_owned(),
+    });
+    match lifetime.mean {
+        Some(mean) => format!(
+            "{} ({low} to {high}; {ended} of {begun} ended)",
+            duration(mean, 2)
+        ),
+        None if begun == 0 => "none was seen".to_owned(),
+        None => format!("{low} or longer (none of {begun} ended)"),
     }
 }
 
