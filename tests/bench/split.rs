@@ -3,8 +3,8 @@
 //! idle while there is work); beside it the speed-up measured on all threads of this machine, in the
 //! same run. Proofs have their usual effort.
 //!
-//! `cargo bench --bench split`, or `-- --design FILE` for one design, or `-- --model cuboid` for one
-//! model.
+//! `cargo bench --bench split` for dipoles, `-- --model cuboid` for blocks (minutes), `-- --design FILE`
+//! for one design.
 
 #![allow(clippy::disallowed_methods)]
 
@@ -29,8 +29,8 @@ struct Options {
     #[arg(long)]
     design: Vec<String>,
     /// The model of the magnets
-    #[arg(long, value_parser = tilebind::request::model())]
-    model: Option<MagnetModel>,
+    #[arg(long, default_value = "dipole", value_parser = tilebind::request::model())]
+    model: MagnetModel,
     /// Given by `cargo bench`
     #[arg(long)]
     bench: bool,
@@ -55,18 +55,11 @@ fn main() {
             .map(|name| format!("shapes/{name}.toml"))
             .into();
     }
-    let models = options
-        .model
-        .map_or(vec![MagnetModel::Dipole, MagnetModel::Cuboid], |model| {
-            vec![model]
-        });
     let mut sixteen = Vec::new();
     for name in &names {
-        for model in &models {
-            let mut design = designs::load(name);
-            design.interaction.model = *model;
-            sixteen.push(measure(&design));
-        }
+        let mut design = designs::load(name);
+        design.interaction.model = options.model;
+        sixteen.push(measure(&design));
     }
     ratio::ratio("sixteen-threads-at-least", sixteen.into_iter());
 }
