@@ -36,14 +36,13 @@ struct Options {
     bench: bool,
 }
 
-/// Records what was done when each stage began.
+/// What was recorded when each stage began.
 #[derive(Default)]
-struct Stages(Mutex<Vec<(String, Split)>>);
+struct Stages(Mutex<Vec<Split>>);
 
 impl Observer for Stages {
-    fn stage(&self, name: &str, _: f64) {
-        let mut stages = self.0.lock().expect("one thread");
-        stages.push((name.to_owned(), so_far()));
+    fn stage(&self, _: &str, _: f64) {
+        self.0.lock().expect("one thread").push(so_far());
     }
 }
 
@@ -85,22 +84,10 @@ fn measure(design: &Design) -> f64 {
     }
     println!(" measured on {}", rayon::current_num_threads());
     let mut begun = stages.0.into_inner().expect("one thread");
-    begun.push((String::new(), whole));
-    let mut known: Vec<(String, Split)> = Vec::new();
-    for pair in begun.windows(2) {
-        let (name, split) = (&pair[0].0, pair[1].1.since(&pair[0].1));
-        match known.iter_mut().find(|it| it.0 == *name) {
-            Some((_, before)) => {
-                before.work += split.work;
-                before.serial += split.serial;
-                before.path += split.path;
-            }
-            None => known.push((name.clone(), split)),
-        }
-    }
-    for (name, split) in &known {
-        let on_all = all.stages.iter().find(|stage| stage.name == *name);
-        print(name, split, on_all.map_or(f64::NAN, |stage| stage.wall_s));
+    begun.push(whole);
+    // Without repeats, every stage is there once.
+    for (pair, on_all) in begun.windows(2).zip(&all.stages) {
+        print(&on_all.name, &pair[1].since(&pair[0]), on_all.wall_s);
     }
     print("whole", &whole, on_all);
     whole.work / whole.time_on(16)

@@ -6,13 +6,10 @@
 //! 201). Distribution, memory and shared caches cost nothing here.
 
 use std::cell::RefCell;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-static IS_ON: AtomicBool = AtomicBool::new(false);
-
 thread_local! {
-    /// The work in progress, with the parts of it that it is within.
+    /// The work that is recorded, with the parts of it in progress; empty where nothing is recorded.
     static OPEN: RefCell<Vec<Open>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -77,11 +74,11 @@ impl Split {
 
 /// Does something, and records it. It must run in a pool of one thread, with nothing beside it.
 pub fn recorded<T>(work: impl FnOnce() -> T) -> (T, Split) {
-    OPEN.with_borrow_mut(|open| *open = vec![Open::new()]);
-    IS_ON.store(true, Ordering::Relaxed);
+    OPEN.set(vec![Open::new()]);
     let result = work();
-    IS_ON.store(false, Ordering::Relaxed);
-    (result, so_far())
+    let split = so_far();
+    OPEN.set(Vec::new());
+    (result, split)
 }
 
 /// What is recorded so far, outside of parallel regions.
@@ -92,18 +89,16 @@ pub fn so_far() -> Split {
 /// Runs a parallel region, whose parts call [`part`].
 pub(super) fn region(run: impl FnOnce()) {
     run();
-    if IS_ON.load(Ordering::Relaxed) {
-        OPEN.with_borrow_mut(|open| {
-            if let Some(open) = open.last_mut() {
-                open.paths += std::mem::take(&mut open.longest);
-            }
-        });
-    }
+    OPEN.with_borrow_mut(|open| {
+        if let Some(open) = open.last_mut() {
+            open.paths += std::mem::take(&mut open.longest);
+        }
+    });
 }
 
 /// Runs a part of a region.
 pub(super) fn part(run: impl FnOnce()) {
-    if !IS_ON.load(Ordering::Relaxed) {
+    if OPEN.with_borrow(Vec::is_empty) {
         return run();
     }
     OPEN.with_borrow_mut(|open| open.push(Open::new()));

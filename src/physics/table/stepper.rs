@@ -102,12 +102,12 @@ impl<'a> Stepper<'a> {
 
     /// Finds the pairs that are near each other.
     fn find_near(&mut self) {
-        let movers = self.riders.iter().map(|it| it.mover);
-        let places: Vec<_> = movers.clone().map(|it| it.place).collect();
-        let kinds = movers.map(|it| &self.crowd.kinds[it.kind]);
+        let movers = self.movers();
+        let places: Vec<_> = movers.iter().map(|it| it.place).collect();
+        let kinds = movers.iter().map(|it| &self.crowd.kinds[it.kind]);
         let masses: Vec<_> = kinds.map(|kind| kind.body.masses()).collect();
         let mut pulls = vec![Vector3::zeros(); places.len()];
-        self.sort_pairs(&places, &masses, &mut pulls);
+        self.sort_pairs(&movers, &places, &masses, &mut pulls);
     }
 
     /// The tiles.
@@ -174,8 +174,8 @@ impl<'a> Stepper<'a> {
             .iter()
             .map(|push| Vector3::new(push.x, push.y, 0.0))
             .collect();
-        self.sort_pairs(&middle, &masses, &mut steady);
-        self.account.contact_loss += self.move_all(&steady);
+        let poses = self.sort_pairs(&movers, &middle, &masses, &mut steady);
+        self.account.contact_loss += self.move_all(&poses, &steady);
         for (k, before) in movers.iter().enumerate() {
             let way = self.riders[k].mover.place - before.place;
             self.account.work += masses[k].x * driven[k].dot(&way.xy());
@@ -215,27 +215,27 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// Finds the near pairs, and adds the accelerations by the other pairs.
+    /// Finds the near pairs, adds the accelerations by the other pairs, and returns the poses of all
+    /// tiles.
     fn sort_pairs(
         &mut self,
+        movers: &[Mover],
         middle: &[Vector3<f64>],
         masses: &[Vector3<f64>],
         outside: &mut [Vector3<f64>],
-    ) {
+    ) -> Vec<Pose> {
         let crowd = self.crowd;
-        let movers = self.movers();
         let now: Vec<_> = movers.iter().map(|it| Pose::of(crowd, it)).collect();
         let positions: Vec<_> = now.iter().map(|pose| pose.at.position()).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let mut known = std::mem::take(&mut self.near).into_iter().peekable();
         let mut far: Vec<Two> = Vec::new();
         for &[i, j] in pairs {
-            let kinds = [i, j].map(|k| self.riders[k].mover.kind);
-            let two = Two::of(kinds, [i, j]);
+            let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
             let key = |two: &Two| [two.first.min(two.second), two.first.max(two.second)];
             while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
             let kept = known.next_if(|near| near.two == two);
-            let [first, second] = [two.first, two.second].map(|k| self.riders[k].mover.kind);
+            let [first, second] = [two.first, two.second].map(|k| movers[k].kind);
             let couple = crowd.couple(first, second).0;
             let apart = (positions[i] - positions[j]).norm();
             let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
@@ -272,10 +272,11 @@ impl<'a> Stepper<'a> {
                 outside[tile] += pull.component_div(&masses[tile]);
             }
         }
+        now
     }
 
     /// Advances every island independently; returns the energy lost in contact (J).
-    fn move_all(&mut self, steady: &[Vector3<f64>]) -> f64 {
+    fn move_all(&mut self, poses: &[Pose], steady: &[Vector3<f64>]) -> f64 {
         let n = self.riders.len();
         let mut tied = UnionFind::<usize>::new(n);
         for near in &self.near {
@@ -313,11 +314,8 @@ impl<'a> Stepper<'a> {
             let island = number[top];
             local[k] = members[island].len();
             members[island].push(k);
-            let rider = self.riders[k];
-            islands[island].riders.push(rider);
-            islands[island]
-                .poses
-                .push(Pose::of(self.crowd, &rider.mover));
+            islands[island].riders.push(self.riders[k]);
+            islands[island].poses.push(poses[k]);
             islands[island].steady.push(steady[k]);
         }
         for near in &mut self.near {
