@@ -7,7 +7,7 @@ use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
 use tilebind::request;
-use tilebind::table::{self, About, Request, compared};
+use tilebind::table::{self, About, PART, Request, compared};
 use tilebind::text::{self, with_commas};
 
 use super::options::ThreadOption;
@@ -34,6 +34,7 @@ Examples:
     --out target/table
   tilebind table shapes/tab-10mm.toml shapes/arc-20mm.toml --count 3,3 --time 60 --shaking 3e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
+  tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --merge target/part-* --out target/all
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
     /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`
@@ -51,6 +52,10 @@ pub struct TableCommand {
     /// Initial tiles (CSV), instead of --count tiles at random positions
     #[arg(long, value_name = "FILE.csv", conflicts_with = "count")]
     start: Option<PathBuf>,
+
+    /// Join all parts of the same command, by their folders, instead of simulating
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
+    merge: Vec<PathBuf>,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -73,6 +78,8 @@ impl TableCommand {
             inputs.extend(input::files_of(path, &design));
             designs.push(design);
         }
+        let parts: Vec<PathBuf> = self.merge.iter().map(|it| it.join(PART)).collect();
+        inputs.extend(parts.iter().cloned());
         let output = self.results.output(&TABLE, inputs)?;
         self.threads.use_threads()?;
         let (about, crowd) = match set {
@@ -93,7 +100,14 @@ impl TableCommand {
         );
         let start = start.map_err(Failure::Usage)?;
         let progress = self.results.progress();
-        let found = table::table((&about, crowd), &self.request, &start, &progress);
+        let parts = parts.into_iter().map(|path| {
+            let name = path.display().to_string();
+            let text = text::read(&path)
+                .map_err(|error| Failure::Usage(format!("cannot read the part {name}: {error}")))?;
+            Ok((name, text))
+        });
+        let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
+        let found = table::table((&about, crowd), &self.request, start, &parts, &progress);
         let found = found.map_err(Failure::of)?;
         let beside = compared(&designs, &self.request, &found, &progress);
         let document = document(&about, &found, &self.request, beside.as_ref());

@@ -117,6 +117,7 @@ pub const TABLE: Command = Command {
         "course.csv",
         "trajectory.csv",
         "trajectory.gsd",
+        "part.json",
     ],
     pictures: &["held", "largest", "energy"],
 };

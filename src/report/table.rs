@@ -6,8 +6,9 @@ use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
+use jobs::output::Files;
 use jobs::request::Shard;
-use jobs::table::{About, Found, Interval, Lifetime, Moment, Request, Statistics, Verdict};
+use jobs::table::{About, Found, Interval, Lifetime, Moment, PART, Request, Statistics, Verdict};
 use jobs::yields::{Question, StateRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
@@ -32,7 +33,7 @@ pub fn document<'a>(
             found.kinds.len(),
             told(&statistics.bonds),
             told(&statistics.traps),
-            duration(found.settings.duration, 3),
+            duration(found.ensemble.settings.duration, 3),
             verdict(statistics),
             found.runs.len(),
             if found.runs.len() == 1 {
@@ -45,7 +46,7 @@ pub fn document<'a>(
         entries: entries(about, found, seed).and(compared(beside)),
         part: Some(Part::Crowd(Crowd::new(found))),
         pictures: pictures(found),
-        beside: [("trajectory.gsd".to_owned(), trajectory(found))].into(),
+        beside: beside_it(found, request),
         notes: notes(found, request)
             .into_iter()
             .chain(beside.map(|beside| against_yield(found, beside)))
@@ -53,6 +54,16 @@ pub fn document<'a>(
         origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
     }
+}
+
+/// The recording of the first run, and the file of a part.
+fn beside_it(found: &Found, request: &Request) -> Files {
+    let mut files = Files::from([("trajectory.gsd".to_owned(), trajectory(found))]);
+    if request.shard.is_some() {
+        let part = serde_json::to_vec(&(&found.ensemble, &found.runs));
+        files.insert(PART.to_owned(), part.expect("a part has a form in JSON"));
+    }
+    files
 }
 
 /// The verdict for people.
@@ -195,7 +206,8 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     )];
     if let Some(Shard { number, of }) = request.shard {
         notes.push(format!(
-            "part {number} of {of} of {} runs: join the rows of all parts' tables for those of the whole",
+            "part {number} of {of} of {} runs: the same command with --merge and the folders of all parts in \
+             place of --shard gives the whole",
             request.runs
         ));
     }
@@ -242,10 +254,10 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("designs", designs.collect::<Value>())
         .data("model", about.model.name())
         .data("seed", seed)
-        .data("settings", settings(&found.settings))
+        .data("settings", settings(&found.ensemble.settings))
         .fact("tiles", "tiles", found.kinds.len())
         .fact("runs", "runs", found.runs.len())
-        .fact("time_s", "time", found.settings.duration)
+        .fact("time_s", "time", found.ensemble.settings.duration)
         .fact("step_s", "step", statistics.step)
         .data("bonds", interval(&statistics.bonds))
         .data("traps", interval(&statistics.traps))
@@ -270,7 +282,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .table(energy(found))
         .table(bonds(found))
         .table(clusters(found));
-    match found.frames {
+    match found.ensemble.frames {
         true => entries.table(places(found)),
         false => entries,
     }
@@ -281,7 +293,7 @@ fn lasting_is(found: &Found) -> String {
     format!(
         "the time that all of them held over the number that ended, with its 95 % interval; seen every {}, \
          so shorter ones are missed",
-        duration(found.settings.sampling, 2)
+        duration(found.ensemble.settings.sampling, 2)
     )
 }
 

@@ -2,6 +2,7 @@
 
 mod comparison;
 mod crowds;
+mod ensemble;
 mod request;
 mod start_file;
 mod statistics;
@@ -10,6 +11,7 @@ mod target;
 
 pub use comparison::compared;
 pub use crowds::{of_assembly, of_designs};
+pub use ensemble::{Ensemble, PART};
 pub use request::Request;
 pub use start_file::{StartFileError, read as read_start};
 pub use statistics::{Interval, Lifetime, Moment, Statistics, Verdict};
@@ -21,15 +23,15 @@ use std::time::Instant;
 use crate::request::Unanswered;
 use physics::observer::Observer;
 use physics::parallel;
+use physics::table::Crowd;
 use physics::table::run::{Run, RunError, Start, run};
-use physics::table::{Crowd, TableSettings};
 
 /// The result of a table.
 pub struct Found {
     /// The tiles and their interactions.
     pub crowd: Crowd,
-    /// The settings of the runs.
-    pub settings: TableSettings,
+    /// All runs, of which these may be a part.
+    pub ensemble: Ensemble,
     /// The index of each tile's kind.
     pub kinds: Vec<usize>,
     /// The runs, in order.
@@ -38,8 +40,6 @@ pub struct Found {
     pub statistics: Statistics,
     /// How much of the target is complete.
     pub target: Target,
-    /// Whether poses are recorded in all runs, not only in the first.
-    pub frames: bool,
     /// Wall time (s).
     pub wall_s: f64,
     /// Number of threads.
@@ -48,58 +48,79 @@ pub struct Found {
 
 /// Why there is no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("run {index}: {error}")]
-pub struct TableError {
-    /// The run's index, from 0.
-    pub index: usize,
-    /// Why.
-    pub error: RunError,
+pub enum TableError {
+    /// A run failed.
+    #[error("run {index}: {error}")]
+    Run {
+        /// The run's index, from 0.
+        index: usize,
+        /// Why.
+        error: RunError,
+    },
+    /// The files are not the parts of these runs.
+    #[error("{0}")]
+    Parts(String),
 }
 
 /// Starts and steps are part of the request.
 impl Unanswered for TableError {}
 
-/// Simulates all runs. The same request gives the same result on any number of threads.
+/// Simulates the requested runs, or joins them from the files of all parts, given by their names and
+/// texts. The same request gives the same result on any number of threads and from any parts.
 ///
 /// # Errors
-/// If tiles cannot start as requested, or steps are too long.
+/// If tiles cannot start as requested, steps are too long, or the files are not the parts of these
+/// runs.
 pub fn table(
     (about, crowd): (&About, Crowd),
     request: &Request,
-    start: &Start,
+    start: Start,
+    parts: &[(String, String)],
     progress: &dyn Observer,
 ) -> Result<Found, TableError> {
-    let settings = request.settings();
     let clock = Instant::now();
-    progress.stage("runs", 0.0);
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let made = request.made();
-    let runs = parallel::map(&made[..], |&index| {
-        let frames = index == made[0] || request.keeps_frames();
-        let found = run(&crowd, &settings, (request.seed, index), start, frames);
-        let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        progress.part("runs", done, made.len());
-        found.map_err(|error| TableError { index, error })
-    });
-    let runs = runs.into_iter().collect::<Result<Vec<Run>, _>>()?;
-    let kinds: Vec<usize> = match start {
-        Start::Random(counts) => {
-            let of_kind = counts.iter().enumerate();
-            of_kind
-                .flat_map(|(kind, count)| std::iter::repeat_n(kind, *count))
-                .collect()
-        }
-        Start::Given(movers) => movers.iter().map(|mover| mover.kind).collect(),
+    let ensemble = Ensemble {
+        tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+        tiles: Ensemble::checksum(about, &crowd),
+        settings: request.settings(),
+        seed: request.seed,
+        runs: request.runs,
+        start,
+        frames: request.keeps_frames(),
     };
+    let runs = match parts.is_empty() {
+        true => simulated(&ensemble, &crowd, &request.made(), progress)?,
+        false => ensemble.merge(parts).map_err(TableError::Parts)?,
+    };
+    let kinds = ensemble.kinds();
     Ok(Found {
         target: Target::of(about, (&crowd, &kinds), &runs),
-        statistics: Statistics::of(&runs, &settings),
+        statistics: Statistics::of(&runs, &ensemble.settings),
         wall_s: clock.elapsed().as_secs_f64(),
         threads: parallel::threads(),
-        frames: request.keeps_frames(),
+        ensemble,
         crowd,
-        settings,
         kinds,
         runs,
     })
+}
+
+/// The runs of these indices.
+fn simulated(
+    ensemble: &Ensemble,
+    crowd: &Crowd,
+    made: &[usize],
+    progress: &dyn Observer,
+) -> Result<Vec<Run>, TableError> {
+    progress.stage("runs", 0.0);
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let runs = parallel::map(made, |&index| {
+        let frames = index == made[0] || ensemble.frames;
+        let (settings, seed, start) = (&ensemble.settings, ensemble.seed, &ensemble.start);
+        let found = run(crowd, settings, (seed, index), start, frames);
+        let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        progress.part("runs", done, made.len());
+        found.map_err(|error| TableError::Run { index, error })
+    });
+    runs.into_iter().collect()
 }

@@ -36,7 +36,7 @@ pub struct Request {
     #[arg(long, value_name = "R", default_value_t = 1, value_parser = request::runs)]
     pub runs: usize,
 
-    /// Compute only every nth run from the ith on, i/n
+    /// Compute only every nth run from the ith on, i/n; join all parts with --merge
     #[arg(long, value_name = "i/n", value_parser = request::shard)]
     pub shard: Option<Shard>,
 

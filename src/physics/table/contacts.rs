@@ -32,7 +32,7 @@ impl Tie {
 }
 
 /// A stable contact of two tiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Held {
     /// Their numbers, the lesser first.
     pub tiles: [usize; 2],

@@ -207,6 +207,9 @@ impl Point {
     /// and computes the next direction.
     fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>], friction: f64) {
         let now = self.impulses;
+        if [now, self.before, self.direction] == [[0.0; 2]; 3] {
+            return;
+        }
         let [push, rub] = [0, 1].map(|row| now[row] + self.direction[row] * share);
         let push = push.max(0.0);
         let most = friction * push;

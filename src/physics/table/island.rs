@@ -47,8 +47,8 @@ const TRAVEL: f64 = 1e-4;
 const SHARE: f64 = 0.05;
 /// Tiles slower than this (m/s) need no short steps.
 const SLOW: f64 = 2e-3;
-/// Touching tiles with a restitution below this take longer steps.
-const SHARE_TOGETHER: f64 = 0.2;
+/// Steps are longer by this factor where tiles touch and hardly bounce.
+const TOGETHER: f64 = 4.0;
 /// Ratio of the longest to the shortest step.
 const SHORTEST: f64 = 16.0;
 /// Bounces slower than this (m/s) are ignored.
@@ -63,6 +63,9 @@ const AHEAD: f64 = 4e-3;
 #[derive(Debug)]
 pub struct NearPair {
     pub two: Two,
+    /// Whether the tiles may touch, or attract or repel each other too strongly for the step of the
+    /// table: they are in one island then.
+    pub is_tied: bool,
     edges: NearPairs,
     /// The distance (m) from `at` that `edges` cover.
     seen: f64,
@@ -80,6 +83,7 @@ impl NearPair {
     pub fn new(two: Two) -> Self {
         Self {
             two,
+            is_tied: true,
             edges: NearPairs::default(),
             seen: f64::NEG_INFINITY,
             at: Configuration::new(0.0, 0.0, 0.0),
@@ -209,6 +213,7 @@ impl Island<'_> {
         let mut time = 0.0;
         while time < duration {
             crate::interruption::check();
+
             let left = duration - time;
             let longest = self.longest_step(state).min(left);
             let points = self.points(state, longest);
@@ -269,8 +274,8 @@ impl Island<'_> {
                 return f64::INFINITY;
             }
             let are_together = !near.held.is_empty() && self.settings.restitution * speed < SLOW;
-            let share = if are_together { SHARE_TOGETHER } else { SHARE };
-            share * (self.feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+            let factor = if are_together { TOGETHER } else { 1.0 };
+            factor * longest_step(self.feature, pull)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, *pull));
@@ -473,8 +478,14 @@ impl Island<'_> {
     }
 }
 
+/// The longest step (s) in which a force changes little over `feature` (m), by the acceleration
+/// (m/s^2) of the pair by its own force.
+pub fn longest_step(feature: f64, pull: f64) -> f64 {
+    SHARE * (feature / pull.max(f64::MIN_POSITIVE)).sqrt()
+}
+
 /// An upper bound of the speed or acceleration of a tile's fastest point.
-fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
+pub fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
     of.xy().norm() + crowd.kinds[mover.kind].reach * of.z.abs()
 }
 

@@ -8,12 +8,13 @@
 //! motion and of contact, c is the drag rate (1/s), and R the shaking.
 //!
 //! # Steps
-//! A step of the table (`stepper`) separates the pairs of tiles whose outlines are near each other
-//! from the rest. Near pairs connect tiles to islands (`island`). Each island divides the step into
-//! as many shorter ones as its forces and contacts need: velocity Verlet, whose steps end when a
-//! corner meets an edge. Collisions are impulses that obey Coulomb's law (`hold`). The forces of
-//! the other pairs, of fans and of shaking are constant over a step, with their values in its
-//! middle. Each force acts on both tiles of a pair, so that momentum is conserved up to rounding.
+//! Two tiles are tied in a step of the table (`stepper`) if they may touch within it, or if the
+//! force between them changes too fast for it. Tied tiles form islands (`island`). Each island
+//! divides the step into as many shorter ones as its forces and contacts need: velocity Verlet,
+//! whose steps end when a corner meets an edge. Collisions are impulses that obey Coulomb's law
+//! (`hold`). The forces of the other pairs, of fans and of shaking are constant over a step, with
+//! their values in its middle. Each force acts on both tiles of a pair, so that momentum is
+//! conserved up to rounding.
 //!
 //! # Shaking
 //! Random kicks at fixed times. Each kick, together with the drag since the last one, is an exact

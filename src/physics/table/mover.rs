@@ -6,7 +6,8 @@ use super::crowd::Crowd;
 use crate::dynamics::Motion;
 
 /// A tile on the table.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(from = "Numbers", into = "Numbers")]
 pub struct Mover {
     /// The index of its kind.
     pub kind: usize,
@@ -14,6 +15,25 @@ pub struct Mover {
     pub place: Vector3<f64>,
     /// Its velocity and angular velocity (m/s, m/s, rad/s).
     pub velocity: Vector3<f64>,
+}
+
+/// A tile in files: kind, place and velocity.
+type Numbers = (usize, [f64; 3], [f64; 3]);
+
+impl From<Mover> for Numbers {
+    fn from(mover: Mover) -> Self {
+        (mover.kind, mover.place.into(), mover.velocity.into())
+    }
+}
+
+impl From<Numbers> for Mover {
+    fn from((kind, place, velocity): Numbers) -> Self {
+        Self {
+            kind,
+            place: place.into(),
+            velocity: velocity.into(),
+        }
+    }
 }
 
 impl Mover {

@@ -19,7 +19,7 @@ pub const ACCOUNTED: f64 = 0.01;
 const HALVINGS: usize = 4;
 
 /// The table at one time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
     /// Since the start (s).
     pub time: f64,
@@ -67,7 +67,7 @@ impl Sample {
 }
 
 /// A finished run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Run {
     /// Its number, from 0.
     pub index: usize,
@@ -86,7 +86,7 @@ pub struct Run {
 }
 
 /// A bond or a trap from its beginning to its end.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Life {
     /// The tiles.
     pub tiles: [usize; 2],
@@ -99,7 +99,7 @@ pub struct Life {
 }
 
 /// The starting positions of the tiles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Start {
     /// Numbers of tiles of each kind, at random positions.
     Random(Vec<usize>),

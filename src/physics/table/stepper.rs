@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::drive::{Drive, Rider};
-use super::island::{Island, NearPair, rim_room};
+use super::island::{Island, NearPair, fastest, longest_step, rim_room};
 use super::mover::Mover;
 use super::neighbours::Neighbours;
 use super::pair::{Pose, Two, pull};
@@ -15,13 +15,15 @@ use crate::parallel;
 
 /// Islands per task of a thread.
 const TOGETHER: usize = 8;
-/// Distant pairs per task of a thread.
-const FAR_TOGETHER: usize = 64;
+/// Pairs apart per task of a thread.
+const APART_TOGETHER: usize = 64;
 /// Largest travel of a tile in a step, as a share of the distance that counts as near.
 const SHARE_OF_NEAR: f64 = 0.25;
+/// Pairs are tied if their tiles may come this near in a step, as a share of the same distance.
+const SHARE_TIED: f64 = 0.1;
 
 /// The energy balance since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Account {
     /// Work by shaking, fans and the table's motion.
     pub work: f64,
@@ -48,6 +50,13 @@ pub struct Stepper<'a> {
     near: Vec<NearPair>,
     feature: f64,
     least_near: f64,
+}
+
+/// A pair of tiles that do not touch within the step.
+struct Apart {
+    two: Two,
+    /// The pair's index if it is near.
+    near: Option<usize>,
 }
 
 /// A tile became too fast for the step.
@@ -215,8 +224,8 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// Finds the near pairs, adds the accelerations by the other pairs, and returns the poses of all
-    /// tiles.
+    /// Finds the near pairs and those of them that are tied, adds the accelerations by all pairs that
+    /// are not, and returns the poses of all tiles.
     fn sort_pairs(
         &mut self,
         movers: &[Mover],
@@ -227,49 +236,70 @@ impl<'a> Stepper<'a> {
         let crowd = self.crowd;
         let now: Vec<_> = movers.iter().map(|it| Pose::of(crowd, it)).collect();
         let positions: Vec<_> = now.iter().map(|pose| pose.at.position()).collect();
+        let halfway = movers.iter().zip(middle);
+        let halfway = halfway.map(|(mover, place)| Mover {
+            place: *place,
+            ..*mover
+        });
+        let halfway: Vec<_> = halfway.map(|it| (it, Pose::of(crowd, &it))).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let mut known = std::mem::take(&mut self.near).into_iter().peekable();
-        let mut far: Vec<Two> = Vec::new();
+        let mut apart: Vec<Apart> = Vec::new();
         for &[i, j] in pairs {
             let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
             let key = |two: &Two| [two.first.min(two.second), two.first.max(two.second)];
             while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
             let kept = known.next_if(|near| near.two == two);
-            let [first, second] = [two.first, two.second].map(|k| movers[k].kind);
-            let couple = crowd.couple(first, second).0;
-            let apart = (positions[i] - positions[j]).norm();
+            let [first, second] = [two.first, two.second].map(|k| &movers[k]);
+            let couple = crowd.couple(first.kind, second.kind).0;
+            let distance = (positions[i] - positions[j]).norm();
             let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
-            let is_near = apart <= couple.radii() + near && {
-                let q = now[two.first].to(&now[two.second].at);
-                couple.contact.clearance_bound(&q) <= near
+            let room = match distance <= couple.radii() + near {
+                true => {
+                    let q = now[two.first].to(&now[two.second].at);
+                    couple.contact.clearance_bound(&q)
+                }
+                false => f64::INFINITY,
             };
-            if is_near {
-                self.near.push(kept.unwrap_or_else(|| NearPair::new(two)));
+            let mut place = None;
+            if room <= near {
+                place = Some(self.near.len());
+                let mut pair = kept.unwrap_or_else(|| NearPair::new(two));
+                let speed = fastest(crowd, first, &first.velocity)
+                    + fastest(crowd, second, &second.velocity);
+                pair.is_tied = room <= speed * self.settings.step + SHARE_TIED * couple.near;
+                let is_tied = pair.is_tied;
+                self.near.push(pair);
+                if is_tied {
+                    continue;
+                }
+            } else if distance > couple.cutoff.to + near {
                 continue;
             }
-            if apart > couple.cutoff.to + near {
-                continue;
-            }
-            far.push(two);
+            apart.push(Apart { two, near: place });
         }
-        let moved = movers.iter().zip(middle);
-        let moved = moved.map(|(mover, place)| Mover {
-            place: *place,
-            ..*mover
-        });
-        let moved: Vec<_> = moved.map(|it| (it, Pose::of(crowd, &it))).collect();
-        let parts: Vec<&[Two]> = far.chunks(FAR_TOGETHER).collect();
+        let parts: Vec<&[Apart]> = apart.chunks(APART_TOGETHER).collect();
         let pulls = parallel::flat_map(&parts, |part| {
-            let pull_of = |two: &Two| {
-                let [(first, a), (second, b)] = [two.first, two.second].map(|k| &moved[k]);
+            let pull_of = |Apart { two, .. }: &Apart| {
+                let [(first, a), (second, b)] = [two.first, two.second].map(|k| &halfway[k]);
                 let couple = crowd.couple(first.kind, second.kind).0;
                 pull(couple, [first, second], [a, b]).1
             };
             part.iter().map(pull_of).collect::<Vec<_>>()
         });
-        for (two, pulls) in far.iter().zip(pulls) {
-            for (tile, pull) in [two.first, two.second].into_iter().zip(pulls) {
-                outside[tile] += pull.component_div(&masses[tile]);
+        for (Apart { two, near }, pulls) in apart.iter().zip(pulls) {
+            let tiles = [two.first, two.second];
+            let own = [0, 1].map(|side| pulls[side].component_div(&masses[tiles[side]]));
+            if let Some(near) = near.map(|k| &mut self.near[k]) {
+                let each = [0, 1].map(|side| fastest(crowd, &movers[tiles[side]], &own[side]));
+                let longest = longest_step(self.feature, each[0] + each[1]);
+                near.is_tied = longest < TableSettings::USUAL_STEP;
+                if near.is_tied {
+                    continue;
+                }
+            }
+            for (tile, own) in tiles.into_iter().zip(own) {
+                outside[tile] += own;
             }
         }
         now
@@ -279,18 +309,16 @@ impl<'a> Stepper<'a> {
     fn move_all(&mut self, poses: &[Pose], steady: &[Vector3<f64>]) -> f64 {
         let n = self.riders.len();
         let mut tied = UnionFind::<usize>::new(n);
-        for near in &self.near {
+        let mut is_tied = vec![false; n];
+        for near in self.near.iter().filter(|near| near.is_tied) {
             tied.union(near.two.first, near.two.second);
+            is_tied[near.two.first] = true;
+            is_tied[near.two.second] = true;
         }
         let mut number = vec![usize::MAX; n];
         let mut islands: Vec<Island> = Vec::new();
         let mut members: Vec<Vec<usize>> = Vec::new();
         let mut local = vec![0; n];
-        let mut is_tied = vec![false; n];
-        for near in &self.near {
-            is_tied[near.two.first] = true;
-            is_tied[near.two.second] = true;
-        }
         for k in 0..n {
             if !is_tied[k] && self.is_off_the_rim(k, &steady[k]) {
                 self.glide(k, &steady[k]);
@@ -318,7 +346,7 @@ impl<'a> Stepper<'a> {
             islands[island].poses.push(poses[k]);
             islands[island].steady.push(steady[k]);
         }
-        for near in &mut self.near {
+        for near in self.near.iter_mut().filter(|near| near.is_tied) {
             let top = tied.find_mut(near.two.first);
             let two = Two {
                 first: local[near.two.first],

@@ -100,41 +100,84 @@ fn several_designs_share_a_table() {
     }
 }
 
+/// Three runs of four tiles.
+fn three_runs(out: &Path, more: &[&str]) -> Vec<String> {
+    let text = "table --count 2,2 --time 0.3 --runs 3 --shaking 3e-3 --drag 0.5";
+    let out = ["--out", out.to_str().unwrap()];
+    let words = text.split(' ').chain([TILE]).chain(out);
+    words
+        .chain(more.iter().copied())
+        .map(str::to_owned)
+        .collect()
+}
+
+fn with(words: &[String]) -> std::process::Output {
+    tilebind(&words.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
 #[test]
-fn parts_of_the_runs_are_those_of_the_whole() {
+fn parts_of_the_runs_are_joined_to_the_whole() {
     let folder = tempfile::tempdir().unwrap();
-    let rows = |name: &str, part: &[&str]| {
-        let out = folder.path().join(name);
-        let asked = [
-            "table",
-            TILE,
-            "--count",
-            "2,2",
-            "--time",
-            "0.3",
-            "--runs",
-            "3",
-            "--shaking",
-            "3e-3",
-            "--drag",
-            "0.5",
-            "--json",
-            "--out",
-        ];
-        json(&[&asked[..], &[out.to_str().unwrap()], part].concat());
-        let text = std::fs::read_to_string(out.join("energy.csv")).unwrap();
-        text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    let at = |name: &str| folder.path().join(name);
+    let done = |name: &str, more: &[&str]| {
+        let output = with(&three_runs(&at(name), more));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     };
-    let mut parts = [
-        rows("one", &["--shard", "1/2"]),
-        rows("two", &["--shard", "2/2"]),
-    ]
-    .concat();
-    assert_eq!(report(&folder.path().join("one"))["runs"], 2);
-    parts.sort();
-    let mut whole = rows("whole", &[]);
-    whole.sort();
-    assert_eq!(parts, whole);
+    let parts = ["one", "two"].map(|name| at(name).to_str().unwrap().to_owned());
+    let merge = ["--merge", &parts[1], &parts[0]];
+    done("whole", &[]);
+    done("one", &["--shard", "1/2"]);
+    done("two", &["--shard", "2/2"]);
+    assert_eq!(report(&at("one"))["runs"], 2);
+    done("joined", &merge);
+    let mut compared = 0;
+    for entry in std::fs::read_dir(at("whole")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if name.ends_with(".csv") || name.ends_with(".gsd") {
+            let [whole, joined] =
+                ["whole", "joined"].map(|of| std::fs::read(at(of).join(&name)).unwrap());
+            assert!(whole == joined, "{name}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 5);
+    let [whole, joined] = ["whole", "joined"].map(|of| {
+        let mut report = report(&at(of));
+        for time in ["wall_s", "threads"] {
+            report.as_object_mut().unwrap().remove(time);
+        }
+        report
+    });
+    assert_eq!(whole, joined);
+}
+
+#[test]
+fn parts_of_other_runs_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let part = with(&three_runs(&at("one"), &["--shard", "1/2"]));
+    assert_eq!(part.status.code(), Some(0), "{}", stderr(&part));
+    let one = at("one").to_str().unwrap().to_owned();
+    let refused = |more: &[&str], why: &str| {
+        let output = with(&three_runs(&at("out"), more));
+        let told = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(why), "{why}: {told}");
+        assert!(!at("out").exists(), "{why}");
+    };
+    refused(&["--merge", &one], "1 of 3 runs are in no part: numbers 1");
+    refused(&["--merge", &one, &one], "run 0 is in another part, too");
+    refused(&["--merge", &one, "--seed", "2"], "another seed");
+    refused(&["--merge", &one, "--friction", "0.1"], "other settings");
+    refused(&["--merge", &one, "--frames", "0.1"], "other settings");
+    refused(&["--merge", &one, "--model", "cuboid"], "other tiles");
+    refused(&["--merge", "nowhere"], "cannot read the part");
+    let file = at("one").join("part.json");
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, text.replace("[[0,[", "[[7,[")).unwrap();
+    refused(&["--merge", &one], "has been changed by hand");
+    std::fs::write(&file, &text[..text.len() / 2]).unwrap();
+    refused(&["--merge", &one], "no part of a table");
 }
 
 #[test]

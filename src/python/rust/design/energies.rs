@@ -93,7 +93,7 @@ impl Design {
         let problem = self.content.problem(None);
         poses::numbers(py, &poses, |qs, out: &mut [[f64; 1]]| {
             for (q, [out]) in qs.iter().zip(out) {
-                *out = json::positive_zero(clearance(&problem, q));
+                *out = json::positive_zero(clearance(problem, q));
             }
         })
     }

@@ -274,7 +274,7 @@ impl Design {
             let text = text.as_deref().map(|text| ("start", text));
             let start = asked.start((about.designs.len(), &crowd), text)?;
             asked.check()?;
-            let found = put((&about, crowd), &asked, &start, told);
+            let found = put((&about, crowd), &asked, start, &[], told);
             let found = found.map_err(|error| error.to_string())?;
             let beside = compared(designs, &asked, &found, told);
             Ok::<_, String>((about, found, beside))
