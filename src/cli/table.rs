@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tilebind::assembly::lattice;
 use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
 use tilebind::report::table::document;
@@ -32,12 +33,14 @@ Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --runs 20 --shaking 3e-3 --drag 0.5 \\
     --out target/table
+  tilebind table lattice --lattice 2x2 --count 3,3,3,3 --time 60 --shaking 5e-3 --drag 0.5 --compare
   tilebind table shapes/tab-10mm.toml shapes/arc-20mm.toml --count 3,3 --time 60 --shaking 3e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --merge target/part-* --out target/all
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
-    /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`
+    /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`:
+    /// a file, lattice or homogeneous
     #[arg(value_name = "DESIGN|TILESET", required = true)]
     tiles: Vec<PathBuf>,
 
@@ -45,6 +48,10 @@ pub struct TableCommand {
     #[arg(long, value_name = "MODEL", value_parser = request::model(),
           hide_possible_values = true)]
     model: Option<MagnetModel>,
+
+    /// Rows and columns of the tile set `lattice` or `homogeneous`
+    #[arg(long, value_name = "MxN", value_parser = lattice::size)]
+    lattice: Option<[usize; 2]>,
 
     #[command(flatten)]
     request: Request,
@@ -71,6 +78,13 @@ impl TableCommand {
             [one] if one.extension().is_none_or(|it| it != "toml") => Some(one),
             _ => None,
         };
+        if self.lattice.is_some() && set.is_none() {
+            return Err(Failure::Usage(
+                "--lattice is the size of the tile set lattice or homogeneous: write one of them instead of a \
+                 design"
+                    .into(),
+            ));
+        }
         let mut designs = Vec::new();
         let mut inputs: Vec<PathBuf> = set.into_iter().chain(&self.start).cloned().collect();
         for path in self.tiles.iter().filter(|_| set.is_none()) {
@@ -84,7 +98,7 @@ impl TableCommand {
         self.threads.use_threads()?;
         let (about, crowd) = match set {
             None => About::of_designs(&designs).map_err(Failure::Usage)?,
-            Some(set) => About::of_set(set, &self.request, self.model)?,
+            Some(set) => About::of_set(set, &self.request, self.model, self.lattice)?,
         };
         let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
             let name = path.display().to_string();
@@ -109,7 +123,7 @@ impl TableCommand {
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);
         let found = found.map_err(Failure::of)?;
-        let beside = compared(&designs, &self.request, &found, &progress);
+        let beside = compared((&about, &designs), &self.request, &found, &progress);
         let document = document(&about, &found, &self.request, beside.as_ref());
         self.results.deliver(&document, output, &progress)
     }

@@ -288,3 +288,16 @@ fn critical(freedom: usize) -> f64 {
     let part = 2.0 / (9.0 * freedom.max(1) as f64);
     freedom as f64 * (1.0 - part + 1.645 * part.sqrt()).powi(3)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_chi_square() {
+        for (freedom, tabled) in [(1, 3.841), (4, 9.488), (10, 18.307), (30, 43.773)] {
+            let found = critical(freedom);
+            assert!((found / tabled - 1.0).abs() < 0.03, "{found} {tabled}");
+        }
+    }
+}

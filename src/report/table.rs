@@ -6,9 +6,12 @@ use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
+use jobs::assembly::kinetic::Growth;
 use jobs::output::Files;
 use jobs::request::Shard;
-use jobs::table::{About, Found, Interval, Lifetime, Moment, PART, Request, Statistics, Verdict};
+use jobs::table::{
+    About, Found, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics, Verdict,
+};
 use jobs::yields::{Question, StateRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
@@ -49,7 +52,7 @@ pub fn document<'a>(
         beside: beside_it(found, request),
         notes: notes(found, request)
             .into_iter()
-            .chain(beside.map(|beside| against_yield(found, beside)))
+            .chain(beside.map(|beside| against(about, found, beside)))
             .collect(),
         origin: format!("seed {seed}, {} magnets", about.model.name()),
         ..Document::default()
@@ -110,14 +113,39 @@ fn meaning(found: &Found) -> String {
     }
 }
 
-/// The prediction of `yield`, with its request.
-type Beside = Result<(Question, Yields), YieldError>;
+/// The prediction of another command.
+type Beside = Result<Prediction, YieldError>;
+
+fn compared(beside: Option<&Beside>) -> Entries {
+    match beside {
+        Some(Ok(Prediction::Yield(question, yields))) => of_yield(question, yields),
+        Some(Ok(Prediction::Growth(growth))) => of_growth(growth),
+        _ => Entries::default(),
+    }
+}
+
+/// Growth from a seed as rgrow and xgrow simulate it.
+fn of_growth(growth: &Growth) -> Entries {
+    Entries::default().group(
+        "assemble",
+        Entries::default()
+            .data("runs", growth.runs)
+            .data("right", growth.right)
+            .data("wrong", growth.wrong)
+            .fact(
+                "",
+                "growths right",
+                format!("{} of {}", growth.right, growth.runs),
+            )
+            .noted("from a seed, among tiles whose supply does not change")
+            .fact("errors_a_tile", "errors a tile", growth.errors_a_tile)
+            .digits(2)
+            .noted("wrong tiles that stay, over the pattern's tiles"),
+    )
+}
 
 /// The prediction for the same number of pairs by detailed balance, with one partner per tile.
-fn compared(beside: Option<&Beside>) -> Entries {
-    let Some(Ok((question, yields))) = beside else {
-        return Entries::default();
-    };
+fn of_yield(question: &Question, yields: &Yields) -> Entries {
     let best = yields.best();
     let (bond, traps) = (
         best.states.first(),
@@ -172,15 +200,23 @@ fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// One sentence that compares the prediction of `yield` with the share of the target, or says why there
-/// is no prediction.
-fn against_yield(found: &Found, beside: &Beside) -> String {
-    let (question, yields) = match beside {
-        Ok(both) => both,
-        Err(why) => {
-            return format!("there is no result of `tilebind yield` to compare with: {why}");
-        }
-    };
+/// One sentence that compares a prediction with the share of the target, or says why there is none.
+fn against(about: &About, found: &Found, beside: &Beside) -> String {
+    match beside {
+        Ok(Prediction::Yield(question, yields)) => against_yield(found, question, yields),
+        Ok(Prediction::Growth(growth)) => format!(
+            "`tilebind assemble` predicts that {} of {} growths end with every tile in its place; it grows one \
+             cluster from a seed among tiles whose supply does not change, as rgrow and xgrow do, while on \
+             this table all clusters share the tiles and the most complete one has {}",
+            growth.right,
+            growth.runs,
+            reached(about, found)
+        ),
+        Err(why) => format!("there is no result of `tilebind yield` to compare with: {why}"),
+    }
+}
+
+fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String {
     let best = yields.best();
     let here = &found.target.share;
     let verdict = match (here.low, here.high) {

@@ -40,7 +40,7 @@ ELSEWHERE = {
     "bond": {"seed"},
     "calibrate": {"bonds"},
     "dock": {"from_bond", "trajectory"},
-    "table": {"merge"},
+    "table": {"lattice", "merge"},
     "sweep": {"run", "merge", "status", "shard", "plan"},
 }
 # A set of words is a file of the program's.

@@ -457,6 +457,41 @@ mod tests {
         assert!(share(0.9, 16.0) < 0.1);
     }
 
+    /// Where two kinds fit, both are right; a third one that holds nearly as well stays in a third of
+    /// the growths.
+    #[test]
+    fn any_tile_that_fits_is_right() {
+        let glue = |name: &str| Glue {
+            name: name.to_owned(),
+            strength: 0.0,
+        };
+        let beside = |name: &str, glue: usize| TileType::new(name, [None, None, None, Some(glue)]);
+        // Two words, then their mates.
+        let set = TileSet {
+            glues: ["a", "b", "a*", "b*"].map(glue).into(),
+            links: vec![(0, 2, 1.0), (1, 3, 1.0), (0, 3, 0.9)],
+            tiles: vec![
+                TileType {
+                    stoic: 0.0,
+                    ..TileType::new("seed", [None, Some(0), None, None])
+                },
+                beside("one", 2),
+                beside("other", 2),
+                beside("wrong", 3),
+            ],
+            seed: vec![(2, 2, 0)],
+            size: Some([5, 5]),
+            tau: Some(1.0),
+            ..TileSet::default()
+        };
+        let grown = grow(&set, 10);
+        assert_eq!((grown.tiles.len(), grown.choices), (2, 1));
+        let found = kinetics(&set, &grown, 30.0, 13.0);
+        assert_eq!(found.right + found.wrong, found.runs, "{found:?}");
+        let share = found.wrong as f64 / found.runs as f64;
+        assert!((share - 1.0 / 3.0).abs() < 0.1, "{share}");
+    }
+
     /// Against the exact chain: with one free place and one kind of tile, it is occupied K / (1 +
     /// K) of the time.
     #[test]

@@ -5,6 +5,22 @@ use super::{TileSet, TileType};
 /// Largest number of tiles of a lattice.
 pub const MOST_TILES: usize = 1024;
 
+/// Rows and columns written as `3x4`.
+///
+/// # Errors
+/// If the text is not a size, or the lattice is too large.
+pub fn size(text: &str) -> Result<[usize; 2], String> {
+    let read = || {
+        let (rows, columns) = text.split_once(['x', 'X', ','])?;
+        let size: [usize; 2] = [rows.trim().parse().ok()?, columns.trim().parse().ok()?];
+        let tiles = size[0].checked_mul(size[1])?;
+        (2..=MOST_TILES).contains(&tiles).then_some(size)
+    };
+    read().ok_or_else(|| {
+        format!("a lattice is ROWSxCOLUMNS, such as 3x3, of 2 to {MOST_TILES} tiles")
+    })
+}
+
 /// The number of words that a lattice of `rows` by `columns` different tiles needs: `m (n - 1) + n
 /// (m - 1)`, one for every two neighbours.
 pub fn words(rows: usize, columns: usize) -> usize {

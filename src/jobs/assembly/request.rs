@@ -23,7 +23,7 @@ pub struct Request {
     pub coverage: f64,
 
     /// Rows and columns of a lattice
-    #[arg(long, value_name = "MxN", value_parser = rows_and_columns)]
+    #[arg(long, value_name = "MxN", value_parser = lattice::size)]
     pub lattice: Option<[usize; 2]>,
 
     /// Side of a counted square (tiles)
@@ -76,17 +76,6 @@ pub struct Request {
     /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
-}
-
-fn rows_and_columns(text: &str) -> Result<[usize; 2], String> {
-    let most = lattice::MOST_TILES;
-    let read = || {
-        let (rows, columns) = text.split_once(['x', 'X', ','])?;
-        let size: [usize; 2] = [rows.trim().parse().ok()?, columns.trim().parse().ok()?];
-        let tiles = size[0].checked_mul(size[1])?;
-        (2..=most).contains(&tiles).then_some(size)
-    };
-    read().ok_or_else(|| format!("a lattice is ROWSxCOLUMNS, such as 3x3, of 2 to {most} tiles"))
 }
 
 impl Request {

@@ -352,6 +352,39 @@ fn blocks_grow_into_the_same_pattern() {
 }
 
 #[test]
+fn blocks_keep_which_glues_hold_each_other() {
+    let mut set = lattice::unique([1, 3]);
+    set.links = vec![(0, 1, 0.5)];
+    let blocks = proofread::blocks(&set, 3).unwrap();
+    let name = |glue: usize| blocks.glues[glue].name.as_str();
+    let [first, second] = [0, 1].map(|glue| &set.glues[glue].name);
+    let found: Vec<_> = blocks
+        .links
+        .iter()
+        .map(|link| (name(link.0).to_owned(), name(link.1).to_owned()))
+        .collect();
+    let wanted = (0..3).map(|row| (format!("{first}.{row}"), format!("{second}.{row}")));
+    assert_eq!(found, wanted.collect::<Vec<_>>());
+}
+
+#[test]
+fn tiles_without_a_name_are_numbered() {
+    let text = "tiles:\n- edges: [0, g, 0, 0]\n- {name: last, edges: [0, 0, 0, g]}\n- edges: [0, 0, 0, g]\n";
+    let set = rgrow::read(text, "a.yaml").unwrap();
+    let names: Vec<&str> = set.tiles.iter().map(|tile| tile.name.as_str()).collect();
+    assert_eq!(names, ["1", "last", "3"]);
+}
+
+#[test]
+fn sets_of_too_many_tiles_or_glues_are_refused() {
+    for (tiles, glues) in [(1, 1_000_000), (1_000_000, 1)] {
+        let text = format!("num tile types={tiles}\nnum binding types={glues}\n");
+        let error = xgrow::read(&text, "a.tiles").unwrap_err().to_string();
+        assert!(error.contains("more than"), "{error}");
+    }
+}
+
+#[test]
 fn blocks_of_a_large_set_are_refused() {
     let set = super::lattice::unique([30, 30]);
     assert!(proofread::blocks(&set, 2).is_ok());

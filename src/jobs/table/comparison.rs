@@ -1,6 +1,8 @@
-//! The predictions of `tilebind bond` and `tilebind yield` for the same number of tiles.
+//! The predictions of other commands: of `tilebind bond` and `tilebind yield` for the same number of
+//! tiles, of `tilebind assemble` for the same tile set.
 
-use super::{Found, Request};
+use super::{About, Found, Request};
+use crate::assembly::kinetic::Growth;
 use crate::design::Design;
 use crate::request::of_keywords;
 use crate::yields::{Question, YieldError, Yields, yields};
@@ -31,15 +33,29 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
     of_keywords(words).ok()
 }
 
-/// The yield by detailed balance, or why it cannot be computed; `None` if it is not requested.
+/// What another command predicts.
+pub enum Prediction {
+    /// For a design: the yield by detailed balance, with its request.
+    Yield(Question, Yields),
+    /// For a tile set: growth from a seed, with a constant supply of tiles.
+    Growth(Growth),
+}
+
+/// The prediction, or why there is none; `None` if it is not requested.
 pub fn compared(
-    designs: &[Design],
+    (about, designs): (&About, &[Design]),
     request: &Request,
     found: &Found,
     progress: &dyn Observer,
-) -> Option<Result<(Question, Yields), YieldError>> {
+) -> Option<Result<Prediction, YieldError>> {
+    if !request.compare {
+        return None;
+    }
+    if let Some(growth) = about.growth {
+        return Some(Ok(Prediction::Growth(growth)));
+    }
     let [design] = designs else { return None };
-    let question = question(design, request, found).filter(|_| request.compare)?;
+    let question = question(design, request, found)?;
     let answer = yields(design, &question, progress);
-    Some(answer.map(|yields| (question, yields)))
+    Some(answer.map(|yields| Prediction::Yield(question, yields)))
 }

@@ -9,7 +9,7 @@ mod statistics;
 mod subject;
 mod target;
 
-pub use comparison::compared;
+pub use comparison::{Prediction, compared};
 pub use crowds::{of_assembly, of_designs};
 pub use ensemble::{Ensemble, PART};
 pub use request::Request;

@@ -68,7 +68,7 @@ pub struct Request {
     #[arg(long, value_name = "DT", value_parser = request::positive)]
     pub frames: Option<f64>,
 
-    /// Compare with the predictions of `tilebind bond` and `tilebind yield`
+    /// Compare with the predictions of `tilebind bond` and `tilebind yield`, or of `tilebind assemble`
     #[arg(long)]
     pub compare: bool,
 
@@ -133,10 +133,10 @@ impl Request {
         (designs, crowd): (usize, &Crowd),
         file: Option<(&str, &str)>,
     ) -> Result<Start, String> {
-        if self.compare && designs != 1 {
+        if self.compare && designs > 1 {
             return Err(
-                "--compare needs exactly one design, as `tilebind yield` counts pairs of one design: \
-                 remove it, or give one design"
+                "--compare needs exactly one design, as `tilebind yield` counts pairs of one design, or one \
+                 tile set: remove it, or give one design"
                     .into(),
             );
         }

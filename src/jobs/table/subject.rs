@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Request, of_assembly, of_designs};
 use crate::Refused;
-use crate::assembly::{self, growth::Place};
+use crate::assembly::{self, growth::Place, kinetic::Growth};
 use crate::design::{Design, MagnetModel};
 use crate::request::{Misused, of_keywords};
 use physics::observer::Silent;
@@ -27,6 +27,8 @@ pub struct About {
     pub model: MagnetModel,
     /// For a tile set, the target assembly: tiles by place.
     pub pattern: Option<BTreeMap<Place, usize>>,
+    /// For a tile set, its growth from a seed as `tilebind assemble` simulates it.
+    pub growth: Option<Growth>,
 }
 
 impl About {
@@ -51,11 +53,12 @@ impl About {
                 .collect(),
             model: designs[0].interaction.model,
             pattern: None,
+            growth: None,
         };
         Ok((about, crowd))
     }
 
-    /// The tiles of a set, with the words that `tilebind assemble` finds for it, on a square table
+    /// The tiles of a set or of a lattice of the given size, with the words that `tilebind assemble` finds for it, on a square table
     /// with a coverage of three tenths.
     ///
     /// # Errors
@@ -64,6 +67,7 @@ impl About {
         file: &Path,
         request: &Request,
         model: Option<MagnetModel>,
+        lattice: Option<[usize; 2]>,
     ) -> Result<(Self, Crowd), Refused> {
         let kt = request.shaking.unwrap_or(USUAL_KT);
         let keywords = [
@@ -76,7 +80,11 @@ impl About {
             Misused::Wrong(message) => message,
             Misused::Unknown(key, _) => key,
         })?;
-        let asked = assembly::Request { model, ..asked };
+        let asked = assembly::Request {
+            model,
+            lattice,
+            ..asked
+        };
         let set = asked.tile_set(file)?;
         let assembly = asked.build(&set, None, None, &Silent)?;
         let stage = &assembly.words.stage;
@@ -89,6 +97,7 @@ impl About {
             designs: Vec::new(),
             model: stage.interaction.model,
             pattern: Some(assembly.built.grown.tiles.clone()),
+            growth: Some(assembly.growth),
         };
         Ok((about, of_assembly(&assembly, [side; 2])?))
     }

@@ -197,6 +197,22 @@ fn tiles_of_a_set_are_compared_with_its_pattern() {
 }
 
 #[test]
+fn a_lattice_is_compared_with_its_growth_from_a_seed() {
+    let text = "table lattice --lattice 2x2 --count 1,1,1,1 --time 0.1 --shaking 5e-3 --drag 1 --compare --json";
+    let words: Vec<&str> = text.split(' ').collect();
+    let found = json(&words);
+    assert_eq!(found["tiles"], 4);
+    let text = "assemble lattice --lattice 2x2 --kt 5e-3 --coverage 0.3 --json";
+    let words: Vec<&str> = text.split(' ').collect();
+    let grown = json(&words);
+    let growths = grown["growths"].as_array().unwrap();
+    let same = growths.iter().find(|it| it["kT_J"] == 5e-3).unwrap();
+    for key in ["runs", "right", "wrong"] {
+        assert_eq!(found["assemble"][key], same[key], "{key}");
+    }
+}
+
+#[test]
 fn yield_is_compared() {
     let found = json(&[
         "table",
@@ -288,6 +304,7 @@ fn wrong_tables_are_refused_with_their_fix() {
             ],
             "exactly one design",
         ),
+        (&[TILE, "--lattice", "2x2"], "instead of a design"),
         (&[TILE, TILE], "give one of them another `name`"),
         (&[TILE, blocks], "give --model"),
         (

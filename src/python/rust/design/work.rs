@@ -276,7 +276,7 @@ impl Design {
             asked.check()?;
             let found = put((&about, crowd), &asked, start, &[], told);
             let found = found.map_err(|error| error.to_string())?;
-            let beside = compared(designs, &asked, &found, told);
+            let beside = compared((&about, designs), &asked, &found, told);
             Ok::<_, String>((about, found, beside))
         })?;
         let (about, found, beside) = found;
