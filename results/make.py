@@ -47,6 +47,7 @@ YIELDS = {"hexagon": 2, "paper-tile": 1, "alternating": 0.6, "tab-20mm": 0.2, "a
 MAGNETS = [4, 6, 8, 10]
 SHAPES = ["none", "shared", "polar"]
 GAPS = [0.25, 0.5, 0.75]
+CROWDS = ["one-face", "tab-20mm", "arc-20mm", "sine-teeth-20mm", "triangle-teeth-20mm"]
 
 
 class Failed(Exception):
@@ -340,6 +341,45 @@ def docking(work):
     work.keep("paper-tile-docking/chances.svg", out / "pictures/chances.svg")
 
 
+# Many tiles on a table
+
+CROWD_COLUMNS = ["drive", "coverage", "contact", "bonds", "bonds_low", "bonds_high", "traps", "traps_low", "traps_high",
+                 "kinetic_kT"]
+SHAKEN = ["--shaking", "3e-3"]
+DRIVES = {
+    "3 mJ": SHAKEN,
+    "6 mJ": ["--shaking", "6e-3"],
+    "orbital": ["--orbital", "0.1,0.5"],
+    "3 mJ and fan": [*SHAKEN, "--fan=0,0,0.02,0.8,1,0.2"],
+}
+CONTACTS = {"paper": (0.01, 0.3), "rubber": (0.5, 0.9), "wood": (0.5, 0.4), "steel": (0.7, 0.2)}  # restitution, friction
+CROWD_SETTINGS = [*((drive, 0.3, "paper") for drive in DRIVES),
+                  *(("3 mJ", coverage, "paper") for coverage in (0.15, 0.5)),
+                  *(("3 mJ", 0.3, contact) for contact in list(CONTACTS)[1:])]
+
+
+def crowd(name):
+    """12 tiles of either kind, with magnets 3 mm behind the surface, on tables that they cover by different shares."""
+    def make(work):
+        rows = [CROWD_COLUMNS]
+        for drive, coverage, contact in CROWD_SETTINGS:
+            side = math.sqrt(24 * 0.43**2 / coverage)
+            text = (ROOT / f"shapes/{name}.toml").read_text()
+            text = re.sub(r"(?m)^inset = .*$", "inset = 0.003", text)
+            design = work.folder / f"{name}.toml"
+            design.write_text(text.replace("size = [2.0, 2.0]", f"size = [{side:.3f}, {side:.3f}]"))
+            restitution, friction = CONTACTS[contact]
+            work.run("tilebind", "table", design.name, "--count", "12,12", "--time", "240", "--runs", "8", *DRIVES[drive],
+                     "--drag", "0.5", "--restitution", f"{restitution}", "--friction", f"{friction}", "--out", "table",
+                     cwd=work.folder)
+            report = json.loads((work.folder / "table/report.json").read_text())
+            ends = (report[it][end] for it in ("bonds", "traps") for end in ("mean", "low", "high"))
+            rows.append([drive, coverage, contact, *ends, report["kinetic_kT"]])
+        work.keep_rows(f"table/{name}.csv", rows)
+
+    return make
+
+
 # Times
 
 def growth(work):
@@ -390,6 +430,7 @@ PARTS = [
     Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
          f"{GROWN}; git, cc and libX11's headers for xgrow"),
     *(Part(f"assembly-{part}", "grown", 60, files, assembly(part), GROWN) for part, files in ASSEMBLY.items()),
+    *(Part(f"table-{name}", "table", 15, [f"table/{name}.csv"], crowd(name)) for name in CROWDS),
     Part("growth", "times", 12, ["growth.csv", "growth.svg"], growth),
     Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
     Part("bench", "times", 5, ["bench.csv"], bench),
@@ -510,6 +551,18 @@ def rates_table():
     return markdown(["kT", "mean exit time times D", "bounds", "apart", "bound first"], rows)
 
 
+def crowds_table():
+    """Bonds and, after the stroke, traps; each with half its interval."""
+    def cell(it):
+        return " / ".join(f"{float(it[of]):.1f} ± {float(it[f'{of}_high']) - float(it[of]):.1f}" for of in ("bonds", "traps"))
+
+    found = {name: table(f"table/{name}.csv") for name in CROWDS}
+    rows = []
+    for k, (drive, coverage, contact) in enumerate(CROWD_SETTINGS):
+        rows.append([f"{drive}, {coverage}, {contact}", *(cell(found[name][k]) for name in CROWDS)])
+    return markdown(["drive, coverage, contact", *(f"`{name}`" for name in CROWDS)], rows)
+
+
 def growth_table():
     """Seconds and, in brackets, as a multiple of the family's first."""
     sizes = [2**power for power in range(9)]
@@ -533,7 +586,7 @@ def screen():
 
 SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
          "words-mismatches": mismatches_table, "assembly-builds": builds_table, "assembly-blocks": blocks_table,
-         "yield": yields_table, "rates": rates_table, "growth": growth_table, "paper-tile": screen}
+         "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen}
 
 
 def write_tables():

@@ -62,6 +62,9 @@ fn shortened(command: &str) -> String {
             && short.last().is_some_and(|w| counts.contains(&w.as_str()));
         short.push(match word {
             _ if fewer => "8".to_owned(),
+            _ if words[0] == "table" && short.last().is_some_and(|w| w == "--time") => {
+                "1".to_owned()
+            }
             list if short.last().is_some_and(|w| w == "--kt") => {
                 let first = list.split(',').next().unwrap();
                 // Strongly shaken tiles leave soon, over passes that coarse meshes resolve.

@@ -159,6 +159,22 @@ mod tests {
         }
     }
 
+    /// Brouwer's table of A(n, d, w), <https://www.win.tue.nl/~aeb/codes/Andw.html>.
+    #[test]
+    fn bounds_of_codes_of_one_weight() {
+        for (n, d, w, size) in [
+            (6, 4, 3, 4.0),
+            (7, 4, 3, 7.0),
+            (8, 4, 4, 14.0),
+            (9, 4, 3, 12.0),
+            (11, 6, 5, 11.0),
+            (12, 6, 6, 22.0),
+            (10, 8, 4, 2.0),
+        ] {
+            assert_eq!(constant_weight(n, d, w), size, "A({n}, {d}, {w})");
+        }
+    }
+
     /// Brouwer's table of A(n, d), <https://www.win.tue.nl/~aeb/codes/binary-1.html>: no bound may
     /// lie below it, and these are equal to it.
     #[test]
