@@ -1,6 +1,6 @@
 //! `tilebind table`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::assembly::lattice;
@@ -100,26 +100,18 @@ impl TableCommand {
             None => About::of_designs(&designs).map_err(Failure::Usage)?,
             Some(set) => About::of_set(set, &self.request, self.model, self.lattice)?,
         };
-        let file = self.start.as_ref().map(|path| -> Result<_, Failure> {
-            let name = path.display().to_string();
-            let text = text::read(path).map_err(|error| {
-                Failure::Usage(format!("cannot read the start {name}: {error}"))
-            })?;
-            Ok((name, with_commas(&text).into_owned()))
-        });
+        let file = self.start.as_ref().map(|path| named("start", path));
         let file = file.transpose()?;
+        let file = file
+            .as_ref()
+            .map(|(name, text)| (&name[..], with_commas(text)));
         let start = self.request.start(
             (about.designs.len(), &crowd),
-            file.as_ref().map(|it| (it.0.as_str(), it.1.as_str())),
+            file.as_ref().map(|(name, text)| (*name, &text[..])),
         );
         let start = start.map_err(Failure::Usage)?;
         let progress = self.results.progress();
-        let parts = parts.into_iter().map(|path| {
-            let name = path.display().to_string();
-            let text = text::read(&path)
-                .map_err(|error| Failure::Usage(format!("cannot read the part {name}: {error}")))?;
-            Ok((name, text))
-        });
+        let parts = parts.iter().map(|path| named("part", path));
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);
         let found = found.map_err(Failure::of)?;
@@ -127,4 +119,13 @@ impl TableCommand {
         let document = document(&about, &found, &self.request, beside.as_ref());
         self.results.deliver(&document, output, &progress)
     }
+}
+
+/// A file of text with its name.
+fn named(what: &str, path: &Path) -> Result<(String, String), Failure> {
+    let name = path.display().to_string();
+    let text = text::read(path);
+    let text =
+        text.map_err(|error| Failure::usage(format!("cannot read the {what} {name}: {error}")))?;
+    Ok((name, text))
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::assembly::grown_with_errors;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
@@ -28,12 +29,12 @@ pub fn document<'a>(
 ) -> Document<'a> {
     let statistics = &found.statistics;
     let seed = request.seed;
+    let tiles = found.ensemble.kinds().len();
     Document {
-        title: format!("{} tiles of {} on the table", found.kinds.len(), about.name),
+        title: format!("{tiles} tiles of {} on the table", about.name),
         answer: format!(
-            "{}: {} tiles have {} bonds and {} traps after {} ({}; {} {} seed {seed})",
+            "{}: {tiles} tiles have {} bonds and {} traps after {} ({}; {} {} seed {seed})",
             about.name,
-            found.kinds.len(),
             told(&statistics.bonds),
             told(&statistics.traps),
             duration(found.ensemble.settings.duration, 3),
@@ -49,7 +50,7 @@ pub fn document<'a>(
         entries: entries(about, found, seed).and(compared(beside)),
         part: Some(Part::Crowd(Crowd::new(found))),
         pictures: pictures(found),
-        beside: beside_it(found, request),
+        beside: files(found, request),
         notes: notes(found, request)
             .into_iter()
             .chain(beside.map(|beside| against(about, found, beside)))
@@ -60,7 +61,7 @@ pub fn document<'a>(
 }
 
 /// The recording of the first run, and the file of a part.
-fn beside_it(found: &Found, request: &Request) -> Files {
+fn files(found: &Found, request: &Request) -> Files {
     let mut files = Files::from([("trajectory.gsd".to_owned(), trajectory(found))]);
     if request.shard.is_some() {
         let part = serde_json::to_vec(&(&found.ensemble, &found.runs));
@@ -132,15 +133,7 @@ fn of_growth(growth: &Growth) -> Entries {
             .data("runs", growth.runs)
             .data("right", growth.right)
             .data("wrong", growth.wrong)
-            .fact(
-                "",
-                "growths right",
-                format!("{} of {}", growth.right, growth.runs),
-            )
-            .noted("from a seed, among tiles whose supply does not change")
-            .fact("errors_a_tile", "errors a tile", growth.errors_a_tile)
-            .digits(2)
-            .noted("wrong tiles that stay, over the pattern's tiles"),
+            .and(grown_with_errors(growth)),
     )
 }
 
@@ -291,7 +284,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("model", about.model.name())
         .data("seed", seed)
         .data("settings", settings(&found.ensemble.settings))
-        .fact("tiles", "tiles", found.kinds.len())
+        .fact("tiles", "tiles", found.ensemble.kinds().len())
         .fact("runs", "runs", found.runs.len())
         .fact("time_s", "time", found.ensemble.settings.duration)
         .fact("step_s", "step", statistics.step)
@@ -460,8 +453,8 @@ fn energy(found: &Found) -> Table {
 // One line a column.
 #[rustfmt::skip]
 fn bonds(found: &Found) -> Table {
-    let kinds = &found.crowd.kinds;
-    let kind = |tile: usize| kinds[found.kinds[tile]].name.clone();
+    let (kinds, of_tiles) = (&found.crowd.kinds, found.ensemble.kinds());
+    let kind = |tile: usize| kinds[of_tiles[tile]].name.clone();
     let lives = found.runs.iter().flat_map(|run| run.lives.iter().map(move |life| (run, life)));
     rows(lives)
         .column("run", "", "", |(run, _)| run.index)

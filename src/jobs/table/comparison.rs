@@ -11,7 +11,8 @@ use physics::observer::Observer;
 /// The corresponding request of `yield`: the same number of pairs, table area, time, drag,
 /// restitution and friction. The scarcer kind of tile determines the number of pairs.
 fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
-    let counts = [0, 1].map(|kind| found.kinds.iter().filter(|it| **it == kind).count());
+    let kinds = found.ensemble.kinds();
+    let counts = [0, 1].map(|kind| kinds.iter().filter(|it| **it == kind).count());
     let pairs = counts.into_iter().min().filter(|pairs| *pairs > 0)?;
     let area = design.pair.moving.outline.area();
     let table = found.crowd.area();

@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::About;
 use crate::checksum::sha256;
 use physics::table::run::{Run, Start};
-use physics::table::{Crowd, TableSettings};
+use physics::table::{Crowd, Mover, TableSettings};
 
 /// The file of a part.
 pub const PART: &str = "part.json";
 
 /// Everything that determines the runs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Ensemble {
     /// The version that computes them.
     pub tilebind: String,
@@ -54,6 +54,7 @@ impl Ensemble {
     /// # Errors
     /// If a file is not a part of these runs, or runs are missing or occur twice.
     pub fn merge(&self, parts: &[(String, String)]) -> Result<Vec<Run>, String> {
+        let kinds = self.kinds();
         let mut all: Vec<Option<Run>> = vec![None; self.runs];
         for (name, text) in parts {
             let (whole, runs): (Self, Vec<Run>) = serde_json::from_str(text)
@@ -70,13 +71,12 @@ impl Ensemble {
                     // The first run of every part has them.
                     run.samples.iter_mut().for_each(|it| it.movers = None);
                 }
-                match all.get_mut(index) {
-                    Some(place) if self.is_sound(&run) => {
-                        if place.replace(run).is_some() {
-                            return Err(format!("{name}: run {index} is in another part, too"));
-                        }
-                    }
-                    _ => return Err(format!("{name}: run {index} has been changed by hand")),
+                let place = all.get_mut(index).filter(|_| is_sound(&run, &kinds));
+                let Some(place) = place else {
+                    return Err(format!("{name}: run {index} has been changed by hand"));
+                };
+                if place.replace(run).is_some() {
+                    return Err(format!("{name}: run {index} is in another part, too"));
                 }
             }
         }
@@ -109,20 +109,17 @@ impl Ensemble {
         .into_iter()
         .find_map(|(same, what)| (!same).then_some(what))
     }
+}
 
-    /// Whether all tiles of a run exist.
-    fn is_sound(&self, run: &Run) -> bool {
-        let kinds = self.kinds();
-        let exist = |tiles: &[usize]| tiles.iter().all(|tile| *tile < kinds.len());
-        let are_all = |movers: &[physics::table::Mover]| {
-            movers.iter().map(|it| it.kind).eq(kinds.iter().copied())
-        };
-        are_all(&run.movers)
-            && !run.samples.is_empty()
-            && run.lives.iter().all(|life| exist(&life.tiles))
-            && run.samples.iter().all(|sample| {
-                sample.held.iter().all(|held| exist(&held.tiles))
-                    && sample.movers.as_ref().is_none_or(|movers| are_all(movers))
-            })
-    }
+/// Whether all tiles of a run exist, and are of their kinds.
+fn is_sound(run: &Run, kinds: &[usize]) -> bool {
+    let exist = |tiles: &[usize]| tiles.iter().all(|tile| *tile < kinds.len());
+    let are_all = |movers: &[Mover]| movers.iter().map(|it| it.kind).eq(kinds.iter().copied());
+    are_all(&run.movers)
+        && !run.samples.is_empty()
+        && run.lives.iter().all(|life| exist(&life.tiles))
+        && run.samples.iter().all(|sample| {
+            sample.held.iter().all(|held| exist(&held.tiles))
+                && sample.movers.as_ref().is_none_or(|movers| are_all(movers))
+        })
 }

@@ -32,8 +32,6 @@ pub struct Found {
     pub crowd: Crowd,
     /// All runs, of which these may be a part.
     pub ensemble: Ensemble,
-    /// The index of each tile's kind.
-    pub kinds: Vec<usize>,
     /// The runs, in order.
     pub runs: Vec<Run>,
     /// Statistics over the runs.
@@ -92,15 +90,13 @@ pub fn table(
         true => simulated(&ensemble, &crowd, &request.made(), progress)?,
         false => ensemble.merge(parts).map_err(TableError::Parts)?,
     };
-    let kinds = ensemble.kinds();
     Ok(Found {
-        target: Target::of(about, (&crowd, &kinds), &runs),
+        target: Target::of(about, (&crowd, &ensemble.kinds()), &runs),
         statistics: Statistics::of(&runs, &ensemble.settings),
         wall_s: clock.elapsed().as_secs_f64(),
         threads: parallel::threads(),
         ensemble,
         crowd,
-        kinds,
         runs,
     })
 }

@@ -213,7 +213,6 @@ impl Island<'_> {
         let mut time = 0.0;
         while time < duration {
             crate::interruption::check();
-
             let left = duration - time;
             let longest = self.longest_step(state).min(left);
             let points = self.points(state, longest);

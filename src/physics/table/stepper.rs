@@ -224,8 +224,8 @@ impl<'a> Stepper<'a> {
         Ok(())
     }
 
-    /// Finds the near pairs and those of them that are tied, adds the accelerations by all pairs that
-    /// are not, and returns the poses of all tiles.
+    /// Finds the near pairs, ties those that may touch, pulls those apart, and returns the poses of all
+    /// tiles.
     fn sort_pairs(
         &mut self,
         movers: &[Mover],
@@ -261,23 +261,36 @@ impl<'a> Stepper<'a> {
                 }
                 false => f64::INFINITY,
             };
-            let mut place = None;
-            if room <= near {
-                place = Some(self.near.len());
-                let mut pair = kept.unwrap_or_else(|| NearPair::new(two));
+            let is_near = room <= near;
+            let is_tied = is_near && {
                 let speed = fastest(crowd, first, &first.velocity)
                     + fastest(crowd, second, &second.velocity);
-                pair.is_tied = room <= speed * self.settings.step + SHARE_TIED * couple.near;
-                let is_tied = pair.is_tied;
+                room <= speed * self.settings.step + SHARE_TIED * couple.near
+            };
+            if is_near {
+                let mut pair = kept.unwrap_or_else(|| NearPair::new(two));
+                pair.is_tied = is_tied;
                 self.near.push(pair);
-                if is_tied {
-                    continue;
-                }
-            } else if distance > couple.cutoff.to + near {
-                continue;
             }
-            apart.push(Apart { two, near: place });
+            if !is_tied && (is_near || distance <= couple.cutoff.to + near) {
+                let near = is_near.then(|| self.near.len() - 1);
+                apart.push(Apart { two, near });
+            }
         }
+        self.pull_apart(&apart, &halfway, masses, outside);
+        now
+    }
+
+    /// Adds the accelerations by pairs apart, given the tiles in the middle of the step, and ties those
+    /// whose forces are too strong for the step.
+    fn pull_apart(
+        &mut self,
+        apart: &[Apart],
+        halfway: &[(Mover, Pose)],
+        masses: &[Vector3<f64>],
+        outside: &mut [Vector3<f64>],
+    ) {
+        let crowd = self.crowd;
         let parts: Vec<&[Apart]> = apart.chunks(APART_TOGETHER).collect();
         let pulls = parallel::flat_map(&parts, |part| {
             let pull_of = |Apart { two, .. }: &Apart| {
@@ -291,7 +304,7 @@ impl<'a> Stepper<'a> {
             let tiles = [two.first, two.second];
             let own = [0, 1].map(|side| pulls[side].component_div(&masses[tiles[side]]));
             if let Some(near) = near.map(|k| &mut self.near[k]) {
-                let each = [0, 1].map(|side| fastest(crowd, &movers[tiles[side]], &own[side]));
+                let each = [0, 1].map(|side| fastest(crowd, &halfway[tiles[side]].0, &own[side]));
                 let longest = longest_step(self.feature, each[0] + each[1]);
                 near.is_tied = longest < TableSettings::USUAL_STEP;
                 if near.is_tied {
@@ -302,7 +315,6 @@ impl<'a> Stepper<'a> {
                 outside[tile] += own;
             }
         }
-        now
     }
 
     /// Advances every island independently; returns the energy lost in contact (J).

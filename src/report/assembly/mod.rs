@@ -84,10 +84,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
         .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("grows if below tau")
         .data("window_kt_J", built.window().map(|ends| json!(ends)))
         .data("errors_at_standstill", built.errors_at_standstill())
-        .fact("errors_a_tile", "errors a tile", assembly.growth.errors_a_tile)
-            .digits(2).noted("as grown, wrong tiles that stay")
-        .fact("grown_right", "grown correctly", json!([assembly.growth.right, assembly.growth.runs]))
-            .viewed(format!("{} of {}", assembly.growth.right, assembly.growth.runs)).in_view()
+        .and(grown_with_errors(&assembly.growth))
         .data("proposed_kt_J", assembly.proposal().map(|it| it.0))
         .data("verdict", verdict(assembly))
         .data("passed_over", json!(set.passed_over))
@@ -134,6 +131,16 @@ fn verdict(assembly: &Assembly) -> &'static str {
         Growth::ErrorsStay => "errors stay",
         Growth::Slow => "too slow",
     }
+}
+
+/// Growth from a seed at one kT, with errors.
+#[rustfmt::skip]
+pub(crate) fn grown_with_errors(growth: &Kinetic) -> Entries {
+    Entries::default()
+        .fact("errors_a_tile", "errors a tile", growth.errors_a_tile)
+            .digits(2).noted("as grown, wrong tiles that stay")
+        .fact("grown_right", "grown correctly", json!([growth.right, growth.runs]))
+            .viewed(format!("{} of {}", growth.right, growth.runs)).in_view()
 }
 
 /// Simulated growth at each kT, with errors.

@@ -54,7 +54,8 @@ impl Crowd {
             .flat_map(|run| &run.samples)
             .filter_map(|sample| Some((sample, sample.movers.as_ref()?)))
             .collect();
-        let most = (MOST_POSES / found.kinds.len().max(1)).max(2);
+        let tiles = found.ensemble.kinds();
+        let most = (MOST_POSES / tiles.len().max(1)).max(2);
         let every = kept.len().div_ceil(most).max(1);
         let last = kept.len().saturating_sub(1);
         let tied = |held: &[Held], tie: Tie| -> Vec<[usize; 2]> {
@@ -90,7 +91,7 @@ impl Crowd {
                     shape: Drawn::new(&kind.tile),
                 })
                 .collect(),
-            tiles: found.kinds.clone(),
+            tiles,
             frames: frames.collect(),
         }
     }

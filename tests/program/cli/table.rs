@@ -1,6 +1,7 @@
 //! `tilebind table`.
 
 use std::path::Path;
+use std::process::Output;
 
 use serde_json::Value;
 
@@ -101,18 +102,12 @@ fn several_designs_share_a_table() {
 }
 
 /// Three runs of four tiles.
-fn three_runs(out: &Path, more: &[&str]) -> Vec<String> {
+fn three_runs(out: &Path, more: &[&str]) -> Output {
     let text = "table --count 2,2 --time 0.3 --runs 3 --shaking 3e-3 --drag 0.5";
-    let out = ["--out", out.to_str().unwrap()];
-    let words = text.split(' ').chain([TILE]).chain(out);
-    words
-        .chain(more.iter().copied())
-        .map(str::to_owned)
-        .collect()
-}
-
-fn with(words: &[String]) -> std::process::Output {
-    tilebind(&words.iter().map(String::as_str).collect::<Vec<_>>())
+    let words = text
+        .split(' ')
+        .chain([TILE, "--out", out.to_str().unwrap()]);
+    tilebind(&words.chain(more.iter().copied()).collect::<Vec<_>>())
 }
 
 #[test]
@@ -120,7 +115,7 @@ fn parts_of_the_runs_are_joined_to_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let done = |name: &str, more: &[&str]| {
-        let output = with(&three_runs(&at(name), more));
+        let output = three_runs(&at(name), more);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     };
     let parts = ["one", "two"].map(|name| at(name).to_str().unwrap().to_owned());
@@ -155,11 +150,11 @@ fn parts_of_the_runs_are_joined_to_the_whole() {
 fn parts_of_other_runs_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let part = with(&three_runs(&at("one"), &["--shard", "1/2"]));
+    let part = three_runs(&at("one"), &["--shard", "1/2"]);
     assert_eq!(part.status.code(), Some(0), "{}", stderr(&part));
     let one = at("one").to_str().unwrap().to_owned();
     let refused = |more: &[&str], why: &str| {
-        let output = with(&three_runs(&at("out"), more));
+        let output = three_runs(&at("out"), more);
         let told = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{told}");
         assert!(told.contains(why), "{why}: {told}");
