@@ -454,7 +454,7 @@ def designs_table():
         out = milli(it["unbinding_J"])
         if it["unbinding_lower_J"]:
             out += f" in [{milli(it['unbinding_lower_J'])}, {milli(it['unbinding_upper_J'])}]"
-        known = it["list"] if it["list"] != "open" else f"but for {float(it['open_share']):.1g}"
+        known = it["list"] if it["list"] != "open" else f"{float(it['open_share']):.1g} of the space open"
         return [f"`{it['design']}`", milli(it["bond_J"]), f"{100 * float(it['captured']):.0f} %", it["trap_kinds"],
                 milli(it["trap_J"]), milli(it["trap_escape_J"]), "caged" if it["caged"] == "True" else out, known]
 

@@ -29,7 +29,7 @@ Exit status: 0 success; 1 the run failed; 2 the command line or a design file is
 written); 75 interrupted.
 
 Files: a command replaces only its own unchanged results, which it records in .tilebind.json. If other
-files are in the way, it stops before it starts; --force replaces them. Input files are never
+files are in the way, it stops at once; --force replaces them. Input files are never
 replaced. Either all files of a result are replaced or none.
 
 Environment: TILEBIND_KERNEL=avx512, avx2 or portable selects the instruction set (default: the fastest

@@ -33,7 +33,7 @@ const NOTES: &str = "\
 The set is a TOML file: words = [\"NNSN\", ...] without their mates; optionally [magnet] and [tile]
 side (default: the paper's), or faces with codes or magnets. `tilebind words --out DIR` writes one.
 
-Two square tiles carry one word each, on one face. All poses are searched: slid, tilted, drawn back.
+Two square tiles carry one word each, on one face. All poses are searched: slid, tilted, separated.
 Rows and columns are the words, then their mates. A pose places the tile with the column's word (on
 its west face) in the frame of the tile with the row's word (on its east face).";
 
@@ -51,8 +51,8 @@ impl Crosstalk {
         let found = self.request.crosstalk(&set)?;
         if !found.settled {
             tell(
-                "note: the cells ran out before all bounds were as narrow as requested; they \
-                 hold, and more --certify-cells makes them narrower",
+                "note: the cell limit was reached before all bounds were as narrow as requested; the \
+                 bounds hold, and a larger --certify-cells makes them narrower",
             );
         }
         self.results

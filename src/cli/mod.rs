@@ -106,7 +106,9 @@ fn correct(answer: &mut clap::Error) {
             _ => return,
         };
         // Poses, which contain commas, have their own message.
-        if let Some(meant) = with_point(value).filter(|meant| !meant.contains(',')) {
+        let option = answer.get(ContextKind::InvalidArg);
+        let is_list = option.is_some_and(|option| option.to_string().contains(','));
+        if let Some(meant) = with_point(value).filter(|meant| !is_list && !meant.contains(',')) {
             let tip = format!("use a decimal point, not a comma: {meant}");
             let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
             answer.insert(ContextKind::Suggested, tips);

@@ -43,8 +43,8 @@ come from divergence-free fluxes (Thomson), for tiles whose contact boundary eve
 centre crosses once: convex tiles, tabs, slots, teeth and arcs, but not dovetails or square teeth.
 The bounds exclude the discretisation error, which is estimated separately: they hold \"on the mesh\".
 
-kT is the effective energy of the shaking. It exists for a drag of at least 50 /s and elastic
-collisions. Tiles that glide far between collisions, or lose energy in them, have no such kT.";
+kT is the effective energy of the shaking. The rates hold for a drag of at least 50 /s and
+elastic collisions. At less drag tiles are not overdamped; with lossy collisions no kT exists.";
 
 const EXAMPLES: &str = "\
 Examples:

@@ -30,7 +30,7 @@ pub struct Words {
 
 const NOTES: &str = "\
 The gap of a set of words is 1 - strongest wrong attraction / weakest bond. Energies are of flush faces
-in contact, at every slide by whole positions, between all pairs of magnets. Every contact is wrong
+in contact, at every slide by whole positions, between all pairs of magnets. Every meeting is wrong
 except that of a word with its own mate at slide 0. Tilted faces are not searched here; use
 `tilebind crosstalk`.
 

@@ -35,8 +35,8 @@ solved for overdamped motion, as in `tilebind rates`. Detachment rates follow by
 the partition functions of the states (`tilebind bond`). This is valid only if collisions lose no energy:
 otherwise the table has no temperature.
 
-If several kT are given, those at which the bond does not hold or jitters less than the contact
-tolerance are omitted, with the reason.";
+If several kT are given, those at which the bond does not hold, or at which bound tiles
+move by less than the contact tolerance, are omitted, with the reason.";
 
 const EXAMPLES: &str = "\
 Examples:

@@ -178,7 +178,7 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
         title: format!("{}: kT from bound and separate intervals", design.name),
         answer: match kt {
             Some(_) => format!(
-                "{}: pairs bind and part as at kT = {} (95 % interval: {} to {})",
+                "{}: bound and separate intervals fit kT = {} (95 % interval: {} to {})",
                 design.name,
                 energy(kt),
                 energy(least),
@@ -216,7 +216,7 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
 fn doubt(name: &str, times: &Times) -> Option<String> {
     match times.statistic() {
         None => Some(format!(
-            "unfinished times {name}: {}; they count with the part observed, and it is not tested \
+            "unfinished times {name}: {}; only their observed part is used, and it is not tested \
              whether these times are exponential",
             times.cut.len()
         )),
@@ -247,7 +247,7 @@ fn distances(design: &Design, found: &DistanceFit) -> Document<'static> {
         title: format!("{}: kT from the distances of pairs", design.name),
         answer: match found.kt {
             Some(_) => format!(
-                "{}: the distances are those at kT = {} (95 % interval: {low} to {high})",
+                "{}: the distances fit kT = {} (95 % interval: {low} to {high})",
                 design.name,
                 energy(found.kt),
             ),

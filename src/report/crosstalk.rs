@@ -144,7 +144,7 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
         Meetings::new(&carrier, &faces, bond, met).titled(
             "Strongest wrong attraction between every two faces, over all poses",
             "Rows and columns are words and their mates. Numbers are attractions relative to the \
-         weakest bond, over slid, tilted and drawn-back poses. Framed: a word and its own mate, \
+         weakest bond, over slid, tilted and separated poses. Framed: a word and its own mate, \
          in their deepest trap. Click a cell to see the tiles.",
         )
     };
@@ -231,7 +231,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
             if worst.kind == Kind::Trap { "," } else { "" },
             told(&worst.pose)
         ),
-        _ => "nothing wrong attracts".to_owned(),
+        _ => "no wrong meeting is attractive".to_owned(),
     };
     format!(
         "{many}: gap {gap:.4} over sampled poses{proof}; weakest bond {} ({}); {wrong}",

@@ -86,9 +86,11 @@ pub fn document(
 
 fn exponential(rate: &OnRate) -> &'static str {
     match (rate.attachments, rate.is_exponential()) {
-        (0, _) => "none detached: the rate is not known to be above 0",
+        (0, _) => "none detached: only an upper bound of the rate is known",
         (_, true) => "times between detachments are compatible with an exponential distribution",
-        (_, false) => "times between detachments refute an exponential distribution",
+        (_, false) => {
+            "times between detachments are not compatible with an exponential distribution"
+        }
     }
 }
 
@@ -105,7 +107,7 @@ fn told_beside(found: &Loosening) -> String {
     format!(
         "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s\n({lower} \
          to {upper}) including the path to free tiles, {in_well} /s in the well;\nthe measured rate \
-         counts until the bond is last left, so it lies between the two; motion is overdamped at a \
+         counts a tile as detached when it last leaves the bond, so it lies between the two; motion is overdamped at a \
          drag of {OVERDAMPED} /s or more"
     )
 }

@@ -46,7 +46,7 @@ pub fn document<'a>(
                 "runs,"
             },
         ),
-        remarks: vec![meaning(found)],
+        remarks: vec![meaning(about, found)],
         entries: entries(about, found, seed).and(compared(beside)),
         part: Some(Part::Crowd(Crowd::new(found))),
         pictures: pictures(found),
@@ -73,7 +73,7 @@ fn files(found: &Found, request: &Request) -> Files {
 /// The verdict for people.
 fn verdict(statistics: &Statistics) -> &'static str {
     match statistics.is_undecided() {
-        true => "thermal within chance",
+        true => "possibly thermal",
         false => statistics.verdict.name(),
     }
 }
@@ -90,7 +90,7 @@ fn told(interval: &Interval) -> String {
     }
 }
 
-fn meaning(found: &Found) -> String {
+fn meaning(about: &About, found: &Found) -> String {
     let kt = found.statistics.kinetic_kt;
     let has = kt.map(|share| {
         format!(
@@ -100,13 +100,17 @@ fn meaning(found: &Found) -> String {
     });
     match (found.statistics.verdict, has) {
         (Verdict::Thermal, Some(has)) if found.statistics.is_undecided() => format!(
-            "(thermal or not: {has}, but so few samples determine it only to {}: simulate for longer)",
+            "(possibly thermal: {has}, with a statistical error of {}; simulate for longer to decide)",
             share(found.statistics.kinetic_error)
         ),
         (Verdict::Thermal, Some(has)) => format!("(thermal: {has})"),
         (Verdict::Frozen, Some(has)) => format!(
             "(frozen: {has}; contact dissipates more than shaking supplies, so the table has no temperature \
-             and the results of `bond`, `rates` and `yield` do not apply)"
+             and the results of {} do not apply)",
+            match about.pattern {
+                Some(_) => "`assemble`",
+                None => "`bond`, `rates` and `yield`",
+            }
         ),
         (Verdict::Driven, Some(has)) => format!("(driven: {has})"),
         (Verdict::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
@@ -161,13 +165,13 @@ fn of_yield(question: &Question, yields: &Yields) -> Entries {
             .fact("trapped", "", best.trapped)
             .fact(
                 "bond_lifetime_s",
-                "bonds last (yield)",
+                "bond lifetime (yield)",
                 bond.map(|bond| 1.0 / bond.off),
             )
             .noted("by detailed balance")
             .fact(
                 "trap_lifetime_s",
-                "traps last (yield)",
+                "trap lifetime (yield)",
                 mean_lifetime(traps),
             )
             .noted("by detailed balance; the mean of all attachments"),
@@ -235,8 +239,8 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     )];
     if let Some(Shard { number, of }) = request.shard {
         notes.push(format!(
-            "part {number} of {of} of {} runs: the same command with --merge and the folders of all parts in \
-             place of --shard gives the whole",
+            "part {number} of {of} of {} runs: to join all parts, run the same command with --merge and their folders \
+             in place of --shard",
             request.runs
         ));
     }
@@ -301,8 +305,8 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("", "verdict", verdict(statistics)).in_view()
         .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
         .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
-        .fact("", "bonds last", lasting(&statistics.lifetimes[0])).in_view().noted(lasting_is(found))
-        .fact("", "traps last", lasting(&statistics.lifetimes[1])).in_view().noted(lasting_is(found))
+        .fact("", "bond lifetime", lasting(&statistics.lifetimes[0])).in_view().noted(lasting_is(found))
+        .fact("", "trap lifetime", lasting(&statistics.lifetimes[1])).in_view().noted(lasting_is(found))
         .data("cut_off", cut_off(found))
         .fact("wall_s", "", found.wall_s)
         .data("threads", found.threads)
@@ -320,7 +324,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
 /// What lifetimes are, for people.
 fn lasting_is(found: &Found) -> String {
     format!(
-        "the time that all of them held over the number that ended, with its 95 % interval; seen every {}, \
+        "total time held / number that ended, with its 95 % interval; contacts are recorded every {}, \
          so shorter ones are missed",
         duration(found.ensemble.settings.sampling, 2)
     )

@@ -95,9 +95,9 @@ fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
                     Some(face) if steps < MOST_STEPS => next = face + 1,
                     _ => {
                         return Err(format!(
-                            "the words do not include {} that bind each other's mates, as glues \
-                             that bind others but not themselves need: leave out --words to \
-                             search for such words",
+                            "glues that bind other glues but not themselves need {} words that bind \
+                             each other's mates, which the given words do not include: leave out \
+                             --words to search for such words",
                             bonds.len()
                         ));
                     }

@@ -231,7 +231,7 @@ pub fn shortest(
         observer.known(&match tried.values().flatten().find(is_found) {
             Some(known) => format!(
                 "words are known on faces of {0} positions, and shorter ones are being tried; \
-                 --length {0} takes them",
+                 --length {0} uses them",
                 known.places
             ),
             None => format!(

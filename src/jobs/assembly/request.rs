@@ -66,8 +66,8 @@ pub struct Request {
 
     /// Effort of the word search in core-seconds for each length of face, counted in steps
     ///
-    /// Without --length all lengths are tried with a twentieth of it first, up to one that carries
-    /// the words, and then shorter ones with all of it.
+    /// Without --length, longer and longer faces are tried with a twentieth of this effort, until
+    /// one carries the words, and then shorter ones with the full effort.
     ///
     /// Steps are counted, not timed, so the same effort gives the same words on any machine.
     #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = request::time)]

@@ -198,6 +198,17 @@ impl Quantity {
         self.kind.units.iter().map(|(name, _)| *name)
     }
 
+    /// What follows the number in a quoted text, unless it is an allowed unit.
+    pub fn unknown_unit<'a>(&self, text: &'a str) -> Option<&'a str> {
+        let text = text.trim();
+        let starts_unit = |c: char| !c.is_ascii_digit() && !"+-.".contains(c);
+        let (number, unit) = text.split_at(text.find(starts_unit)?);
+        let unit = unit.trim();
+        let is_known = self.unit_names().any(|name| name == unit);
+        (number.trim().parse::<f64>().is_ok() && unit.chars().all(char::is_alphabetic) && !is_known)
+            .then_some(unit)
+    }
+
     /// An example of how to write a quoted number correctly.
     pub fn example(&self, text: &str) -> String {
         let with_unit = self.kind.units.iter().find(|(_, factor)| *factor > 1.0);
@@ -221,7 +232,7 @@ impl Quantity {
             None => {
                 let names: Vec<_> = self.unit_names().collect();
                 format!(
-                    "write a number, or one with a unit in quotes, \"5 {name}\"; units here: {}",
+                    "write a number, or a number with one of these units in quotes, such as \"5 {name}\": {}",
                     names.join(", ")
                 )
             }

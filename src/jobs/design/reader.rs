@@ -244,7 +244,13 @@ impl<'a> Entry<'a> {
                 let Some(quantity) = quantity else {
                     return Err(self.wrong_type("a number"));
                 };
-                let wrong = || self.wrong_type_but("a number", quantity.example(text));
+                let wrong = || match quantity.unknown_unit(text) {
+                    Some(unit) => self.error(
+                        format!("`{unit}` is not a unit for `{}`", self.key),
+                        quantity.example(text),
+                    ),
+                    None => self.wrong_type_but("a number", quantity.example(text)),
+                };
                 Some(quantity.read(text).ok_or_else(wrong)?)
             }
             _ => return Err(self.wrong_type("a number")),

@@ -78,7 +78,7 @@ impl ShieldKeys {
         let (_, span) = self.present?;
         Some(section.source.doubt(
             span,
-            "the nearest-face rule does not use the constants of a shield or faces without one",
+            "the nearest-face rule ignores shield constants and `shield = false`",
             "remove them, or write rule = \"smooth\" under [shield]",
         ))
     }

@@ -157,7 +157,7 @@ impl Request {
         }
         if counts.len() != kinds.len() {
             return Err(format!(
-                "--count has {} numbers, but there are {} kinds of tiles: {}",
+                "--count has {} numbers, but needs {}, one for each kind of tile: {}",
                 self.count.len(),
                 kinds.len(),
                 kinds.join(", ")

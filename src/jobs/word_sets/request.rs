@@ -45,7 +45,7 @@ pub struct Request {
     #[arg(long)]
     pub flip: bool,
 
-    /// Spacing is code: words have N positions, most of them empty
+    /// Spacing is part of the code: words have N positions, most of them empty
     #[arg(long, value_name = "N", value_parser = request::count)]
     pub slots: Option<usize>,
 
@@ -67,7 +67,7 @@ pub struct Request {
 
     /// Keep the gap even if one magnet per face is missing or flipped: missing=1 or flipped=1
     ///
-    /// Bonds and wrong meetings are those with the worst such fault on every face.
+    /// Bonds and wrong meetings are evaluated with the worst such fault on every face.
     #[arg(long, value_name = "FAULT", value_parser = fault(), conflicts_with = "contacts",
           hide_possible_values = true)]
     pub tolerate: Option<Fault>,
@@ -215,7 +215,7 @@ impl Request {
 /// A gap.
 pub fn gap(text: &str) -> Result<f64, String> {
     let gap = request::share(text);
-    gap.map_err(|_| "a gap is between 0 (wrong as strong as right) and 1".to_owned())
+    gap.map_err(|_| "a gap is between 0 (a wrong meeting as strong as a bond) and 1".to_owned())
 }
 
 /// A complementary shape.

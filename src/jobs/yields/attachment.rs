@@ -97,10 +97,10 @@ impl Effort {
 /// The source of attachment rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Source {
-    /// Counted in docking runs of tiles with inertia, contact that takes energy, and drag
+    /// Counted in docking runs of tiles with inertia, lossy contact and drag
     #[default]
     Docking,
-    /// Solved for overdamped motion on a mesh; runs count nothing
+    /// Overdamped motion solved on a mesh; ignores --runs, --duration, --friction, --restitution
     Overdamped,
 }
 

@@ -61,54 +61,71 @@ class AirTable(tuple):  # type: ignore[type-arg]
         return tuple, (tuple(self),)
 
 
+def _described(**texts):
+    """Gives the fields of a named tuple their documentation."""
+
+    def describe(cls):
+        for name, text in texts.items():
+            getattr(cls, name).__doc__ = text
+        return cls
+
+    return describe
+
+
+@_described(
+    lower="Every collision-free path reaches at least this energy (J); None if nothing is proved.",
+    upper="A collision-free path is known that never exceeds this energy (J).",
+    path="The best path found, structured: s_m, x_m, y_m, theta_rad, energy_J, clearance_m.",
+    saddle_energy="Highest energy on it (J); infinite if no path is known.",
+    saddle_pose="The pose of that energy, (3,) in m, m and rad.",
+    forward="Saddle energy minus the energy of the start (J).",
+    reverse="Saddle energy minus the energy of the end (J).",
+    caged="Whether it is proved that there is no collision-free path.",
+    uncertified="Why there are no bounds; None if there are.",
+    ended_by='What ended the bounds before they reached the target width: "work" or "clock".',
+)
 class Barrier(NamedTuple):
     """One barrier: the lowest maximum energy over all collision-free paths."""
 
     lower: float | None
-    """Every collision-free path reaches at least this energy (J); None if nothing is proved."""
     upper: float | None
-    """A collision-free path is known that never exceeds this energy (J)."""
     path: np.ndarray
-    """The best path found, structured: s_m, x_m, y_m, theta_rad, energy_J, clearance_m."""
     saddle_energy: float
-    """Highest energy on it (J); infinite if no path is known."""
     saddle_pose: np.ndarray
-    """The pose of that energy, (3,) in m, m and rad."""
     forward: float
-    """Saddle energy minus the energy of the start (J)."""
     reverse: float
-    """Saddle energy minus the energy of the end (J)."""
     caged: bool
-    """Whether it is proved that there is no collision-free path."""
     uncertified: str | None
-    """Why there are no bounds; None if there are."""
     ended_by: str | None
-    """What ended the bounds before they reached the target width: "work" or "clock"."""
 
 
+@_described(
+    x="(columns,) in m.",
+    y="(rows,) in m.",
+    energy="(rows, columns) in J; NaN where the tiles overlap in every orientation.",
+    theta="(rows, columns) in rad: the orientation of that energy.",
+)
 class LandscapeMap(NamedTuple):
     """The lowest energy over all orientations at each position around the fixed tile."""
 
     x: np.ndarray
-    """(columns,) in m."""
     y: np.ndarray
-    """(rows,) in m."""
     energy: np.ndarray
-    """(rows, columns) in J; NaN where the tiles overlap in every orientation."""
     theta: np.ndarray
-    """(rows, columns) in rad: the orientation of that energy."""
 
 
+@_described(
+    value="From 0 to 1.",
+    low="Lower end of the interval.",
+    high="Upper end of the interval.",
+    count="Number of hits.",
+    of="Number of trials.",
+)
 class Share(NamedTuple):
     """A counted fraction with its 95 % interval."""
 
     value: float
-    """From 0 to 1."""
     low: float
-    """Lower end of the interval."""
     high: float
-    """Upper end of the interval."""
     count: int
-    """Number of hits."""
     of: int
-    """Number of trials."""

@@ -137,7 +137,7 @@ fn verdict(assembly: &Assembly) -> &'static str {
 #[rustfmt::skip]
 pub(crate) fn grown_with_errors(growth: &Kinetic) -> Entries {
     Entries::default()
-        .fact("errors_a_tile", "errors a tile", growth.errors_a_tile)
+        .fact("errors_a_tile", "errors per tile", growth.errors_a_tile)
             .digits(2).noted("as grown, wrong tiles that stay")
         .fact("grown_right", "grown correctly", json!([growth.right, growth.runs]))
             .viewed(format!("{} of {}", growth.right, growth.runs)).in_view()
@@ -154,8 +154,8 @@ fn growths(assembly: &Assembly) -> Table {
         .column("runs", "growths", "simulated tile by tile", |it| it.1.runs)
         .column("right", "right", "growths with every tile in its place", |it| it.1.right)
         .column("wrong", "wrong", "growths in which wrong tiles remain", |it| it.1.wrong)
-        .column("errors_a_tile", "errors a tile", "wrong tiles that remain", |it| it.1.errors_a_tile).digits(2)
-        .column("waits", "waits", "time to completion; in one unit a tile of each kind arrives at \
+        .column("errors_a_tile", "errors per tile", "wrong tiles that remain", |it| it.1.errors_a_tile).digits(2)
+        .column("waits", "docking times", "mean time to completion; in one docking time a tile of each kind arrives at \
             every place", |it| it.1.waits).digits(2)
         .table("growths")
         .titled("Growth over kT", "")

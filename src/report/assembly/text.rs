@@ -98,7 +98,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
         format!(
             "not in the engines' model: faces slid by whole positions bind with up to {} ({:.1} \
              kT, Gmc {:.1}); {} of {} pairs of faces hold a tile alone in this way; {:.0} % of \
-             the slid starts that stick stay slid",
+             the tiles that bind from a slid start remain slid",
             si(slid.deepest, "J", 4),
             -slid.deepest / built.shaking.kt,
             built.gmc,
@@ -147,8 +147,8 @@ fn grown_at(kt: f64, growth: &Kinetic) -> String {
         some => format!(", {some} do not finish"),
     };
     format!(
-        "kinetic growth (kTAM) at kT = {}: {right} of {runs} growths are right, {wrong} keep errors \
-         ({} a tile){unfinished}",
+        "kinetic growth (kTAM) at kT = {}: {right} of {runs} growths are right, {wrong} end with \
+         errors ({} per tile){unfinished}",
         si(kt, "J", 3),
         plain(growth.errors_a_tile, 2)
     )
@@ -162,7 +162,7 @@ fn proposal(assembly: &Assembly) -> String {
             let others = assembly.others.iter();
             let kts: Vec<String> = others.map(|it| si(it.0, "J", 2)).collect();
             format!(
-                "no kT tried grows correctly in most runs ({}): widen the gap (--length) or lower \
+                "most runs do not grow correctly at any kT tried ({}): widen the gap (--length) or lower \
                  the coverage to reduce errors",
                 kts.join(", ")
             )

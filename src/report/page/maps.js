@@ -244,7 +244,7 @@ class InFrontView extends MapView {
     const text = `slide ${si(slide, "m", 3)}, tilt ${degrees(tilt)}`;
     const landing = this.landing(tilt, slide);
     const position = positionAt(this.volume, this.plane, ...this.fractions(values));
-    if (landing === null || position !== position) return { text: `${text}: the tile passes by` };
+    if (landing === null || position !== position) return { text: `${text}: the tile misses the target face` };
     const pose = poseInFront(tilt, slide, landing + this.level);
     return { pose, text: `${text}: ${energyText(energyOf(position), 3)} (between grid points)` };
   }

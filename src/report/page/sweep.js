@@ -177,7 +177,7 @@ function addChosen(section, against, panels, watch, drawAll) {
   choices.append(across, upwards, against);
   const key = make("div");
   const grid = make("div", "", "panels");
-  section.append(make("h2", "One figure against another"), choices, key, grid);
+  section.append(make("h2", "Plot of any two quantities"), choices, key, grid);
   const build = () => {
     const old = panels.findIndex((panel) => panel.isChosen);
     if (old >= 0) panels.splice(old, 1);

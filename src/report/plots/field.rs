@@ -91,7 +91,7 @@ pub fn draw(design: &Design, sheet: &Sheet) -> Result<Figure, PictureError> {
         is_crossed: false,
     });
     let said =
-        "arrows: where the field points; stronger and weaker fields have the colours of the ends";
+        "arrows: direction of the field; fields beyond the scale have the colours of its ends";
     let composition = Composition {
         name: "field".to_owned(),
         title: format!("{}: magnetic field of the fixed tile", design.name),

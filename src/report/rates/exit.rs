@@ -161,7 +161,7 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
     let [time, bound] = exit.found.spread().map(|spread| 100.0 * spread);
     let mut notes = vec![format!(
         "the two finest meshes ({} unknowns) differ by {time:.1} % in the time and by {bound:.2} \
-         points in the probabilities; making the basin of whole cells changes its capacity by an \
+         percentage points in the probabilities; building the basin from whole cells changes its capacity by an \
          estimated {:.1} %; estimated error of flows {:.1} %",
         finest.unknowns,
         100.0 * finest.of_rims,

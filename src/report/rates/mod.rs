@@ -10,7 +10,7 @@ use physics::units::plain;
 
 /// The scope in which kT is meaningful.
 const SCOPE: &str = "valid for overdamped motion (drag of at least 50 /s) and elastic collisions; \
-    at less drag, or with lossy collisions, no kT exists";
+    at less drag these rates do not apply, and with lossy collisions no kT exists";
 /// The note on bounds.
 const ON_THE_MESH: &str = "the bounds hold on the mesh (Dirichlet, Thomson) and exclude its \
     discretisation error";

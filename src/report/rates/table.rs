@@ -167,12 +167,12 @@ fn places(found: &StateRates) -> Table {
         .column("basin_J", "", "", of(|it| it.below)).in_csv()
         .column("set", "its set", "configurations that make up the state", |k| told_set(found, *k)).in_view()
         .column("free_at_m", "", "", |k| (*k == found.states.len()).then_some(found.asked.free_at)).in_data()
-        .column("inside", "set alone", "fraction of all time spent in the set itself", inside)
+        .column("inside", "fraction in its set", "fraction of all time spent in the set itself", inside)
             .viewed(move |k| told(inside(k)))
         .column("pose", "", "", |k| found.states.get(*k).map(|it| it.at)).in_json()
         .column("way_out", "", "", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
         .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
-        .column("leaving_per_s", "is left", "rate to any other state", |k| found.known_rate_out(*k))
+        .column("leaving_per_s", "escape rate", "rate to any other state", |k| found.known_rate_out(*k))
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
         .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
         .column("bounds", "bounds", "bounds of that rate", |k| told_bounds(found, *k)).in_view()
@@ -194,7 +194,7 @@ fn pairs(found: &StateRates) -> Table {
             .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
         .column("upper_per_s", "upper bound", "of the rate", upper).viewed(move |row| told_end(upper(row), true))
         .column("spread", "", "difference between the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
-        .column("first", "comes first", "probability that it is the next state", |(i, j)| found.first(*i, *j)).share()
+        .column("first", "probability as next", "that it is the next state", |(i, j)| found.first(*i, *j)).share()
         .column("mean_first_passage_s", "mean first passage", "mean time from one to the other, \
             by any path", passage)
             .viewed(move |row| passage(row).map_or("-".to_owned(), |time| duration(time, digits_of(found, row.0, row.1))))
@@ -335,7 +335,7 @@ fn of_meshes(found: &StateRates) -> String {
             plain(100.0 * worst, 2),
             100.0 * error,
         ),
-        _ => format!("nothing flows on the mesh ({unknowns} unknowns){unsettled}"),
+        _ => format!("no flux on the mesh ({unknowns} unknowns){unsettled}"),
     }
 }
 

@@ -51,8 +51,8 @@ fn of_sought(sought: &Sought) -> Document<'_> {
         let gap = point.judgement.as_ref()?.gap;
         (point.found.words.len() > words.len()).then(|| {
             format!(
-                "At this gap contact counts tie, and neighbouring magnets decide: {many} with the \
-                 gap {gap:.4}."
+                "By contact counts alone this gap is a tie, which the attraction between neighbouring \
+                 magnets decides: {many} with the gap {gap:.4}."
             )
         })
     });

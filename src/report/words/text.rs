@@ -12,7 +12,7 @@ pub(super) fn headline(sought: &Sought) -> String {
     let many = match sought.question {
         Question::Gap(_) => how_many(answer.words.len(), answer.upper),
         Question::Count(count) if answer.words.is_empty() => match answer.proved {
-            true => format!("no {count} words have a gap, proved"),
+            true => format!("proved: no set of {count} words has a positive gap"),
             false => format!("no {count} words found, nothing proved"),
         },
         Question::Count(count) => {
@@ -44,8 +44,8 @@ pub(super) fn headline(sought: &Sought) -> String {
                 told(&worst, sought)
             )
         }
-        Some(_) => "nothing wrong attracts".to_owned(),
-        None => "nothing wrong meets".to_owned(),
+        Some(_) => "no wrong meeting is attractive".to_owned(),
+        None => "no wrong meeting is possible".to_owned(),
     };
     format!(
         "{many}; gap {:.4}; weakest bond {bond}; {wrong}",

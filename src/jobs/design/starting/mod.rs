@@ -151,7 +151,7 @@ impl Start {
         }
         if !(1..=MOST_MAGNETS).contains(&magnets) {
             return Err(wrong(
-                format!("{magnets} magnets on a face are none or too many to choose a code for"),
+                format!("cannot choose a code for {magnets} magnets on a face"),
                 format!(
                     "give 1 to {MOST_MAGNETS}: --magnets 4; for more, start with fewer and edit \
                      the code"

@@ -55,7 +55,7 @@ impl Analysis {
         table::grid(py, self.found.bound.0.to_array().to_vec(), vec![3])
     }
 
-    /// float : The energy there (J).
+    /// float : The energy at `bound` (J).
     #[getter]
     fn bound_energy(&self) -> f64 {
         self.found.bound.1
