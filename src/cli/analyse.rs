@@ -61,6 +61,10 @@ pub struct Analyse {
     #[arg(long)]
     compact: bool,
 
+    /// Omit all pictures, the page and the pathways of symmetric copies, to save time
+    #[arg(long, conflicts_with = "compact")]
+    no_pictures: bool,
+
     #[command(flatten)]
     figures: FigureOptions,
 
@@ -73,9 +77,10 @@ impl Analyse {
         let start = Instant::now();
         let design = self.design.load()?;
         let sheet = self.figures.sheet()?;
-        let extent = match self.compact {
-            true => Extent::Compact,
-            false => Extent::Full,
+        let extent = match (self.compact, self.no_pictures) {
+            (_, true) => Extent::Numbers,
+            (true, _) => Extent::Compact,
+            _ => Extent::Full,
         };
         let inputs = self.design.inputs(&design);
         let output = Output::folder(&ANALYSE, &self.out).reading(inputs);
@@ -97,10 +102,12 @@ impl Analyse {
         progress.finish();
         self.print.results(&document.report(), || {
             let told = document.text(style::columns());
-            format!(
-                "{told}results in {}: open report.html; also report.json, tables, pathways/, pictures/\n",
-                self.out.display()
-            )
+            let files = match extent {
+                Extent::Full => "open report.html; also report.json, tables, pathways/, pictures/",
+                Extent::Compact => "report.json, tables, pathways/, pictures/",
+                Extent::Numbers => "report.json, tables, pathways/",
+            };
+            format!("{told}results in {}: {files}\n", self.out.display())
         })?;
         drawn?;
         fail_if_contradicted(analysis.contradicted().map(BarrierCheck::describe))

@@ -30,6 +30,8 @@ pub enum Extent {
     /// Without the pathways of copies, the page and the files for TopSearch; pictures only as SVG
     /// (and PDF), without their numbers. For results in a repository.
     Compact,
+    /// As [`Extent::Compact`], and without pictures, which can take longer than the analysis.
+    Numbers,
 }
 
 impl Extent {
@@ -40,7 +42,8 @@ impl Extent {
         match (self, folder) {
             (Self::Full, _) => true,
             (Self::Compact, Some(PICTURES)) => is_vector,
-            (Self::Compact, folder) => name != PAGE && folder != Some(topsearch::FOLDER),
+            (Self::Numbers, Some(PICTURES)) => false,
+            (_, folder) => name != PAGE && folder != Some(topsearch::FOLDER),
         }
     }
 }
@@ -71,13 +74,10 @@ pub fn document<'a>(
         remarks: summary::remarks(design, analysis),
         entries: report(design, analysis, is_whole, wall).and(shown),
         part: is_whole.then(|| Part::Landscape(Box::new(Landscape::new(design, scene, played)))),
-        pictures: vec![
-            Drawing::several("", |sheet| plots::draw_all(scene, sheet)).off_page(),
-            Drawing::new("Roadmap", |sheet| {
-                plots::roadmap::draw(scene, &analysis.roadmap, sheet)
-            })
-            .off_page(),
-        ],
+        pictures: match extent {
+            Extent::Numbers => Vec::new(),
+            _ => pictures(analysis, scene),
+        },
         notes: summary::notes(design, analysis),
         beside: beside(analysis, scene, is_whole),
         origin: format!(
@@ -86,6 +86,16 @@ pub fn document<'a>(
         ),
         ..Document::default()
     }
+}
+
+fn pictures<'a>(analysis: &'a Analysis, scene: &'a Scene<'a>) -> Vec<Drawing<'a>> {
+    let pictures = [
+        Drawing::several("", |sheet| plots::draw_all(scene, sheet)),
+        Drawing::new("Roadmap", |sheet| {
+            plots::roadmap::draw(scene, &analysis.roadmap, sheet)
+        }),
+    ];
+    pictures.into_iter().map(Drawing::off_page).collect()
 }
 
 /// All files of an analysis, with its duration (s), made by `command`; see [`Document::files`].
@@ -97,7 +107,7 @@ pub fn files(
 ) -> (Files, Result<(), PictureError>) {
     let sheet = match extent {
         Extent::Full => *sheet,
-        Extent::Compact => sheet.without_bitmaps(),
+        Extent::Compact | Extent::Numbers => sheet.without_bitmaps(),
     };
     let (mut files, drawn) = document.files(&sheet, command);
     files.retain(|name, _| extent.may_hold(name));

@@ -44,7 +44,7 @@ fn analysed((design, model): (&str, &str), out: &Path, prepare: impl Fn(&mut Com
         "150",
         "--complete-cells",
         "150",
-        "--compact",
+        "--no-pictures",
         "--quiet",
     ]);
     prepare(&mut analyse);

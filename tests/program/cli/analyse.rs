@@ -87,7 +87,12 @@ fn as_many_energies_of_many_magnets_on_any_number_of_threads() {
     let on = |threads: &str| {
         let out = folder.path().join(threads);
         let few = "--milestones 60 --far-starts 2 --kinds 1 --certify-work 0 --complete-work 0";
-        let mut arguments = vec!["analyse", design.to_str().unwrap(), "--compact", "--quiet"];
+        let mut arguments = vec![
+            "analyse",
+            design.to_str().unwrap(),
+            "--no-pictures",
+            "--quiet",
+        ];
         arguments.extend(["--out", out.to_str().unwrap(), "--threads", threads]);
         arguments.extend(few.split(' '));
         let output = tilebind(&arguments);
@@ -136,7 +141,8 @@ fn the_same_bytes_on_a_busy_machine_and_on_an_idle_one() {
     ] {
         let run = |on: &str| {
             let out = folder.path().join(name).join(on);
-            let output = analyse(&out, &[&proofs[..], &["--threads", on]].concat());
+            let more = ["--threads", on, "--no-pictures"];
+            let output = analyse(&out, &[&proofs[..], &more].concat());
             let text = stdout(&output).replace(out.to_str().unwrap(), "out");
             (report(&out), untimed(&out), text)
         };
@@ -348,6 +354,12 @@ fn compact_results_leave_out_copies_and_pixels_and_json_goes_to_standard_output(
     // the picture of the roadmap.
     assert!(files.values().map(Vec::len).sum::<usize>() < 1_300_000);
     assert_eq!(stdout(&output).as_bytes(), files["report.json"]);
+    // Without pictures the rest is the same.
+    let bare = tempfile::tempdir().unwrap();
+    analyse(bare.path(), &["--no-pictures"]);
+    let mut rest = untimed(folder.path());
+    rest.retain(|name, _| !name.starts_with("pictures/"));
+    assert_same(&untimed(bare.path()), &rest, "no pictures");
     let report = report(folder.path());
     for state in report["states"].as_array().unwrap() {
         let pathway = &state["escape"]["pathway"];
