@@ -6,6 +6,7 @@ use clap::Args;
 use tilebind::assembly::lattice;
 use tilebind::design::MagnetModel;
 use tilebind::report::files::TABLE;
+use tilebind::report::hoomd;
 use tilebind::report::table::document;
 use tilebind::request;
 use tilebind::table::{self, About, PART, Request, compared};
@@ -27,7 +28,7 @@ energy to separate. Every run keeps an energy balance; if more than 1 % is missi
 with half the step.
 
 Several designs share one table, the first design's. Their kinds are `NAME fixed` and `NAME moving`;
-any contact between tiles of two designs that holds is a trap.
+any contact that holds between tiles of different designs is a trap.
 
 Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
@@ -37,6 +38,8 @@ Examples:
   tilebind table shapes/tab-10mm.toml shapes/arc-20mm.toml --count 3,3 --time 60 --shaking 3e-3 --drag 0.5
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --shard 1/4 --out target/part-1
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --merge target/part-* --out target/all
+  tilebind table shapes/paper-tile.toml --count 50,50 --time 0.1 --shaking 3e-3 --drag 0.5 --hoomd \\
+    --out target/hoomd
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
     /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`:
@@ -63,6 +66,11 @@ pub struct TableCommand {
     /// Join all parts of the same command, by their folders, instead of simulating
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
     merge: Vec<PathBuf>,
+
+    /// Also write hoomd_table.py, to continue in HOOMD-blue with more tiles than one machine can
+    /// simulate
+    #[arg(long, requires = "out")]
+    hoomd: bool,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -116,7 +124,10 @@ impl TableCommand {
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);
         let found = found.map_err(Failure::of)?;
         let beside = compared((&about, &designs), &self.request, &found, &progress);
-        let document = document(&about, &found, &self.request, beside.as_ref());
+        let mut document = document(&about, &found, &self.request, beside.as_ref());
+        if self.hoomd {
+            document.beside.extend(hoomd::files(&about, &found));
+        }
         self.results.deliver(&document, output, &progress)
     }
 }

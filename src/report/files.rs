@@ -118,6 +118,8 @@ pub const TABLE: Command = Command {
         "trajectory.csv",
         "trajectory.gsd",
         "part.json",
+        "hoomd_table.py",
+        "hoomd_table.json",
     ],
     pictures: &["held", "largest", "energy"],
 };

@@ -8,7 +8,8 @@
 //! - [`comparison`], [`sweep`] - comparisons and variations of designs;
 //! - [`docking`], [`release`] - docking experiments, and bound tiles that are shaken loose;
 //! - [`bond`], [`rates`], [`yields`] - strength, rates and yield of bonds of shaken tiles;
-//! - [`table`], [`gsd`] - many tiles on one table, and their trajectory for OVITO;
+//! - [`table`], [`gsd`], [`hoomd`] - many tiles on one table, their trajectory for OVITO, and a script
+//!   that continues it in HOOMD-blue;
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
 //! - [`barrier`], [`energies`] - one barrier between two poses, energies and forces at given poses;
 //! - [`matching`] - how two outlines fit; [`calibration`] - fits to measurements;
@@ -36,6 +37,7 @@ pub mod energies;
 pub mod figures;
 pub mod files;
 pub mod gsd;
+pub mod hoomd;
 pub mod inspection;
 pub mod json;
 mod markdown;

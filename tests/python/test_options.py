@@ -10,7 +10,7 @@ import tilebind
 
 # Where results go and how they look: Python returns them.
 SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json", "text", "quiet", "threads",
-         "help", "version", "compact", "pathway"}
+         "help", "version", "compact", "no_pictures", "pathway"}
 # The design is an object, its model a keyword of energies; tile sets, words and tables are read from
 # their places; a bar is Python's own.
 OBJECTS = {"self", "design", "designs", "tiles", "progress", "model", "name", "table"}
@@ -40,7 +40,7 @@ ELSEWHERE = {
     "bond": {"seed"},
     "calibrate": {"bonds"},
     "dock": {"from_bond", "trajectory"},
-    "table": {"lattice", "merge"},
+    "table": {"lattice", "merge", "hoomd"},
     "sweep": {"run", "merge", "status", "shard", "plan"},
 }
 # A set of words is a file of the program's.

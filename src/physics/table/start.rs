@@ -1,9 +1,10 @@
 //! The positions and velocities of the tiles when a run begins.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use rand::RngExt;
+use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
@@ -13,6 +14,7 @@ use super::neighbours::Neighbours;
 use super::pair::Pose;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::dynamics::{Motion, thermal_velocity};
+use crate::tile::outline::Bounds;
 
 /// Smallest distance of randomly placed tiles from each other and from the rim, as a share of the
 /// smallest circumradius.
@@ -20,9 +22,10 @@ const ROOM: f64 = 1.0 / 150.0;
 /// Positions tried for a tile before the others are moved.
 const TRIES: usize = 2_000;
 /// How often the others are moved; and how many steps each makes every time, of up to this share of
-/// its circumradius and of a radian.
-const SHUFFLES: usize = 500;
+/// its circumradius and of a radian. Starts in rows are moved for longer.
+const SHUFFLES: usize = 50;
 const WANDERED: usize = 5;
+const WANDERED_FROM_ROWS: usize = 300;
 const STRIDE: f64 = 0.3;
 
 /// Largest number of squares along a side of the table for looking up tiles.
@@ -48,8 +51,8 @@ pub enum StartError {
     },
     /// No place was found.
     #[error(
-        "no free place was found for tile {tile} of {tiles}: tiles at random places block each other before \
-         the table is full; these cover {share:.2} of it"
+        "no free place was found for tile {tile} of {tiles}, which cover {share:.2} of the table: they fit \
+         neither one by one at random places nor in rows"
     )]
     NoRoom {
         /// Its number, from 0.
@@ -96,7 +99,8 @@ fn clearance(crowd: &Crowd, [a, b]: [(usize, Configuration); 2], enough: f64) ->
 }
 
 /// Places a number of tiles of each kind at random: positions and orientations are uniformly
-/// distributed over those that do not overlap the earlier tiles. They are at rest, or have
+/// distributed over those that do not overlap the earlier tiles. If tiles block each other before all
+/// are placed, they start from rows instead and are moved at random. They are at rest, or have
 /// velocities of the temperature kT (J) if it is given.
 ///
 /// # Errors
@@ -119,25 +123,14 @@ pub fn at_random(
     // One of each kind in turn, so that no kind is preferred.
     let most = counts.iter().copied().max().unwrap_or(0);
     let turns = (0..most).flat_map(|turn| (0..counts.len()).map(move |kind| (turn, kind)));
-    let mut placed = Placed::new(crowd);
-    for (_, kind) in turns.filter(|(turn, kind)| *turn < counts[*kind]) {
-        let mut rounds = 0..SHUFFLES;
-        let q = loop {
-            if let Some(q) = free_place(&placed, kind, rng) {
-                break q;
-            }
-            // The tiles already placed block each other's gaps: random moves make room.
-            if rounds.next().is_none() {
-                return Err(StartError::NoRoom {
-                    tile: placed.tiles.len(),
-                    tiles,
-                    share: area / table,
-                });
-            }
-            shuffle(&mut placed, rng);
-        };
-        placed.add((kind, q));
-    }
+    let kinds: Vec<usize> = turns
+        .filter(|(turn, kind)| *turn < counts[*kind])
+        .map(|(_, kind)| kind)
+        .collect();
+    let placed = one_by_one(crowd, &kinds, rng).or_else(|tile| {
+        let share = area / table;
+        in_rows(crowd, &kinds, rng).ok_or(StartError::NoRoom { tile, tiles, share })
+    })?;
     let mut placed = placed.tiles;
     placed.sort_by_key(|(kind, _)| *kind);
     let mover = |(kind, configuration): (usize, Configuration)| {
@@ -152,6 +145,69 @@ pub fn at_random(
         Mover::new(crowd, kind, &motion)
     };
     Ok(placed.into_iter().map(mover).collect())
+}
+
+/// Places tiles of these kinds one by one at random, or returns the index of the first for which no
+/// place is found.
+fn one_by_one<'a>(
+    crowd: &'a Crowd,
+    kinds: &[usize],
+    rng: &mut ChaCha8Rng,
+) -> Result<Placed<'a>, usize> {
+    let mut placed = Placed::new(crowd);
+    for (tile, &kind) in kinds.iter().enumerate() {
+        let mut rounds = 0..SHUFFLES;
+        let q = loop {
+            if let Some(q) = free_place(&placed, kind, rng) {
+                break q;
+            }
+            // The tiles already placed block each other's gaps: random moves make room.
+            rounds.next().ok_or(tile)?;
+            shuffle(&mut placed, WANDERED, rng);
+        };
+        placed.add((kind, q));
+    }
+    Ok(placed)
+}
+
+/// Places tiles of these kinds at random places of a grid and moves them at random for long; `None` if
+/// the grid has too few places.
+fn in_rows<'a>(crowd: &'a Crowd, kinds: &[usize], rng: &mut ChaCha8Rng) -> Option<Placed<'a>> {
+    let mut placed = Placed::new(crowd);
+    let boxes: Vec<Bounds> = crowd
+        .kinds
+        .iter()
+        .map(|kind| kind.tile.outline.hull().bounds())
+        .collect();
+    let count_along = |axis: usize| {
+        let widths = boxes.iter().map(|it| it.high[axis] - it.low[axis]);
+        let cell = widths.fold(0.0, f64::max) + 1.01 * placed.room;
+        let side = 2.0 * crowd.half_size[axis] - placed.room;
+        (side / cell).floor() as usize
+    };
+    let counts = [0, 1].map(count_along);
+    let mut cells: Vec<usize> = (0..counts[0].saturating_mul(counts[1])).collect();
+    if cells.len() < kinds.len() {
+        return None;
+    }
+    cells.shuffle(rng);
+    for (&kind, cell) in kinds.iter().zip(cells) {
+        let at = [cell % counts[0], cell / counts[0]];
+        let theta = if rng.random() { 0.0 } else { PI };
+        let [x, y] = [0, 1].map(|axis| {
+            let half = crowd.half_size[axis] - 0.5 * placed.room;
+            let share = (at[axis] as f64 + 0.5) / counts[axis] as f64;
+            let middle = 0.5 * (boxes[kind].low[axis] + boxes[kind].high[axis]);
+            half * (2.0 * share - 1.0) - middle * libm::cos(theta)
+        });
+        let q = Configuration::new(x, y, theta);
+        if !placed.is_free((kind, q), None) {
+            return None;
+        }
+        placed.add((kind, q));
+    }
+    shuffle(&mut placed, WANDERED_FROM_ROWS, rng);
+    Some(placed)
 }
 
 /// The placed tiles, with a grid of squares to look them up.
@@ -241,10 +297,10 @@ fn free_place(placed: &Placed, kind: usize, rng: &mut ChaCha8Rng) -> Option<Conf
     })
 }
 
-/// Moves each tile in turn by a small random step if it stays free. The distribution of
+/// Moves each tile in turn by small random steps, each if it stays free. The distribution of
 /// non-overlapping positions stays uniform.
-fn shuffle(placed: &mut Placed, rng: &mut ChaCha8Rng) {
-    for _ in 0..WANDERED {
+fn shuffle(placed: &mut Placed, steps: usize, rng: &mut ChaCha8Rng) {
+    for _ in 0..steps {
         for tile in 0..placed.tiles.len() {
             crate::interruption::check();
             let (kind, q) = placed.tiles[tile];

@@ -290,41 +290,48 @@ fn is_on_table(problem: &Problem, tile: &Tile, q: &Configuration) -> bool {
     })
 }
 
-/// The share of time in which two tiles are bound on a small table, by the method of Metropolis.
-fn share_by_metropolis(problem: &Problem, kt: f64) -> f64 {
+/// The share of time in which two tiles are bound on a small table, from integrals of exp(-U / kT) by plain
+/// Monte Carlo: one over all places, one over those where the target magnets are close.
+fn share_by_integrals(problem: &Problem, kt: f64) -> f64 {
     let pair = problem.pair.as_ref().unwrap();
     let rule = MatchRule::new(problem, None).unwrap();
     let tiles = [&pair.fixed, &pair.moving];
+    let [magnet, partner] = tiles.map(|tile| tile.magnets[0].position);
     let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
-    let relative = |[a, b]: [Configuration; 2]| {
-        let p = a.inverse_transform(b.position());
-        Configuration::new(p.x, p.y, b.theta - a.theta)
-    };
+    let half = problem.space.half_size;
     let mut rng = stream(11);
-    let mut places = [
-        Configuration::new(-0.03, 0.0, 0.0),
-        Configuration::new(0.03, 0.0, 0.0),
-    ];
-    let mut energy = problem.potential().energy(&relative(places));
-    let (mut bound, moves) = (0, 3_000_000);
-    for k in 0..moves {
-        // Small and large moves by turns.
-        let size = [5e-4, 2e-3, 0.01, 0.1][k % 4];
-        let tile = (k / 4) % 2;
-        let mut even = |size: f64| size * (2.0 * rng.random::<f64>() - 1.0);
-        let (x, y, turn) = (even(size), even(size), even(30.0 * size));
-        let mut tried = places;
-        tried[tile] = places[tile].moved(Vector3::new(x, y, turn));
-        let q = relative(tried);
-        if is_on_table(problem, tiles[tile], &tried[tile]) && contact.is_free(&q) {
-            let there = problem.potential().energy(&q);
-            if rng.random::<f64>() < libm::exp((energy - there) / kt) {
-                (places, energy) = (tried, there);
+    let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
+    let [mut bound, mut apart] = [0.0; 2];
+    let samples = 3_000_000;
+    for _ in 0..samples {
+        let mut place = || Configuration::from([even(half[0]), even(half[1]), even(TAU / 2.0)]);
+        let [a, b] = [place(), place()];
+        let p = a.inverse_transform(b.position());
+        let anywhere = Configuration::new(p.x, p.y, b.theta - a.theta);
+        let shift = Vector2::new(even(rule.threshold), even(rule.threshold));
+        let theta = even(TAU / 2.0);
+        let turn = Configuration::new(0.0, 0.0, theta);
+        let p = magnet + shift - turn.transform(partner);
+        let close = Configuration::new(p.x, p.y, theta);
+        let weight = |q: &Configuration| {
+            let p = a.transform(q.position());
+            let there = Configuration::new(p.x, p.y, a.theta + q.theta);
+            let is_possible = is_on_table(problem, tiles[0], &a)
+                && is_on_table(problem, tiles[1], &there)
+                && contact.is_free(q);
+            match is_possible {
+                true => libm::exp(-problem.potential().energy(q) / kt),
+                false => 0.0,
             }
+        };
+        if rule.holds(&close) {
+            bound += weight(&close) * (2.0 * rule.threshold).powi(2);
         }
-        bound += usize::from(rule.holds(&relative(places)));
+        if !rule.holds(&anywhere) {
+            apart += weight(&anywhere) * 4.0 * half[0] * half[1];
+        }
     }
-    bound as f64 / moves as f64
+    bound / (bound + apart)
 }
 
 /// The share of time in which two tiles of a table are bound, with its standard error.
@@ -374,7 +381,7 @@ fn crowding(problem: &Problem, crowd: &Crowd, kt: f64) -> f64 {
     bound / apart
 }
 
-/// On a small table, two tiles that bind by one face: as the method of Metropolis finds, and as ln K of
+/// On a small table, two tiles that bind by one face: as integrals over their places say, and as ln K of
 /// one partner says.
 #[test]
 fn two_tiles_are_bound_as_often_as_boltzmann_and_ln_k_say() {
@@ -389,7 +396,7 @@ fn two_tiles_are_bound_as_often_as_boltzmann_and_ln_k_say() {
     let ln_k = 14.0 + libm::log(volume.value / TAU / crowd.area());
     let odds = libm::exp(ln_k) * crowding(&problem, &crowd, kt);
     let [mean, error] = share_bound(&crowd, kt);
-    let expected = [share_by_metropolis(&problem, kt), odds / (1.0 + odds)];
+    let expected = [share_by_integrals(&problem, kt), odds / (1.0 + odds)];
     println!("{mean} +- {error}, {expected:?}");
     assert!(error < 0.03, "{error}");
     for expected in expected {

@@ -260,7 +260,7 @@ fn too_few_samples_are_no_proof_of_a_temperature() {
     ];
     let output = tilebind(&[&short[..], &["0.5"]].concat());
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(said.contains("(thermal within chance; "), "{said}");
+    assert!(said.contains("(possibly thermal; "), "{said}");
     assert!(said.contains("simulate for longer"), "{said}");
     let found = json(&[&short[..], &["0.5", "--json"]].concat());
     assert_eq!(found["verdict"], "thermal");
@@ -304,7 +304,7 @@ fn wrong_tables_are_refused_with_their_fix() {
         (&[TILE, blocks], "give --model"),
         (
             &[TILE, "--count", "1,1,1"],
-            "2 kinds of tiles: fixed, moving",
+            "needs 2, one for each kind of tile: fixed, moving",
         ),
         (&[TILE, "--count", "40,40"], "do not fit"),
     ] {
@@ -330,5 +330,27 @@ fn wrong_tables_are_refused_with_their_fix() {
         );
         assert!(stderr(&output).contains(fix), "{}", stderr(&output));
         assert!(!out.exists(), "{wrong:?}: nothing is written");
+    }
+}
+
+#[test]
+fn a_table_is_handed_to_hoomd() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let output = three_runs(&out, &["--hoomd"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let script = std::fs::read_to_string(out.join("hoomd_table.py")).unwrap();
+    assert!(script.contains("trajectory.gsd"));
+    let told: Value =
+        serde_json::from_slice(&std::fs::read(out.join("hoomd_table.json")).unwrap()).unwrap();
+    assert_eq!(told["shaking_J"], 3e-3);
+    let kinds = told["kinds"].as_array().unwrap();
+    assert_eq!(kinds.len(), 2);
+    for kind in kinds {
+        assert_eq!(kind["outline"].as_array().unwrap().len(), 4);
+        let magnets = kind["magnets"].as_array().unwrap();
+        assert_eq!(magnets.len(), 16);
+        let moment = |it: &Value| it["moment"].as_f64().unwrap();
+        assert!(magnets.iter().all(|it| moment(it) > 0.0 && it["up"] == 0));
     }
 }
