@@ -213,10 +213,9 @@ def main():
     print(f"magnetic energy at the start: {all_forces[0].energy:.6g} J; steps of {step:.3g} s", flush=True)
     for _ in range(max(1, round(asked.seconds / step / every))):
         simulation.run(every)
-        kinetic = thermo.translational_kinetic_energy + thermo.rotational_kinetic_energy
-        degrees = thermo.translational_degrees_of_freedom + thermo.rotational_degrees_of_freedom
+        kinetic = thermo.translational_kinetic_energy / thermo.translational_degrees_of_freedom
         print(f"{simulation.timestep * step:9.3f} s: magnetic {all_forces[0].energy:.6g} J, "
-              f"kinetic {kinetic / degrees:.3g} J a degree of freedom", flush=True)
+              f"kinetic {kinetic:.3g} J per degree of freedom along x and y", flush=True)
 
 
 if __name__ == "__main__":

@@ -110,13 +110,14 @@ fn simulated(
 ) -> Result<Vec<Run>, TableError> {
     progress.stage("runs", 0.0);
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let runs = parallel::map(made, |&index| {
+    let one = |&index: &usize| {
         let frames = index == made[0] || ensemble.frames;
         let (settings, seed, start) = (&ensemble.settings, ensemble.seed, &ensemble.start);
         let found = run(crowd, settings, (seed, index), start, frames);
         let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         progress.part("runs", done, made.len());
         found.map_err(|error| TableError::Run { index, error })
-    });
+    };
+    let runs = parallel::inside(|| parallel::map(made, one));
     runs.into_iter().collect()
 }

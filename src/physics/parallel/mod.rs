@@ -117,6 +117,11 @@ fn collected<T: Send>(count: usize, put: &(dyn Fn(usize, &mut Vec<T>) + Sync)) -
     all
 }
 
+/// Does something on one of the threads, so that short parallel parts of it need not wake one each time.
+pub fn inside<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
+}
+
 /// The number of threads.
 pub fn threads() -> usize {
     rayon::current_num_threads()
