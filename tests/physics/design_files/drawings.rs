@@ -557,7 +557,7 @@ fn a_drawing_without_a_size_is_told_what_units_make_of_it() {
     }
     let wrong = |keys: &str| outlined(&drawing, keys).unwrap_err().to_string();
     assert!(wrong(", unit = \"mmm\"").contains("`unit` cannot be \"mmm\""));
-    assert!(wrong(", unit = \"3 kg\"").contains("units here: m, cm, mm"));
+    assert!(wrong(", unit = \"3 kg\"").contains("in quotes, such as \"5 cm\": m, cm, mm"));
     assert!(wrong(", unit = \"pt\", dpi = 72").contains("keep one of the two"));
     assert!(wrong(", dpi = 0").contains("above zero"));
 }

@@ -59,7 +59,7 @@ fn a_rule_alone_shields_nothing_and_the_nearest_face_rule_wants_no_constants() {
     );
     let doubtful = with("[shield]\nrule = \"nearest-face\"\nlength = 0.03\n");
     let warning = doubtful.warnings[0].to_string();
-    assert!(warning.contains("does not use the constants"), "{warning}");
+    assert!(warning.contains("ignores shield constants"), "{warning}");
 }
 
 #[test]
