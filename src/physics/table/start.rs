@@ -25,7 +25,7 @@ const TRIES: usize = 2_000;
 /// its circumradius and of a radian. Starts in rows are moved for longer.
 const SHUFFLES: usize = 50;
 const WANDERED: usize = 5;
-const WANDERED_FROM_ROWS: usize = 300;
+const WANDERED_FROM_ROWS: usize = 150;
 const STRIDE: f64 = 0.3;
 
 /// Largest number of squares along a side of the table for looking up tiles.
@@ -163,7 +163,9 @@ fn one_by_one<'a>(
             }
             // The tiles already placed block each other's gaps: random moves make room.
             rounds.next().ok_or(tile)?;
-            shuffle(&mut placed, WANDERED, rng);
+            for _ in 0..WANDERED {
+                shuffle(&mut placed, STRIDE, rng);
+            }
         };
         placed.add((kind, q));
     }
@@ -206,7 +208,11 @@ fn in_rows<'a>(crowd: &'a Crowd, kinds: &[usize], rng: &mut ChaCha8Rng) -> Optio
         }
         placed.add((kind, q));
     }
-    shuffle(&mut placed, WANDERED_FROM_ROWS, rng);
+    // Small steps, too, as there is little room.
+    for _ in 0..WANDERED_FROM_ROWS {
+        shuffle(&mut placed, STRIDE, rng);
+        shuffle(&mut placed, 0.1 * STRIDE, rng);
+    }
     Some(placed)
 }
 
@@ -297,22 +303,20 @@ fn free_place(placed: &Placed, kind: usize, rng: &mut ChaCha8Rng) -> Option<Conf
     })
 }
 
-/// Moves each tile in turn by small random steps, each if it stays free. The distribution of
-/// non-overlapping positions stays uniform.
-fn shuffle(placed: &mut Placed, steps: usize, rng: &mut ChaCha8Rng) {
-    for _ in 0..steps {
-        for tile in 0..placed.tiles.len() {
-            crate::interruption::check();
-            let (kind, q) = placed.tiles[tile];
-            let mut even = || 2.0 * rng.random::<f64>() - 1.0;
-            let outline = &placed.crowd.kinds[kind].tile.outline;
-            let reach = STRIDE * outline.circumradius();
-            let step = Vector3::new(even() * reach, even() * reach, even() * STRIDE);
-            let moved = q.moved(step);
-            let moved = Configuration::new(moved.x, moved.y, wrap_angle(moved.theta));
-            if placed.is_free((kind, moved), Some(tile)) {
-                placed.shift(tile, moved);
-            }
+/// Moves each tile in turn by a random step, up to this share of its circumradius and of a radian, if it
+/// stays free. The distribution of non-overlapping positions stays uniform.
+fn shuffle(placed: &mut Placed, stride: f64, rng: &mut ChaCha8Rng) {
+    for tile in 0..placed.tiles.len() {
+        crate::interruption::check();
+        let (kind, q) = placed.tiles[tile];
+        let mut even = || 2.0 * rng.random::<f64>() - 1.0;
+        let outline = &placed.crowd.kinds[kind].tile.outline;
+        let reach = stride * outline.circumradius();
+        let step = Vector3::new(even() * reach, even() * reach, even() * stride);
+        let moved = q.moved(step);
+        let moved = Configuration::new(moved.x, moved.y, wrap_angle(moved.theta));
+        if placed.is_free((kind, moved), Some(tile)) {
+            placed.shift(tile, moved);
         }
     }
 }

@@ -14,6 +14,7 @@ use tilebind::kinetics::Well;
 use tilebind::landscape::Proportion;
 use tilebind::many_bodies::contacts::Tie;
 use tilebind::many_bodies::run::{Run, RunError, Start, run};
+use tilebind::many_bodies::start::check;
 use tilebind::many_bodies::{
     Crowd, Kind, Mover, Orbital, Sample, StartError, Stepper, TableSettings,
 };
@@ -628,6 +629,32 @@ fn drag_takes_what_it_should() {
     let velocity = last.movers.as_ref().unwrap()[0].velocity;
     assert!((velocity - expected).norm() < 1e-9, "{velocity:?}");
     assert!(found.energy_error < 1e-9);
+}
+
+/// Twenty squares that cover seven tenths of the table have no room one by one at random places.
+#[test]
+fn tiles_on_a_dense_table_start_from_rows_and_are_moved() {
+    let crowd = inert(0.12, [0.64; 2]);
+    let settings = TableSettings {
+        walls: true,
+        ..ideal(0.01)
+    };
+    let start = |seed| {
+        let start = Start::Random(vec![10, 10]);
+        let found = run(&crowd, &settings, (seed, 0), &start, true).unwrap();
+        found.samples[0].movers.clone().unwrap()
+    };
+    let one = start(1);
+    assert_eq!(check(&crowd, &one, true), Ok(()));
+    assert_ne!(one, start(2));
+    // Neither in rows nor upright any more, and each kind everywhere.
+    let angle = |mover: &Mover| mover.place.z.rem_euclid(TAU / 4.0);
+    assert!(one.iter().all(|it| angle(it) > 1e-6));
+    for kind in [0, 1] {
+        let on_the_left = |it: &&Mover| it.kind == kind && it.place.x < 0.0;
+        let left = one.iter().filter(on_the_left).count();
+        assert!((1..10).contains(&left), "{left}");
+    }
 }
 
 #[test]
