@@ -1,8 +1,8 @@
 //! Tables for HOOMD-blue (<https://hoomd-blue.readthedocs.io>), which simulates more tiles than one
 //! machine can: a script, and the tiles it needs beside `trajectory.gsd`.
 //!
-//! The script's first lines say what is lost. The kinds of tiles are in `hoomd_table.json` as they are here;
-//! the script makes discs of outlines and dipoles of magnets, which only it needs.
+//! The script's first lines say what is lost. The kinds of tiles are in `hoomd_table.json` as they
+//! are here; the script makes discs of outlines and dipoles of magnets, which only it needs.
 
 use serde_json::{Value, json};
 
@@ -10,9 +10,6 @@ use jobs::output::Files;
 use jobs::table::{About, Found};
 use physics::table::Kind;
 use physics::tile::{Magnet, magnet::Standing};
-
-/// The names of the files.
-pub const NAMES: [&str; 2] = ["hoomd_table.py", "hoomd_table.json"];
 
 /// Both files.
 pub fn files(about: &About, found: &Found) -> Files {
@@ -28,8 +25,11 @@ pub fn files(about: &About, found: &Found) -> Files {
         "kinds": found.crowd.kinds.iter().map(kind).collect::<Value>(),
     });
     let told = serde_json::to_vec_pretty(&told).expect("tiles have a form in JSON");
-    let texts = [include_bytes!("hoomd_table.py").to_vec(), told];
-    NAMES.map(str::to_owned).into_iter().zip(texts).collect()
+    let script = include_bytes!("hoomd_table.py").to_vec();
+    Files::from([
+        ("hoomd_table.py".to_owned(), script),
+        ("hoomd_table.json".to_owned(), told),
+    ])
 }
 
 fn kind(kind: &Kind) -> Value {

@@ -39,7 +39,7 @@ def turned(points, theta):
 
 def distance(points, start, end):
     """Distances (m) of points (n, 2) from a segment."""
-    along = (end - start) / max(np.dot(end - start, end - start), 1e-300)
+    along = (end - start) / np.dot(end - start, end - start)
     share = np.clip((points - start) @ along, 0.0, 1.0)
     return np.linalg.norm(points - start - share[:, None] * (end - start), axis=1)
 
@@ -142,11 +142,11 @@ def forces(told, model):
     near = hoomd.md.nlist.Tree(buffer=0.5 * model.diameter, exclusions=("body",))
     contact = hoomd.md.pair.Table(nlist=near, default_r_cut=0.0)
     depth = model.diameter - np.linspace(0.0, model.diameter, 100, endpoint=False)
-    spring = {"r_min": 0.0, "U": 0.5 * model.stiffness * depth**2, "F": model.stiffness * depth}
+    springs = {"r_min": 0.0, "U": 0.5 * model.stiffness * depth**2, "F": model.stiffness * depth}
     far = hoomd.md.nlist.Tree(buffer=0.05 * reach, exclusions=("body",))
     magnetic = hoomd.md.pair.aniso.Dipole(nlist=far, default_r_cut=0.0)
     for pair in pairs:
-        contact.params[pair] = spring
+        contact.params[pair] = springs
         magnetic.params[pair] = {"A": 1e-7, "kappa": 0.0}
         if pair == ("disc", "disc"):
             contact.r_cut[pair] = model.diameter

@@ -36,7 +36,7 @@ def test_discs_touch_the_outline_from_inside(script):
     # Inside: the square, but not the slot.
     x, y = discs.T
     assert np.all((abs(x) < 0.1) & (abs(y) < 0.1) & ~((abs(x) < 0.01) & (y > 0.08)))
-    # No gap is wider than a disc, so that no corner enters. (Around a reflex corner, two diameters.)
+    # No gap is wider than a disc, so that no corner enters.
     for start, end in edges:
         for share in np.linspace(0.0, 1.0, 101):
             nearest = np.min(np.linalg.norm(discs - (start + share * (end - start)), axis=1))

@@ -242,17 +242,16 @@ impl<'a> Stepper<'a> {
             ..*mover
         });
         let halfway: Vec<_> = halfway.map(|it| (it, Pose::of(crowd, &it))).collect();
-        // What every pair is asked for lies close together, as tables of many tiles exceed the caches.
-        let kinds: Vec<usize> = movers.iter().map(|it| it.kind).collect();
         let pairs = self.neighbours.within(crowd.range(), &positions);
         let mut known = std::mem::take(&mut self.near).into_iter().peekable();
         let mut apart: Vec<Apart> = Vec::new();
         for &[i, j] in pairs {
-            let two = Two::of([i, j].map(|k| kinds[k]), [i, j]);
+            let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
             let key = |two: &Two| [two.first.min(two.second), two.first.max(two.second)];
             while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
             let kept = known.next_if(|near| near.two == two);
-            let couple = crowd.couple(kinds[two.first], kinds[two.second]).0;
+            let [first, second] = [two.first, two.second].map(|k| &movers[k]);
+            let couple = crowd.couple(first.kind, second.kind).0;
             let distance = (positions[i] - positions[j]).norm();
             let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
             let room = match distance <= couple.radii() + near {
@@ -264,7 +263,6 @@ impl<'a> Stepper<'a> {
             };
             let is_near = room <= near;
             let is_tied = is_near && {
-                let [first, second] = [two.first, two.second].map(|k| &movers[k]);
                 let speed = fastest(crowd, first, &first.velocity)
                     + fastest(crowd, second, &second.velocity);
                 room <= speed * self.settings.step + SHARE_TIED * couple.near
