@@ -3,10 +3,12 @@
 //! # Steps
 //! Velocity Verlet, with constant forces of the drives and of tiles outside the island. A step is
 //! short enough that the forces of pairs in relative motion change little: `h <= 0.05 sqrt(l / a)`,
-//! with l half the shortest side of a magnet and a the acceleration of the pair by its own force;
-//! it is four times as long where tiles touch and hardly bounce. Tiles in contact move no more than
-//! 0.1 mm per step. All these limits scale with the step of the table. (Tiles that hardly move need
-//! no short steps.)
+//! with l half the shortest side of a magnet and a the acceleration of the pair by its own force.
+//! Where tiles touch and hardly bounce, contact stops most of this acceleration: there
+//! `h <= 0.2 sqrt(l / s)`, with s the acceleration along the contact that friction cannot stop, and
+//! `h <= 0.8 sqrt(l / a)`; and tiles in contact move by no more than 0.2 mm per step, or the step is
+//! repeated with a shorter time. All these limits scale with the step of the table. (Tiles that
+//! hardly move need no short steps.)
 //!
 //! # Knocks
 //! The gap of a point changes as `g + u t + a t^2 / 2`. If it closes with a velocity u1 that makes
@@ -28,8 +30,14 @@ use super::pair::{Pose, Pull, Two, pull};
 use super::settings::TableSettings;
 use crate::configuration::Configuration;
 use crate::contact::{ContactPoint, NearPairs};
+use crate::tile::outline::cross;
 
-/// Points with gaps below this (m) are in contact: about the error of [`hold_back`] in a step.
+/// The error (m) of places in contact per step at which the solver stops: over a step of h (s), an error
+/// of velocities by this over h.
+const MISPLACED: f64 = 2.5e-9;
+/// The same for the velocities (m/s) after a step: 1/1,000 of a typical kick of the shaking.
+const VELOCITY_ERROR: f64 = 1e-5;
+/// Points with gaps below this (m) are in contact: about ten times [`MISPLACED`].
 const TOUCHED: f64 = 2e-8;
 /// Outlines are kept apart by this (m). The force of two blocks changes sign where their pole faces
 /// pass through each other, so tiles must not overlap at all; this changes an energy by the force
@@ -41,14 +49,19 @@ const PUSHED_OUT: f64 = 1e-6;
 const LEAST_MARGIN: f64 = 1e-4;
 /// The same where nothing is near (m).
 const SEEN: f64 = 3e-3;
-/// Largest travel of a tile in contact within a usual step (m).
+/// Travel of a tile in contact within a usual step (m), by its velocity at the start.
 const TRAVEL: f64 = 1e-4;
+/// A step in which a tile in contact travels farther than this many times as much is repeated.
+const FARTHEST: f64 = 2.0;
 /// A usual step as a share of the time in which forces change.
 const SHARE: f64 = 0.05;
 /// Tiles slower than this (m/s) need no short steps.
 const SLOW: f64 = 2e-3;
-/// Steps are longer by this factor where tiles touch and hardly bounce.
-const TOGETHER: f64 = 4.0;
+/// Steps are longer by this factor where tiles touch and hardly bounce, by what accelerates them
+/// along the contact.
+const ALONG: f64 = 4.0;
+/// The same, by the whole acceleration.
+const TOGETHER: f64 = 16.0;
 /// Ratio of the longest to the shortest step.
 const SHORTEST: f64 = 16.0;
 /// Bounces slower than this (m/s) are ignored.
@@ -75,8 +88,19 @@ pub struct NearPair {
     room_at: Configuration,
     /// The last places of both tiles, and their pull there.
     pulled: Option<([Vector3<f64>; 2], Pull)>,
-    /// The last contact points, in the frame of the first tile, and their forces (N).
-    held: Vec<(Vector2<f64>, [f64; 2])>,
+    /// The last contact points.
+    held: Vec<Touch>,
+}
+
+/// A contact point of the last step, in the frame of the first tile.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    /// Its position (m).
+    at: Vector2<f64>,
+    /// The normal, from the first tile to the second.
+    normal: Vector2<f64>,
+    /// The forces (N) along normal and tangent.
+    forces: [f64; 2],
 }
 
 impl NearPair {
@@ -111,8 +135,18 @@ impl NearPair {
 
     /// The last forces (N) at a point, in the first tile's frame.
     fn force(&self, at: &Vector2<f64>) -> [f64; 2] {
-        let same = |it: &&(Vector2<f64>, _)| (it.0 - at).norm_squared() < SAME * SAME;
-        self.held.iter().find(same).map_or([0.0; 2], |it| it.1)
+        let same = |it: &&Touch| (it.at - at).norm_squared() < SAME * SAME;
+        self.held.iter().find(same).map_or([0.0; 2], |it| it.forces)
+    }
+
+    /// The force (N) along the contact that friction cannot stop, of a force on the second tile in
+    /// the frame of the first: by the contact point where it is largest.
+    fn slide(&self, force: Vector2<f64>, friction: f64) -> f64 {
+        let along = self.held.iter().map(|touch| {
+            let press = -touch.normal.dot(&force);
+            cross(touch.normal, force).abs() - friction * press.max(0.0)
+        });
+        along.fold(0.0, f64::max)
     }
 
     /// The points of contact within a margin (m), if there may be any.
@@ -172,12 +206,21 @@ pub struct Island<'a> {
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
-    /// The relative acceleration of each pair by its own force (m/s^2).
-    pulls: Vec<f64>,
+    /// The relative acceleration of each pair by its own force, and the part of it along the contact
+    /// that friction cannot stop (m/s^2).
+    pulls: Vec<[f64; 2]>,
     /// The potential energy of the pairs (J).
     potential: f64,
     /// The correction of kinetic energy that is still outstanding (J).
     debt: f64,
+}
+
+impl State {
+    /// The velocities after half a step (s) without contact.
+    fn halfway(&self, h: f64) -> Vec<Vector3<f64>> {
+        let each = self.velocities.iter().zip(&self.accelerations);
+        each.map(|(v, a)| v + a * (0.5 * h)).collect()
+    }
 }
 
 impl Island<'_> {
@@ -216,17 +259,22 @@ impl Island<'_> {
             let left = duration - time;
             let longest = self.longest_step(state).min(left);
             let points = self.points(state, longest);
-            let longest = longest.min(self.time_to_travel(state, &points));
+            let longest = longest.min(self.time_to_travel(&state.velocities, &points));
             let h = self.until_knock(state, &points, longest);
-            lost += self.step(state, points, masses, h);
+            let (way, holds, h) = self.way(state, &points, masses[1], h);
+            lost += self.step(state, (way, holds), masses, h);
             time = if h == left { duration } else { time + h };
         }
         lost
     }
 
-    /// All accelerations, those of the fastest points of each pair by its own force (m/s^2), and
-    /// the energy of the pairs (J).
-    fn accelerations(&mut self, masses: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, Vec<f64>, f64) {
+    /// All accelerations, those of the fastest points of each pair by its own force and along the
+    /// contact (m/s^2), and the energy of the pairs (J).
+    fn accelerations(
+        &mut self,
+        masses: &[Vector3<f64>],
+    ) -> (Vec<Vector3<f64>>, Vec<[f64; 2]>, f64) {
+        let friction = self.settings.friction;
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
@@ -242,7 +290,10 @@ impl Island<'_> {
                 all[tile] += own;
                 strength += fastest(crowd, mover, &own);
             }
-            strengths.push(strength);
+            let force = poses[two.first].rotation.inverse() * pulls[1].xy();
+            let lightness = tiles.map(|tile| 1.0 / masses[tile].x);
+            let along = near.slide(force, friction) * (lightness[0] + lightness[1]);
+            strengths.push([strength, along]);
         }
         (all, strengths, potential)
     }
@@ -267,29 +318,65 @@ impl Island<'_> {
 
     /// The longest step (s) in which the forces of pairs in relative motion change little.
     fn longest_step(&self, state: &State) -> f64 {
-        let limit = |(two, near): &(Two, &mut NearPair), pull: f64| {
+        let limit = |(two, near): &(Two, &mut NearPair), [pull, along]: [f64; 2]| {
             let speed = self.relative(*two, &state.velocities);
             if speed < SLOW {
                 return f64::INFINITY;
             }
-            let are_together = !near.held.is_empty() && self.settings.restitution * speed < SLOW;
-            let factor = if are_together { TOGETHER } else { 1.0 };
-            factor * longest_step(self.feature, pull)
+            let are_together =
+                near.room <= self.travel() && self.settings.restitution * speed < SLOW;
+            let [whole, along] = [pull, along].map(|it| longest_step(self.feature, it));
+            match are_together {
+                true => (ALONG * along).min(TOGETHER * whole),
+                false => whole,
+            }
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, *pull));
         self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
-    /// The time (s) until touching tiles have moved as far as contact allows in a step.
-    fn time_to_travel(&self, state: &State, holds: &[Hold]) -> f64 {
+    /// The time (s) in which touching tiles travel as far as contact allows in a step.
+    fn time_to_travel(&self, velocities: &[Vector3<f64>], holds: &[Hold]) -> f64 {
         let speed = |hold: &Hold| match hold.tiles {
-            [Some(first), Some(second)] => self.relative(Two { first, second }, &state.velocities),
-            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &state.velocities[tile])),
+            [Some(first), Some(second)] => self.relative(Two { first, second }, velocities),
+            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &velocities[tile])),
         };
         let touching = holds.iter().filter(|hold| hold.gap <= self.travel());
         let fastest = touching.map(speed).fold(0.0, f64::max);
         self.travel() / fastest.max(f64::MIN_POSITIVE)
+    }
+
+    /// The mean velocities in a step, the contacts with their impulses, and the length (s) of the step,
+    /// which is shorter than `h` if touching tiles would travel too far.
+    fn way(
+        &self,
+        state: &State,
+        points: &[Hold],
+        inverse: &[Vector3<f64>],
+        mut h: f64,
+    ) -> (Vec<Vector3<f64>>, Vec<Hold>, f64) {
+        loop {
+            let mut holds = points.to_vec();
+            for hold in &mut holds {
+                hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
+                hold.impulses = hold.impulses.map(|force| force * 0.5 * h);
+            }
+            let mut way = state.halfway(h);
+            let error = (MISPLACED / h).min(VELOCITY_ERROR);
+            hold_back(
+                inverse,
+                &mut way,
+                &mut holds,
+                [self.settings.friction, error],
+            );
+            let share = self.time_to_travel(&way, &holds) / h;
+            if FARTHEST * share < 1.0 {
+                h *= share;
+                continue;
+            }
+            return (way, holds, h);
+        }
     }
 
     /// The points that may come into contact in a step of at most this length (s).
@@ -361,27 +448,18 @@ impl Island<'_> {
         first.max(shortest).min(longest)
     }
 
-    /// Makes a step (s); returns the energy lost in contact (J).
+    /// Makes a step (s) along a way; returns the energy lost in contact (J).
     fn step(
         &mut self,
         state: &mut State,
-        mut holds: Vec<Hold>,
+        (way, holds): (Vec<Vector3<f64>>, Vec<Hold>),
         [masses, inverse]: [&[Vector3<f64>]; 2],
         h: f64,
     ) -> f64 {
-        let friction = self.settings.friction;
+        let law = [self.settings.friction, VELOCITY_ERROR];
+        let mut free = state.halfway(h);
         let before = state.velocities.clone();
         let pulled = std::mem::take(&mut state.accelerations);
-        let mut free = before.clone();
-        for (v, a) in free.iter_mut().zip(&pulled) {
-            *v += a * (0.5 * h);
-        }
-        let mut way = free.clone();
-        for hold in &mut holds {
-            hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
-            hold.impulses = hold.impulses.map(|force| force * 0.5 * h);
-        }
-        hold_back(inverse, &mut way, &mut holds, friction);
         // The return velocities at touched points, whether contact lasts for the whole step or not.
         let mut touched: Vec<(Hold, Option<f64>)> = Vec::new();
         let mut held: Vec<Hold> = Vec::new();
@@ -400,8 +478,9 @@ impl Island<'_> {
             }
             touched.push((hold, back));
         }
-        if held.iter().any(|hold| hold.rate(&way).abs() > LEAST_BOUNCE) {
-            hold_back(inverse, &mut free, &mut held, friction);
+        if held.iter().any(|hold| hold.rate(&way) > LEAST_BOUNCE) {
+            // Overlapping tiles are pushed apart in the step, but must not fly apart after it.
+            hold_back(inverse, &mut free, &mut held, law);
         } else if !held.is_empty() {
             free.copy_from_slice(&way);
         }
@@ -410,10 +489,13 @@ impl Island<'_> {
         }
         for (hold, _) in &touched {
             if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
-                let force = hold.impulses.map(|impulse| impulse / (0.5 * h));
+                let pose = &self.poses[first];
                 let (_, near) = &mut self.pairs[pair];
-                near.held
-                    .push((self.poses[first].inverse_transform(hold.point), force));
+                near.held.push(Touch {
+                    at: pose.inverse_transform(hold.point),
+                    normal: pose.rotation.inverse() * hold.axis,
+                    forces: hold.impulses.map(|impulse| impulse / (0.5 * h)),
+                });
             }
         }
         for ((rider, pose), way) in self.riders.iter_mut().zip(&mut self.poses).zip(&way) {
@@ -456,23 +538,27 @@ impl Island<'_> {
             approaches.push(back.unwrap_or(-hold.rate(&velocities)));
             holds.push(hold);
         }
-        let mut stopped = velocities;
-        let free = stopped.clone();
-        hold_back(inverse, &mut stopped, &mut holds, friction);
         let restitution = self.settings.restitution;
-        if approaches.iter().any(|u| restitution * u > LEAST_BOUNCE) {
+        let bounces = approaches.iter().any(|u| restitution * u > LEAST_BOUNCE);
+        let mut after = |restitution: f64| {
             for (hold, approach) in holds.iter_mut().zip(&approaches) {
                 hold.least = restitution * approach.max(0.0);
             }
-            let mut bounced = free;
-            hold_back(inverse, &mut bounced, &mut holds, friction);
-            let change: Vec<_> = bounced.iter().zip(&stopped).map(|(b, s)| b - s).collect();
+            let mut after = velocities.clone();
+            hold_back(inverse, &mut after, &mut holds, law);
+            after
+        };
+        state.velocities = after(if bounces { restitution } else { 0.0 });
+        if bounces && kinetic(masses, &state.velocities) > energy {
+            let stopped = after(0.0);
+            let each = state.velocities.iter().zip(&stopped);
+            let change: Vec<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
             let share = share_within(masses, &stopped, &change, energy);
-            for (v, change) in stopped.iter_mut().zip(&change) {
+            state.velocities = stopped;
+            for (v, change) in state.velocities.iter_mut().zip(&change) {
                 *v += change * share;
             }
         }
-        state.velocities = stopped;
         energy - kinetic(masses, &state.velocities)
     }
 }
