@@ -17,7 +17,6 @@ mod input;
 mod interrupt;
 pub mod make;
 pub mod matching;
-mod memory;
 mod options;
 mod progress;
 pub mod rates;

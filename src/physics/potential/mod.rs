@@ -48,6 +48,7 @@ mod model;
 pub mod motion;
 mod patches;
 pub mod shielding;
+pub mod simd;
 
 use crate::configuration::Configuration;
 use nalgebra::Vector3;

@@ -6,15 +6,10 @@
 
 mod data;
 mod page;
-mod rows;
-mod table;
 mod text;
-mod unit;
 
+pub use crate::columns::{Cell, Head, Link, Rows, Table, Unit, rows, told};
 pub use crate::plots::Drawing;
-pub use rows::{Rows, rows};
-pub use table::{Cell, Head, Link, Table};
-pub use unit::{Unit, told};
 
 use std::borrow::Cow;
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::finite;
 use super::thumbnail::Thumbnail;
 use crate::figures::cell;
-use crate::sweep::Sweep;
-use crate::sweep::points::Variable;
+use crate::points::Sweep;
+use crate::points::Variable;
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES};
 use jobs::comparison::{Assessment, Quantity};
 

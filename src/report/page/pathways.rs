@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{finite, fixed, rounded};
+use crate::columns::{Link, Table, rows};
 use crate::csv;
-use crate::document::{Link, Table, rows};
 use crate::plots::Scene;
 use physics::dynamics::Snapshot;
 use physics::landscape::{Barrier, Pathway, PathwayCost, Place};

@@ -14,8 +14,8 @@ use super::picture::PictureError;
 use super::sheet::Sheet;
 use super::style::{COLOURS, INK, series_colour, stroke, unit};
 use super::{Drawing, Figure};
+use crate::columns::{Unit, told};
 use crate::csv::{number, table};
-use crate::document::{Unit, told};
 use physics::units::si;
 
 const WIDTH: f64 = 860.0;

@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use super::table::Parts;
-use super::{Cell, Head, Table, Unit};
+use super::table::{Cell, Head, Parts, Table};
+use super::unit::Unit;
 
 /// Rows from which a table is built, column by column.
 ///

@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
-use super::Unit;
-use super::unit::{Scale, told};
+use super::unit::{Scale, Unit, told};
 use crate::figures::percent;
 use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero, proportion, read_pose};
@@ -398,7 +397,7 @@ mod tests {
 
     #[test]
     fn a_column_has_one_unit() {
-        let table = crate::document::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
+        let table = crate::columns::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
             .column("energy_J", "energy", "", |it| *it)
             .digits(4)
             .column("bounds_J", "bounds", "", |it| [1e-6, it.abs()])
