@@ -56,9 +56,14 @@ impl Barrier {
         }
         let inputs = self.design.inputs(&design);
         let pathway = self.pathway.as_ref();
-        let pathway = pathway.map(|file| self.results.file(&BARRIER, file, inputs.clone()));
+        let pathway = pathway.map(|file| {
+            self.results
+                .folder
+                .force
+                .file(&BARRIER, file, inputs.clone())
+        });
         let pathway = pathway.transpose()?;
-        let output = self.results.output(&BARRIER, inputs)?;
+        let output = self.results.folder.output(&BARRIER, inputs)?;
         let query = self.request.query(&design);
         workload::tell_memory(query.settings.check_memory())?;
         self.threads.use_threads()?;

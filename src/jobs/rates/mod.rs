@@ -1,7 +1,6 @@
 //! Overdamped motion of shaken tiles: how soon a tile leaves a pose and where it goes, and the
 //! rates between the bond, the deepest traps and free tiles.
 
-mod over_kt;
 mod states;
 mod table;
 

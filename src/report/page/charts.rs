@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::finite;
+use super::numbers::{finite, rounded};
 use super::thumbnail::Thumbnail;
 use crate::figures::cell;
 use crate::points::Sweep;
@@ -82,7 +82,7 @@ impl Charts {
 
 /// Removes rounding errors of a change of unit.
 fn tidy(value: f64) -> f64 {
-    super::rounded(value, 9)
+    rounded(value, 9)
 }
 
 fn point(

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{finite, fixed, rounded};
+use super::numbers::{finite, fixed, rounded};
 use crate::columns::{Link, Table, rows};
 use crate::csv;
 use crate::plots::Scene;
