@@ -8,7 +8,7 @@ mod cli;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use tilebind::potential::batch::Level;
+use tilebind::potential::simd::Level;
 
 /// How two magnetic tiles bind: states, traps, energy barriers and pathways over (x, y, theta).
 #[derive(Parser)]

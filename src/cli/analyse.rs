@@ -15,7 +15,7 @@ use tilebind::report::plots::Scene;
 use super::failure::fail_if_contradicted;
 use super::figures::{FigureOptions, command_line};
 use super::options::{DesignOptions, ForceOption, PrintOptions, ThreadOption};
-use super::{Failure, interrupt, memory, style, workload};
+use super::{Failure, interrupt, style, workload};
 
 const DYNAMICS: &str = "\
 Check every barrier with RUNS simulated trajectories started below it [default: 1000]";
@@ -87,7 +87,7 @@ impl Analyse {
         let output = output.forced(self.force.force);
         output.check(|name| extent.may_hold(name))?;
         let settings = self.request.settings(&design);
-        memory::check(settings.milestones, settings.neighbours, 1)?;
+        workload::tell_memory(settings.check_memory())?;
         self.threads.use_threads()?;
         workload::tell_of(&design, &settings);
 

@@ -12,7 +12,7 @@ use tilebind::report::files::BARRIER;
 use super::options::{DesignOptions, ThreadOption};
 use super::progress::Progress;
 use super::results::NumberOptions;
-use super::{Failure, input, interrupt, memory, workload};
+use super::{Failure, input, interrupt, workload};
 
 /// Print the energy barrier between two poses with certified bounds, as JSON
 #[derive(Args)]
@@ -56,11 +56,16 @@ impl Barrier {
         }
         let inputs = self.design.inputs(&design);
         let pathway = self.pathway.as_ref();
-        let pathway = pathway.map(|file| self.results.file(&BARRIER, file, inputs.clone()));
+        let pathway = pathway.map(|file| {
+            self.results
+                .folder
+                .force
+                .file(&BARRIER, file, inputs.clone())
+        });
         let pathway = pathway.transpose()?;
-        let output = self.results.output(&BARRIER, inputs)?;
+        let output = self.results.folder.output(&BARRIER, inputs)?;
         let query = self.request.query(&design);
-        memory::check(query.settings.milestones, None, 1)?;
+        workload::tell_memory(query.settings.check_memory())?;
         self.threads.use_threads()?;
         workload::tell_of(&design, &query.settings);
         let progress = Progress::new(self.quiet);

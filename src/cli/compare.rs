@@ -13,7 +13,7 @@ use tilebind::report::files::COMPARE;
 use super::failure::tell_refuted;
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, memory, workload};
+use super::{Failure, input, workload};
 use tilebind::request::{self, Word};
 
 /// Compare designs: bond, traps, barriers with bounds, capture range
@@ -58,7 +58,7 @@ impl Compare {
             ..self.question
         };
         let settings = question.request.settings(question.seed);
-        memory::check(settings.milestones, settings.neighbours, 1)?;
+        workload::tell_memory(settings.check_memory())?;
         self.threads.use_threads()?;
         designs
             .iter()

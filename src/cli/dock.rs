@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::docking::{Paths, ReleaseOptions, Request, docked, loosening, released};
+use tilebind::docking::{
+    Paths, ReleaseOptions, Request, check_memory, docked, loosening, released,
+};
 use tilebind::report::files::DOCK;
 use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input, memory};
+use super::{Failure, input};
 
 /// Launch the moving tile at the fixed one many times and count the outcomes
 #[derive(Args)]
@@ -56,8 +58,7 @@ impl Dock {
         let output = self.results.output(&DOCK, inputs)?;
         self.threads.use_threads()?;
         if self.release.overdamped {
-            // The bond and free tiles.
-            memory::check_meshes(2, self.threads.count())?;
+            check_memory(self.threads.count()).map_err(Failure::of)?;
         }
         let settings = self.request.settings(&design.pair);
         if let Some(index) = self.trajectory.filter(|index| *index >= settings.runs) {

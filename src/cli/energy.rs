@@ -50,7 +50,7 @@ impl Energy {
         let design = self.design.load()?;
         let inputs = self.design.inputs(&design).into_iter();
         let inputs = inputs.chain(self.file.clone()).collect();
-        let output = self.results.output(&ENERGY, inputs)?;
+        let output = self.results.folder.output(&ENERGY, inputs)?;
         let mut poses = self.poses;
         if let Some(file) = &self.file {
             poses.extend(input::table(file, poses::read)?);

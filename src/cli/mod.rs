@@ -17,7 +17,6 @@ mod input;
 mod interrupt;
 pub mod make;
 pub mod matching;
-mod memory;
 mod options;
 mod progress;
 pub mod rates;
@@ -35,9 +34,9 @@ pub mod yields;
 pub use failure::Failure;
 use failure::WRONG;
 pub use interrupt::prepare;
+use style::tell;
 
 use std::ffi::OsString;
-use std::fmt::Display;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -132,25 +131,6 @@ fn correct(answer: &mut clap::Error) {
         let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
         answer.insert(ContextKind::Suggested, tips);
     }
-}
-
-/// Prints a message on standard error. A failure to print it neither stops the work nor changes the
-/// exit status.
-fn tell(message: impl Display) {
-    let harmless = |c: char| match c {
-        '\n' | '\t' => c,
-        // Removes control characters of file names or unknown keys, which a terminal would obey.
-        _ if c.is_control() => char::REPLACEMENT_CHARACTER,
-        _ => c,
-    };
-    let mut message: String = format!("{message}\n").chars().map(harmless).collect();
-    for word in ["error", "warning", "note"] {
-        let plain = format!("{word}:");
-        if message.starts_with(&plain) {
-            message.replace_range(..plain.len(), &style::label(word));
-        }
-    }
-    let _ = std::io::stderr().write_all(message.as_bytes());
 }
 
 /// Writes to standard output.

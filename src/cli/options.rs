@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::design::{Design, MagnetModel};
 use tilebind::output::{Command, Output};
-use tilebind::request;
+use tilebind::{memory, request};
 
 use super::progress::Progress;
-use super::{Failure, input, memory, print, tell};
+use super::{Failure, input, print, tell};
 
 /// A design and its magnet model.
 #[derive(Args)]
@@ -103,7 +103,7 @@ impl ThreadOption {
     /// Makes the library use the requested number of threads, or all cores; an error if the
     /// process may not reserve their memory.
     pub fn use_threads(&self) -> Result<(), Failure> {
-        memory::check_threads(self.count())?;
+        memory::check_threads(self.count()).map_err(Failure::Usage)?;
         let Some(threads) = self.threads else {
             return Ok(());
         };

@@ -9,7 +9,7 @@ use tilebind::{Settings, pipeline};
 
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
-use super::{Failure, input, memory};
+use super::{Failure, input, workload};
 
 /// Print how fast shaken tiles bind, unbind and change between states
 #[derive(Args)]
@@ -61,9 +61,8 @@ impl Rates {
         let (problem, request) = (design.problem(), &self.request);
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        // The bond, the traps and free tiles; an exit has one place.
-        let places = request.start.map_or(request.traps + 2, |_| 1);
-        memory::check_meshes(places, self.threads.count())?;
+        let threads = self.threads.count();
+        request.check_memory(threads).map_err(Failure::of)?;
         if let Some(start) = request.start {
             input::doubt_pose(&design, &start);
             progress.stage("exit", 0.1);
@@ -78,7 +77,7 @@ impl Rates {
             milestones: Settings::default().milestones,
             ..Settings::without_proofs(request.seed)
         };
-        memory::check(settings.milestones, None, 1)?;
+        workload::tell_memory(settings.check_memory())?;
         let analysis = pipeline::analyse_problem(&design, problem, &settings, &progress);
         progress.stage("rates", 0.9);
         let found = request.rates(&design, &analysis, output.is_some(), &progress);

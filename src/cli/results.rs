@@ -20,7 +20,7 @@ pub struct FolderOptions {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    force: ForceOption,
+    pub force: ForceOption,
 
     #[command(flatten)]
     figures: FigureOptions,
@@ -29,7 +29,7 @@ pub struct FolderOptions {
 impl FolderOptions {
     /// The results folder of a command that reads `inputs`, if requested; an error if files are in
     /// the way.
-    fn output(
+    pub fn output(
         &self,
         command: &'static Command,
         inputs: Vec<PathBuf>,
@@ -121,7 +121,7 @@ impl ResultOptions {
 #[derive(Args)]
 pub struct NumberOptions {
     #[command(flatten)]
-    folder: FolderOptions,
+    pub folder: FolderOptions,
 
     /// Print text instead of JSON
     #[arg(long)]
@@ -129,25 +129,6 @@ pub struct NumberOptions {
 }
 
 impl NumberOptions {
-    /// See [`ResultOptions::output`].
-    pub fn output(
-        &self,
-        command: &'static Command,
-        inputs: Vec<PathBuf>,
-    ) -> Result<Option<Output>, Failure> {
-        self.folder.output(command, inputs)
-    }
-
-    /// A single file of the command; an error if files are in the way.
-    pub fn file(
-        &self,
-        command: &'static Command,
-        file: &Path,
-        inputs: Vec<PathBuf>,
-    ) -> Result<Output, Failure> {
-        self.folder.force.file(command, file, inputs)
-    }
-
     /// See [`ResultOptions::deliver`].
     pub fn deliver(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
         let drawn = self.folder.write(document, output)?;

@@ -1,6 +1,7 @@
-//! Properties of the terminal: its width, and whether it supports colours.
+//! The terminal: its width, whether it supports colours, and messages on standard error.
 
-use std::io::IsTerminal;
+use std::fmt::Display;
+use std::io::{IsTerminal, Write};
 
 /// Whether standard output is a terminal.
 pub fn is_terminal() -> bool {
@@ -36,4 +37,23 @@ pub fn label(word: &str) -> String {
         _ => "36",
     };
     format!("\u{1b}[1;{colour}m{word}:\u{1b}[0m")
+}
+
+/// Prints a message on standard error. A failure to print it neither stops the work nor changes the
+/// exit status.
+pub fn tell(message: impl Display) {
+    let harmless = |c: char| match c {
+        '\n' | '\t' => c,
+        // Removes control characters of file names or unknown keys, which a terminal would obey.
+        _ if c.is_control() => char::REPLACEMENT_CHARACTER,
+        _ => c,
+    };
+    let mut message: String = format!("{message}\n").chars().map(harmless).collect();
+    for word in ["error", "warning", "note"] {
+        let plain = format!("{word}:");
+        if message.starts_with(&plain) {
+            message.replace_range(..plain.len(), &label(word));
+        }
+    }
+    let _ = std::io::stderr().write_all(message.as_bytes());
 }

@@ -16,7 +16,7 @@ use super::figures::FigureOptions;
 use super::options::{ForceOption, PrintOptions, ThreadOption};
 use super::results::told_of;
 use super::sweep_progress::PointBar;
-use super::{Failure, input, interrupt, memory, print, tell};
+use super::{Failure, input, interrupt, print, tell, workload};
 
 /// The default manifest file.
 const PLAN: &str = "plan.json";
@@ -124,7 +124,7 @@ impl Sweep {
             let (plan, folder) = self.read(file)?;
             Store::new(&folder).check()?;
             interrupt::is_resumable();
-            self.check_memory(&plan)?;
+            workload::tell_memory(plan.check_memory(self.threads.count()))?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
             return self.work(&plan, &folder, shard);
         }
@@ -149,7 +149,7 @@ impl Sweep {
         }
         let folder = folder_of(&file);
         let output = self.output(&plan, &folder, None)?;
-        self.check_memory(&plan)?;
+        workload::tell_memory(plan.check_memory(self.threads.count()))?;
         begin(&plan, &manifest, &folder)?;
         self.work(&plan, &folder, Shard::WHOLE)?;
         let store = Store::new(&folder);
@@ -211,13 +211,6 @@ impl Sweep {
         let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
         Ok((plan, folder))
-    }
-
-    /// Checks that the machine has the memory for the points that are computed at the same time.
-    fn check_memory(&self, plan: &Plan) -> Result<(), Failure> {
-        let at_once = self.threads.count().min(plan.count());
-        let survey = &plan.settings.survey;
-        memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
 
     fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {

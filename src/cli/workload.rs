@@ -1,9 +1,9 @@
-//! Warns before an analysis of many magnets that it is sampled less.
+//! Says before an analysis that it takes much memory, or, for many magnets, that it is sampled less.
 
 use tilebind::units::si;
 use tilebind::{Design, Settings};
 
-use super::tell;
+use super::{Failure, tell};
 
 /// For a design with very many magnets, prints the energy of the bond, which needs no survey, and
 /// the reduced amounts of work.
@@ -29,4 +29,12 @@ pub fn tell_of(design: &Design, asked: &Settings) {
          defaults are reduced to {}",
         less.join(", ")
     ));
+}
+
+/// Reports a check of the memory: an error if the machine does not have it.
+pub fn tell_memory(checked: Result<Option<String>, String>) -> Result<(), Failure> {
+    if let Some(told) = checked.map_err(Failure::Usage)? {
+        tell(format!("note: {told}"));
+    }
+    Ok(())
 }

@@ -3,11 +3,11 @@
 use clap::Args;
 use tilebind::report::files::YIELD;
 use tilebind::report::yields::document;
-use tilebind::yields::{Question, Source, yields};
+use tilebind::yields::{Question, yields};
 
+use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
-use super::{Failure, memory};
 
 /// Print how many pairs are bound after a time on a shaken table, and which shaking binds most
 #[derive(Args)]
@@ -49,10 +49,8 @@ impl YieldCommand {
         let design = self.design.load()?;
         let output = self.results.output(&YIELD, self.design.inputs(&design))?;
         self.threads.use_threads()?;
-        if self.question.effort.source == Source::Overdamped {
-            // The bond, a few traps and free tiles.
-            memory::check_meshes(5, self.threads.count())?;
-        }
+        let threads = self.threads.count();
+        self.question.check_memory(threads).map_err(Failure::of)?;
         let progress = self.results.progress();
         let found = yields(&design, &self.question, &progress).map_err(Failure::of)?;
         let document = document(&design, &self.question, &found);

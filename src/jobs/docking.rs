@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 
 use crate::design::Design;
+use crate::memory;
 use crate::rates::diffusion;
 use crate::request::{self, MotionOptions};
 use physics::dynamics::docking::{
@@ -119,6 +120,15 @@ fn counted(settings: &DockingSettings, observer: &dyn Observer) -> impl Fn() + S
         let done = 1 + done.fetch_add(1, Ordering::Relaxed);
         observer.stage("trajectories", done as f64 / runs);
     }
+}
+
+/// Checks that the meshes of [`loosening`] fit into memory beside a number of threads.
+///
+/// # Errors
+/// See [`memory::check_meshes`].
+pub fn check_memory(threads: usize) -> Result<(), String> {
+    // The bond and free tiles.
+    memory::check_meshes(2, threads)
 }
 
 /// The off-rates of overdamped motion (1/s) at the kT and the drag of an experiment.

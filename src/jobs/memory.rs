@@ -20,7 +20,7 @@ const OF_A_FUNCTION: f64 = 4e3 * 6e4;
 const WORTH_TELLING: f64 = 1e9;
 
 /// The memory for roadmaps of which `at_once` are built at the same time, as a message if it is
-/// large.
+/// large. `None` for the number of neighbours means the PRM* rule.
 ///
 /// # Errors
 /// If the machine does not have enough memory.
@@ -58,14 +58,14 @@ pub fn check_threads(threads: usize) -> Result<(), String> {
     }
 }
 
-/// Checks that the meshes for a number of functions (one for each place of rates, and one for the
+/// Checks that the meshes between a number of places (with a function for each, and one for the
 /// mean time) fit beside the threads into the memory that the process may reserve. Requested
 /// accuracies can take more; how much is known only from the mesh.
 ///
 /// # Errors
 /// If the process's limit (`ulimit -v`) is lower.
-pub fn check_meshes(functions: usize, threads: usize) -> Result<(), String> {
-    let needed = BESIDES + OF_A_FUNCTION * functions as f64;
+pub fn check_meshes(places: usize, threads: usize) -> Result<(), String> {
+    let needed = BESIDES + OF_A_FUNCTION * (places + 1) as f64;
     let Some(allowed) = limit() else {
         return Ok(());
     };

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::Rows;
+use crate::columns::Rows;
 use crate::figures::{Shown, cell_in};
 use jobs::comparison::quantity::{Measure, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, capture_range};

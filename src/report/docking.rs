@@ -299,19 +299,7 @@ fn states(problem: &Problem, docking: &Docking, bound: Configuration) -> Vec<Sta
     let traps = traps.map(|trap| (StateKind::Trap, trap.configuration, trap.energy));
     let all = std::iter::once((StateKind::Bond, bound, problem.energy(&bound))).chain(traps);
     all.enumerate()
-        .map(|(id, (kind, configuration, energy))| State {
-            id,
-            kind,
-            configuration,
-            energy,
-            class: id,
-            faces: Vec::new(),
-            attracting: 0,
-            repelling: 0,
-            block_energy: None,
-            capture: None,
-            sideways: None,
-        })
+        .map(|(id, (kind, configuration, energy))| State::new(id, kind, configuration, energy))
         .collect()
 }
 

@@ -15,8 +15,8 @@
 //! - [`matching`] - how two outlines fit; [`calibration`] - fits to measurements;
 //! - [`inspection`] - the bond of a design without a search; [`workshop`] - workshop files.
 //!
-//! Below these: [`document`]; [`plots`] (pictures) and [`page`] (`report.html`); [`names`],
-//! [`figures`], [`json`], [`csv`] (names and number formats); [`files`] (the files of each
+//! Below these: [`document`], whose tables are made in `columns`; [`plots`] (pictures) and [`page`] (`report.html`); [`names`],
+//! [`figures`], [`json`], [`csv`] (names and number formats); `points` (those of sweeps); [`files`] (the files of each
 //! command).
 
 pub mod analysis;
@@ -26,6 +26,7 @@ pub mod barrier;
 pub mod bond;
 mod braille;
 pub mod calibration;
+mod columns;
 pub mod comparison;
 pub mod crosstalk;
 pub mod csv;
@@ -46,6 +47,7 @@ pub mod names;
 mod packing;
 pub mod page;
 pub mod plots;
+mod points;
 pub mod rates;
 pub mod release;
 mod sold;

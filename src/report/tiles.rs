@@ -1,6 +1,6 @@
 //! Descriptions of tiles and of the forces that hold them, in words.
 
-use crate::document::{Table, rows};
+use crate::columns::{Table, rows};
 use jobs::design::{Design, DesignError};
 use jobs::inspection::{Hold, Inspection};
 use physics::order::Order;

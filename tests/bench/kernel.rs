@@ -25,9 +25,9 @@ use operations::Operations;
 use plain::Plain;
 use ratio::ratio;
 use tilebind::Configuration;
-use tilebind::potential::batch::Level;
-use tilebind::potential::batch::lanes::{Lanes, Task, WIDTH};
 use tilebind::potential::dipole::Dipole;
+use tilebind::potential::simd::Level;
+use tilebind::potential::simd::lanes::{Lanes, Task, WIDTH};
 use tilebind::potential::{DipolePotential, Potential};
 
 const ROUNDS: usize = 40;

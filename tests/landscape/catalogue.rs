@@ -5,19 +5,7 @@ use tilebind::potential::DipolePotential;
 use tilebind::{Configuration, ConfigurationSpace, Problem};
 
 fn state(kind: StateKind, energy: f64) -> State {
-    State {
-        id: 0,
-        kind,
-        configuration: Configuration::new(0.0, 0.0, 0.0),
-        energy,
-        class: 0,
-        faces: Vec::new(),
-        attracting: 0,
-        repelling: 0,
-        block_energy: None,
-        capture: None,
-        sideways: None,
-    }
+    State::new(0, kind, Configuration::new(0.0, 0.0, 0.0), energy)
 }
 
 /// A barrier between places with these energies, over a separate saddle.

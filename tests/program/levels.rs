@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
-use tilebind::potential::batch::Level;
+use tilebind::potential::simd::Level;
 
 use crate::folder::{assert_same, contents, untimed};
 use crate::program::{command, stderr};

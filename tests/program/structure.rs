@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use petgraph::algo::tarjan_scc;
 use petgraph::graphmap::DiGraphMap;
@@ -23,7 +23,6 @@ type Name = Vec<String>;
 
 /// A file of a crate: the names of its own crate that it uses, and those that it re-exports.
 struct Module {
-    file: PathBuf,
     named: BTreeSet<Name>,
     known_as: BTreeMap<String, Name>,
 }
@@ -156,15 +155,7 @@ fn read(module: Name, file: &Path, folder: &Path, modules: &mut BTreeMap<Name, M
     let known_as = imports
         .filter_map(|(import, known)| Some((known.clone(), reader.absolute(import)?)))
         .collect();
-    let file = file.to_owned();
-    modules.insert(
-        module,
-        Module {
-            file,
-            named,
-            known_as,
-        },
-    );
+    modules.insert(module, Module { named, known_as });
 }
 
 /// The module in which something is defined: the one in its name, or the one that this re-exports
@@ -180,15 +171,13 @@ fn defined_in<'a>(name: &[String], modules: &'a BTreeMap<Name, Module>) -> &'a N
     }
 }
 
-/// Cycles among a crate's files, and among sibling folders. A folder's files may use definitions in
-/// its `mod.rs`.
+/// Cycles among sibling modules of a crate, each a file or a folder with all its files; without these
+/// there are none among files. A folder's files may use definitions in its `mod.rs`.
 fn circles(first: &str) -> Vec<Vec<String>> {
     let first = Path::new(env!("CARGO_MANIFEST_DIR")).join(first);
     let mut modules = BTreeMap::new();
     read(Vec::new(), &first, first.parent().unwrap(), &mut modules);
-    let places: Vec<&Name> = modules.keys().collect();
-    let place = |name: &[String]| places.binary_search_by(|p| p[..].cmp(name)).unwrap();
-    let mut imports = DiGraphMap::<usize, ()>::new();
+    let mut imports = DiGraphMap::<&[String], ()>::new();
     for (name, module) in &modules {
         for named in module
             .named
@@ -196,22 +185,22 @@ fn circles(first: &str) -> Vec<Vec<String>> {
             .filter(|named| !modules.contains_key(*named))
         {
             let from = defined_in(named, &modules);
-            if !name.starts_with(from) {
-                imports.add_edge(place(name), place(from), ());
+            let common = name.iter().zip(from).take_while(|(a, b)| a == b).count();
+            if common < name.len().min(from.len()) {
+                imports.add_edge(&name[..=common], &from[..=common], ());
             }
         }
     }
     let circles = tarjan_scc(&imports)
         .into_iter()
-        .filter(|files| files.len() > 1);
-    let file = |place: usize| modules[places[place]].file.display().to_string();
+        .filter(|siblings| siblings.len() > 1);
     circles
-        .map(|files| files.into_iter().map(file).collect())
+        .map(|siblings| siblings.into_iter().map(|it| it.join("::")).collect())
         .collect()
 }
 
 #[test]
-fn files_do_not_import_each_other_in_circles() {
+fn neither_files_nor_folders_import_each_other_in_circles() {
     let found: Vec<_> = CRATES.into_iter().flat_map(circles).collect();
     assert!(found.is_empty(), "{found:#?}");
 }

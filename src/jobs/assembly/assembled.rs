@@ -5,7 +5,7 @@ use std::path::Path;
 use super::built::Verdict;
 use super::choice::Choice;
 use super::kinetic::{Growth, Kinetics};
-use super::slides::Slid;
+use super::slides::{self, Slid};
 use super::{Built, Request, TileSet, Wiring, lattice, proofread, square};
 use crate::Refused;
 use crate::design::{Design, WordSet};
@@ -32,6 +32,8 @@ pub struct Assembly<'a> {
     pub growth: Growth,
     /// The same at other kT at which something may grow, in ascending order: kT (J) and growth.
     pub others: Vec<(f64, Growth)>,
+    /// The slid contacts of every two faces; empty if words have no pitch.
+    pub slides: Vec<Slid>,
 }
 
 /// Numbers of simulated growths at the requested kT and at each other kT, for large sets.
@@ -126,6 +128,7 @@ impl Request {
             }
         }
         Ok(Assembly {
+            slides: slides::of_all(&built, &words, &self.rules()),
             built,
             request: self.clone(),
             words,
@@ -244,21 +247,6 @@ impl Assembly<'_> {
     /// One of the magnets, which are all alike.
     pub fn magnet(&self) -> &Magnet {
         &self.words.stage.pair.fixed.magnets[0]
-    }
-
-    /// The slid contacts of every two faces, if words have a pitch.
-    pub fn slides(&self) -> Vec<Slid> {
-        let rules = self.request.rules();
-        let lags = Built::lags(&self.words).filter(|_| rules.slides());
-        let Some(lags) = lags else {
-            return Vec::new();
-        };
-        let matrix = &self.built.matrix;
-        let faces = matrix.energies.len();
-        let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| [i, j]));
-        let of =
-            |faces: [usize; 2]| Slid::of(&lags, &rules, faces, faces.map(|it| matrix.code(it)));
-        pairs.map(of).collect()
     }
 }
 

@@ -6,6 +6,7 @@
 //! a slid one.
 
 use super::Built;
+use crate::design::WordSet;
 use physics::words::{Lags, Rules, Word};
 
 /// The slid contacts of two faces.
@@ -22,7 +23,7 @@ pub struct Slid {
 
 impl Slid {
     /// Computes them for two faces with their words.
-    pub fn of(lags: &Lags, rules: &Rules, faces: [usize; 2], [first, second]: [Word; 2]) -> Self {
+    fn of(lags: &Lags, rules: &Rules, faces: [usize; 2], [first, second]: [Word; 2]) -> Self {
         // Energies (J) over slides, starting with the most clockwise one.
         let middle = usize::from(rules.slides()) * (first.places() - 1);
         let slide = |k: usize| k as i32 - middle as i32;
@@ -63,6 +64,18 @@ impl Slid {
     pub fn energy(&self) -> f64 {
         self.deepest.map_or(0.0, |it| it.1)
     }
+}
+
+/// The slid contacts of every two faces, if words have a pitch.
+pub(super) fn of_all(built: &Built, words: &WordSet, rules: &Rules) -> Vec<Slid> {
+    let Some(lags) = Built::lags(words).filter(|_| rules.slides()) else {
+        return Vec::new();
+    };
+    let matrix = &built.matrix;
+    let faces = matrix.energies.len();
+    let pairs = (0..faces).flat_map(|i| (i..faces).map(move |j| [i, j]));
+    let of = |faces: [usize; 2]| Slid::of(&lags, rules, faces, faces.map(|it| matrix.code(it)));
+    pairs.map(of).collect()
 }
 
 /// A summary of slid contacts.

@@ -26,7 +26,6 @@ use crate::request::{self, Unanswered};
 use bonds::{PairTimes, TimesFit};
 use distances::{DistanceFit, PairDistances};
 use fit::{Fit, least_squares};
-use physics::configuration::Configuration;
 use physics::contact::Contact;
 use physics::kinetics::Hold;
 use physics::kinetics::bond::BondError;
@@ -34,7 +33,7 @@ use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::tile::Tile;
-pub use rows::{COLUMNS, read_rows};
+pub use rows::{COLUMNS, Row, read_rows};
 
 /// The options of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
@@ -139,20 +138,6 @@ pub const QUANTITIES: [(&str, &str); 4] = [
     ("force along y", "N"),
     ("torque", "N m"),
 ];
-
-/// A measurement.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// Its line in the file.
-    pub line: usize,
-    /// The pose at which it was taken.
-    pub configuration: Configuration,
-    /// Whether the shields were in place.
-    pub iron: bool,
-    /// Energy (J), force on the moving tile along x and y (N) and torque about its reference point
-    /// (N m), if measured.
-    pub measured: [Option<f64>; 4],
-}
 
 /// The measured specimen: two tiles, and which of their faces had shields in the rows with iron
 /// (those with a shield in `shields`, or all if there are none; the constants in it are ignored).

@@ -2,7 +2,6 @@
 
 use csv::StringRecord;
 
-use super::Row;
 use super::lines::records;
 use crate::request::FARTHEST;
 use crate::text::decimal_comma;
@@ -24,6 +23,20 @@ pub const COLUMNS: [&str; 8] = [
 
 /// Number of required columns.
 const NEEDED: usize = 4;
+
+/// A measurement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its line in the file.
+    pub line: usize,
+    /// The pose at which it was taken.
+    pub configuration: Configuration,
+    /// Whether the shields were in place.
+    pub iron: bool,
+    /// Energy (J), force on the moving tile along x and y (N) and torque about its reference point
+    /// (N m), if measured.
+    pub measured: [Option<f64>; 4],
+}
 
 /// Reads measurements. Lines without entries and lines that begin with `#` are skipped.
 ///

@@ -1,6 +1,7 @@
 //! The settings of an analysis, and the settings of its stages that follow from them.
 
 use crate::design::Design;
+use crate::memory;
 use physics::budget::Allowance;
 use physics::dynamics::check::CheckSettings;
 use physics::landscape::barrier_bounds::CertificationSettings;
@@ -176,6 +177,14 @@ impl Settings {
                 probability_step: problem.scaled(5e-3),
             },
         }
+    }
+
+    /// The memory that the roadmap takes, as a message if it is large.
+    ///
+    /// # Errors
+    /// If the machine does not have enough memory.
+    pub fn check_memory(&self) -> Result<Option<String>, String> {
+        memory::check(self.milestones, self.neighbours, 1)
     }
 
     pub(crate) fn survey(&self, roadmap: &RoadmapSettings) -> ExplorationSettings {

@@ -8,6 +8,7 @@ pub use request::Request;
 
 use crate::design::Design;
 use crate::pipeline::Settings;
+use crate::request::Unanswered;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
 use physics::landscape::minimax::{Certifier, Effort, End};
@@ -62,6 +63,12 @@ pub enum QueryError {
     /// Neither a path nor a proof that there is none was found.
     #[error("no path was found or excluded: use more milestones")]
     NoWay,
+}
+
+impl Unanswered for QueryError {
+    fn is_of_the_question(&self) -> bool {
+        *self != Self::NoWay
+    }
 }
 
 /// The barrier between two poses, or between a pose and far apart.

@@ -1,7 +1,6 @@
 //! Overdamped motion of shaken tiles: how soon a tile leaves a pose and where it goes, and the
 //! rates between the bond, the deepest traps and free tiles.
 
-mod over_kt;
 mod states;
 mod table;
 
@@ -11,6 +10,7 @@ pub use table::{AtKt, StateRates};
 use clap::Args;
 
 use crate::design::Design;
+use crate::memory;
 use crate::pipeline::Analysis;
 use crate::request::{self, Unanswered};
 use physics::configuration::Configuration;
@@ -114,6 +114,16 @@ impl Unanswered for RateFault {
 }
 
 impl Request {
+    /// Checks that the meshes fit into memory beside a number of threads.
+    ///
+    /// # Errors
+    /// See [`memory::check_meshes`].
+    pub fn check_memory(&self, threads: usize) -> Result<(), String> {
+        // The bond, the traps and free tiles; an exit has one place.
+        let places = self.start.map_or(self.traps + 2, |_| 1);
+        memory::check_meshes(places, threads)
+    }
+
     /// The mean exit time of a tile released at a pose, the end that it reaches first, and the
     /// result of rigid bodies, if requested. The observer is told a first figure at once, and better
     /// ones as meshes become finer.

@@ -2,9 +2,6 @@
 
 use std::fmt::Display;
 
-use crate::query::QueryError;
-use crate::sweep::PlanError;
-use crate::workshop::PartError;
 use physics::dynamics::SettingsError;
 use physics::dynamics::docking::DockingError;
 use physics::kinetics::bond::BondError;
@@ -28,12 +25,6 @@ impl Unanswered for BondError {
     }
 }
 
-impl Unanswered for QueryError {
-    fn is_of_the_question(&self) -> bool {
-        *self != Self::NoWay
-    }
-}
-
 impl Unanswered for RatesError {
     fn is_of_the_question(&self) -> bool {
         !matches!(self, Self::Unsolved(_))
@@ -47,9 +38,5 @@ impl Unanswered for ExitError {
 }
 
 impl Unanswered for DockingError {}
-
-impl Unanswered for PartError {}
-
-impl Unanswered for PlanError {}
 
 impl Unanswered for SettingsError {}

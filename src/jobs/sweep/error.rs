@@ -1,6 +1,7 @@
 //! Errors of sweeps that cannot be planned.
 
 use crate::design::DesignError;
+use crate::request::Unanswered;
 
 /// Largest number of points of a sweep.
 pub(super) const MOST_POINTS: usize = 1_000_000;
@@ -47,3 +48,5 @@ pub enum PlanError {
     #[error("the manifest is from tilebind {0}, this is {here}: plan the sweep again", here = env!("CARGO_PKG_VERSION"))]
     Version(String),
 }
+
+impl Unanswered for PlanError {}

@@ -14,6 +14,7 @@ use super::vary::{Axis, Value, number};
 use super::{document, drawings};
 use crate::comparison::Request;
 use crate::design::Design;
+use crate::memory;
 use physics::parallel;
 
 /// Characters of a point's name: 128 bits in hexadecimal.
@@ -173,6 +174,16 @@ impl Plan {
     /// The number of points.
     pub fn count(&self) -> usize {
         self.designs.len() * self.grid()
+    }
+
+    /// The memory for the points that are computed at the same time on a number of threads, as a
+    /// message if it is large.
+    ///
+    /// # Errors
+    /// If the machine does not have enough memory.
+    pub fn check_memory(&self, threads: usize) -> Result<Option<String>, String> {
+        let (survey, at_once) = (&self.settings.survey, threads.min(self.count()));
+        memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
 
     /// The number of points of each design.

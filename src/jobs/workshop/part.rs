@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::Making;
 use super::rim::{Corner, rim};
+use crate::request::Unanswered;
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
 use physics::tile::{Face, Magnet, Outline, Tile};
@@ -21,6 +22,8 @@ pub enum PartError {
     #[error("a cut {0} m wide leaves no pocket for the magnets: use a narrower --kerf")]
     Pocket(f64),
 }
+
+impl Unanswered for PartError {}
 
 /// The cutting lines of a tile, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]

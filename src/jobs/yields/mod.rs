@@ -13,6 +13,7 @@ mod schedule;
 use clap::Args;
 
 use crate::design::Design;
+use crate::memory;
 use crate::pipeline::{self, Settings};
 use crate::request::{self, Unanswered};
 use attachment::Effort;
@@ -64,6 +65,20 @@ pub struct Question {
     /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
+}
+
+impl Question {
+    /// Checks that the meshes, if there are any, fit into memory beside a number of threads.
+    ///
+    /// # Errors
+    /// See [`memory::check_meshes`].
+    pub fn check_memory(&self, threads: usize) -> Result<(), String> {
+        match self.effort.source {
+            // The bond, a few traps and free tiles.
+            Source::Overdamped => memory::check_meshes(5, threads),
+            Source::Docking => Ok(()),
+        }
+    }
 }
 
 /// A number of tiles, half of each kind.

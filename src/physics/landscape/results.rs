@@ -116,6 +116,23 @@ pub struct State {
 }
 
 impl State {
+    /// A minimum of which nothing else is known, in a class of its own.
+    pub fn new(id: usize, kind: StateKind, configuration: Configuration, energy: f64) -> Self {
+        Self {
+            id,
+            kind,
+            configuration,
+            energy,
+            class: id,
+            faces: Vec::new(),
+            attracting: 0,
+            repelling: 0,
+            block_energy: None,
+            capture: None,
+            sideways: None,
+        }
+    }
+
     /// Energy of the point dipoles minus the energy of the blocks they represent (J).
     pub fn dipole_error(&self) -> Option<f64> {
         self.block_energy.map(|blocks| self.energy - blocks)

@@ -40,6 +40,18 @@ impl From<&Magnet> for Dipole {
     }
 }
 
+/// Pads to a multiple of `group` with copies of the last dipole without moment. (A copy is at the
+/// place of a dipole, so it adds no infinite energy.)
+pub(super) fn fill(dipoles: &mut Vec<Dipole>, group: usize) {
+    if let Some(last) = dipoles.last().copied() {
+        let moment = Vector2::zeros();
+        dipoles.resize(
+            dipoles.len().next_multiple_of(group),
+            Dipole { moment, ..last },
+        );
+    }
+}
+
 /// Energy (J) of two dipoles, the force (N) on the second and the gradient of the energy in the
 /// direction of the second dipole's moment (J/rad), all at the separation `r` (m) from the first
 /// to the second.

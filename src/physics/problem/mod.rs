@@ -1,6 +1,5 @@
 //! A problem: a space of configurations, the energy on it, and the contact that blocks part of it.
 
-mod rivals;
 mod symmetry;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -19,7 +18,6 @@ use crate::potential::{
 use crate::scale::Scale;
 use crate::tile::{Face, Pair, face_to_face};
 
-pub use rivals::Meeting;
 pub use symmetry::Symmetry;
 
 /// Counters for energy evaluations are spread over this many cache lines, so that threads do not
@@ -28,6 +26,22 @@ const COUNTERS: usize = 64;
 
 /// Fewer configurations are evaluated individually; the bits are the same.
 const WORTH_A_BATCH: usize = 5;
+
+/// Two faces count as binding as strongly as the target from this fraction of its energy on.
+const AS_STRONG: f64 = 0.95;
+/// Configurations closer than this (m, metric of the space) are the same meeting.
+const SAME: f64 = 1e-6;
+
+/// Two faces, set flushagainst each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Which face of the fixed tile, which of the moving one.
+    pub faces: (usize, usize),
+    /// The configuration of the moving tile.
+    pub configuration: Configuration,
+    /// U there (J).
+    pub energy: f64,
+}
 
 #[repr(align(128))]
 #[derive(Default)]
@@ -343,6 +357,49 @@ impl Problem {
         self.contact
             .as_ref()
             .is_none_or(|contact| contact.motion_overlaps_at_most(a, b, allowed))
+    }
+
+    /// The pairs of faces that unintentionally bind as strongly as the target: flush against each
+    /// other, pushed out into contact if their shapes overlap, they have at least 0.95 of the
+    /// bond's energy. Images of the target under a symmetry are not included. Slid and tilted
+    /// contacts are not considered.
+    pub fn rivals(&self) -> Vec<Meeting> {
+        let Some(pair) = &self.pair else {
+            return Vec::new();
+        };
+        let potential = self.potential();
+        let bond = potential.energy(&pair.bound);
+        if bond >= 0.0 {
+            return Vec::new();
+        }
+        let wanted: Vec<_> = self
+            .symmetries
+            .iter()
+            .map(|s| s.apply(&pair.bound))
+            .collect();
+        let [fixed, moving] = self.faces();
+        let pairs = (0..fixed.len()).flat_map(|f| (0..moving.len()).map(move |m| (f, m)));
+        let meetings = pairs.map(|(f, m)| {
+            let flush = face_to_face(&fixed[f], &moving[m], 0.0, 0.0);
+            let lift = self.lift(&flush, fixed[f].normal());
+            let position = flush.position() + fixed[f].normal() * lift;
+            let configuration = Configuration::new(position.x, position.y, flush.theta);
+            Meeting {
+                faces: (f, m),
+                configuration,
+                energy: potential.energy(&configuration),
+            }
+        });
+        let is_wanted = |meeting: &Meeting| {
+            let distance = |q: &Configuration| self.space.distance(q, &meeting.configuration);
+            meeting.faces == pair.target || wanted.iter().any(|q| distance(q) < self.scaled(SAME))
+        };
+        let is_strong = |meeting: &Meeting| {
+            meeting.energy <= AS_STRONG * bond && self.is_free(&meeting.configuration)
+        };
+        meetings
+            .filter(|meeting| is_strong(meeting) && !is_wanted(meeting))
+            .collect()
     }
 
     /// The moving tile's mass matrix over its mass, about its reference point: kinetic energy is

@@ -69,4 +69,20 @@ impl Roadmap {
             untried,
         }
     }
+
+    /// The first milestones, at most this `count`, with the free motions to the nearest ones of each,
+    /// at most so many `neighbours`.
+    pub fn first(
+        problem: &Problem,
+        settings: &RoadmapSettings,
+        [count, neighbours]: [usize; 2],
+    ) -> Self {
+        let mut few = *settings;
+        few.milestones.count = few.milestones.count.min(count);
+        few.neighbours = few.neighbours.min(neighbours);
+        let mut roadmap = Self::untried(problem, &few, &mut |_| {});
+        let pairs = std::mem::take(&mut roadmap.untried);
+        roadmap.edges = edge::edges(problem, &roadmap.milestones, &pairs, &few.edges);
+        roadmap
+    }
 }

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
-use super::outline::{cross, segments_meet};
+use super::plane::{cross, segments_meet};
 
 /// Sines of angles below this count as zero.
 const STRAIGHT: f64 = 1e-12;

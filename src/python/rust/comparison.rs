@@ -55,8 +55,7 @@ pub fn compare(
         request: asked.request.of(designs()),
         ..asked
     };
-    let survey = &question.request.survey;
-    job::check_memory(survey.milestones.unwrap_or(0), survey.neighbours)?;
+    job::check_memory(question.request.settings(question.seed).check_memory())?;
     let found = job::run(py, progress, |told| assess_all(designs(), &question, told))?;
     Ok(Comparison(Compared::new(&found, by, question.request)))
 }

@@ -62,6 +62,20 @@ pub fn dock(
     Ok(Docking { found, content })
 }
 
+#[pymethods]
+impl Design {
+    /// Launch the moving tile at the fixed one many times; see :func:`tilebind.dock`.
+    #[pyo3(signature = (*, progress = None, **settings))]
+    fn dock(
+        slf: Py<Self>,
+        py: Python<'_>,
+        progress: Option<bool>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Docking> {
+        dock(py, slf, progress, settings)
+    }
+}
+
 /// Largest number of points of a trajectory, since all are kept in memory.
 const MOST_POINTS: f64 = 1e7;
 

@@ -96,6 +96,7 @@ fn attend<T: Send>(
     bar: Option<&Py<PyAny>>,
     work: impl FnOnce(&Told) -> T + Send,
 ) -> PyResult<T> {
+    check_memory(memory::check_threads(threads()))?;
     let (told, interruption) = (Told::default(), Interruption::default());
     let (told, interruption) = (&told, &interruption);
     py.detach(|| {
@@ -148,8 +149,7 @@ fn broken(payload: &(dyn Any + Send)) -> PyErr {
     ))
 }
 
-/// Checks that the machine has the memory for a roadmap.
-pub fn check_memory(milestones: usize, neighbours: Option<usize>) -> PyResult<()> {
-    let told = memory::check(milestones, neighbours, 1);
-    told.map(drop).map_err(fault::of)
+/// A `ValueError` if the machine does not have the memory for a job.
+pub fn check_memory<T>(checked: Result<T, String>) -> PyResult<()> {
+    checked.map(drop).map_err(fault::of)
 }

@@ -27,7 +27,7 @@ mod words;
 
 use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
-use tilebind::potential::batch::Level;
+use tilebind::potential::simd::Level;
 
 #[pymodule]
 fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -70,8 +70,7 @@ pub fn sweep(
     let asked = request::<Request>(settings)?;
     let designs = vec![(content.source.clone(), content.design.clone())];
     let plan = asked.plan(designs, axes).map_err(fault::of)?;
-    let survey = &plan.settings.survey;
-    job::check_memory(survey.milestones.unwrap_or(0), survey.neighbours)?;
+    job::check_memory(plan.check_memory(job::threads()))?;
     let (plan, outcomes) = job::run(py, progress, |told| {
         let known = Known::default();
         known.work(&plan, told);

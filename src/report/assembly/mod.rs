@@ -26,13 +26,12 @@ const LISTED: usize = 5;
 
 /// The document of an assembly.
 pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
-    let slides = assembly.slides();
     let title = "Error-free growth";
     Document {
         title: format!("Assembly {}", assembly.built.set.name),
         answer: text::headline(assembly),
-        remarks: text::known(assembly, &slides),
-        entries: entries(assembly, &slides),
+        remarks: text::known(assembly),
+        entries: entries(assembly),
         pictures: vec![Drawing::new(title, |sheet| {
             picture::grown(assembly, title, sheet)
         })],
@@ -44,7 +43,7 @@ pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
 
 // One line an entry.
 #[rustfmt::skip]
-fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
+fn entries(assembly: &Assembly) -> Entries {
     let (built, request) = (&assembly.built, &assembly.request);
     let (set, matrix, grown) = (&built.set, &built.matrix, &built.grown);
     let codes = |faces: std::ops::Range<usize>| -> Value {
@@ -57,7 +56,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
     });
     let deeper = built.deeper();
     let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
-    let mut deepest: Vec<_> = slides.iter().filter(|it| it.deepest.is_some()).collect();
+    let mut deepest: Vec<_> = assembly.slides.iter().filter(|it| it.deepest.is_some()).collect();
     let all = slid(assembly, deepest.clone());
     deepest.order_by(|a, b| a.energy().total_cmp(&b.energy()));
     deepest.truncate(SHOWN);
@@ -102,7 +101,7 @@ fn entries(assembly: &Assembly, slides: &[Slid]) -> Entries {
             .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
         .fact("deeper_in_whole_tiles", "bonds between whole tiles", deeper.map(|ends| json!(ends)))
             .viewed(deeper.map_or(String::new(), told)).noted("deeper than between two faces")
-        .data("slides", slides::summary(built, slides).map(|it| json!({
+        .data("slides", slides::summary(built, &assembly.slides).map(|it| json!({
             "deepest_J": it.deepest,
             "pairs_that_hold_alone": it.holding,
             "pairs": it.pairs,

@@ -3,7 +3,7 @@
 use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
-use jobs::assembly::slides::{self, Slid};
+use jobs::assembly::slides;
 use jobs::assembly::{Assembly, lattice};
 use physics::units::{plain, si, si_range};
 
@@ -70,7 +70,7 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
 }
 
 /// Further notes.
-pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
+pub(super) fn known(assembly: &Assembly) -> Vec<String> {
     let built = &assembly.built;
     let grown = &built.grown;
     let window = built.window().map(|[low, high]| match low > 0.0 {
@@ -94,7 +94,7 @@ pub(super) fn known(assembly: &Assembly, slides: &[Slid]) -> Vec<String> {
         ),
         None => "no aligned mismatch attracts".to_owned(),
     };
-    let slid = slides::summary(built, slides).map(|slid| {
+    let slid = slides::summary(built, &assembly.slides).map(|slid| {
         format!(
             "not in the engines' model: faces slid by whole positions bind with up to {} ({:.1} \
              kT, Gmc {:.1}); {} of {} pairs of faces hold a tile alone in this way; {:.0} % of \

@@ -6,15 +6,10 @@
 
 mod data;
 mod page;
-mod rows;
-mod table;
 mod text;
-mod unit;
 
+pub use crate::columns::{Cell, Head, Link, Rows, Table, Unit, rows, told};
 pub use crate::plots::Drawing;
-pub use rows::{Rows, rows};
-pub use table::{Cell, Head, Link, Table};
-pub use unit::{Unit, told};
 
 use std::borrow::Cow;
 
@@ -90,6 +85,7 @@ pub enum Part {
 }
 
 /// Entries one after another.
+#[must_use]
 #[derive(Default)]
 pub struct Entries(Vec<Entry>);
 
@@ -105,7 +101,6 @@ pub fn entries(design: &Design) -> Entries {
 impl Entries {
     /// Adds a figure: its key in files, which ends in its unit, its name for people (empty if it is
     /// not shown to them), and its value.
-    #[must_use]
     pub fn fact(
         mut self,
         key: impl Into<Cow<'static, str>>,
@@ -129,51 +124,43 @@ impl Entries {
     }
 
     /// Adds a note to the last figure.
-    #[must_use]
     pub fn noted(self, note: impl Into<String>) -> Self {
         self.last(|fact| fact.note = note.into())
     }
 
     /// Sets the text of the last figure for people.
-    #[must_use]
     pub fn viewed(self, view: impl Into<String>) -> Self {
         self.last(|fact| fact.view = Some(view.into()))
     }
 
     /// Marks the last figure as a share.
-    #[must_use]
     pub fn share(self) -> Self {
         self.last(|fact| fact.head.unit = Unit::Share)
     }
 
     /// Sets the number of digits of the last figure for people.
-    #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         self.last(|fact| fact.head.digits = digits)
     }
 
     /// Restricts the last figure to people.
-    #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|fact| (fact.head.is_data, fact.head.is_viewed) = (false, true))
     }
 
     /// Appends other entries.
-    #[must_use]
     pub fn and(mut self, others: Self) -> Self {
         self.0.extend(others.0);
         self
     }
 
     /// Adds a table.
-    #[must_use]
     pub fn table(mut self, table: Table) -> Self {
         self.0.push(Entry::Table(table));
         self
     }
 
     /// Adds the figures of a table's first row.
-    #[must_use]
     pub fn row(self, mut table: Table) -> Self {
         let row = table.rows.drain(..).next().unwrap_or_default();
         let fact = |(head, (cell, view))| Fact {
@@ -187,21 +174,18 @@ impl Entries {
     }
 
     /// Adds optional entries.
-    #[must_use]
     pub fn more(mut self, entries: impl IntoIterator<Item = Entry>) -> Self {
         self.0.extend(entries);
         self
     }
 
     /// Adds entries under one key.
-    #[must_use]
     pub fn group(mut self, key: &'static str, entries: Self) -> Self {
         self.0.push(Entry::Group(key, entries.0));
         self
     }
 
     /// Adds data for programs under a key.
-    #[must_use]
     pub fn data(mut self, key: &'static str, value: impl Into<Value>) -> Self {
         self.0.push(Entry::Data(key, value.into()));
         self

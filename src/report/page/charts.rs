@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use super::finite;
+use super::numbers::{finite, rounded};
 use super::thumbnail::Thumbnail;
 use crate::figures::cell;
-use crate::sweep::Sweep;
-use crate::sweep::points::Variable;
+use crate::points::Sweep;
+use crate::points::Variable;
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES};
 use jobs::comparison::{Assessment, Quantity};
 
@@ -82,7 +82,7 @@ impl Charts {
 
 /// Removes rounding errors of a change of unit.
 fn tidy(value: f64) -> f64 {
-    super::rounded(value, 9)
+    rounded(value, 9)
 }
 
 fn point(

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::landscape::Drawn;
-use super::rounded;
+use super::numbers::rounded;
 use jobs::table::Found;
 use physics::table::contacts::{Held, Tie};
 use physics::table::{Mover, Sample};

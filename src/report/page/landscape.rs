@@ -5,9 +5,9 @@ use std::f64::consts::FRAC_PI_4;
 use nalgebra::Vector2;
 use serde::Serialize;
 
+use super::numbers::{fixed, rounded};
 use super::packed::Packed;
 use super::pathways::Played;
-use super::{fixed, rounded};
 use crate::names::kind;
 use crate::plots::scale::{EnergyScale, VIK};
 use crate::plots::{Scene, disconnectivity};

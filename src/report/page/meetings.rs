@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::landscape::Stands;
-use super::{finite, fixed};
+use super::numbers::{finite, fixed};
 use crate::document::rows;
 use crate::plots::Drawing;
 use crate::plots::matrix::Matrix;

@@ -10,6 +10,7 @@ mod crowd;
 mod html;
 pub(super) mod landscape;
 pub(super) mod meetings;
+mod numbers;
 mod packed;
 pub(crate) mod pathways;
 mod thumbnail;
@@ -46,6 +47,7 @@ const SCRIPTS: [&str; 13] = [
 ];
 
 /// The contents of a page.
+#[must_use]
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {
     /// The heading.
@@ -172,14 +174,12 @@ impl Page {
     }
 
     /// Adds the command line that makes it.
-    #[must_use]
     pub fn made_by(self, command: &str) -> Self {
         let command = command.to_owned();
         Self { command, ..self }
     }
 
     /// Adds links to files, relative to its folder.
-    #[must_use]
     pub fn beside<'a>(self, files: impl IntoIterator<Item = &'a String>) -> Self {
         let files = files.into_iter().cloned().collect();
         Self { files, ..self }
@@ -203,28 +203,6 @@ impl Page {
         ];
         filled(MARKUP, &parts)
     }
-}
-
-/// A number with `digits` significant digits, 0 if it is not finite.
-fn rounded(value: f64, digits: usize) -> f64 {
-    let text = format!("{value:.*e}", digits - 1);
-    let rounded = text.parse().unwrap_or(value);
-    if f64::is_finite(rounded) {
-        super::values::positive_zero(rounded)
-    } else {
-        0.0
-    }
-}
-
-/// A length (m) or an angle to 8 decimals: ten nanometres, a hundred-thousandth of a tile of 1 mm.
-fn fixed(value: f64) -> f64 {
-    let scale = 1e8;
-    super::values::positive_zero((value * scale).round() / scale)
-}
-
-/// Like [`rounded`], `None` if it is not finite.
-fn finite(value: f64, digits: usize) -> Option<f64> {
-    value.is_finite().then(|| rounded(value, digits))
 }
 
 #[cfg(test)]
@@ -254,14 +232,5 @@ mod tests {
             let own = html.replace("http://www.w3.org/2000/svg", "");
             assert!(!own.contains(word), "{word}");
         }
-    }
-
-    #[test]
-    fn numbers_are_rounded_to_significant_digits() {
-        assert_eq!(rounded(0.123_456_78, 4), 0.1235);
-        assert_eq!(rounded(-0.0, 4).to_bits(), 0);
-        assert_eq!(finite(f64::INFINITY, 4), None);
-        assert_eq!(fixed(-1.3e-17).to_bits(), 0);
-        assert_eq!(fixed(0.477_512_902_9), 0.477_512_9);
     }
 }

@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use super::fixed;
+use super::numbers::fixed;
 use crate::packing::deflated;
 use crate::plots::scale::EnergyScale;
 use physics::landscape::volume::Volume;

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::{finite, fixed, rounded};
+use super::numbers::{finite, fixed, rounded};
+use crate::columns::{Link, Table, rows};
 use crate::csv;
-use crate::document::{Link, Table, rows};
 use crate::plots::Scene;
 use physics::dynamics::Snapshot;
 use physics::landscape::{Barrier, Pathway, PathwayCost, Place};

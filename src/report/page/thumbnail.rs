@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::landscape::{Drawn, pose};
-use crate::sweep::Sweep;
+use crate::points::Sweep;
 use jobs::sweep::Point;
 
 /// With more points the page would grow large.

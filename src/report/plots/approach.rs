@@ -4,12 +4,12 @@
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
+use super::decimals::{Decimals, angle, energy};
 use super::heat::{Interpolated, Range};
 use super::key::{self, Sign, key};
 use super::marks::{Mark, marker};
 use super::scale::EnergyScale;
 use super::scene::Scene;
-use super::{Decimals, angle, energy};
 use crate::csv::table;
 use crate::names::face;
 use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};

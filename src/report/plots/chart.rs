@@ -14,8 +14,8 @@ use super::picture::PictureError;
 use super::sheet::Sheet;
 use super::style::{COLOURS, INK, series_colour, stroke, unit};
 use super::{Drawing, Figure};
+use crate::columns::{Unit, told};
 use crate::csv::{number, table};
-use crate::document::{Unit, told};
 use physics::units::si;
 
 const WIDTH: f64 = 860.0;
@@ -29,6 +29,7 @@ const MARGIN: [f64; 4] = [14.0, 30.0, 62.0, 92.0];
 const MOST_POWERS: usize = 8;
 
 /// The quantity of an axis.
+#[must_use]
 #[derive(Clone, Debug)]
 pub struct Dimension {
     /// Its key in files, which ends in the unit.
@@ -67,7 +68,6 @@ impl Dimension {
     }
 
     /// On a logarithmic axis.
-    #[must_use]
     pub fn logarithmic(self) -> Self {
         Self {
             is_logarithmic: true,
@@ -76,7 +76,6 @@ impl Dimension {
     }
 
     /// On a logarithmic axis for counts that can be 0: by the logarithm of the count plus 1.
-    #[must_use]
     pub fn counting(self) -> Self {
         Self {
             offset: 1.0,
@@ -85,7 +84,6 @@ impl Dimension {
     }
 
     /// With a fixed range.
-    #[must_use]
     pub fn within(self, range: [f64; 2]) -> Self {
         Self {
             range: Some(range),
@@ -94,7 +92,6 @@ impl Dimension {
     }
 
     /// With marks at these numbers.
-    #[must_use]
     pub fn marked(self, marks: impl IntoIterator<Item = f64>) -> Self {
         Self {
             marks: marks.into_iter().collect(),
@@ -286,6 +283,7 @@ impl Series {
 }
 
 /// A chart.
+#[must_use]
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// The stem of its files.
@@ -304,7 +302,6 @@ pub struct Chart {
 
 impl Chart {
     /// Adds a series in a new colour.
-    #[must_use]
     pub fn with<P: Into<Point>>(
         mut self,
         name: impl Into<String>,
@@ -317,7 +314,6 @@ impl Chart {
     }
 
     /// Gives the last series a colour by its index, such as that of another series.
-    #[must_use]
     pub fn in_colour(mut self, number: usize) -> Self {
         if let Some(series) = self.series.last_mut() {
             series.colour = number;

@@ -7,7 +7,7 @@
 use super::axes::{Axis, Plot, Spacing};
 use super::canvas::{Box4, Canvas, Pixel, Spot, corners};
 use super::composition::{Composition, Panel, left_out, remark};
-use super::energy;
+use super::decimals::energy;
 use super::labels::Labels;
 use super::marks::{Mark, marker};
 use super::merge_tree::{Join, Tree, merge};

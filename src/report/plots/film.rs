@@ -5,12 +5,12 @@ use ordered_float::OrderedFloat;
 
 use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel};
+use super::decimals::{Decimals, energy};
 use super::key::{POLES, key};
 use super::marks::{View, extent};
 use super::scale::EnergyScale;
 use super::scene::Scene;
 use super::style::{Anchor, GRID, LABEL, SMALL, SOFT, minus};
-use super::{Decimals, energy};
 use crate::csv::table;
 use physics::landscape::{Pathway, PathwayPoint};
 use physics::units::si;

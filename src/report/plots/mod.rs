@@ -21,6 +21,7 @@ pub mod chart;
 pub(crate) mod committor;
 pub(crate) mod composition;
 mod contour;
+mod decimals;
 pub(crate) mod disconnectivity;
 pub mod dock;
 mod energy_map;
@@ -55,11 +56,10 @@ pub use picture::{Picture, PictureError};
 pub use scene::Scene;
 pub use sheet::Sheet;
 
-use super::csv::{number, rounded};
+use decimals::Decimals;
 use film::Film;
 use models::Curves;
 use physics::parallel;
-use physics::tile::Pair;
 use scale::EnergyScale;
 
 /// All pictures of an analysis; those without data are omitted.
@@ -138,37 +138,4 @@ pub fn draw(
         Figure::new(composition, sheet, data.clone())
     });
     figures.into_iter().collect()
-}
-
-/// Decimals of lengths (m) in tables of numbers: a micrometre for tiles of 5 to 50 cm, and in
-/// proportion for others.
-#[derive(Clone, Copy)]
-struct Decimals(i32);
-
-impl Decimals {
-    /// For two tiles.
-    fn of(pair: &Pair) -> Self {
-        Self(5 - libm::floor(libm::log10(pair.free_distance())) as i32)
-    }
-
-    /// A length (m).
-    fn length(self, value: f64) -> String {
-        let scale = 10f64.powi(self.0);
-        number((scale * value).round() / scale)
-    }
-
-    /// The two lengths (m) and the angle (rad) of a pose.
-    fn pose(self, [x, y, theta]: [f64; 3]) -> [String; 3] {
-        [self.length(x), self.length(y), angle(theta)]
-    }
-}
-
-/// An angle (rad) in a table of numbers.
-fn angle(value: f64) -> String {
-    number((1e6 * value).round() / 1e6)
-}
-
-/// An energy (J) in a table of numbers, to five significant digits: a picture shows no more.
-fn energy(value: f64) -> String {
-    rounded(value, 5)
 }

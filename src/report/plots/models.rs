@@ -4,9 +4,9 @@
 use super::canvas::{Box4, Canvas};
 use super::chart::{Dimension, Look, Series, plotted};
 use super::composition::{Composition, Panel};
+use super::decimals::{Decimals, energy};
 use super::scene::Scene;
 use super::style::{Anchor, COLOURS, INK, LABEL, minus};
-use super::{Decimals, energy};
 use crate::csv::table;
 use physics::landscape::StateKind;
 use physics::landscape::approach::Approach;

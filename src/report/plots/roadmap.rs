@@ -6,17 +6,18 @@ use plotters::style::RGBColor;
 use super::axes::{Axis, Plot};
 use super::canvas::Canvas;
 use super::composition::{Composition, Panel, remark};
+use super::decimals::{Decimals, energy};
 use super::heat::Range;
 use super::key::{STATES, key};
 use super::marks::{ORIGIN, View, marker};
 use super::picture::PictureError;
 use super::scale::{EnergyScale, colour};
 use super::style::{FIXED_FILL, INK};
-use super::{Decimals, Figure, Scene, Sheet, energy};
+use super::{Figure, Scene, Sheet};
 use crate::csv::table;
 use nalgebra::Vector2;
 use physics::order::Order;
-use physics::roadmap::{Edge, Roadmap, RoadmapSettings, edge};
+use physics::roadmap::{Edge, Roadmap, RoadmapSettings};
 
 const WIDTH: f64 = 860.0;
 /// Space around the plot (pixels): top, right, bottom, left.
@@ -33,12 +34,8 @@ pub fn draw(
     settings: &RoadmapSettings,
     sheet: &Sheet,
 ) -> Result<Figure, PictureError> {
-    let mut few = *settings;
-    few.milestones.count = few.milestones.count.min(MOST[0]);
-    few.neighbours = few.neighbours.min(MOST[1]);
-    let roadmap = Roadmap::untried(scene.problem, &few, &mut |_| {});
-    let points = &roadmap.milestones;
-    let mut edges = edge::edges(scene.problem, points, &roadmap.untried, &few.edges);
+    let first = Roadmap::first(scene.problem, settings, MOST);
+    let (points, mut edges) = (&first.milestones, first.edges);
     // The cheapest lie on top.
     edges.order_by_key(|edge| std::cmp::Reverse(OrderedFloat(edge.costs.peak)));
     let peaks = || edges.iter().map(|edge| edge.costs.peak);
@@ -76,7 +73,7 @@ pub fn draw(
          motion is free; colour: highest energy on the way; orientations are not shown",
         points.len(),
         settings.milestones.count,
-        few.neighbours
+        settings.neighbours.min(MOST[1])
     );
     let composition = Composition {
         name: "roadmap".to_owned(),

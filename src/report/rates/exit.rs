@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite};
+use super::told::{NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;

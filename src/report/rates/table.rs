@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{
+use super::told::{
     NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite, outwards,
 };
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};

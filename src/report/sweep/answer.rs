@@ -1,9 +1,9 @@
 //! The answer of a sweep: one sentence, and a table of its points.
 
-use super::points::Sweep;
 use crate::assessments::view;
 use crate::document::{Table, rows};
 use crate::figures::cell;
+use crate::points::Sweep;
 use jobs::comparison::quantity::{QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, ranking};
 use jobs::sweep::Point;

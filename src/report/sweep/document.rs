@@ -3,10 +3,10 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::pictures::drawings;
-use super::points::Sweep;
 use crate::assessments::{capture_settings, checked, merge, numbers, quantities};
 use crate::document::{Cell, Document, Entries, Part, Table, rows};
 use crate::page::Charts;
+use crate::points::Sweep;
 use jobs::sweep::{Outcome, Point, Progress};
 
 /// Largest number of reasons in the summary.

@@ -1,6 +1,5 @@
 //! The pictures of a sweep: curves over one varied number, or maps over two.
 
-use super::points::{Common, Sweep, Variable};
 use crate::csv::{number, table};
 use crate::figures::{Shown, cell};
 use crate::plots::axes::{Axis, Plot};
@@ -12,6 +11,7 @@ use crate::plots::key::key;
 use crate::plots::scale::colour;
 use crate::plots::style::{Anchor, COLOURS, GRID, INK, SMALL, SOFT, minus, series_colour};
 use crate::plots::{Drawing, Figure, PictureError, Sheet};
+use crate::points::{Common, Sweep, Variable};
 use jobs::comparison::quantity::{Measure, NO_TRAPS, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity};
 use jobs::sweep::Point;

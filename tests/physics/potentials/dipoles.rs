@@ -4,8 +4,8 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::potential::batch::Level;
 use tilebind::potential::dipole::{Dipole, pair};
+use tilebind::potential::simd::Level;
 use tilebind::potential::{DipolePotential, Potential};
 use tilebind::units::MU0_OVER_4PI;
 

@@ -7,11 +7,11 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{
     CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds,
 };
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
+use tilebind::potential::simd::Level;
 use tilebind::potential::{
     BodyPotential, CellBounds, CuboidPotential, DipolePotential, MagnetModel, Potential,
     ShieldedPotential, dipole,

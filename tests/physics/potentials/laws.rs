@@ -5,9 +5,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::Potential;
-use tilebind::potential::batch::Level;
 use tilebind::potential::dipole::dipoles;
 use tilebind::potential::shielding::{Shield, Shields};
+use tilebind::potential::simd::Level;
 
 use super::kinds::{Kind, all, placed};
 use crate::plain::Plain;

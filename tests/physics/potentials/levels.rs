@@ -7,8 +7,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
-use tilebind::potential::batch::Level;
 use tilebind::potential::shielding::Shields;
+use tilebind::potential::simd::Level;
 use tilebind::tile::Tile;
 
 use super::kinds::{Kind, all};

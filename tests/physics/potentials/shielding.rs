@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 use tilebind::Configuration;
-use tilebind::potential::batch::Level;
 use tilebind::potential::shielding::{ShieldRule, Shields};
+use tilebind::potential::simd::Level;
 use tilebind::potential::{DipolePotential, MagnetModel, Potential};
 use tilebind::tile::{Magnet, Tile};
 

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tilebind::potential::batch::Level;
-use tilebind::potential::batch::lanes::{Lanes, Task, WIDTH};
+use tilebind::potential::simd::Level;
+use tilebind::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// The vector functions at one argument.
 struct Functions(f64);

@@ -117,19 +117,7 @@ mod tests {
     }
 
     fn state(id: usize) -> State {
-        State {
-            id,
-            kind: StateKind::Trap,
-            configuration: at(id as f64),
-            energy: -1.0,
-            class: id,
-            faces: Vec::new(),
-            attracting: 0,
-            repelling: 0,
-            block_energy: None,
-            capture: None,
-            sideways: None,
-        }
+        State::new(id, StateKind::Trap, at(id as f64), -1.0)
     }
 
     /// A barrier whose path leads over a point of its own height, and through it at `upper`.

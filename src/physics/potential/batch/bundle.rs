@@ -1,6 +1,6 @@
 //! Several SIMD vectors processed together.
 
-use super::lanes::Arithmetic;
+use crate::potential::simd::lanes::Arithmetic;
 
 /// `M` times `N` vectors on which every operation is done in turn. A vector operation takes several
 /// cycles, but another one can start in each. Interleaving several independent chains of operations

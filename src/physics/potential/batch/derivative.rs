@@ -5,11 +5,11 @@ use nalgebra::Vector2;
 
 use super::bundle::Bundle;
 use super::field::{Frame, TOGETHER};
-use super::lanes::{Arithmetic, Lanes, Task, WIDTH};
 use super::tasks::frame_of_one;
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
 use crate::potential::patches::square::{NEAR, POWERS, Spread};
+use crate::potential::simd::lanes::{Arithmetic, Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance

@@ -8,8 +8,8 @@
 //! computed by the same operations in the same order, so it has the same bits.
 
 use super::bundle::Bundle;
-use super::lanes::Arithmetic;
 use crate::potential::dipole::Dipole;
+use crate::potential::simd::lanes::Arithmetic;
 
 /// A dipole of the fixed tile: place (m), scaled moment (sqrt(J m^3)) and three times that.
 #[derive(Clone, Copy, Debug)]

@@ -15,29 +15,23 @@
 mod bundle;
 mod derivative;
 mod field;
-pub mod lanes;
-mod level;
 mod patched;
-mod portable;
 mod tasks;
-#[cfg(target_arch = "x86_64")]
-mod x86;
 
 use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 
-use lanes::WIDTH;
-pub use level::Level;
-
 use super::Potential;
-use super::dipole::{Dipole, dipoles};
+use super::dipole::{Dipole, dipoles, fill};
 use super::groups::are_many;
 use super::groups::tree::{Grain, Group, Tree};
 use super::groups::walk::Sight;
 use super::lever::Lever;
 use super::motion;
 use super::patches::Patches;
+use super::simd::Level;
+use super::simd::lanes::WIDTH;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
@@ -186,18 +180,15 @@ impl DipolePotential {
 }
 
 /// Dipoles with their moments scaled by `sqrt(mu0 / 4 pi)`, so that products of two are in J m^3,
-/// padded to a multiple of `group` with copies of the last one without moment. (A copy is at the
-/// place of a dipole, so it adds no infinite energy.)
+/// padded to a multiple of `group`.
 fn scaled_and_filled(dipoles: &[Dipole], group: usize) -> Vec<Dipole> {
     let scale = MU0_OVER_4PI.sqrt();
-    let scaled = |dipole: &Dipole, scale| Dipole {
+    let scaled = |dipole: &Dipole| Dipole {
         position: dipole.position,
         moment: dipole.moment * scale,
     };
-    let mut filled: Vec<_> = dipoles.iter().map(|d| scaled(d, scale)).collect();
-    if let Some(last) = dipoles.last() {
-        filled.resize(dipoles.len().next_multiple_of(group), scaled(last, 0.0));
-    }
+    let mut filled: Vec<_> = dipoles.iter().map(scaled).collect();
+    fill(&mut filled, group);
     filled
 }
 

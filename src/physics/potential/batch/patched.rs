@@ -7,12 +7,12 @@ use arrayvec::ArrayVec;
 use nalgebra::{Vector2, Vector3};
 
 use super::field::{Field, Shares, field_of_each};
-use super::lanes::{Lanes, Task, WIDTH};
 use super::tasks::{frame_of_one, summed};
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
 use crate::potential::patches::polynomial::{ORDER, Polynomial};
 use crate::potential::patches::square::{NEAR, Near, Patch};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Number of vectors in a row of coefficients.
 const VECTORS: usize = ORDER / WIDTH;

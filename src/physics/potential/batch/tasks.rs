@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use super::DipolePotential;
 use super::field::{Frame, Shares, Source, field, pair_of};
-use super::lanes::{Lanes, MAX_ANGLE, Task, WIDTH};
 use crate::configuration::Configuration;
 use crate::potential::finite;
 use crate::potential::groups::walk::{Leeway, Walk};
+use crate::potential::simd::lanes::{Lanes, MAX_ANGLE, Task, WIDTH};
 
 /// The same angle, in the range of the vectors' sine and cosine.
 #[inline(always)]

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::field::{Source, TOGETHER, field};
-use super::lanes::Arithmetic;
+use crate::potential::simd::lanes::Arithmetic;
 
 #[path = "../../../../tests/bench/operations.rs"]
 mod known;

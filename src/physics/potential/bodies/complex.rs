@@ -1,6 +1,6 @@
 //! Complex numbers in lanes, with the same bits on every machine.
 
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// The smallest height over a face's plane, in metres: a point in the plane is treated as right above
 /// it, and complex heights have a side.

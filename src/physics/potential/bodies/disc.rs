@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::complex::{Complexes, LEAST, Z};
 use super::elliptic::Complete;
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// The integral V of `1 / r` (m) over a disc of a radius R (m), at the distance s from its axis and the
 /// height h over it (m); its derivatives by both.

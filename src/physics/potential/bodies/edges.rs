@@ -19,9 +19,9 @@ use nalgebra::{Complex, Vector2};
 use super::Body;
 use super::face::Integral;
 use super::panels::panels;
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::sheet::{log, sqrt, subtended};
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH, fill};
 
 /// The shortest panel, in lengths of an edge: the integrand's singularities are weak.
 const SHORTEST: f64 = 1e-5;
@@ -124,15 +124,14 @@ fn nodes(own: &[Edge; 4], halves: [f64; 2], height: f64) -> Nodes {
             },
         );
     }
-    let whole = nodes.x.len().next_multiple_of(WIDTH);
     let last = [nodes.x[0], nodes.y[0]];
-    for (list, fill) in [
+    for (list, value) in [
         (&mut nodes.x, last[0]),
         (&mut nodes.y, last[1]),
         (&mut nodes.normal_x, 0.0),
         (&mut nodes.normal_y, 0.0),
     ] {
-        list.resize(whole, fill);
+        fill(list, value);
     }
     nodes
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::complex::{Complexes, Z};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// Three integrals over phi from 0 to pi/2, with `D = sqrt(cos^2 phi + kc^2 sin^2 phi)`.
 #[derive(Clone, Copy, Debug)]

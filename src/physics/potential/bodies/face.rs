@@ -4,7 +4,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::complex::{Complexes, Z};
 use super::{disc, rectangle};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 use arrayvec::ArrayVec;
 
 /// A uniformly charged face.

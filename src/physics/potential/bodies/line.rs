@@ -32,8 +32,8 @@ use nalgebra::{Complex, Vector2, Vector3};
 use super::complex::{Complexes, Z};
 use super::face::{Face, Integral};
 use super::panels::panels;
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Approximate relative error of the integral.
 const LOST: f64 = 1e-13;

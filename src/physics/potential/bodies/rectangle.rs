@@ -1,7 +1,7 @@
 //! The potential of a uniformly charged rectangle, at real and complex positions.
 
 use super::complex::{Complexes, LEAST, Z};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// The integral V of `1 / r` (m) over a rectangle with half sides a and b (m), at x, y along its
 /// sides from its centre and h above it (m); its derivatives by the three.

@@ -23,10 +23,10 @@ use nalgebra::Complex;
 
 use super::Body;
 use super::complex::{Complexes, Z};
-use crate::potential::batch::lanes::Lanes;
 use crate::potential::cuboid::multipole::{
-    Form, along, composed, powers, product, rising_half, squares,
+    Form, along, composed, index, powers, product, squares, term,
 };
+use crate::potential::simd::lanes::Lanes;
 use crate::tile::magnet::Shape;
 
 /// Terms that are summed, the dipole included.
@@ -40,33 +40,28 @@ type C = Complex<f64>;
 #[derive(Clone, Debug)]
 pub struct Series {
     /// The T of each term k: by turns, in steps of 2 from `-last` to `last`, and by n.
-    terms: Vec<(usize, Vec<f64>)>,
+    terms: Vec<Vec<f64>>,
     /// Bounds of the terms (m^(2k)).
     magnitudes: Vec<f64>,
-}
-
-/// The index of C_k0 among the coefficients of all terms.
-const fn index(k: usize) -> usize {
-    k * (k + 3) / 2
 }
 
 /// The coefficients C_kn at one angle beta, and their derivatives by it, of the terms so far.
 pub struct Coefficients {
     count: usize,
-    re: [f64; index(TERMS)],
-    im: [f64; index(TERMS)],
-    turn_re: [f64; index(TERMS)],
-    turn_im: [f64; index(TERMS)],
+    re: [f64; index(TERMS, 0)],
+    im: [f64; index(TERMS, 0)],
+    turn_re: [f64; index(TERMS, 0)],
+    turn_im: [f64; index(TERMS, 0)],
 }
 
 impl Coefficients {
     /// None yet.
     pub const NONE: Self = Self {
         count: 0,
-        re: [0.0; index(TERMS)],
-        im: [0.0; index(TERMS)],
-        turn_re: [0.0; index(TERMS)],
-        turn_im: [0.0; index(TERMS)],
+        re: [0.0; index(TERMS, 0)],
+        im: [0.0; index(TERMS, 0)],
+        turn_re: [0.0; index(TERMS, 0)],
+        turn_im: [0.0; index(TERMS, 0)],
     };
 }
 
@@ -97,7 +92,7 @@ impl Series {
             false => [first, second].map(|body| times(average(body), &[1.0, 1.0])),
         };
         let terms: Vec<_> = (0..BOUND_TERMS).map(|k| term(&a, &b, k)).collect();
-        let magnitude = |(_, all): &(usize, Vec<f64>)| all.iter().map(|value| value.abs()).sum();
+        let magnitude = |all: &Vec<f64>| all.iter().map(|value| value.abs()).sum();
         Self {
             magnitudes: terms.iter().map(magnitude).collect(),
             terms: terms.into_iter().take(TERMS).collect(),
@@ -130,18 +125,19 @@ impl Series {
     /// Computes the missing coefficients of the first `terms` terms for `beta` = e^(i beta).
     pub fn complete<const SLOPE: bool>(&self, known: &mut Coefficients, beta: C, terms: usize) {
         for k in known.count..terms {
-            let (last, values) = &self.terms[k];
-            let range = index(k)..index(k + 1);
+            let values = &self.terms[k];
+            let last = values.len() / (k + 2) - 1;
+            let range = index(k, 0)..index(k + 1, 0);
             let (re, im) = (&mut known.re[range.clone()], &mut known.im[range.clone()]);
             let (turn_re, turn_im) = (&mut known.turn_re[range.clone()], &mut known.turn_im[range]);
-            let mut phase = beta.conj().powu(*last as u32);
+            let mut phase = beta.conj().powu(last as u32);
             for (i, row) in values.chunks(k + 2).enumerate() {
                 for (n, value) in row.iter().enumerate() {
                     re[n] += value * phase.re;
                     im[n] += value * phase.im;
                 }
                 if SLOPE {
-                    let turn = 2.0 * i as f64 - *last as f64;
+                    let turn = 2.0 * i as f64 - last as f64;
                     for (n, value) in row.iter().enumerate() {
                         turn_re[n] -= value * turn * phase.im;
                         turn_im[n] += value * turn * phase.re;
@@ -152,28 +148,6 @@ impl Series {
         }
         known.count = known.count.max(terms);
     }
-}
-
-/// Term k, combined with its complex conjugate: the largest turn, and T by turn and n.
-fn term(first: &[Form], second: &[Form], k: usize) -> (usize, Vec<f64>) {
-    let last = second[k].len() - 1;
-    let mut values = vec![0.0; (last + 1) * (k + 2)];
-    for j in 0..=k {
-        let (a, b) = (&first[j], &second[k - j]);
-        for (m1, x) in a.iter().enumerate() {
-            for (m2, y) in b.iter().enumerate() {
-                let (p, q) = (m1 + m2, a.len() + b.len() - 2 - m1 - m2);
-                if p < q || x * y == 0.0 {
-                    continue;
-                }
-                let fold = if p == q { 1.0 } else { 2.0 };
-                // The turn is `2 m2 + 1 - b.len()`.
-                let (n, turn) = ((p - q) / 2, (last + 2 * m2 + 1 - b.len()) / 2);
-                values[turn * (k + 2) + n] += fold * x * y * rising_half(p) * rising_half(q);
-            }
-        }
-    }
-    (last, values)
 }
 
 /// The sums over pairs of moments of 1 A m^2, of the energy, of its derivatives along and across the way
@@ -213,10 +187,10 @@ impl Coefficients {
             turn: zero,
         };
         for k in 0..terms {
-            let from = index(k);
+            let from = index(k, 0);
             let mut value = l.z_splat(0.0, 0.0);
             let (mut slope, mut turn) = (value, value);
-            for n in (from..index(k + 1)).rev() {
+            for n in (from..index(k + 1, 0)).rev() {
                 if SLOPE {
                     slope = l.z_mul_add(slope, v, value);
                     turn = l.z_mul_add(turn, v, l.z_splat(self.turn_re[n], self.turn_im[n]));

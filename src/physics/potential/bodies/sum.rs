@@ -7,8 +7,8 @@ use super::near::exact;
 use super::series::Coefficients;
 use super::{Body, Group, Pairs};
 use crate::configuration::Configuration;
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The place (m) of members that only fill the last vector: so far away that nothing overflows, and

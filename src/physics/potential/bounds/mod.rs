@@ -4,109 +4,13 @@
 
 mod cuboid;
 pub(super) mod dipole;
+mod enclosure;
 mod near;
 mod shielded;
 
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
+use enclosure::ends;
+pub use enclosure::{CellBounds, Enclosure};
 use near::{Interval, NearPair, depths};
 pub use shielded::{ShieldedBlockBounds, ShieldedBounds};
-
-use nalgebra::Vector3;
-
-use crate::cell::{Cell, Quadratic};
-
-/// Bounds of the energy over a cell: for every *free* configuration of the cell at the offset d
-/// from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Enclosure {
-    /// An approximation of U (J), of second order in the offset.
-    pub form: Quadratic,
-    /// Lower bound of U minus the form (J).
-    pub low: f64,
-    /// Upper bound of U minus the form (J).
-    pub high: f64,
-    /// How closely the form follows U along motions: on a straight motion within the cell on which
-    /// the tiles' interiors are disjoint, with components of at most the fraction s of the cell's
-    /// half sizes, `U - form` changes by at most `s slope + jump` (J).
-    pub slope: f64,
-    /// The additional change of tiles that touch (J).
-    pub jump: f64,
-    /// The smallest and the largest distance (m) of a magnet from the moving tile's reference
-    /// point, if the same also holds for motions that move no magnet, and turn, by more than the
-    /// fraction s of the cell's own extent.
-    pub levers: Option<[f64; 2]>,
-}
-
-impl Enclosure {
-    /// The enclosure that states nothing.
-    pub fn unknown() -> Self {
-        Self {
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-            slope: f64::INFINITY,
-            ..Self::default()
-        }
-    }
-
-    /// A form with a remainder (J) on either side that is of the given order in the cell's size: a
-    /// bound of a derivative of that order along any motion from the centre, made of products of
-    /// speeds. The same product with one speed replaced by a motion's bounds the remainder's slope.
-    pub(super) fn of_order(order: f64, form: Quadratic, remainder: f64) -> Self {
-        Self {
-            form,
-            low: -remainder,
-            high: remainder,
-            slope: order * remainder,
-            ..Self::default()
-        }
-    }
-
-    /// Bound of the change of `U - form` (J) on the straight motion `step` within the cell, whose
-    /// half sizes are `half`.
-    pub fn change(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
-        let known = self.high - self.low;
-        if self.slope.is_finite() {
-            known.min(self.share(step, half) * self.slope + self.jump)
-        } else {
-            known
-        }
-    }
-
-    /// The motion as a fraction of the cell's half sizes.
-    fn share(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
-        let shares = (0..3).map(|i| step[i].abs() / half[i]);
-        let largest = shares.fold(0.0, f64::max);
-        let Some(levers) = self.levers else {
-            return largest;
-        };
-        let (moved, turned) = (step.xy().norm(), step.z.abs());
-        // Monotonic in the lever, so the extremes bound all others.
-        let of = |lever: f64| {
-            (moved + lever * turned) / (libm::hypot(half[0], half[1]) + lever * half[2])
-        };
-        let shares = levers.map(of).into_iter().chain([turned / half[2]]);
-        largest.min(shares.fold(0.0, f64::max))
-    }
-}
-
-/// The smallest and the largest of some levers, if there are any.
-pub(super) fn ends(levers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let both = levers.map(|lever| [lever; 2]);
-    both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
-}
-
-/// An energy that can be bounded over cells.
-pub trait CellBounds: Sync {
-    /// Encloses U over the free configurations of a cell. If nothing is known, `low` is minus
-    /// infinity and `high` plus infinity; no entry is ever NaN.
-    fn enclose(&self, cell: &Cell) -> Enclosure;
-
-    /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a cell.
-    fn work(&self) -> u64 {
-        FEW_UNITS
-    }
-}
-
-/// Units of work to enclose an energy without magnets.
-const FEW_UNITS: u64 = 100;

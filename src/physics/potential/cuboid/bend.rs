@@ -5,8 +5,8 @@ use nalgebra::Complex;
 use super::far::{Group, Pairs};
 use super::{CuboidPotential, Meeting};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::motion;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// The bound (J/m^4) along motions that move no point of the moving blocks by more than `reach`
 /// (m), as [`motion`] derives it. Infinite if blocks may come as close as the sum of their radii.

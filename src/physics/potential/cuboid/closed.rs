@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 
 use super::block::{BlockPair, Faces};
 use super::sheet::{angle_moments, first_moment, potential};
-use crate::potential::batch::lanes::{Lanes, WIDTH};
+use crate::potential::simd::lanes::{Lanes, WIDTH};
 
 /// Distances from a sheet below this fraction of its width count as touching.
 const TOUCHING: f64 = 1e-10;

@@ -6,7 +6,7 @@ use super::far::{self, Group, Pairs, Sums};
 use super::multipole::{Coefficients, index};
 use super::{CuboidPotential, Far};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The multipole series without its first term, the point dipole, and its gradient (J), over the

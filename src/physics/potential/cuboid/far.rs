@@ -5,7 +5,7 @@ use nalgebra::{Complex, Vector2};
 use super::SizedBlock;
 use super::block::Block;
 use super::multipole::{Coefficients, TERMS, index};
-use crate::potential::batch::lanes::{Lanes, WIDTH};
+use crate::potential::simd::lanes::{Lanes, fill};
 
 /// Sums over pairs of blocks, in units of `-mu0 / (4 pi)`.
 #[derive(Clone, Copy)]
@@ -271,12 +271,11 @@ impl Group {
 
     /// Pads to whole vectors.
     pub fn fill(&mut self) {
-        let length = self.count.next_multiple_of(WIDTH);
         // Far from everything, so that padding never counts as near.
-        self.x.resize(length, AWAY.sqrt());
-        self.y.resize(length, 0.0);
-        self.moment.resize(length, 0.0);
-        self.weakness.resize(length, NO_MOMENT);
+        fill(&mut self.x, AWAY.sqrt());
+        fill(&mut self.y, 0.0);
+        fill(&mut self.moment, 0.0);
+        fill(&mut self.weakness, NO_MOMENT);
     }
 }
 
@@ -285,10 +284,10 @@ mod tests {
     use super::super::block::PairEnergy;
     use super::super::multipole::Multipole;
     use super::*;
-    use crate::potential::batch::Level;
-    use crate::potential::batch::lanes::Task;
     use crate::potential::cuboid::cloud;
     use crate::potential::dipole;
+    use crate::potential::simd::Level;
+    use crate::potential::simd::lanes::Task;
     use crate::units::MU0_OVER_4PI;
 
     /// The first `N` terms of one pair.

@@ -49,8 +49,8 @@ use std::borrow::Cow;
 use nalgebra::{Complex, Vector3};
 
 use super::Potential;
-use super::batch::Level;
 use super::lever::Lever;
+use super::simd::Level;
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use bend::FourthDerivative;

@@ -33,7 +33,7 @@ use std::ops::Range;
 
 use nalgebra::Complex;
 
-use crate::potential::batch::lanes::{Lanes, WIDTH};
+use crate::potential::simd::lanes::{Lanes, WIDTH};
 
 /// Terms of the series that are summed, the dipole included.
 pub const TERMS: usize = 8;
@@ -112,7 +112,7 @@ fn block_forms(size: [f64; 3], count: usize) -> Vec<Form> {
 }
 
 /// The rising factorial (1/2)_n.
-pub fn rising_half(n: usize) -> f64 {
+fn rising_half(n: usize) -> f64 {
     (0..n).map(|i| i as f64 + 0.5).product()
 }
 
@@ -161,17 +161,25 @@ impl Multipole {
             block_forms(second, BOUND_TERMS),
         );
         let all: Vec<_> = (0..BOUND_TERMS).map(|k| term(&a, &b, k)).collect();
-        let magnitudes = all
-            .iter()
-            .map(|rows| rows.iter().flatten().map(|x| x.abs()).sum())
-            .collect();
+        let by_order = |k: usize| (0..k + 2).map(move |n| (n..).step_by(k + 2).take(2 * k + 2));
+        let magnitude = |(k, all): (usize, &Vec<f64>)| {
+            let all = by_order(k).flatten().map(|at| all[at].abs());
+            all.sum()
+        };
+        let magnitudes = all.iter().enumerate().map(magnitude).collect();
         let (mut sums, mut differences) = ([[0.0; ROOM]; TERMS], [[0.0; ROOM]; TERMS]);
-        for (i, row) in all.iter().take(TERMS).flatten().enumerate() {
-            let half = row.len() / 2;
-            for j in 0..half {
-                let (plus, minus) = (row[half + j], row[half - 1 - j]);
-                sums[j][i] = plus + minus;
-                differences[j][i] = plus - minus;
+        for (k, all) in all.iter().take(TERMS).enumerate() {
+            let turns = all.chunks(k + 2);
+            for (j, (plus, minus)) in turns
+                .clone()
+                .skip(k + 1)
+                .zip(turns.rev().skip(k + 1))
+                .enumerate()
+            {
+                for n in 0..k + 2 {
+                    sums[j][index(k, n)] = plus[n] + minus[n];
+                    differences[j][index(k, n)] = plus[n] - minus[n];
+                }
             }
         }
         Self {
@@ -264,23 +272,24 @@ impl Multipole {
     }
 }
 
-/// The coefficients T_kll' of term `k`, folded onto l >= 0.
-fn term(first: &[Form], second: &[Form], k: usize) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; 2 * k + 2]; k + 2];
+/// The coefficients T of term `k`, folded onto n >= 0 (l = 2 n): by turns, in steps of 2, and by n.
+pub fn term(first: &[Form], second: &[Form], k: usize) -> Vec<f64> {
+    let last = second[k].len() - 1;
+    let mut values = vec![0.0; (last + 1) * (k + 2)];
     for j in 0..=k {
         let (a, b) = (&first[j], &second[k - j]);
         for (m1, x) in a.iter().enumerate() {
             for (m2, y) in b.iter().enumerate() {
                 let (p, q) = (m1 + m2, a.len() + b.len() - 2 - m1 - m2);
-                if p < q {
+                if p < q || x * y == 0.0 {
                     continue;
                 }
-                // m2 - n2 + 2k + 1, halved, with m2 + n2 = b.len() - 1.
-                let turns = (2 * m2 + 2 * k + 2 - b.len()) / 2;
                 let fold = if p == q { 1.0 } else { 2.0 };
-                rows[(p - q) / 2][turns] += fold * x * y * rising_half(p) * rising_half(q);
+                // The turn is m2 - n2, with m2 + n2 = b.len() - 1.
+                let (n, turn) = ((p - q) / 2, (last + 2 * m2 + 1 - b.len()) / 2);
+                values[turn * (k + 2) + n] += fold * x * y * rising_half(p) * rising_half(q);
             }
         }
     }
-    rows
+    values
 }

@@ -5,8 +5,8 @@ use nalgebra::{Vector2, Vector3};
 use super::block::{Block, BlockPair, Faces, PairEnergy};
 use super::quadrature::{Fineness, MOST, Panel, RULES, Rule, panels};
 use super::sheet::{potential, subtended};
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// The energy (J) of pairs of blocks that have the same sizes and stand at the same angle to each
 /// other, and its gradient if requested. This is the only place that instantiates the quadrature,

@@ -50,7 +50,7 @@
 //! finite too, but jumps where one sheet passes through the other; touching sheets get the limit
 //! from the side on which the second block's body lies.
 
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// Added to squared distances (m^2) so that products like `h^2 ln h` are 0, not NaN, at h = 0.
 const TINY: f64 = 1e-30;
@@ -277,8 +277,8 @@ pub fn angle_moments<L: Lanes>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potential::batch::Level;
-    use crate::potential::batch::lanes::Task;
+    use crate::potential::simd::Level;
+    use crate::potential::simd::lanes::Task;
 
     /// Value and derivatives of Phi / 2 at (x, h) for a sheet of half the width 1.
     struct At([f64; 2], [f64; 2]);

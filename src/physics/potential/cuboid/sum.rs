@@ -8,7 +8,7 @@ use super::multipole::{Coefficients, TERMS};
 use super::panel::{self, Near};
 use super::{CuboidPotential, Far, Meeting};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The energy at a configuration, and its gradient if requested (otherwise zero).

@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 use super::interpolation::{least_distance, lebesgue, lost, nodes, shares};
-use crate::potential::dipole::Dipole;
+use crate::potential::dipole::{self, Dipole};
 
 /// The largest error of a pair of groups of dipoles, as a fraction of `mu0 M1 M2 / (4 pi r^3)`, with M
 /// the sums of the moments' magnitudes and r the distance of the groups. (Actual errors are a hundred
@@ -144,13 +144,7 @@ impl Tree {
 
     fn append(&mut self, mut dipoles: Vec<Dipole>, fill: usize) -> Range<usize> {
         let first = self.dipoles.len();
-        if let Some(last) = dipoles.last().copied() {
-            let moment = Vector2::zeros();
-            dipoles.resize(
-                dipoles.len().next_multiple_of(fill),
-                Dipole { moment, ..last },
-            );
-        }
+        dipole::fill(&mut dipoles, fill);
         self.dipoles.extend(dipoles);
         first..self.dipoles.len()
     }

@@ -21,8 +21,8 @@ pub mod square;
 
 use std::sync::OnceLock;
 
-use super::batch::Level;
 use super::dipole::Dipole;
+use super::simd::Level;
 use square::{Patch, Spread, Square};
 
 /// The table reaches this many times as far from the reference point as the dipoles.

@@ -28,10 +28,10 @@ use std::sync::LazyLock;
 use nalgebra::{SMatrix, Vector2};
 
 use crate::matrix::product;
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::interpolation::nodes;
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Number of terms of the polynomial along either side.
 pub const ORDER: usize = 16;

@@ -3,8 +3,8 @@
 use nalgebra::Vector2;
 
 use super::polynomial::{FARTHEST, Polynomial};
-use crate::potential::batch::Level;
-use crate::potential::dipole::Dipole;
+use crate::potential::dipole::{Dipole, fill};
+use crate::potential::simd::Level;
 
 /// Largest number of dipoles near a square: as many as the widest vectors hold.
 pub const NEAR: usize = 8;
@@ -178,11 +178,7 @@ fn distance(dipole: &Dipole, centre: Vector2<f64>, half: f64) -> f64 {
 impl Near {
     fn of(sources: &[Dipole], some: &[u32]) -> Self {
         let mut dipoles: Vec<Dipole> = some.iter().map(|k| sources[*k as usize]).collect();
-        let filling = dipoles.last().map(|last| Dipole {
-            moment: Vector2::zeros(),
-            ..*last
-        });
-        dipoles.resize(NEAR, filling.expect("a chunk has a dipole"));
+        fill(&mut dipoles, NEAR);
         let row = |value: fn(&Dipole) -> f64| std::array::from_fn(|lane| value(&dipoles[lane]));
         Self {
             position: [row(|d| d.position.x), row(|d| d.position.y)],

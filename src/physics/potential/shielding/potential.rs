@@ -5,10 +5,10 @@ use nalgebra::{Vector2, Vector3};
 use super::kernel::{self, Columns, PairColumns};
 use super::{ShieldRule, Shields};
 use crate::configuration::Configuration;
-use crate::potential::batch::Level;
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::{Limits, face_distances};
 use crate::potential::lever::Lever;
+use crate::potential::simd::Level;
 use crate::potential::{CuboidPotential, MagnetModel, Potential, finite};
 use crate::tile::Tile;
 

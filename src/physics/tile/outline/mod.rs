@@ -1,7 +1,6 @@
 //! A tile's outline: a simple, closed, counter-clockwise polygon and its convex parts.
 
 mod convex_part;
-mod plane;
 mod validity;
 
 use nalgebra::Vector2;
@@ -9,12 +8,11 @@ use parry2d_f64::math::Vector;
 use parry2d_f64::transformation::convex_hull;
 
 pub use convex_part::{Bounds, ConvexPart};
-use plane::outward_normal;
-pub(super) use plane::segments_meet;
-pub use plane::{centroid, contains, cross, distance_to_segment, signed_area};
 pub use validity::OutlineError;
 
 use super::edge_grid::EdgeGrid;
+use super::plane::outward_normal;
+pub use super::plane::{centroid, contains, cross, distance_to_segment, signed_area};
 
 /// A simple closed polygon, counter-clockwise, in the tile's frame (m).
 #[derive(Clone, Debug)]

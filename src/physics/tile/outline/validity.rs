@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{cross, segments_meet, signed_area};
+use crate::tile::plane::{cross, segments_meet, signed_area};
 
 /// Why a list of vertices is not an outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

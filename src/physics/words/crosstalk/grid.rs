@@ -27,11 +27,13 @@ pub(super) type Setting = [f64; 3];
 
 /// The energies at a tilt.
 pub(super) struct AtTilt {
+    /// The tilt (rad).
+    pub tilt: f64,
     /// For each couple, the lowest energy (J) and its setting.
     pub best: Vec<(f64, Setting)>,
-    /// By slide, the energies (J) of the words with their own mates; infinite if the tiles do not
+    /// By slide (m), the energies (J) of the words with their own mates; infinite if the tiles do not
     /// touch.
-    pub own: Vec<Vec<f64>>,
+    pub own: Vec<(f64, Vec<f64>)>,
 }
 
 /// How the energies of couples are summed.
@@ -96,10 +98,10 @@ impl Stage {
             Sum::Together(Together::new(self, couples))
         };
         let slides = self.slides();
-        parallel::map(&tilts(), |tilt| {
-            let mut best = vec![(f64::INFINITY, [*tilt, 0.0, 0.0]); couples.len()];
-            let at = |slide: &f64| {
-                let setting = [*tilt, *slide, 0.0];
+        parallel::map(&tilts(), |&tilt| {
+            let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
+            let mut at = |slide: f64| {
+                let setting = [tilt, slide, 0.0];
                 let Some(q) = self.placed(setting) else {
                     return vec![f64::INFINITY; own.len()];
                 };
@@ -114,13 +116,13 @@ impl Stage {
                 }
                 own.iter().map(|number| energies[*number]).collect()
             };
-            let own = slides.iter().map(at).collect();
-            AtTilt { best, own }
+            let own = slides.iter().map(|slide| (*slide, at(*slide))).collect();
+            AtTilt { tilt, best, own }
         })
     }
 
     /// Slides (m) of the grid, along the whole face in both directions.
-    pub(super) fn slides(&self) -> Vec<f64> {
+    fn slides(&self) -> Vec<f64> {
         let step = self.slide_step();
         let count = (self.pair.target_face().length() / step).round() as i64;
         (-count..=count)

@@ -5,7 +5,7 @@
 //! faces are empty. The energy is bilinear in the two words, so the energies of all pairs of
 //! magnets in a pose, or their bounds in a cell of poses, give those of all pairs of words:
 //! `grid` evaluates all pairs on one grid of poses, `sampled` finds the strongest attraction from
-//! it, `certified` bounds it from one subdivision, and `work` counts what sampling costs.
+//! it, and `certified` bounds it from one subdivision.
 //!
 //! Around the bond of a word and its own mate everything lies on the bond's slope; the wrong
 //! contacts of these two are their `traps`, other stable contacts.
@@ -17,18 +17,24 @@ mod certified;
 mod grid;
 mod sampled;
 mod traps;
-mod work;
 
 use std::sync::OnceLock;
 
-use super::Word;
+use super::{Bar, Word};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::contact::Contact;
+use crate::potential::interaction::{PairWork, pair_work};
 use crate::potential::{Energy, Interaction, Unbounded};
 use crate::problem::Problem;
 use crate::tile::{Pair, Tile};
+use grid::{slide_step, tilts};
 
-pub use work::sampling_work;
+/// Units of work of an energy besides its pairs of magnets: contact, sines, coefficients.
+const AN_ENERGY: f64 = 250.0;
+/// Of the poses of the grid, the share in which faces lie along each other.
+const FACING: f64 = 0.3;
+/// Energies for the refinement of a pose.
+const REFINED: f64 = 120.0;
 
 /// The default width of bounds, as a fraction of two magnets' energy.
 pub const TOLERANCE: f64 = 0.25;
@@ -231,6 +237,22 @@ impl Stage {
         };
         Problem::new(space, pair.into(), &self.interaction)
     }
+}
+
+/// Units of work to sample words with so many magnets each anywhere along a face (m), mostly for the
+/// energies of all couples at all poses of the grid, and for the refinement of their lowest poses.
+pub fn sampling_work(bar: &Bar, face: f64, words: usize, magnets: usize) -> u64 {
+    let step = slide_step(face, 2 * words * magnets, bar.size[1]);
+    let poses = tilts().len() as f64 * (2.0 * face / step + 1.0);
+    let PairWork { far, near, reach } = pair_work(bar.model, bar.form, bar.size);
+    // Of a magnet's others, those within reach.
+    let beside = (1.0 + 2.0 * reach * magnets as f64 / face).min(magnets as f64);
+    let (all, close) = ((magnets * magnets) as f64, magnets as f64 * beside);
+    let couples = (words * (words + 1)) as f64;
+    let on_grid = AN_ENERGY + all * far + FACING * close * near;
+    let refined = AN_ENERGY + all * far + close * near;
+    let starts = couples * sampled::POLISHED as f64 + (words * traps::POLISHED) as f64;
+    (couples * poses * on_grid + starts * REFINED * refined) as u64
 }
 
 impl Crosstalk {

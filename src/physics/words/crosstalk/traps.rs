@@ -6,7 +6,7 @@
 use ordered_float::OrderedFloat;
 
 use super::Stage;
-use super::grid::{AtTilt, Setting, tilts};
+use super::grid::{AtTilt, Setting};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::parallel;
@@ -24,19 +24,19 @@ impl Stage {
         words: &[Word],
         grid: &[AtTilt],
     ) -> Vec<Option<(f64, Configuration)>> {
-        let mut rows: Vec<(f64, &AtTilt)> = tilts().into_iter().zip(grid).collect();
-        rows.order_by(|a, b| a.0.total_cmp(&b.0));
-        let slides = self.slides();
+        let mut rows: Vec<&AtTilt> = grid.iter().collect();
+        rows.order_by(|a, b| a.tilt.total_cmp(&b.tilt));
         parallel::map(0..words.len(), |number| {
-            let level = |i: usize, j: usize| rows[i].1.own[j][number];
+            let level = |i: usize, j: usize| rows[i].own[j].1[number];
             let mut minima: Vec<(f64, Setting)> = Vec::new();
             for i in 0..rows.len() {
-                for j in 0..slides.len() {
+                for j in 0..rows[i].own.len() {
                     let about = |k: usize, count: usize| k.saturating_sub(1)..(k + 2).min(count);
                     let here = level(i, j);
-                    let lies_low = |i: usize| about(j, slides.len()).all(|j| level(i, j) >= here);
+                    let lies_low =
+                        |i: usize| about(j, rows[i].own.len()).all(|j| level(i, j) >= here);
                     if here < 0.0 && about(i, rows.len()).all(lies_low) {
-                        minima.push((here, [rows[i].0, slides[j], 0.0]));
+                        minima.push((here, [rows[i].tilt, rows[i].own[j].0, 0.0]));
                     }
                 }
             }

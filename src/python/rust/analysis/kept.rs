@@ -56,6 +56,11 @@ impl Analysis {
             counts,
             stages,
         };
-        Ok(Self::new(Py::new(py, design)?, found, wall_s))
+        Ok(Self {
+            content: design.content.clone(),
+            design: Py::new(py, design)?,
+            found,
+            wall_s,
+        })
     }
 }

@@ -5,18 +5,21 @@ mod results;
 mod views;
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyDict, PyString};
 use tilebind::Analysis as Found;
 use tilebind::landscape::{Barrier, Place, pathway};
+use tilebind::pipeline;
 use tilebind::report::analysis::{Extent, document};
 use tilebind::report::document::Document;
 use tilebind::report::plots::{self, Scene, Sheet};
 
 use crate::design::{Content, Design};
+use crate::request::request;
 use crate::table::FREE;
-use crate::{fault, shown};
+use crate::{fault, job, shown};
 
 /// Result of an analysis: states, traps, barriers with their bounds, pathways.
 /// Immutable.
@@ -28,17 +31,76 @@ pub struct Analysis {
     wall_s: f64,
 }
 
-impl Analysis {
-    /// The result for a design, with its duration (s).
-    pub fn new(design: Py<Design>, found: Found, wall_s: f64) -> Self {
-        Self {
-            content: design.get().content.clone(),
-            design,
+#[pymethods]
+impl Design {
+    /// Find states, traps, barriers with their bounds, and pathways.
+    ///
+    /// Parameters
+    /// ----------
+    /// seed : int, optional
+    ///     Random seed.
+    /// milestones, neighbours : int, optional
+    ///     Size of the roadmap.
+    /// boltzmann, thermal_energy : float, optional
+    ///     Energies (J) of the Boltzmann rule for milestones and of the transition
+    ///     probabilities.
+    /// settled : float, optional
+    ///     A barrier has converged when it changes by less than this fraction.
+    /// far_starts : int, optional
+    ///     Number of far starts for the capture shares.
+    /// kinds : int, optional
+    ///     Number of kinds of state to analyse, deepest first; all by default.
+    /// repeats : int, optional
+    ///     Number of runs with consecutive seeds; the spread is reported.
+    /// tolerance : float, optional
+    ///     Target width (J) of the certified bounds.
+    /// certify_work, complete_work : float, optional
+    ///     Effort of the bounds of barriers, and of the proof that no state is missing, in
+    ///     core-seconds, counted in steps. 0 for none.
+    /// certify_seconds, complete_seconds : float, optional
+    ///     Wall-clock limits (s) of the same, with which two runs can differ; no limit by
+    ///     default, 0 for none.
+    /// complete_below, complete_escape : float, optional
+    ///     Fractions of the bond's energy: list all traps deeper than the first whose escape
+    ///     barrier exceeds the second.
+    /// dynamics_runs : int, optional
+    ///     Simulated trajectories that check each barrier.
+    /// progress : bool, optional
+    ///     Show a tqdm progress bar; shown by default in terminals and notebooks.
+    ///
+    /// Returns
+    /// -------
+    /// Analysis
+    ///
+    /// Notes
+    /// -----
+    /// Defaults and results are those of ``tilebind analyse``, byte for byte. For very many
+    /// magnets the defaults are reduced, so that a result takes minutes. Ctrl-C stops the
+    /// analysis within a second.
+    #[pyo3(signature = (*, progress = None, **settings))]
+    fn analyse(
+        slf: Py<Self>,
+        py: Python<'_>,
+        progress: Option<bool>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Analysis> {
+        let content = slf.get().content.clone();
+        let settings = request::<pipeline::Request>(settings)?.settings(&content.design);
+        job::check_memory(settings.check_memory())?;
+        let start = Instant::now();
+        let found = job::run(py, progress, |told| {
+            pipeline::analyse(&content.design, &settings, told)
+        })?;
+        Ok(Analysis {
+            wall_s: start.elapsed().as_secs_f64(),
+            design: slf,
+            content,
             found,
-            wall_s,
-        }
+        })
     }
+}
 
+impl Analysis {
     fn scene(&self) -> Scene<'_> {
         let design = &self.content.design;
         Scene::new(design, &self.found.problem, &self.found.catalogue)

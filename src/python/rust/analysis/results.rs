@@ -229,6 +229,7 @@ impl Analysis {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked: rates::Request = request_with(py, settings, "kt", kt)?;
+        job::check_memory(asked.check_memory(job::threads()))?;
         let (design, found) = (&self.content.design, &self.found);
         let rates = job::answer(py, Some(false), |told| {
             asked.rates(design, found, false, told)

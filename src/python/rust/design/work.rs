@@ -1,91 +1,24 @@
 //! The jobs that take a design.
 
-use std::time::Instant;
-
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use tilebind::budget::Ended;
 use tilebind::calibration;
 use tilebind::docking::{self, loosening, released};
-use tilebind::pipeline;
 use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
 use tilebind::table::{About, Request, compared, table as put};
 use tilebind::workshop::{Made, Making};
-use tilebind::yields::yields;
+use tilebind::yields::{Question, yields};
 
 use super::Design;
-use crate::analysis::Analysis;
-use crate::dock::{self, Docking};
 use crate::poses::pose;
 use crate::request::{request, request_with};
 use crate::{convert, job, shown, table};
 
 #[pymethods]
 impl Design {
-    /// Find states, traps, barriers with their bounds, and pathways.
-    ///
-    /// Parameters
-    /// ----------
-    /// seed : int, optional
-    ///     Random seed.
-    /// milestones, neighbours : int, optional
-    ///     Size of the roadmap.
-    /// boltzmann, thermal_energy : float, optional
-    ///     Energies (J) of the Boltzmann rule for milestones and of the transition
-    ///     probabilities.
-    /// settled : float, optional
-    ///     A barrier has converged when it changes by less than this fraction.
-    /// far_starts : int, optional
-    ///     Number of far starts for the capture shares.
-    /// kinds : int, optional
-    ///     Number of kinds of state to analyse, deepest first; all by default.
-    /// repeats : int, optional
-    ///     Number of runs with consecutive seeds; the spread is reported.
-    /// tolerance : float, optional
-    ///     Target width (J) of the certified bounds.
-    /// certify_work, complete_work : float, optional
-    ///     Effort of the bounds of barriers, and of the proof that no state is missing, in
-    ///     core-seconds, counted in steps. 0 for none.
-    /// certify_seconds, complete_seconds : float, optional
-    ///     Wall-clock limits (s) of the same, with which two runs can differ; no limit by
-    ///     default, 0 for none.
-    /// complete_below, complete_escape : float, optional
-    ///     Fractions of the bond's energy: list all traps deeper than the first whose escape
-    ///     barrier exceeds the second.
-    /// dynamics_runs : int, optional
-    ///     Simulated trajectories that check each barrier.
-    /// progress : bool, optional
-    ///     Show a tqdm progress bar; shown by default in terminals and notebooks.
-    ///
-    /// Returns
-    /// -------
-    /// Analysis
-    ///
-    /// Notes
-    /// -----
-    /// Defaults and results are those of ``tilebind analyse``, byte for byte. For very many
-    /// magnets the defaults are reduced, so that a result takes minutes. Ctrl-C stops the
-    /// analysis within a second.
-    #[pyo3(signature = (*, progress = None, **settings))]
-    fn analyse(
-        slf: Py<Self>,
-        py: Python<'_>,
-        progress: Option<bool>,
-        settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Analysis> {
-        let content = slf.get().content.clone();
-        let settings = request::<pipeline::Request>(settings)?.settings(&content.design);
-        job::check_memory(settings.milestones, settings.neighbours)?;
-        let start = Instant::now();
-        let found = job::run(py, progress, |told| {
-            pipeline::analyse(&content.design, &settings, told)
-        })?;
-        let wall_s = start.elapsed().as_secs_f64();
-        Ok(Analysis::new(slf, found, wall_s))
-    }
-
     /// Compute one barrier with certified bounds: the lowest maximum energy over all
     /// collision-free paths.
     ///
@@ -131,7 +64,7 @@ impl Design {
         }
         let design = &self.content.design;
         let query = request::<query::Request>(Some(&settings))?.query(design);
-        job::check_memory(query.settings.milestones, None)?;
+        job::check_memory(query.settings.check_memory())?;
         let answer = job::answer(py, progress, |told| query::barrier(design, &query, told))?;
         let barrier = &answer.barrier;
         let fields = PyDict::new(py);
@@ -148,17 +81,6 @@ impl Design {
         fields.set_item("uncertified", why)?;
         fields.set_item("ended_by", answer.ended.map(Ended::name))?;
         convert::named(py, "Barrier", &fields)
-    }
-
-    /// Launch the moving tile at the fixed one many times; see :func:`tilebind.dock`.
-    #[pyo3(signature = (*, progress = None, **settings))]
-    fn dock(
-        slf: Py<Self>,
-        py: Python<'_>,
-        progress: Option<bool>,
-        settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Docking> {
-        dock::dock(py, slf, progress, settings)
     }
 
     /// Compute where and how soon a shaken tile ends after its release: overdamped motion
@@ -203,6 +125,7 @@ impl Design {
         let start = pose(start)?;
         let place = start.to_array().to_vec();
         let asked: rates::Request = request_with(py, settings, "start", place)?;
+        job::check_memory(asked.check_memory(job::threads()))?;
         let posed = (&self.content.design, &**self.content.problem(None));
         let (found, check) = job::answer(py, Some(false), |told| asked.exit(posed, start, told))?;
         let document = report::rates::exit_document(posed.0, &found, check.as_ref());
@@ -247,7 +170,9 @@ impl Design {
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (design, question) = (&self.content.design, request_with(py, settings, "kt", kt)?);
+        let question: Question = request_with(py, settings, "kt", kt)?;
+        job::check_memory(question.check_memory(job::threads()))?;
+        let design = &self.content.design;
         let found = job::answer(py, progress, |told| yields(design, &question, told))?;
         shown::report(py, &report::yields::document(design, &question, &found))
     }
@@ -394,6 +319,9 @@ impl Design {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked: docking::Request = request_with(py, settings, "shaking", shaking)?;
         crate::fault::positive("shaking", asked.shaking)?;
+        if overdamped {
+            job::check_memory(docking::check_memory(job::threads()))?;
+        }
         let (design, problem) = (&self.content.design, &**self.content.problem(None));
         let settings = asked.settings(&design.pair);
         let beside = overdamped.then(|| {

@@ -4,8 +4,8 @@ use nalgebra::{Vector2, Vector3};
 use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::potential::CellBounds;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::CuboidBounds;
+use tilebind::potential::simd::Level;
 use tilebind::tile::{Magnet, Tile};
 
 use super::super::kinds::{paper_tile, square};

@@ -7,9 +7,9 @@ use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
 use tilebind::potential::CellBounds;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{DipoleBounds, Enclosure};
 use tilebind::potential::dipole::dipoles;
+use tilebind::potential::simd::Level;
 use tilebind::tile::Tile;
 use tilebind::units::MU0_OVER_4PI;
 

@@ -12,9 +12,9 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::contact::Contact;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::Enclosure;
 use tilebind::potential::shielding::{Shield, Shields};
+use tilebind::potential::simd::Level;
 use tilebind::potential::{CellBounds, Potential};
 use tilebind::tile::Tile;
 

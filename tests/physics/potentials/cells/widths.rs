@@ -7,9 +7,9 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::cell::Cell;
 use tilebind::potential::CellBounds;
-use tilebind::potential::batch::Level;
 use tilebind::potential::bounds::{CuboidBounds, DipoleBounds, ShieldedBounds};
 use tilebind::potential::shielding::{Shield, Shields};
+use tilebind::potential::simd::Level;
 
 use super::super::kinds::paper_tile;
 use crate::designs;

@@ -22,9 +22,9 @@
 
 use nalgebra::Vector2;
 
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::block::Block;
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// Most parts along a side of a block.

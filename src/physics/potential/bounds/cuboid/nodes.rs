@@ -1,7 +1,7 @@
 //! The potentials of one pole face at many nodes of another block's pole face, with SIMD vectors.
 
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::sheet::{Expansion, expansion};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// A node of a quadrature over a pole face of the second block: an upright line of charge, in the
 /// field of a pole face of the first one. The first block's frame has u along its axis and v along

@@ -23,11 +23,11 @@ use nalgebra::{Rotation2, Vector2};
 use super::near::{Interval, NearPair, depths, least_distance};
 use super::{CellBounds, Enclosure, ends};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::WIDTH;
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::are_many;
 use crate::potential::groups::tree::Group;
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{WIDTH, fill};
 use crate::tile::Tile;
 use crate::units::MU0_OVER_4PI;
 use groups::in_groups;
@@ -194,7 +194,7 @@ impl Moving {
     fn new(dipoles: &[(Dipole, f64)]) -> Self {
         let column = |entry: &dyn Fn(&(Dipole, f64)) -> f64| {
             let mut column: Vec<f64> = dipoles.iter().map(entry).collect();
-            column.resize(dipoles.len().next_multiple_of(WIDTH), 0.0);
+            fill(&mut column, 0.0);
             column
         };
         Self {

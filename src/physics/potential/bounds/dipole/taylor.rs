@@ -50,7 +50,7 @@ use std::ops::Range;
 
 use super::{DipoleBounds, NEAR};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Larger than any reciprocal of a difference of squared distances that is not zero.
 const HUGE: f64 = 1e60;

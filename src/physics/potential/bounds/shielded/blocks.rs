@@ -21,10 +21,10 @@
 
 use super::Fronts;
 use crate::cell::Cell;
-use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, CuboidBounds, Enclosure, Interval};
 use crate::potential::shielding::Shields;
 use crate::potential::shielding::kernel::{FactorForm, Factors};
+use crate::potential::simd::Level;
 use crate::tile::Tile;
 
 /// Rounding of a pair's product with the factor, as a fraction of the pair's greatest energy.

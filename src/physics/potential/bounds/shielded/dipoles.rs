@@ -13,10 +13,10 @@ use nalgebra::Rotation2;
 
 use super::{Fronts, MARGIN};
 use crate::cell::Cell;
-use crate::potential::batch::Level;
 use crate::potential::bounds::{CellBounds, Enclosure, Interval, ends};
 use crate::potential::shielding::Shields;
 use crate::potential::shielding::kernel::{Forms, Magnet};
+use crate::potential::simd::Level;
 use crate::tile::Tile;
 
 /// Cell bounds of the interaction energy of two tiles' dipoles behind shields that act smoothly.

@@ -6,7 +6,7 @@ use super::curvature::{Around, Limits, dipole_limits, pair_limits, product};
 use super::jet::{Jet, Place, dipoles};
 use super::{Columns, Magnet, Vectors, Way};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Pairs closer than this many times the magnet's reach have no form.
 const NEAR: f64 = 2.0;

@@ -3,7 +3,7 @@
 use super::jet::{Jet, factors};
 use super::{COINCIDING, Columns, Magnet, Vectors, Way, dot};
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The sums over all pairs of `|w| |u''| + 2 |w'| |u'| + |w''| |u|` (J/m^2) and of the same of the

@@ -1,7 +1,7 @@
 //! The shielding factors of pairs of magnets.
 
 use super::{Vectors, Way, dot};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 
 /// A factor g and its derivatives by the distance (1/m) and by cos(alpha): see
 /// `Shield::factor`.

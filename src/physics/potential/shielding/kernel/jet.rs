@@ -7,7 +7,7 @@
 
 use super::factor::logistic;
 use super::{Vectors, Way, dot};
-use crate::potential::batch::lanes::Lanes;
+use crate::potential::simd::lanes::Lanes;
 use crate::units::MU0_OVER_4PI;
 
 /// A value, its derivatives by s, phi and t, and its second ones by ss, phi phi, tt, s phi, s t and

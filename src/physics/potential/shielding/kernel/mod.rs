@@ -11,8 +11,8 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::Shield;
 use crate::configuration::Configuration;
-use crate::potential::batch::lanes::{Lanes, Task, WIDTH};
 use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::simd::lanes::{Lanes, Task, WIDTH, fill};
 use crate::tile::{self, Tile};
 use crate::units::MU0_OVER_4PI;
 pub(in crate::potential) use cell::{FactorForm, Factors, Forms, Pairs};
@@ -84,11 +84,11 @@ impl Columns {
     pub fn new(magnets: &[Magnet]) -> Self {
         let rows: Vec<_> = magnets.iter().map(Magnet::entries).collect();
         let far = [1e6, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-        let length = rows.len().next_multiple_of(WIDTH);
         Self {
             entries: std::array::from_fn(|k| {
-                let column = rows.iter().chain(std::iter::repeat(&far));
-                column.map(|row| row[k]).take(length).collect()
+                let mut column = rows.iter().map(|row| row[k]).collect();
+                fill(&mut column, far[k]);
+                column
             }),
             faces: magnets.iter().map(|magnet| magnet.face).collect(),
         }

@@ -5,8 +5,8 @@ use super::curvature::{Around, factor_limits};
 use super::factor::logistic;
 use super::jet::factors;
 use super::*;
-use crate::potential::batch::Level;
-use crate::potential::batch::lanes::WIDTH;
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::WIDTH;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

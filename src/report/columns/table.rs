@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
-use super::Unit;
-use super::unit::{Scale, told};
+use super::unit::{Scale, Unit, told};
 use crate::figures::percent;
 use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero, proportion, read_pose};
@@ -234,6 +233,7 @@ pub enum Link {
 }
 
 /// Rows of figures.
+#[must_use]
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Its key in JSON.
@@ -264,14 +264,12 @@ pub struct Table {
 
 impl Table {
     /// Adds a file of numbers with this name.
-    #[must_use]
     pub fn in_file(mut self, stem: &'static str) -> Self {
         self.file = Some(stem);
         self
     }
 
     /// Sets the title and the note.
-    #[must_use]
     pub fn titled(mut self, title: impl Into<String>, note: impl Into<String>) -> Self {
         self.title = title.into();
         self.note = note.into();
@@ -279,49 +277,42 @@ impl Table {
     }
 
     /// Restricts the table to programs.
-    #[must_use]
     pub fn in_data(mut self) -> Self {
         self.is_viewed = false;
         self
     }
 
     /// Restricts the table to programs, with a file of numbers with this name.
-    #[must_use]
     pub fn in_csv(mut self, stem: &'static str) -> Self {
         (self.is_data, self.is_viewed) = (false, false);
         self.in_file(stem)
     }
 
     /// Excludes the table from the terminal.
-    #[must_use]
     pub fn on_page(mut self) -> Self {
         self.is_printed = false;
         self
     }
 
     /// Excludes the table from the page.
-    #[must_use]
     pub fn on_terminal(mut self) -> Self {
         self.is_paged = false;
         self
     }
 
     /// Sets what the page shows when a row is clicked.
-    #[must_use]
     pub fn linked(mut self, links: impl IntoIterator<Item = Option<Link>>) -> Self {
         self.links = links.into_iter().collect();
         self
     }
 
     /// Sets the largest number of rows on a terminal.
-    #[must_use]
     pub fn listing(mut self, most: usize) -> Self {
         self.listed = most;
         self
     }
 
     /// Restricts the table to people.
-    #[must_use]
     pub fn in_view(mut self) -> Self {
         self.is_data = false;
         self.file = None;
@@ -398,7 +389,7 @@ mod tests {
 
     #[test]
     fn a_column_has_one_unit() {
-        let table = crate::document::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
+        let table = crate::columns::rows([0.065_47, -0.000_221_6, 1e-12, 0.0, f64::NAN])
             .column("energy_J", "energy", "", |it| *it)
             .digits(4)
             .column("bounds_J", "bounds", "", |it| [1e-6, it.abs()])

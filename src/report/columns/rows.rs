@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use super::table::Parts;
-use super::{Cell, Head, Table, Unit};
+use super::table::{Cell, Head, Parts, Table};
+use super::unit::Unit;
 
 /// Rows from which a table is built, column by column.
 ///
@@ -19,6 +19,7 @@ use super::{Cell, Head, Table, Unit};
 /// assert_eq!(texts(0), ("kT (mJ)".to_owned(), vec!["1.00".to_owned(), "2.00".to_owned()]));
 /// assert_eq!(texts(1).1, ["25 %", "50 %"]);
 /// ```
+#[must_use]
 pub struct Rows<'a, Row> {
     rows: Vec<Row>,
     columns: Vec<Column<'a, Row>>,
@@ -50,7 +51,6 @@ impl<'a, Row> Rows<'a, Row> {
 
     /// Adds a column: its key in files, which ends in its unit, its name for people, its meaning,
     /// and its value in a row.
-    #[must_use]
     pub fn column<C: Into<Cell>>(
         mut self,
         key: impl Into<Cow<'static, str>>,
@@ -67,7 +67,6 @@ impl<'a, Row> Rows<'a, Row> {
     }
 
     /// Sets the text of the last column for people, if that is more than the value.
-    #[must_use]
     pub fn viewed(mut self, view: impl Fn(&Row) -> String + 'a) -> Self {
         if let Some(column) = self.columns.last_mut() {
             column.view = Some(Box::new(view));
@@ -83,55 +82,46 @@ impl<'a, Row> Rows<'a, Row> {
     }
 
     /// Marks the last column as shares.
-    #[must_use]
     pub fn share(self) -> Self {
         self.last(|head| head.unit = Unit::Share)
     }
 
     /// Sets the number of digits of the last column for people.
-    #[must_use]
     pub fn digits(self, digits: usize) -> Self {
         self.last(|head| head.digits = digits)
     }
 
     /// Marks the last column as sampled shares.
-    #[must_use]
     pub fn sampled(self) -> Self {
         self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))
     }
 
     /// Restricts the last column to programs.
-    #[must_use]
     pub fn in_data(self) -> Self {
         self.last(|head| head.is_viewed = false)
     }
 
     /// Restricts the last column to JSON.
-    #[must_use]
     pub fn in_json(self) -> Self {
         self.in_data().without_csv()
     }
 
     /// Excludes the last column from tables of numbers.
-    #[must_use]
     pub fn without_csv(self) -> Self {
         self.last(|head| head.is_csv = false)
     }
 
     /// Restricts the last column to tables of numbers.
-    #[must_use]
     pub fn in_csv(self) -> Self {
         self.in_data().last(|head| head.is_data = false)
     }
 
     /// Restricts the last column to people.
-    #[must_use]
     pub fn in_view(self) -> Self {
         self.last(|head| (head.is_data, head.is_csv, head.is_viewed) = (false, false, true))
     }
 
     /// Restricts the last column to the page.
-    #[must_use]
     pub fn on_page(self) -> Self {
         self.in_view().last(|head| head.is_printed = false)
     }

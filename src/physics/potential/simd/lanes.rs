@@ -6,6 +6,11 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, PI, SQRT_2};
 /// order and give the same bits.
 pub const WIDTH: usize = 8;
 
+/// Pads a list to whole vectors.
+pub fn fill(list: &mut Vec<f64>, value: f64) {
+    list.resize(list.len().next_multiple_of(WIDTH), value);
+}
+
 /// The largest angle (rad) that [`Lanes::sin_cos`] takes.
 pub const MAX_ANGLE: f64 = 1e5;
 
