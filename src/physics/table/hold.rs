@@ -12,7 +12,7 @@
 //! starting from the impulses of the previous solution. After each sweep the impulses go on by a
 //! share of its change, as in momentum methods (Polyak 1964, USSR Computational Mathematics and
 //! Mathematical Physics 4, 1), with the share from how much less this sweep changed than the one
-//! before; without this, clusters take thousands of sweeps. (On 1,247 clusters of 6 to 90 points
+//! before; without this, clusters take thousands of sweeps. (On 1,247 clusters of 6 to 85 points
 //! from a frozen table this takes 1.4 million solutions of a point; with conjugate directions,
 //! Silcowitz-Hansen, Niebe and Erleben 2010, The Visual Computer 26, 893, it takes 2.6 million.
 //! Newton steps on the set of active points cycle among points that carry little.) The impulses on
@@ -103,41 +103,54 @@ impl Hold {
     }
 }
 
-/// The response of a point to impulses.
+/// The response of a point to impulses, with the coefficient of friction mu.
 struct Response {
     nn: f64,
     nt: f64,
     tt: f64,
-    /// `nn tt - nt^2`, inverse.
-    whole: f64,
+    /// The inverse of the matrix of these three, `1 / (nn tt - nt^2)` times its elements.
+    stick: [f64; 3],
+    friction: f64,
+    /// Push per lack where the point slides, with the rub at -mu and at +mu times the push.
+    slide: [[f64; 2]; 2],
 }
 
 impl Response {
+    fn new([nn, nt, tt]: [f64; 3], friction: f64) -> Self {
+        let whole = 1.0 / (nn * tt - nt * nt);
+        let slide = [-friction, friction].map(|share| {
+            let answer = nn + share * nt;
+            if answer <= 1e-3 * nn {
+                // Friction would grow without limit here (Painleve's paradox): only the normal
+                // impulse acts.
+                return [1.0 / nn, 0.0];
+            }
+            [1.0 / answer, share / answer]
+        });
+        Self {
+            nn,
+            nt,
+            tt,
+            stick: [tt, nt, nn].map(|it| it * whole),
+            friction,
+            slide,
+        }
+    }
+
     /// The impulses along normal and tangent that the contact law requires, from the velocities
     /// without them.
-    fn impulses(&self, lack: f64, slip: f64, friction: f64) -> [f64; 2] {
+    fn impulses(&self, lack: f64, slip: f64) -> [f64; 2] {
         if lack <= 0.0 {
             return [0.0; 2];
         }
-        let Self { nn, nt, tt, whole } = *self;
-        if friction == 0.0 {
-            return [lack / nn, 0.0];
-        }
-        let push = (tt * lack + nt * slip) * whole;
-        let rub = -(nt * lack + nn * slip) * whole;
-        if push >= 0.0 && rub.abs() <= friction * push {
+        let [tt, nt, nn] = self.stick;
+        let push = tt * lack + nt * slip;
+        let rub = -(nt * lack + nn * slip);
+        if rub.abs() <= self.friction * push {
             return [push, rub];
         }
         // It slides: the impulse lies on the side of the friction cone opposite to the sliding.
-        let share = friction.copysign(rub);
-        let answer = nn + share * nt;
-        if answer <= 1e-3 * nn {
-            // Friction would grow without limit here (Painleve's paradox): only the normal impulse
-            // acts.
-            return [lack / nn, 0.0];
-        }
-        let push = lack / answer;
-        [push, share * push]
+        self.slide[usize::from(rub > 0.0)].map(|per| per * lack)
     }
 }
 
@@ -155,7 +168,7 @@ struct Point {
 
 impl Point {
     /// The point of a hold between two tiles of a cluster; `roots` are the inverse roots of the masses.
-    fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>]) -> Self {
+    fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>], friction: f64) -> Self {
         let scaled =
             |row: [Vector3<f64>; 2]| [0, 1].map(|k| row[k].component_mul(&roots[tiles[k]]));
         let rows = hold.rows.map(scaled);
@@ -167,12 +180,7 @@ impl Point {
         Self {
             tiles,
             rows,
-            response: Response {
-                nn,
-                nt,
-                tt,
-                whole: 1.0 / (nn * tt - nt * nt),
-            },
+            response: Response::new([nn, nt, tt], friction),
             least: hold.least,
             impulses: hold.impulses,
             swept: hold.impulses,
@@ -187,7 +195,7 @@ impl Point {
     }
 
     /// Solves for the impulses of this point.
-    fn solve(&mut self, velocities: &mut [Vector3<f64>], friction: f64) {
+    fn solve(&mut self, velocities: &mut [Vector3<f64>]) {
         let [a, b] = self.tiles.map(|tile| velocities[tile]);
         let along = |row: &[Vector3<f64>; 2]| row[0].dot(&a) + row[1].dot(&b);
         let [push, rub] = self.impulses;
@@ -197,19 +205,19 @@ impl Point {
             return;
         }
         let slip = along(&self.rows[1]) - nt * push - tt * rub;
-        let asked = self.response.impulses(lack, slip, friction);
+        let asked = self.response.impulses(lack, slip);
         self.push([asked[0] - push, asked[1] - rub], velocities);
         self.impulses = asked;
     }
 
     /// After a sweep: goes on by a share of its change, within the friction cone. The velocities have
     /// done so without the cone.
-    fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>], friction: f64) {
+    fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>]) {
         let now = self.impulses;
         let [push, rub] = [0, 1].map(|row| now[row] + (now[row] - self.swept[row]) * share);
         self.swept = now;
         let pushed = push.max(0.0);
-        let most = friction * pushed;
+        let most = self.response.friction * pushed;
         self.impulses = [pushed, rub.clamp(-most, most)];
         if self.impulses != [push, rub] {
             self.push([pushed - push, self.impulses[1] - rub], velocities);
@@ -252,12 +260,12 @@ pub fn hold_back(
         });
         let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
         let roots: Vec<_> = roots.collect();
-        let points = points.map(|(hold, tiles)| Point::new(hold, tiles, &roots));
+        let points = points.map(|(hold, tiles)| Point::new(hold, tiles, &roots, friction));
         let mut points: Vec<Point> = points.collect();
         let own = tiles.iter().zip(&roots);
         let own = own.map(|(tile, root)| velocities[*tile].component_div(root));
         let mut own: Vec<_> = own.collect();
-        solve(&roots, &mut own, &mut points, [friction, error]);
+        solve(&roots, &mut own, &mut points, error);
         for (k, point) in cluster.iter().zip(&points) {
             holds[*k].impulses = point.impulses;
         }
@@ -297,7 +305,7 @@ fn solve(
     roots: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
     points: &mut [Point],
-    [friction, error]: [f64; 2],
+    error: f64,
 ) -> usize {
     for point in points.iter() {
         point.push(point.impulses, velocities);
@@ -307,7 +315,7 @@ fn solve(
     let mut last = f64::INFINITY;
     for sweep in 0..SWEEPS {
         for point in points.iter_mut() {
-            point.solve(velocities, friction);
+            point.solve(velocities);
         }
         // Nearly redundant points may keep correcting each other, so the change over a whole sweep
         // counts.
@@ -329,7 +337,7 @@ fn solve(
                 *now += change * share;
             }
             for point in points.iter_mut() {
-                point.go_on(share, velocities, friction);
+                point.go_on(share, velocities);
             }
             last = size;
         }
@@ -420,11 +428,13 @@ mod tests {
                 let roots: Vec<_> = inverse.iter().map(|it| it.map(f64::sqrt)).collect();
                 let mut points: Vec<Point> = holds
                     .iter()
-                    .map(|hold| Point::new(hold, hold.tiles.map(|it| it.unwrap_or(0)), &roots))
+                    .map(|hold| {
+                        Point::new(hold, hold.tiles.map(|it| it.unwrap_or(0)), &roots, friction)
+                    })
                     .collect();
                 let scaled = start.iter().zip(&roots);
                 let scaled: Vec<_> = scaled.map(|(v, root)| v.component_div(root)).collect();
-                let sweeps = solve(&roots, &mut scaled.clone(), &mut points, [friction, ERROR]);
+                let sweeps = solve(&roots, &mut scaled.clone(), &mut points, ERROR);
                 all += sweeps;
                 let mut now = start.clone();
                 hold_back(&inverse, &mut now, &mut holds, [friction, ERROR]);
@@ -439,7 +449,7 @@ mod tests {
                     );
                 }
                 // Starting from the impulses of the solution, the solver converges at once.
-                let again = solve(&roots, &mut scaled.clone(), &mut points, [friction, ERROR]);
+                let again = solve(&roots, &mut scaled.clone(), &mut points, ERROR);
                 assert!(again <= sweeps, "{again} {sweeps}");
             }
             assert!(all < 20 * 200, "{all} sweeps at {friction}");

@@ -34,11 +34,11 @@ use crate::tile::outline::cross;
 
 /// The error (m) of places in contact per step at which the solver stops: over a step of h (s), an error
 /// of velocities by this over h.
-const MISPLACED: f64 = 2.5e-9;
+const MISPLACED: f64 = 5e-9;
 /// The same for the velocities (m/s) after a step: 1/1,000 of a typical kick of the shaking.
 const VELOCITY_ERROR: f64 = 1e-5;
 /// Points with gaps below this (m) are in contact: about ten times [`MISPLACED`].
-const TOUCHED: f64 = 2e-8;
+const TOUCHED: f64 = 5e-8;
 /// Outlines are kept apart by this (m). The force of two blocks changes sign where their pole faces
 /// pass through each other, so tiles must not overlap at all; this changes an energy by the force
 /// times this distance.
@@ -50,9 +50,9 @@ const LEAST_MARGIN: f64 = 1e-4;
 /// The same where nothing is near (m).
 const SEEN: f64 = 3e-3;
 /// Travel of a tile in contact within a usual step (m), by its velocity at the start.
-const TRAVEL: f64 = 1e-4;
+const TRAVEL: f64 = 1.6e-4;
 /// A step in which a tile in contact travels farther than this many times as much is repeated.
-const FARTHEST: f64 = 2.0;
+const FARTHEST: f64 = 1.25;
 /// A usual step as a share of the time in which forces change.
 const SHARE: f64 = 0.05;
 /// Tiles slower than this (m/s) need no short steps.
