@@ -8,8 +8,7 @@ use tilebind::dynamics::check::BarrierCheck;
 use tilebind::observer::Observer;
 use tilebind::output::Output;
 use tilebind::pipeline::{self, Request};
-use tilebind::report::analysis::{Extent, document, files};
-use tilebind::report::files::ANALYSE;
+use tilebind::report::analysis::{Extent, FILES, document, files};
 use tilebind::report::plots::Scene;
 
 use super::failure::fail_if_contradicted;
@@ -83,7 +82,7 @@ impl Analyse {
             _ => Extent::Full,
         };
         let inputs = self.design.inputs(&design);
-        let output = Output::folder(&ANALYSE, &self.out).reading(inputs);
+        let output = Output::folder(&FILES, &self.out).reading(inputs);
         let output = output.forced(self.force.force);
         output.check(|name| extent.may_hold(name))?;
         let settings = self.request.settings(&design);

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::assembly::Request;
 use tilebind::design::WordSet;
-use tilebind::report::assembly::document;
-use tilebind::report::files::ASSEMBLE;
+use tilebind::report::assembly::{FILES, document};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
@@ -69,7 +68,7 @@ impl Assemble {
         let files = design.iter().flat_map(|(_, files)| files);
         let named = [&self.tileset, &self.design, &self.words];
         let inputs = named.into_iter().flatten().chain(files).cloned();
-        let output = self.results.output(&ASSEMBLE, inputs.collect())?;
+        let output = self.results.output(&FILES, inputs.collect())?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         let words = self.words.as_ref().map(|path| -> Result<_, Failure> {

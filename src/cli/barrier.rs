@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::landscape::minimax::End;
 use tilebind::query::{self, Request};
-use tilebind::report::barrier::{PATHWAY, document};
+use tilebind::report::barrier::{FILES, PATHWAY, document};
 use tilebind::report::csv;
-use tilebind::report::files::BARRIER;
 
 use super::options::{DesignOptions, ThreadOption};
 use super::progress::Progress;
@@ -56,14 +55,10 @@ impl Barrier {
         }
         let inputs = self.design.inputs(&design);
         let pathway = self.pathway.as_ref();
-        let pathway = pathway.map(|file| {
-            self.results
-                .folder
-                .force
-                .file(&BARRIER, file, inputs.clone())
-        });
+        let pathway =
+            pathway.map(|file| self.results.folder.force.file(&FILES, file, inputs.clone()));
         let pathway = pathway.transpose()?;
-        let output = self.results.folder.output(&BARRIER, inputs)?;
+        let output = self.results.folder.output(&FILES, inputs)?;
         let query = self.request.query(&design);
         workload::tell_memory(query.settings.check_memory())?;
         self.threads.use_threads()?;

@@ -2,8 +2,7 @@
 
 use clap::Args;
 use tilebind::bond::{Request, held};
-use tilebind::report::bond::document;
-use tilebind::report::files::BOND;
+use tilebind::report::bond::{FILES, document};
 use tilebind::{Settings, pipeline};
 
 use super::Failure;
@@ -41,7 +40,7 @@ pub struct BondCommand {
 impl BondCommand {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
-        let output = self.results.output(&BOND, self.design.inputs(&design))?;
+        let output = self.results.output(&FILES, self.design.inputs(&design))?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         let settings = Settings::without_proofs(self.request.seed);

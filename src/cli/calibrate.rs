@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::calibration::Request;
 use tilebind::observer::Silent;
-use tilebind::report::calibration::document;
-use tilebind::report::files::CALIBRATE;
+use tilebind::report::calibration::{FILES, document};
 
 use super::options::DesignOptions;
 use super::results::ResultOptions;
@@ -74,7 +73,7 @@ impl Calibrate {
         let file = file.cloned().unwrap_or_default();
         let mut inputs = self.design.inputs(&design);
         inputs.push(file.clone());
-        let output = self.results.output(&CALIBRATE, inputs)?;
+        let output = self.results.output(&FILES, inputs)?;
         let progress = self.results.progress();
         let found = input::table(&file, |text| match self.bonds {
             None => self.request.of_forces(&design, text),

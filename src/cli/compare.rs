@@ -7,8 +7,7 @@ use clap::Args;
 use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{Quantity, Question, assess_all};
 use tilebind::design::{Design, MagnetModel};
-use tilebind::report::comparison::Comparison;
-use tilebind::report::files::COMPARE;
+use tilebind::report::comparison::{Comparison, FILES};
 
 use super::failure::tell_refuted;
 use super::options::ThreadOption;
@@ -52,7 +51,7 @@ impl Compare {
         let designs = self.load()?;
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
-        let output = self.results.output(&COMPARE, inputs.collect())?;
+        let output = self.results.output(&FILES, inputs.collect())?;
         let question = Question {
             request: self.question.request.of(&designs),
             ..self.question

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::design::WordSet;
-use tilebind::report::crosstalk::document;
-use tilebind::report::files::CROSSTALK;
+use tilebind::report::crosstalk::{FILES, document};
 use tilebind::word_sets::CrosstalkRequest;
 
 use super::options::ThreadOption;
@@ -45,7 +44,7 @@ Examples:
 impl Crosstalk {
     pub fn run(self) -> Result<(), Failure> {
         let set = WordSet::load(&self.set, self.request.model)?;
-        let output = self.results.output(&CROSSTALK, vec![self.set.clone()])?;
+        let output = self.results.output(&FILES, vec![self.set.clone()])?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         let found = self.request.crosstalk(&set)?;

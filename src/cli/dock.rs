@@ -6,7 +6,6 @@ use clap::Args;
 use tilebind::docking::{
     Paths, ReleaseOptions, Request, check_memory, docked, loosening, released,
 };
-use tilebind::report::files::DOCK;
 use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
@@ -55,7 +54,7 @@ impl Dock {
         let design = input::load(&self.design)?;
         let problem = design.problem();
         let inputs = input::files_of(&self.design, &design);
-        let output = self.results.output(&DOCK, inputs)?;
+        let output = self.results.output(&report::FILES, inputs)?;
         self.threads.use_threads()?;
         if self.release.overdamped {
             check_memory(self.threads.count()).map_err(Failure::of)?;

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use tilebind::Configuration;
 use tilebind::query::poses::{self, Felt};
-use tilebind::report::energies::document;
-use tilebind::report::files::ENERGY;
+use tilebind::report::energies::{FILES, document};
 use tilebind::request;
 
 use super::options::DesignOptions;
@@ -50,7 +49,7 @@ impl Energy {
         let design = self.design.load()?;
         let inputs = self.design.inputs(&design).into_iter();
         let inputs = inputs.chain(self.file.clone()).collect();
-        let output = self.results.folder.output(&ENERGY, inputs)?;
+        let output = self.results.folder.output(&FILES, inputs)?;
         let mut poses = self.poses;
         if let Some(file) = &self.file {
             poses.extend(input::table(file, poses::read)?);

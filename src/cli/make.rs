@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::report::files::MAKE;
-use tilebind::report::workshop::document;
+use tilebind::report::workshop::{FILES, document};
 use tilebind::workshop::{Made, Making};
 
 use super::results::ResultOptions;
@@ -36,7 +35,7 @@ impl Make {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
         let inputs = input::files_of(&self.design, &design);
-        let output = self.results.output(&MAKE, inputs)?;
+        let output = self.results.output(&FILES, inputs)?;
         let made = Made::new(&design, &self.making).map_err(Failure::of)?;
         let progress = self.results.progress();
         self.results

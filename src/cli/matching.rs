@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::matching::Request;
-use tilebind::report::files::MATCH;
-use tilebind::report::matching::document;
+use tilebind::report::matching::{FILES, document};
 
 use super::results::ResultOptions;
 use super::{Failure, input};
@@ -34,7 +33,7 @@ impl Match {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::load(&self.design)?;
         let inputs = input::files_of(&self.design, &design);
-        let output = self.results.output(&MATCH, inputs)?;
+        let output = self.results.output(&FILES, inputs)?;
         let progress = self.results.progress();
         let found = self.request.matches(&design);
         self.results

@@ -1,35 +1,35 @@
 //! The commands, one file each, and what they share.
 
-pub mod analyse;
-pub mod assemble;
-pub mod barrier;
-pub mod bond;
-pub mod calibrate;
-pub mod compare;
-pub mod completions;
-pub mod crosstalk;
-pub mod dock;
-pub mod energy;
+mod analyse;
+mod assemble;
+mod barrier;
+mod bond;
+mod calibrate;
+mod compare;
+mod completions;
+mod crosstalk;
+mod dock;
+mod energy;
 mod failure;
 mod figures;
-pub mod init;
+mod init;
 mod input;
 mod interrupt;
-pub mod make;
-pub mod matching;
+mod make;
+mod matching;
 mod options;
 mod progress;
-pub mod rates;
+mod rates;
 mod results;
-pub mod schema;
-pub mod show;
+mod schema;
+mod show;
 mod style;
-pub mod sweep;
+mod sweep;
 mod sweep_progress;
-pub mod table;
-pub mod words;
+mod table;
+mod words;
 mod workload;
-pub mod yields;
+mod yields;
 
 pub use failure::Failure;
 use failure::WRONG;
@@ -40,14 +40,97 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::{Parser, Subcommand};
 use tilebind::text::with_point;
+
+/// How two magnetic tiles bind: states, traps, energy barriers and pathways over (x, y, theta).
+#[derive(Parser)]
+#[command(
+    version,
+    propagate_version = true,
+    subcommand_required = true,
+    arg_required_else_help = true,
+    after_help = "\
+Start here:
+  tilebind init my.toml
+  tilebind show my.toml
+  tilebind analyse shapes/paper-tile.toml --out target/paper-tile
+
+Each command has -h (one line per option) and --help (everything).
+
+Exit status: 0 success; 1 the run failed; 2 the command line or a design file is wrong (nothing is
+written); 75 interrupted.
+
+Files: a command replaces only its own unchanged results, which it records in .tilebind.json. If other
+files are in the way, it stops at once; --force replaces them. Input files are never
+replaced. Either all files of a result are replaced or none.
+
+Environment: TILEBIND_KERNEL=avx512, avx2 or portable selects the instruction set (default: the fastest
+available). Results are identical."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+// In the order of the help.
+#[derive(Subcommand)]
+pub enum Command {
+    Analyse(analyse::Analyse),
+    Energy(energy::Energy),
+    Barrier(barrier::Barrier),
+    Bond(bond::BondCommand),
+    Compare(compare::Compare),
+    Sweep(sweep::Sweep),
+    Dock(dock::Dock),
+    Words(words::Words),
+    Crosstalk(crosstalk::Crosstalk),
+    Match(matching::Match),
+    Assemble(assemble::Assemble),
+    Yield(yields::YieldCommand),
+    Table(table::TableCommand),
+    Calibrate(calibrate::Calibrate),
+    Rates(rates::Rates),
+    Show(show::Show),
+    Make(make::Make),
+    Init(init::Init),
+    Schema(schema::Schema),
+    Completions(completions::Completions),
+}
+
+impl Command {
+    pub fn run(self) -> Result<(), Failure> {
+        match self {
+            Self::Analyse(command) => command.run(),
+            Self::Energy(command) => command.run(),
+            Self::Barrier(command) => command.run(),
+            Self::Bond(command) => command.run(),
+            Self::Compare(command) => command.run(),
+            Self::Sweep(command) => command.run(),
+            Self::Dock(command) => command.run(),
+            Self::Words(command) => command.run(),
+            Self::Crosstalk(command) => command.run(),
+            Self::Match(command) => command.run(),
+            Self::Assemble(command) => command.run(),
+            Self::Yield(command) => command.run(),
+            Self::Table(command) => command.run(),
+            Self::Calibrate(command) => command.run(),
+            Self::Rates(command) => command.run(),
+            Self::Show(command) => command.run(),
+            Self::Make(command) => command.run(),
+            Self::Init(command) => command.run(),
+            Self::Schema(command) => command.run(),
+            Self::Completions(command) => command.run::<Arguments>(),
+        }
+    }
+}
 
 /// Reads the command line. An argument that looks like a negative number belongs to the option
 /// before it, which then reports any error.
-pub fn parse<T: clap::Parser>() -> Result<T, clap::Error> {
+pub fn parse() -> Result<Arguments, clap::Error> {
     let arguments: Vec<OsString> = std::env::args_os().collect();
-    T::try_parse_from(&arguments).or_else(|error| match error.kind() {
-        clap::error::ErrorKind::UnknownArgument => T::try_parse_from(joined(arguments)),
+    Arguments::try_parse_from(&arguments).or_else(|error| match error.kind() {
+        clap::error::ErrorKind::UnknownArgument => Arguments::try_parse_from(joined(arguments)),
         _ => Err(error),
     })
 }

@@ -3,8 +3,7 @@
 use clap::Args;
 use tilebind::observer::Observer;
 use tilebind::rates::Request;
-use tilebind::report::files::RATES;
-use tilebind::report::rates::{document, exit_document};
+use tilebind::report::rates::{FILES, document, exit_document};
 use tilebind::{Settings, pipeline};
 
 use super::options::{DesignOptions, ThreadOption};
@@ -57,7 +56,7 @@ Examples:
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
-        let output = self.results.output(&RATES, self.design.inputs(&design))?;
+        let output = self.results.output(&FILES, self.design.inputs(&design))?;
         let (problem, request) = (design.problem(), &self.request);
         self.threads.use_threads()?;
         let progress = self.results.progress();

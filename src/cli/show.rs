@@ -8,8 +8,7 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use tilebind::design::Design;
 use tilebind::inspection::Inspection;
 use tilebind::report::document::Document;
-use tilebind::report::files::SHOW;
-use tilebind::report::inspection::document;
+use tilebind::report::inspection::{FILES, document};
 use tilebind::report::plots::Sheet;
 
 use super::figures::{FigureOptions, command_line};
@@ -108,12 +107,12 @@ impl Show {
     ) -> Result<(), Failure> {
         let sheet = self.figures.sheet()?;
         let Some(ending) = ending(place) else {
-            let output = self.force.folder(&SHOW, place, inputs)?;
+            let output = self.force.folder(&FILES, place, inputs)?;
             let (files, drawn) = document.files(&sheet, &command_line());
             interrupt::without(|| output.write(&files))?;
             return Ok(drawn?);
         };
-        let output = self.force.file(&SHOW, place, inputs)?;
+        let output = self.force.file(&FILES, place, inputs)?;
         let sheet = match ending == "pdf" && sheet == Sheet::SCREEN {
             true => Sheet::of_pixels(PIXEL),
             false => sheet,

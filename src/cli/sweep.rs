@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 use tilebind::output::{Output, OutputError};
-use tilebind::report::files::{REPORT, SWEEP};
+use tilebind::report::files::REPORT;
 use tilebind::report::json;
-use tilebind::report::sweep::{Sweep as Report, counts};
+use tilebind::report::sweep::{FILES, Sweep as Report, counts};
 use tilebind::request;
 use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shard, Source, Store};
 
@@ -137,7 +137,7 @@ impl Sweep {
         let plan = self.request.plan(designs, self.vary.clone());
         let plan = plan.map_err(Failure::usage)?;
         let file = self.plan_file()?;
-        let manifest = self.force.file(&SWEEP, &file, inputs(&plan, None))?;
+        let manifest = self.force.file(&FILES, &file, inputs(&plan, None))?;
         interrupt::is_resumable();
         if self.plan.is_some() {
             interrupt::without(|| manifest.write_file(plan.to_text()))?;
@@ -179,7 +179,7 @@ impl Sweep {
         folder: &Path,
         manifest: Option<&Path>,
     ) -> Result<Output, Failure> {
-        let output = Output::folder(&SWEEP, folder).reading(inputs(plan, manifest));
+        let output = Output::folder(&FILES, folder).reading(inputs(plan, manifest));
         let output = output.forced(self.force.force);
         // A manifest that is read is not changed.
         output.check(|name| name != PLAN || !output.reads(name))?;

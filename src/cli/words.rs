@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::report::files::WORDS;
-use tilebind::report::words::document;
+use tilebind::report::words::{FILES, document};
 use tilebind::word_sets::Request;
 
 use super::options::ThreadOption;
@@ -52,7 +51,7 @@ impl Words {
     pub fn run(self) -> Result<(), Failure> {
         let design = input::if_given(self.design.as_deref())?;
         let inputs = design.as_ref().map(|(_, files)| files.clone());
-        let output = self.results.output(&WORDS, inputs.unwrap_or_default())?;
+        let output = self.results.output(&FILES, inputs.unwrap_or_default())?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         let found = self.request.search(design.as_ref().map(|it| &it.0))?;

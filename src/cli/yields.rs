@@ -1,8 +1,7 @@
 //! `tilebind yield`.
 
 use clap::Args;
-use tilebind::report::files::YIELD;
-use tilebind::report::yields::document;
+use tilebind::report::yields::{FILES, document};
 use tilebind::yields::{Question, yields};
 
 use super::Failure;
@@ -47,7 +46,7 @@ Examples:
 impl YieldCommand {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
-        let output = self.results.output(&YIELD, self.design.inputs(&design))?;
+        let output = self.results.output(&FILES, self.design.inputs(&design))?;
         self.threads.use_threads()?;
         let threads = self.threads.count();
         self.question.check_memory(threads).map_err(Failure::of)?;

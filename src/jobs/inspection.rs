@@ -56,7 +56,7 @@ impl Inspection {
             MagnetModel::Cuboid => MagnetModel::Dipole,
         };
         let pulled = |gap: f64| pulled(design, gap);
-        let reach = largest_magnet(design) * FARTHEST;
+        let reach = design.pair.fixed.largest_magnet() * FARTHEST;
         let motion = |k: usize| pulled(reach.max(problem.scaled(1e-3)) * k as f64 / 8.0);
         Self {
             bound: design.pair.bound,
@@ -71,7 +71,7 @@ impl Inspection {
     pub fn faults(&self, design: &Design) -> Vec<String> {
         let mut faults = Vec::new();
         let bond = self.models[0];
-        let no_magnets = largest_magnet(design) == 0.0;
+        let no_magnets = design.pair.fixed.largest_magnet() == 0.0;
         if !no_magnets && bond.energy >= 0.0 {
             faults.push(
                 "the target faces repel: make one the mate of the other (mates = \"FACE\"), or \
@@ -115,12 +115,6 @@ fn pulled(design: &Design, gap: f64) -> Configuration {
     Configuration::new(out.x, out.y, bound.theta)
 }
 
-fn largest_magnet(design: &Design) -> f64 {
-    let magnets = design.pair.fixed.magnets.iter();
-    let sizes = magnets.map(|magnet| magnet.size[0].max(magnet.size[1]));
-    sizes.fold(0.0, f64::max)
-}
-
 /// Whether the straight motion over some configurations is free.
 fn comes_out(problem: &Problem, motion: impl Fn(usize) -> Configuration) -> bool {
     (0..8).all(|k| problem.motion_is_free(&motion(k), &motion(k + 1)))
@@ -139,7 +133,7 @@ fn hold(design: &Design, model: MagnetModel) -> Hold {
         let (_, gradient) = potential.energy_and_gradient(&pulled(design, gap));
         gradient.xy().dot(&face.normal())
     };
-    let reach = largest_magnet(design) * FARTHEST;
+    let reach = design.pair.fixed.largest_magnet() * FARTHEST;
     let gaps = (0..SAMPLES).map(|k| reach * k as f64 / (SAMPLES - 1) as f64);
     let pulls = gaps.map(|gap| (gap, pull(gap)));
     let (pull_off_gap, pull_off) = pulls.fold((0.0, f64::NEG_INFINITY), |best, next| {

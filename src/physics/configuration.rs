@@ -123,6 +123,13 @@ impl ConfigurationSpace {
         q.position().norm() >= self.free_distance
     }
 
+    /// Half the size (m) of a map along x and y: it extends a fifth of the tiles' size beyond the
+    /// distance of contact, or to the table's edge.
+    pub fn map_half_size(&self) -> [f64; 2] {
+        self.half_size
+            .map(|half| half.min(1.2 * self.free_distance))
+    }
+
     /// Length of a step (dx, dy, dtheta) in the metric (m).
     pub fn length(&self, step: Vector3<f64>) -> f64 {
         (step.x * step.x + step.y * step.y + (self.rho * step.z).powi(2)).sqrt()

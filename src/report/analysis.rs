@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::document::{Document, Drawing, Entries, Part};
 use super::figures::percent;
-use super::files::{Files, PAGE, PICTURES};
+use super::files::{Files, PAGE, PICTURES, REPORT};
 use super::names::{self, alternative_file, pathway_file, place};
 use super::page::{Landscape, pathways};
 use super::plots::style::minus;
@@ -17,10 +17,39 @@ use super::summary::{self, ended_by, left_out};
 use super::values::{pose, positive_zero, proportion};
 use super::{csv, dynamics, states, topsearch};
 use jobs::design::Design;
+use jobs::output::Command;
 use jobs::pipeline::Analysis;
 use physics::budget::Ended;
 use physics::landscape::{Alternative, Barrier, PathwayCost};
 use physics::units::{si, si_range};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "analyse",
+    files: &[
+        REPORT,
+        PAGE,
+        "states.csv",
+        "barriers.csv",
+        "dynamics.csv",
+        "pathways/#-#.csv",
+        "pathways/#-#-by-*.csv",
+        "topsearch/min.data",
+        "topsearch/min.coords",
+        "topsearch/ts.data",
+        "topsearch/ts.coords",
+        "topsearch/pairlist",
+    ],
+    pictures: &[
+        "map",
+        "approach",
+        "profiles",
+        "docking",
+        "models",
+        "disconnectivity",
+        "roadmap",
+    ],
+};
 
 /// The extent of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

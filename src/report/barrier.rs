@@ -4,15 +4,23 @@ use serde_json::json;
 
 use crate::csv::{SEEN, pathway as csv_of, thinned};
 use crate::document::{Cell, Document, Drawing, Entries, rows};
-use crate::files::Files;
+use crate::files::{Files, PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look};
 use crate::plots::poses;
 use crate::states::{barriers, why_no_way};
 use jobs::design::Design;
+use jobs::output::Command;
 use jobs::query::{Answer, Query};
 use physics::budget::Ended;
 use physics::landscape::minimax::End;
 use physics::units::{si, si_range};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "barrier",
+    files: &[REPORT, PAGE, "pathway.csv"],
+    pictures: &["profile", "poses"],
+};
 
 /// The file of the pathway in a results folder.
 pub const PATHWAY: &str = "pathway.csv";

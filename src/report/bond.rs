@@ -3,12 +3,21 @@
 use serde_json::Value;
 
 use super::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
+use super::files::{PAGE, REPORT};
 use super::plots::chart::{Chart, Dimension, Look};
 use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
+use jobs::output::Command;
 use physics::kinetics::bond::Docking;
 use physics::kinetics::volume::NO_PLAY;
 use physics::units::si;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "bond",
+    files: &[REPORT, PAGE, "states.csv", "over-kt.csv"],
+    pictures: &["shaking"],
+};
 
 /// The document of the strength of bonds.
 pub fn document<'a>(design: &Design, held: &Held) -> Document<'a> {

@@ -3,12 +3,21 @@
 use serde_json::{Value, json};
 
 use crate::document::{Document, Entries, Table, entries, rows};
+use crate::files::{PAGE, REPORT};
 use jobs::calibration::bonds::{Times, TimesFit};
 use jobs::calibration::distances::DistanceFit;
 use jobs::calibration::{Calibration, Fitted, QUANTITIES, Residuals};
 use jobs::design::Design;
+use jobs::output::Command;
 use physics::dynamics::docking::OnRate;
 use physics::units::si;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "calibrate",
+    files: &[REPORT, PAGE],
+    pictures: &[],
+};
 
 /// The constants of a shield: key in reports, name in a design file, unit.
 const CONSTANTS: [(&str, &str, &str); 4] = [

@@ -7,10 +7,19 @@ use serde_json::{Map, Value, json};
 use crate::assessments::{capture_settings, checked, merge, numbers, quantities, tables, views};
 use crate::document::{Document, Drawing, Entries, Table, rows};
 use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
+use crate::files::{PAGE, REPORT};
 use crate::plots::{Figure, PictureError, Sheet, ranking as picture};
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
 use jobs::comparison::{Assessment, Quantity, Request, capture_range, ranking};
+use jobs::output::Command;
 use physics::landscape::minimax::Ordering;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "compare",
+    files: &[REPORT, PAGE, "compare.csv", "compare.md"],
+    pictures: &["ranking"],
+};
 
 /// Designs in the order of a ranking.
 #[derive(Clone, Debug)]

@@ -3,16 +3,25 @@
 use serde_json::{Value, json};
 
 use super::document::{Document, Drawing, Entries, Part, Table, rows};
+use super::files::{PAGE, REPORT};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
 use super::plots::chart::{Chart, Dimension, Look};
 use super::values::{pose, positive_zero, read_pose};
 use jobs::design::WordSet;
+use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::units::si;
 use physics::words::crosstalk::{Crosstalk, Kind, Meeting};
 use physics::words::set::name;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "crosstalk",
+    files: &[REPORT, PAGE, "crosstalk.csv"],
+    pictures: &["crosstalk", "gaps"],
+};
 
 /// Number of contacts shown to people, strongest first, and on a terminal.
 const SHOWN: usize = 100;

@@ -3,10 +3,12 @@
 use serde_json::{Value, json};
 
 use crate::document::{Document, Drawing, Entries, Part, Table, entries, rows};
+use crate::files::{PAGE, REPORT};
 use crate::page::{Landscape, Played};
 use crate::plots::{Figure, PictureError, Scene, Sheet, dock, paths};
 use jobs::design::Design;
 use jobs::docking::Paths;
+use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::dynamics::docking::{Docking, DockingMap, DockingRun, End, MatchRule, OnRate};
 use physics::dynamics::{MotionSettings, Snapshot};
@@ -14,6 +16,13 @@ use physics::landscape::{Catalogue, State, StateKind};
 use physics::order::Order;
 use physics::problem::Problem;
 use physics::units::{plain, si};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "dock",
+    files: &[REPORT, PAGE, "runs.csv", "map.csv", "trajectory.csv"],
+    pictures: &["chances", "trajectories", "bound"],
+};
 
 /// Cells of the map of chances along the orientation and the speed.
 pub const CELLS: [usize; 2] = [12, 13];

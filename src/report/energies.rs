@@ -3,12 +3,21 @@
 use serde_json::json;
 
 use crate::document::{Document, Drawing, Table, entries, rows};
+use crate::files::{PAGE, REPORT};
 use crate::plots::poses;
 use crate::values::positive_zero;
 use jobs::design::Design;
+use jobs::output::Command;
 use jobs::query::poses::Felt;
 use physics::order::Order;
 use physics::units::si;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "energy",
+    files: &[REPORT, PAGE, "poses.csv"],
+    pictures: &["poses"],
+};
 
 /// Number of poses on a terminal, and in the picture.
 const LISTED: usize = 40;

@@ -5,17 +5,26 @@ use serde_json::{Value, json};
 
 use crate::braille::Braille;
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
+use crate::files::{PAGE, REPORT};
 use crate::plots::{field, glance};
 use crate::sold;
 use crate::tiles::{GRAM, force, letter, magnets, models, pull_off, wrong};
 use crate::values::{pose, positive_zero};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
+use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::potential::MagnetModel;
 use physics::tile::Tile;
 use physics::tile::profile::SHALLOWEST;
 use physics::units::si;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "show",
+    files: &[REPORT, PAGE, "models.csv", "faces.csv"],
+    pictures: &["tiles", "field"],
+};
 
 /// Significant digits of energies and forces.
 const DIGITS: usize = 4;

@@ -16,8 +16,8 @@
 //! - [`inspection`] - the bond of a design without a search; [`workshop`] - workshop files.
 //!
 //! Below these: [`document`], whose tables are made in `columns`; [`plots`] (pictures) and [`page`] (`report.html`); [`names`],
-//! [`figures`], [`json`], [`csv`] (names and number formats); `points` (those of sweeps); [`files`] (the files of each
-//! command).
+//! [`figures`], [`json`], [`csv`] (names and number formats); `points` (those of sweeps); [`files`] (names of files that
+//! commands share).
 
 pub mod analysis;
 pub mod assembly;

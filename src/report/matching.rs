@@ -1,10 +1,19 @@
 //! Fits of two outlines, as a document.
 
 use super::document::{Document, Drawing, Table, entries, rows};
+use super::files::{PAGE, REPORT};
 use super::plots::poses;
 use jobs::design::Design;
+use jobs::output::Command;
 use physics::contact::matching::Match;
 use physics::units::si;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "match",
+    files: &[REPORT, PAGE, "matches.csv"],
+    pictures: &["matches"],
+};
 
 /// Number of fits on a terminal, and in the picture.
 const LISTED: usize = 20;

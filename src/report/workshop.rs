@@ -11,13 +11,32 @@ use serde_json::json;
 
 use crate::document::{Document, Drawing, Table, entries, rows};
 use crate::dxf::{Dxf, Layer};
+use crate::files::{PAGE, REPORT};
 use crate::plots::glance;
 use crate::tiles::GRAM;
 use jobs::design::Design;
 use jobs::inspection::Inspection;
+use jobs::output::Command;
 use jobs::workshop::{Corner, Filled, Made, MadeTile, Part, Pocket, grade};
 use physics::tile::Magnet;
 use physics::tile::magnet::Shape;
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "make",
+    files: &[
+        REPORT,
+        PAGE,
+        "magnets.csv",
+        "order.csv",
+        "fixed.dxf",
+        "fixed.svg",
+        "moving.dxf",
+        "moving.svg",
+        "sheet.md",
+    ],
+    pictures: &["tiles"],
+};
 
 /// White space around an SVG drawing (mm).
 const MARGIN: f64 = 5.0;

@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
+use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::design::Design;
+use jobs::output::Command;
 use jobs::yields::attachment::Source;
 use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
 use physics::dynamics::MotionSettings;
@@ -13,6 +15,20 @@ use physics::kinetics::mixture::Mixture;
 use physics::kinetics::population::MOST_STATES;
 use physics::order::Order;
 use physics::units::{duration, si};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "yield",
+    files: &[
+        REPORT,
+        PAGE,
+        "settings.csv",
+        "yield.csv",
+        "course.csv",
+        "rates.csv",
+    ],
+    pictures: &["course", "yield", "shaking"],
+};
 
 /// The document of a yield.
 pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {

@@ -1,11 +1,19 @@
 //! Slices through the landscape in front of the target face.
 
+use std::f64::consts::FRAC_PI_4;
+
 use nalgebra::Vector2;
 
 use super::grid::{Grid, Sample, evenly, sampled};
 use crate::configuration::{Configuration, wrap_angle};
+use crate::potential::{Interaction, MagnetModel};
 use crate::problem::Problem;
 use crate::tile::{Face, Pair};
+
+/// Gaps at which the models are compared.
+const GAPS: usize = 101;
+/// Largest of them as a multiple of the largest magnet's length or width.
+const FARTHEST: f64 = 5.0;
 
 /// Two slices in front of the target face, with the moving tile's target face towards it.
 ///
@@ -50,6 +58,18 @@ impl<'a> Approach<'a> {
             pivot: pair.moving.faces[pair.target.1].middle(),
             face: pair.target_face(),
         }
+    }
+
+    /// Both slices, as far as pictures show them.
+    pub fn slices(&self, problem: &Problem) -> ApproachSlices {
+        let length = self.face.length();
+        let settings = SliceSettings {
+            tilt: FRAC_PI_4,
+            gap: 0.2 * length,
+            slide: 0.5 * length,
+            samples: 161,
+        };
+        ApproachSlices::new(problem, self, &settings)
     }
 
     /// The configuration with this tilt (rad), slide (m) and distance (m) along the normal from
@@ -125,3 +145,73 @@ impl ApproachSlices {
 
 /// The configuration at each place of a slice, where there is one.
 type Configurations<'a> = dyn Fn(f64, f64) -> Option<Configuration> + Sync + 'a;
+
+/// Energies (J) of magnets as point dipoles and as blocks, as the bound tiles are drawn apart along
+/// the target face's normal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelCurves {
+    /// Gaps (m), ascending from 0.
+    pub gaps: Vec<f64>,
+    /// Energies of point dipoles.
+    pub dipoles: Vec<f64>,
+    /// Energies of blocks, or of the bodies that the magnets are.
+    pub blocks: Vec<f64>,
+    /// The largest magnet's length or width (m).
+    pub magnet: f64,
+    /// Energies of dipoles and of blocks in the bond, which need not lie on the curves.
+    pub bond: Option<[f64; 2]>,
+}
+
+impl ModelCurves {
+    /// `None` if there are no magnets, the faces cannot meet along the normal, or there is nothing
+    /// to compare.
+    pub fn new(
+        problem: &Problem,
+        pair: &Pair,
+        interaction: &Interaction,
+        bond: Option<&Configuration>,
+    ) -> Option<Self> {
+        let magnet = pair
+            .fixed
+            .largest_magnet()
+            .max(pair.moving.largest_magnet());
+        if magnet == 0.0 {
+            return None;
+        }
+        let approach = Approach::new(pair);
+        // Starts at the bond, also if shapes lock the tile in it: on the way straight in it may
+        // touch earlier.
+        let landing = match problem.is_clear(&pair.bound) {
+            true => 0.0,
+            false => approach.landing(problem, 0.0, 0.0)?,
+        };
+        let gaps = evenly(0.0, FARTHEST * magnet, GAPS);
+        let potentials = [MagnetModel::Dipole, MagnetModel::Cuboid].map(|model| {
+            let interaction = Interaction {
+                model,
+                ..interaction.clone()
+            };
+            interaction.between(&pair.fixed, &pair.moving).potential
+        });
+        let [dipoles, blocks] = potentials.each_ref().map(|potential| {
+            let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
+            gaps.iter().map(at).collect::<Vec<_>>()
+        });
+        let curves = Self {
+            dipoles,
+            blocks,
+            magnet,
+            bond: bond.map(|bond| potentials.map(|potential| potential.energy(bond))),
+            gaps,
+        };
+        let is_known = curves.dipoles.iter().all(|energy| energy.is_finite())
+            && curves.errors().all(f64::is_finite);
+        is_known.then_some(curves)
+    }
+
+    /// The dipoles' error (%) relative to the blocks' energy, at each gap.
+    pub fn errors(&self) -> impl Iterator<Item = f64> {
+        let pairs = self.dipoles.iter().zip(&self.blocks);
+        pairs.map(|(dipole, block)| 100.0 * (dipole - block).abs() / block.abs())
+    }
+}

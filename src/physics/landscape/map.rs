@@ -10,6 +10,15 @@ use super::grid::{Grid, Sample, evenly};
 use super::orientation::{Found, Search};
 use crate::parallel;
 use crate::problem::Problem;
+use crate::tile::Pair;
+
+/// Grid points along the longer side of a plot's map.
+const SAMPLES: f64 = 160.0;
+/// The same for outlines with many parts, for which contact queries are expensive.
+const SAMPLES_OF_MANY_PARTS: f64 = 96.0;
+const MANY_PARTS: usize = 200;
+/// Orientations at each grid point of a plot's map.
+const ORIENTATIONS: usize = 48;
 
 /// A rectangle of the plane with a grid on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +36,19 @@ pub struct Window {
 }
 
 impl Window {
+    /// The window from `low` to `high` with `samples` grid points along its longer side.
+    pub fn new(origin: Vector2<f64>, angle: f64, [low, high]: [[f64; 2]; 2], samples: f64) -> Self {
+        let span = [high[0] - low[0], high[1] - low[1]];
+        let longer = span[0].max(span[1]);
+        Self {
+            origin,
+            angle,
+            low,
+            high,
+            samples: span.map(|s| ((samples * s / longer).round() as usize).max(2)),
+        }
+    }
+
     /// A point of the grid in the fixed tile's frame (m).
     fn place(&self, x: f64, y: f64) -> Vector2<f64> {
         self.origin + Rotation2::new(self.angle) * Vector2::new(x, y)
@@ -52,6 +74,47 @@ pub struct EnergyMap {
 }
 
 impl EnergyMap {
+    /// The map all around the fixed tile, in proportion to a plot's width and height.
+    pub fn around(problem: &Problem, pair: &Pair, [width, height]: [f64; 2]) -> Self {
+        let [x, y] = problem.space.map_half_size();
+        let half = [x.max(y * width / height), y.max(x * height / width)];
+        let ends = [half.map(|h| -h), half];
+        Self::plotted(problem, pair, (Vector2::zeros(), 0.0), ends)
+    }
+
+    /// The map in front of the target face, in proportion to a plot's width and height: x away from
+    /// the face, with the share `behind` of the width behind the bound position, which is the
+    /// origin; y along the face.
+    pub fn in_front(
+        problem: &Problem,
+        pair: &Pair,
+        [width, height]: [f64; 2],
+        behind: f64,
+    ) -> Self {
+        let face = pair.target_face();
+        let normal = face.normal();
+        let half = 0.6 * face.length();
+        let across = 2.0 * half * width / height;
+        let frame = (pair.bound.position(), libm::atan2(normal.y, normal.x));
+        let ends = [[-behind * across, -half], [(1.0 - behind) * across, half]];
+        Self::plotted(problem, pair, frame, ends)
+    }
+
+    fn plotted(
+        problem: &Problem,
+        pair: &Pair,
+        (origin, angle): (Vector2<f64>, f64),
+        ends: [[f64; 2]; 2],
+    ) -> Self {
+        let [fixed, moving] = [&pair.fixed, &pair.moving].map(|tile| tile.outline.parts().len());
+        let samples = match fixed * moving > MANY_PARTS {
+            true => SAMPLES_OF_MANY_PARTS,
+            false => SAMPLES,
+        };
+        let window = Window::new(origin, angle, ends, samples);
+        Self::new(problem, &window, ORIENTATIONS)
+    }
+
     /// The map of a window, from `orientations` evenly spread orientations, those that lay two
     /// faces flush, those in contact between a free and a blocked one, and a search about the
     /// lowest of them all.

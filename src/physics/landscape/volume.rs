@@ -4,14 +4,24 @@
 //! Every number is the energy of a free configuration. Grids are computed row by row in parallel
 //! and gathered in order: the same numbers come out on any number of threads.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
 use super::approach::Approach;
 use super::grid::{evenly, sampled};
 use crate::configuration::{Configuration, wrap_angle};
 use crate::parallel;
 use crate::problem::Problem;
+use crate::tile::Pair;
 use crate::tile::symmetry::rotations;
+
+/// Number of orientations of a whole map per full turn of the moving tile, and per period of its
+/// symmetry.
+const ORIENTATIONS: [usize; 2] = [144, 72];
+/// Grid points of a whole map, and the most along a side.
+const AROUND: f64 = 400_000.0;
+const LONGEST: f64 = 121.0;
+/// Gaps, tilts and slides of a map in front of the target face.
+const IN_FRONT: [usize; 3] = [25, 61, 61];
 
 /// U on a grid of three coordinates.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +48,33 @@ impl Volume {
         let energies = energies.collect();
         Self { axes, energies }
     }
+}
+
+/// The whole map around the fixed tile: 72 orientations or more, and as many positions as the number
+/// of grid points allows.
+pub fn whole(problem: &Problem, pair: &Pair) -> Volume {
+    let repeats = rotations(&pair.moving).len();
+    let orientations = ORIENTATIONS[usize::from(repeats == 1)];
+    let half = problem.space.map_half_size();
+    let shape = half[0].min(half[1]) / half[0].max(half[1]);
+    let planes = orientations as f64 / repeats as f64;
+    let side = (AROUND / planes / shape).sqrt().min(LONGEST);
+    around(problem, half, orientations, side as usize)
+}
+
+/// The map in front of the target face.
+pub fn in_front(problem: &Problem, pair: &Pair) -> InFront {
+    let length = pair.target_face().length();
+    let [gaps, tilts, slides] = IN_FRONT;
+    // Grid points are denser where the energy is steep.
+    let gaps = evenly(0.0, 1.0, gaps).into_iter();
+    InFront::new(
+        problem,
+        &Approach::new(pair),
+        gaps.map(|u| 0.5 * length * u * u).collect(),
+        evenly(-FRAC_PI_4, FRAC_PI_4, tilts),
+        evenly(-0.6 * length, 0.6 * length, slides),
+    )
 }
 
 /// U(theta, y, x) for `|x|` and `|y|` up to `reach` (m), at `samples` places along the longer of

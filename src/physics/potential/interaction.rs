@@ -31,7 +31,7 @@ use super::{
     BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
 };
 use crate::tile::magnet::{Form, Shape};
-use crate::tile::{Magnet, Tile};
+use crate::tile::{Magnet, Pair, Tile};
 
 /// The interaction between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,6 +102,14 @@ impl Interaction {
             false => Box::new(ShieldedPotential::new(*model, fixed, moving, shields)),
         };
         Energy { potential, bounds }
+    }
+
+    /// Whether U is the plain sum over pairs of point dipoles that lie flat.
+    pub fn is_sum_of_dipoles(&self, pair: &Pair) -> bool {
+        let tiles = [&pair.fixed, &pair.moving];
+        let model = MagnetModel::Dipole;
+        let is_of_bodies = tiles.iter().any(|tile| model.is_of_bodies(&tile.magnets));
+        self.model == model && self.shields.is_none() && !is_of_bodies
     }
 }
 

@@ -81,6 +81,13 @@ impl Tile {
         self.mass * self.outline.second_moment_about_centroid() / self.outline.area()
     }
 
+    /// The largest length or width of a magnet (m), 0 without magnets.
+    pub fn largest_magnet(&self) -> f64 {
+        let sizes = self.magnets.iter();
+        let sizes = sizes.map(|magnet| magnet.size[0].max(magnet.size[1]));
+        sizes.fold(0.0, f64::max)
+    }
+
     /// Radius of gyration (m) about the reference point.
     pub fn radius_of_gyration(&self) -> f64 {
         let c = self.outline.centroid();

@@ -8,7 +8,7 @@ mod text;
 use serde_json::{Map, Value, json};
 
 use super::document::{Document, Drawing, Entries, Table, rows};
-use super::files::Files;
+use super::files::{Files, PAGE, REPORT};
 use super::values::positive_zero;
 use jobs::assembly::built::Verdict as Growth;
 use jobs::assembly::choice::{Choice, Verdict};
@@ -16,8 +16,28 @@ use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::wiring::Bond;
 use jobs::assembly::{Assembly, Axis, SIDES, TileType, designs, rgrow, xgrow};
+use jobs::output::Command;
 use physics::order::Order;
 use physics::units::{plain, si};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "assemble",
+    files: &[
+        REPORT,
+        PAGE,
+        "assembly.yaml",
+        "assembly.tiles",
+        "tileset.yaml",
+        "matrix.csv",
+        "pairs.csv",
+        "slides.csv",
+        "words.toml",
+        "sheet.md",
+        "designs/*.toml",
+    ],
+    pictures: &["grown"],
+};
 
 /// Number of slid contacts shown to people, deepest first.
 const SHOWN: usize = 40;

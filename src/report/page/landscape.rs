@@ -1,7 +1,5 @@
 //! The landscape of a pair of tiles as data of the page.
 
-use std::f64::consts::FRAC_PI_4;
-
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -13,21 +11,10 @@ use crate::plots::scale::{EnergyScale, VIK};
 use crate::plots::{Scene, disconnectivity};
 use jobs::design::Design;
 use physics::configuration::Configuration;
-use physics::landscape::approach::Approach;
-use physics::landscape::grid::evenly;
-use physics::landscape::volume::{InFront, Volume, around};
+use physics::landscape::volume::{in_front, whole};
 use physics::landscape::{Place, State};
-use physics::potential::{DipolePotential, MagnetModel, Potential};
 use physics::tile::Tile;
 use physics::tile::magnet::{Form, Shape, Standing};
-
-/// Number of orientations per full turn of the moving tile, and per period of its symmetry.
-const ORIENTATIONS: [usize; 2] = [144, 72];
-/// Grid points of the map all around, and the most along a side.
-const AROUND: f64 = 400_000.0;
-const LONGEST: f64 = 121.0;
-/// Gaps, tilts and slides of the map in front of the target face.
-const IN_FRONT: [usize; 3] = [25, 61, 61];
 
 /// The data for drawing a landscape and moving tiles in it. Lengths in m, angles in rad, energies
 /// in J.
@@ -118,8 +105,8 @@ struct DrawnState {
 impl Landscape {
     /// The landscape of a scene and the animated paths through it.
     pub fn new(design: &Design, scene: &Scene, pathways: Vec<Played>) -> Self {
-        let around = whole(scene);
-        let in_front = in_front(scene);
+        let around = whole(scene.problem, scene.pair);
+        let in_front = in_front(scene.problem, scene.pair);
         let volumes = [&around, &in_front.volume];
         let energies = volumes.iter().flat_map(|volume| &volume.energies);
         let states = scene.states().iter().map(|state| state.energy);
@@ -134,7 +121,7 @@ impl Landscape {
             palette: &VIK,
             fixed: Drawn::new(&design.pair.fixed),
             moving: Drawn::new(&design.pair.moving),
-            dipoles: is_sum_of_dipoles(design, scene),
+            dipoles: design.interaction.is_sum_of_dipoles(&design.pair),
             target: TargetFaces::new(design, scene),
             around,
             in_front: in_front_packed,
@@ -158,52 +145,6 @@ impl Landscape {
             },
         }
     }
-}
-
-/// The map all around the fixed tile: at least [`ORIENTATIONS`], and as many positions as the
-/// number of grid points allows.
-pub fn whole(scene: &Scene) -> Volume {
-    let repeats = physics::tile::symmetry::rotations(&scene.pair.moving).len();
-    let orientations = ORIENTATIONS[usize::from(repeats == 1)];
-    let reach = scene.reach();
-    let shape = reach[0].min(reach[1]) / reach[0].max(reach[1]);
-    let planes = orientations as f64 / repeats as f64;
-    let side = (AROUND / planes / shape).sqrt().min(LONGEST);
-    around(scene.problem, reach, orientations, side as usize)
-}
-
-/// The map in front of the target face.
-pub fn in_front(scene: &Scene) -> InFront {
-    let approach = Approach::new(scene.pair);
-    let length = scene.pair.target_face().length();
-    let [gaps, tilts, slides] = IN_FRONT;
-    InFront::new(
-        scene.problem,
-        &approach,
-        // Grid points are denser where the energy is steep.
-        evenly(0.0, 1.0, gaps)
-            .into_iter()
-            .map(|u| 0.5 * length * u * u)
-            .collect(),
-        evenly(-FRAC_PI_4, FRAC_PI_4, tilts),
-        evenly(-0.6 * length, 0.6 * length, slides),
-    )
-}
-
-/// Whether the plain sum over point dipoles gives the states' energies.
-fn is_sum_of_dipoles(design: &Design, scene: &Scene) -> bool {
-    let magnets = [&design.pair.fixed.magnets, &design.pair.moving.magnets];
-    if magnets
-        .iter()
-        .any(|magnets| MagnetModel::Dipole.is_of_bodies(magnets))
-    {
-        return false;
-    }
-    let dipoles = DipolePotential::new(&design.pair.fixed.magnets, &design.pair.moving.magnets);
-    scene.states().iter().all(|state| {
-        let energy = dipoles.energy(&state.configuration);
-        (energy - state.energy).abs() <= 1e-9 * state.energy.abs()
-    })
 }
 
 fn pair([a, b]: [f64; 2]) -> [f64; 2] {

@@ -12,7 +12,7 @@ use super::scale::EnergyScale;
 use super::scene::Scene;
 use crate::csv::table;
 use crate::names::face;
-use physics::landscape::approach::{Approach, ApproachSlices, SliceSettings};
+use physics::landscape::approach::{Approach, ApproachSlices};
 use physics::landscape::grid::{Grid, Sample};
 use physics::order::Order;
 
@@ -23,22 +23,6 @@ const LEAST: f64 = 360.0;
 const MARGIN: [f64; 4] = [34.0, 20.0, 62.0, 84.0];
 /// Pixels of an embedded image along either side.
 const IMAGE: usize = 330;
-/// Grid points along either side.
-const SAMPLES: usize = 161;
-
-/// The motion in front of the target face, and the slices to draw.
-pub fn slices<'a>(scene: &Scene<'a>) -> (Approach<'a>, ApproachSlices) {
-    let approach = Approach::new(scene.pair);
-    let length = scene.pair.target_face().length();
-    let settings = SliceSettings {
-        tilt: std::f64::consts::FRAC_PI_4,
-        gap: 0.2 * length,
-        slide: 0.5 * length,
-        samples: SAMPLES,
-    };
-    let slices = ApproachSlices::new(scene.problem, &approach, &settings);
-    (approach, slices)
-}
 
 struct ApproachPanel<'a> {
     grid: &'a Grid<Sample>,

@@ -1,8 +1,6 @@
 //! The landscape map: the lowest energy over theta at each (x, y), with the fixed tile, the states
 //! and the pathways, and an enlarged view of the region in front of the target face.
 
-use nalgebra::Vector2;
-
 use super::axes::{Axis, Plot};
 use super::canvas::{Box4, Canvas};
 use super::composition::{Composition, Panel, left_out};
@@ -17,8 +15,7 @@ use super::sheet::Sheet;
 use super::style::FIXED_FILL;
 use crate::csv::table;
 use physics::configuration::Configuration;
-use physics::landscape::map::{EnergyMap, Window};
-use physics::tile::Pair;
+use physics::landscape::map::EnergyMap;
 use physics::units::prefix_of;
 
 const WIDTH: f64 = 1000.0;
@@ -28,15 +25,9 @@ const MARGIN: [f64; 4] = [34.0, 16.0, 62.0, 84.0];
 /// side.
 const WEIGHTS: [f64; 2] = [0.62, 0.38];
 const LEAST: [f64; 2] = [420.0, 280.0];
-/// Share of the enlarged view's width behind the bound position.
+/// Share of the enlarged view's width behind the bound position: this region is mostly blocked and
+/// leaves room for labels.
 const LABELS: f64 = 0.4;
-/// Grid points along the longer side of a map.
-const SAMPLES: f64 = 160.0;
-/// The same for outlines with many parts, for which contact queries are expensive.
-const SAMPLES_OF_MANY_PARTS: f64 = 96.0;
-const MANY_PARTS: usize = 200;
-/// Orientations at each grid point.
-const ORIENTATIONS: usize = 48;
 /// Pixels of an embedded image per pixel of the picture.
 const IMAGE: f64 = 0.8;
 
@@ -52,11 +43,10 @@ impl Maps {
     /// The maps for the plots of a sheet.
     pub fn new(scene: &Scene, sheet: &Sheet) -> Self {
         let [whole, target] = plot_sizes(sheet, scene);
-        let whole = whole_window(scene, whole);
-        let target = target_window(scene, target);
-        let [whole, target] =
-            [whole, target].map(|window| EnergyMap::new(scene.problem, &window, ORIENTATIONS));
-        Self { whole, target }
+        Self {
+            whole: EnergyMap::around(scene.problem, scene.pair, whole),
+            target: EnergyMap::in_front(scene.problem, scene.pair, target, LABELS),
+        }
     }
 }
 
@@ -66,57 +56,9 @@ fn plot_sizes(sheet: &Sheet, scene: &Scene) -> [[f64; 2]; 2] {
     let sides = MARGIN[1] + MARGIN[3];
     let beside = width >= LEAST[0] + LEAST[1] && !sheet.separate;
     let widths = WEIGHTS.map(|weight| width * if beside { weight } else { 1.0 } - sides);
-    let [x, y] = scene.reach();
+    let [x, y] = scene.problem.space.map_half_size();
     let height = widths[0] * (y / x).clamp(0.6, 1.55);
     widths.map(|width| [width, height])
-}
-
-/// In proportion to the plot.
-fn whole_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
-    let [x, y] = scene.reach();
-    let half = [x.max(y * width / height), y.max(x * height / width)];
-    window(scene, Vector2::zeros(), 0.0, half.map(|h| -h), half)
-}
-
-/// The window in front of the target face: x away from the face, y along it, with the bound
-/// position at the origin; in proportion to the plot. The region behind the bound position is
-/// mostly blocked and leaves room for labels.
-fn target_window(scene: &Scene, [width, height]: [f64; 2]) -> Window {
-    let face = scene.pair.target_face();
-    let normal = face.normal();
-    let half = 0.6 * face.length();
-    let across = 2.0 * half * width / height;
-    window(
-        scene,
-        scene.pair.bound.position(),
-        libm::atan2(normal.y, normal.x),
-        [-LABELS * across, -half],
-        [(1.0 - LABELS) * across, half],
-    )
-}
-
-fn window(
-    scene: &Scene,
-    origin: Vector2<f64>,
-    angle: f64,
-    low: [f64; 2],
-    high: [f64; 2],
-) -> Window {
-    let Pair { fixed, moving, .. } = scene.pair;
-    let samples = if fixed.outline.parts().len() * moving.outline.parts().len() > MANY_PARTS {
-        SAMPLES_OF_MANY_PARTS
-    } else {
-        SAMPLES
-    };
-    let span = [high[0] - low[0], high[1] - low[1]];
-    let longer = span[0].max(span[1]);
-    Window {
-        origin,
-        angle,
-        low,
-        high,
-        samples: span.map(|s| ((samples * s / longer).round() as usize).max(2)),
-    }
 }
 
 /// The picture of a scene's maps.

@@ -15,12 +15,8 @@ use super::style::{FIXED_FILL, INK};
 use super::{Figure, Sheet};
 use crate::csv::{rounded, table};
 use jobs::design::Design;
-use physics::configuration::Configuration;
 use physics::order::Order;
-use physics::parallel;
-use physics::potential::interaction::bare;
-use physics::tile::Magnet;
-use physics::tile::magnet::Form;
+use physics::potential::flux_density;
 use physics::units::si;
 
 const WIDTH: f64 = 700.0;
@@ -50,11 +46,14 @@ pub fn draw(design: &Design, sheet: &Sheet) -> Result<Figure, PictureError> {
     let count = (WORK / tile.magnets.len().max(1) as f64).sqrt();
     let step = size.amax() / count.clamp(SIDE[0], SIDE[1]).floor();
     let [columns, rows] = [size.x, size.y].map(|side| (side / step).round().max(1.0) as usize);
-    let field = field(design, columns * rows, |k| {
+    let centre = |k: usize| {
         let (column, row) = ((k % columns) as f64 + 0.5, (k / columns) as f64 + 0.5);
         let share = Vector2::new(column / columns as f64, row / rows as f64);
         low + size.component_mul(&share)
-    });
+    };
+    let centres: Vec<Vector2<f64>> = (0..columns * rows).map(centre).collect();
+    let field = flux_density(design.interaction.model, &tile.magnets, &centres).into_iter();
+    let field: Vec<Square> = centres.into_iter().zip(field).collect();
     // Within magnets, and at point dipoles, it has hardly any bounds.
     let mut strengths: Vec<f64> = field.iter().map(|(_, b)| b.norm()).collect();
     strengths.order_by_key(|it| OrderedFloat(*it));
@@ -108,32 +107,6 @@ pub fn draw(design: &Design, sheet: &Sheet) -> Result<Figure, PictureError> {
         arrows(&field, columns).map(|(p, b)| [p.x, p.y, b.x, b.y].map(|it| rounded(it, 5)));
     let numbers = table(["x_m", "y_m", "field_x_T", "field_y_T"], numbers);
     Figure::new(&composition, sheet, numbers)
-}
-
-/// The field (T) at so many points: what turns a small magnet there.
-fn field(design: &Design, count: usize, at: impl Fn(usize) -> Vector2<f64> + Sync) -> Vec<Square> {
-    let probe = Magnet {
-        position: Vector2::zeros(),
-        angle: 0.0,
-        moment: 1.0,
-        size: [1e-3; 3],
-        form: Form::default(),
-        face: 0,
-    };
-    let energy = bare(
-        design.interaction.model,
-        &design.pair.fixed.magnets,
-        &[probe],
-    );
-    let along = |p: Vector2<f64>, theta| -energy.energy(&Configuration::new(p.x, p.y, theta));
-    let points: Vec<Vector2<f64>> = (0..count).map(at).collect();
-    parallel::map(&points[..], |p| {
-        let field = [0.0, std::f64::consts::FRAC_PI_2].map(|theta| along(*p, theta));
-        (
-            *p,
-            Vector2::from(field.map(|b| if b.is_finite() { b } else { 0.0 })),
-        )
-    })
 }
 
 /// Every so many squares one, where the field points anywhere.

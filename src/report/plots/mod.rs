@@ -58,7 +58,8 @@ pub use sheet::Sheet;
 
 use decimals::Decimals;
 use film::Film;
-use models::Curves;
+use physics::landscape::StateKind;
+use physics::landscape::approach::{Approach, ModelCurves};
 use physics::parallel;
 use scale::EnergyScale;
 
@@ -88,7 +89,8 @@ pub fn draw(
     wanted: impl Fn(&str) -> bool,
 ) -> Result<Vec<Figure>, PictureError> {
     let maps = energy_map::Maps::new(scene, sheet);
-    let (approach, slices) = approach::slices(scene);
+    let approach = Approach::new(scene.pair);
+    let slices = approach.slices(scene.problem);
     let grids = [
         &maps.whole.lowest,
         &maps.target.lowest,
@@ -107,7 +109,9 @@ pub fn draw(
             .chain(sampled),
     );
     let film = Film::new(scene, &scale);
-    let curves = Curves::new(scene);
+    let bond = scene.catalogue.first(StateKind::Bond);
+    let bond = bond.map(|bond| &bond.configuration);
+    let curves = ModelCurves::new(scene.problem, scene.pair, scene.interaction, bond);
     let linear = scale.linear_throughout();
     let decimals = Decimals::of(scene.pair);
     let drawn = [

@@ -8,9 +8,7 @@ use super::decimals::{Decimals, energy};
 use super::scene::Scene;
 use super::style::{Anchor, COLOURS, INK, LABEL, minus};
 use crate::csv::table;
-use physics::landscape::StateKind;
-use physics::landscape::approach::Approach;
-use physics::potential::{Interaction, MagnetModel, Potential};
+use physics::landscape::approach::ModelCurves;
 use physics::units::si;
 
 const WIDTH: f64 = 1000.0;
@@ -23,90 +21,21 @@ const MARGIN: [f64; 4] = [32.0, 24.0, 60.0, 80.0];
 const BLOCKS: usize = 0;
 const DIPOLES: usize = 1;
 const ERROR: usize = 6;
-const SAMPLES: usize = 101;
-/// Largest gap as a multiple of the largest magnet's length or width.
-const FARTHEST: f64 = 5.0;
-/// Gaps (in the same unit) at which the error is written out.
+/// Gaps, as multiples of the largest magnet's length or width, at which the error is written out.
 const MARKED: [f64; 3] = [0.0, 0.1, 1.0];
 
-/// Energies (J) of both models over the gap (m).
-pub struct Curves {
-    gaps: Vec<f64>,
-    dipoles: Vec<f64>,
-    blocks: Vec<f64>,
-    /// The name of the bodies.
-    bodies: &'static str,
-    /// Energies of dipoles and of blocks in the bond, which need not lie on the curves.
-    bond: Option<[f64; 2]>,
-}
-
-impl Curves {
-    /// `None` if there are no magnets, the faces cannot meet along the normal, or there is nothing
-    /// to compare.
-    pub fn new(scene: &Scene) -> Option<Self> {
-        let pair = scene.pair;
-        let magnets = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
-        let size = magnets
-            .map(|magnet| magnet.size[0].max(magnet.size[1]))
-            .fold(0.0, f64::max);
-        if size == 0.0 {
-            return None;
-        }
-        let approach = Approach::new(pair);
-        // Starts at the bond, also if shapes lock the tile in it: on the way straight in it may
-        // touch earlier.
-        let landing = match scene.problem.is_clear(&pair.bound) {
-            true => 0.0,
-            false => approach.landing(scene.problem, 0.0, 0.0)?,
-        };
-        let gaps: Vec<f64> = (0..SAMPLES)
-            .map(|k| FARTHEST * size * k as f64 / (SAMPLES - 1) as f64)
-            .collect();
-        let [dipoles, blocks] = [MagnetModel::Dipole, MagnetModel::Cuboid].map(|model| {
-            let interaction = Interaction {
-                model,
-                ..scene.interaction.clone()
-            };
-            interaction.between(&pair.fixed, &pair.moving).potential
-        });
-        let energies = |potential: &dyn Potential| {
-            let at = |gap: &f64| potential.energy(&approach.configuration(0.0, 0.0, landing + gap));
-            gaps.iter().map(at).collect::<Vec<_>>()
-        };
-        let bond = scene.catalogue.first(StateKind::Bond);
-        let curves = Self {
-            dipoles: energies(&*dipoles),
-            blocks: energies(&*blocks),
-            bodies: pair.bodies(),
-            bond: bond.map(|bond| {
-                [&dipoles, &blocks].map(|potential| potential.energy(&bond.configuration))
-            }),
-            gaps,
-        };
-        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-        (finite(&curves.dipoles) && finite(&curves.errors())).then_some(curves)
-    }
-
-    /// The dipoles' error (%) relative to the blocks' energy.
-    fn errors(&self) -> Vec<f64> {
-        let pairs = self.dipoles.iter().zip(&self.blocks);
-        pairs
-            .map(|(dipole, block)| 100.0 * (dipole - block).abs() / block.abs())
-            .collect()
-    }
-}
-
 /// The picture: energies, and the error.
-pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
+pub fn composed<'a>(scene: &Scene<'a>, curves: &'a ModelCurves) -> Composition<'a> {
+    let bodies = scene.pair.bodies();
     let height = |_| HEIGHT;
-    let energy = Panel::new("energy", LEAST, height, |canvas, place| {
+    let energy = Panel::new("energy", LEAST, height, move |canvas, place| {
         let line = |energies: &[f64]| -> Vec<[f64; 2]> {
             let points = curves.gaps.iter().zip(energies);
             points.map(|(gap, energy)| [*gap, *energy]).collect()
         };
         let series = [
             Series::new("dipoles", Look::Steps, DIPOLES, line(&curves.dipoles)),
-            Series::new(curves.bodies, Look::Steps, BLOCKS, line(&curves.blocks)),
+            Series::new(bodies, Look::Steps, BLOCKS, line(&curves.blocks)),
         ];
         let y = Dimension::new("energy_J", "energy U");
         let plot = plotted(canvas, place, MARGIN, [&gap_dimension(), &y], &series);
@@ -124,17 +53,11 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
     let note = curves.bond.map(|[dipoles, blocks]| {
         let off = 100.0 * (dipoles - blocks).abs() / blocks.abs();
         let [dipoles, blocks] = [dipoles, blocks].map(|u| minus(&si(u, "J", 4)));
-        format!(
-            "in the bond: dipoles {dipoles}, {} {blocks}, {off:.1} % off",
-            curves.bodies
-        )
+        format!("in the bond: dipoles {dipoles}, {bodies} {blocks}, {off:.1} % off")
     });
     Composition {
         name: "models".to_owned(),
-        title: format!(
-            "{}: magnets as point dipoles and as {}",
-            scene.name, curves.bodies
-        ),
+        title: format!("{}: magnets as point dipoles and as {bodies}", scene.name),
         note: note.unwrap_or_default(),
         width: WIDTH,
         panels: vec![energy, error],
@@ -143,7 +66,7 @@ pub fn composed<'a>(scene: &Scene, curves: &'a Curves) -> Composition<'a> {
 }
 
 /// The numbers of the picture.
-pub fn data(curves: &Curves, decimals: Decimals) -> String {
+pub fn data(curves: &ModelCurves, decimals: Decimals) -> String {
     let columns = curves.dipoles.iter().zip(&curves.blocks);
     let rows = curves.gaps.iter().zip(columns);
     let rows = rows.map(|(gap, (dipoles, blocks))| {
@@ -156,22 +79,19 @@ fn gap_dimension() -> Dimension {
     Dimension::new("gap_m", "gap")
 }
 
-fn errors(canvas: &mut Canvas, place: Box4, curves: &Curves) {
-    let errors = curves.errors();
-    let most = errors.iter().copied().fold(1.0, f64::max);
-    let points: Vec<[f64; 2]> = curves
-        .gaps
-        .iter()
-        .zip(errors)
-        .map(|(gap, e)| [*gap, e])
-        .collect();
+fn errors(canvas: &mut Canvas, place: Box4, curves: &ModelCurves) {
+    let most = curves.errors().fold(1.0, f64::max);
+    let points = curves.gaps.iter().zip(curves.errors());
+    let points: Vec<[f64; 2]> = points.map(|(gap, error)| [*gap, error]).collect();
     let series = [Series::new("", Look::Steps, ERROR, points.iter().copied())];
     let y = Dimension::new("", "error of the dipoles' energy (%)").within([0.0, 1.1 * most]);
     let plot = plotted(canvas, place, MARGIN, [&gap_dimension(), &y], &series);
     plot.heading(canvas, "relative to the blocks");
-    let unit = curves.gaps[SAMPLES - 1] / FARTHEST;
     for mark in MARKED {
-        if let Some([gap, error]) = points.iter().find(|[gap, _]| *gap >= (mark - 1e-9) * unit) {
+        if let Some([gap, error]) = points
+            .iter()
+            .find(|[gap, _]| *gap >= (mark - 1e-9) * curves.magnet)
+        {
             let (x, y) = plot.at(*gap, *error);
             canvas.line(&[(x, y), (x + 22.0, y)], INK, 0.8);
             let place = match mark {

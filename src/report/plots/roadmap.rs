@@ -42,7 +42,7 @@ pub fn draw(
     let scale = EnergyScale::holding(peaks().chain(scene.states().iter().map(|it| it.energy)));
     let range = Range::of(&scale, peaks());
     let ends = |edge: &Edge| [edge.from, edge.to].map(|end| points[end as usize].q);
-    let [x, y] = scene.reach();
+    let [x, y] = scene.problem.space.map_half_size();
     let wide = |width: f64| width - MARGIN[1] - MARGIN[3];
     let height = move |width| MARGIN[0] + wide(width) * y / x + MARGIN[2];
     let panel = Panel::alone(height, |canvas: &mut Canvas, place| {

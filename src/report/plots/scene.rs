@@ -37,15 +37,6 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Half the size (m) of the map along x and y: it extends a fifth of the tiles' size beyond the
-    /// distance of contact, or to the table's edge.
-    pub fn reach(&self) -> [f64; 2] {
-        let space = &self.problem.space;
-        space
-            .half_size
-            .map(|half| half.min(1.2 * space.free_distance))
-    }
-
     /// All states.
     pub fn states(&self) -> &'a [State] {
         &self.catalogue.states

@@ -9,16 +9,32 @@ use text::{face, headline, how_many, meetings, told};
 
 use super::crosstalk::{MOST_DRAWN, histogram};
 use super::document::{Document, Entries, Part, Table, rows};
+use super::files::{PAGE, REPORT};
 use super::page::Meetings;
 use super::page::meetings::{Carrier, Met};
 use super::plots::chart::{self, Chart, Dimension, Look};
 use super::values::positive_zero;
+use jobs::output::Command;
 use jobs::word_sets::{Found, Sought, file};
 use physics::configuration::Configuration;
 use physics::units::si;
 use physics::words::frontier::Point;
 use physics::words::set::name;
 use physics::words::{Answer, Bar, Fault, Meeting, Word};
+
+/// The files of the command.
+pub const FILES: Command = Command {
+    name: "words",
+    files: &[
+        REPORT,
+        PAGE,
+        "words.csv",
+        "crosstalk.csv",
+        "frontier.csv",
+        "words.toml",
+    ],
+    pictures: &["crosstalk", "gaps", "frontier"],
+};
 
 /// Sets with more words than this are not listed in full on a terminal.
 const LISTED: usize = 40;

@@ -2,22 +2,22 @@
 
 use serde_json::{Value, json};
 use tilebind::output::Command;
-use tilebind::report::files;
+use tilebind::report;
 
 use super::*;
 
 /// The commands that write folders, with one of their files each.
 const COMMANDS: [(&str, &Command, &str); 10] = [
-    (ANALYSE, &files::ANALYSE, "pathways/0-free.csv"),
-    (DOCK, &files::DOCK, "pictures/chances.svg"),
-    (MAKE, &files::MAKE, "sheet.md"),
-    (COMPARE, &files::COMPARE, "pictures/ranking.svg"),
-    (SWEEP, &files::SWEEP, "sweep.csv"),
-    (YIELD, &files::YIELD, "pictures/course.svg"),
-    (WORDS, &files::WORDS, "words.toml"),
-    (CROSSTALK, &files::CROSSTALK, "crosstalk.csv"),
-    (MATCH, &files::MATCH, "matches.csv"),
-    (ASSEMBLE, &files::ASSEMBLE, "report.html"),
+    (ANALYSE, &report::analysis::FILES, "pathways/0-free.csv"),
+    (DOCK, &report::docking::FILES, "pictures/chances.svg"),
+    (MAKE, &report::workshop::FILES, "sheet.md"),
+    (COMPARE, &report::comparison::FILES, "pictures/ranking.svg"),
+    (SWEEP, &report::sweep::FILES, "sweep.csv"),
+    (YIELD, &report::yields::FILES, "pictures/course.svg"),
+    (WORDS, &report::words::FILES, "words.toml"),
+    (CROSSTALK, &report::crosstalk::FILES, "crosstalk.csv"),
+    (MATCH, &report::matching::FILES, "matches.csv"),
+    (ASSEMBLE, &report::assembly::FILES, "report.html"),
 ];
 
 #[test]
@@ -66,7 +66,7 @@ fn a_command_replaces_its_own_files_and_no_others() {
 fn names_of_results_are_known() {
     for (command, own, others) in [
         (
-            &files::ANALYSE,
+            &report::analysis::FILES,
             &[
                 "states.csv",
                 "pathways/12-free.csv",
@@ -92,7 +92,7 @@ fn names_of_results_are_known() {
             ][..],
         ),
         (
-            &files::ASSEMBLE,
+            &report::assembly::FILES,
             &["designs/a-b.toml", "pictures/grown.svg"],
             &[
                 "designs/a/b.toml",

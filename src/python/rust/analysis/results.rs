@@ -136,15 +136,9 @@ impl Analysis {
                 "samples must be from 2 to {MOST}, orientations from 1 to {MOST}"
             )));
         }
-        let half = self.scene().reach();
-        let longer = half[0].max(half[1]);
-        let window = Window {
-            origin: Default::default(),
-            angle: 0.0,
-            low: half.map(|half| -half),
-            high: half,
-            samples: half.map(|half| ((samples as f64 * half / longer).round() as usize).max(2)),
-        };
+        let half = self.found.problem.space.map_half_size();
+        let ends = [half.map(|half| -half), half];
+        let window = Window::new(Default::default(), 0.0, ends, samples as f64);
         let map = job::quietly(py, || {
             EnergyMap::new(&self.found.problem, &window, orientations)
         })?;

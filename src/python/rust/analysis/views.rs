@@ -4,7 +4,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tilebind::output::{Output, OutputError};
 use tilebind::report::analysis::{self, Extent};
-use tilebind::report::files::ANALYSE;
 use tilebind::report::plots::Sheet;
 
 use super::Analysis;
@@ -114,7 +113,7 @@ impl Analysis {
         };
         let command = command.unwrap_or_else(|| self.command());
         let inputs = self.content.source.files();
-        let output = Output::folder(&ANALYSE, &folder)
+        let output = Output::folder(&analysis::FILES, &folder)
             .reading(inputs)
             .forced(force);
         output
