@@ -18,7 +18,7 @@
 //! 4. `tile/mod.rs`: the features of a face other than magnets;
 //! 5. `problem/symmetry.rs`: the turns of a tile onto itself that preserve it;
 //! 6. `landscape/meeting.rs`: the report on faces in contact;
-//! 7. `report/json/mod.rs`: the model's name in results;
+//! 7. `report/json.rs`: the model's name in results;
 //!
 //! and its keys in the design reader. Roadmap, landscape, certificates, dynamics and pictures stay
 //! as they are.
