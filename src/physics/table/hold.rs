@@ -27,7 +27,6 @@ use crate::tile::outline::cross;
 const SWEEPS: usize = 1000;
 /// This many sweeps at the end are plain ones, which always converge towards the solution.
 const PLAIN: usize = 500;
-
 /// Largest share of a sweep's change by which the impulses go on after it.
 const MOMENTUM: f64 = 0.85;
 

@@ -371,11 +371,10 @@ impl Island<'_> {
                 [self.settings.friction, error],
             );
             let share = self.time_to_travel(&way, &holds) / h;
-            if FARTHEST * share < 1.0 {
-                h *= share;
-                continue;
+            if FARTHEST * share >= 1.0 {
+                return (way, holds, h);
             }
-            return (way, holds, h);
+            h *= share;
         }
     }
 
