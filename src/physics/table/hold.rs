@@ -17,10 +17,15 @@
 //! Silcowitz-Hansen, Niebe and Erleben 2010, The Visual Computer 26, 893, it takes 2.6 million.
 //! Newton steps on the set of active points cycle among points that carry little.) The impulses on
 //! two tiles act at the same point and are equal and opposite.
+//!
+//! A point waits for the one before it if they share a tile. So points from both halves of the list
+//! take turns: the processor works on several at a time.
 
 use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 
+use crate::potential::simd::Level;
+use crate::potential::simd::lanes::{Lanes, Task};
 use crate::tile::outline::cross;
 
 /// Largest number of sweeps.
@@ -43,6 +48,8 @@ pub struct Hold {
     pub gap: f64,
     /// Least velocity (m/s) along the normal.
     pub least: f64,
+    /// Guesses of the forces (N) along normal and tangent.
+    pub forces: [f64; 2],
     /// Impulses along normal and tangent (N s), for a tile's mass in kg.
     pub impulses: [f64; 2],
     /// The index of its pair of tiles; `None` for the rim.
@@ -66,6 +73,7 @@ impl Hold {
             axis,
             gap,
             least: 0.0,
+            forces: [0.0; 2],
             impulses: [0.0; 2],
             pair: None,
             rows: [[Vector3::zeros(); 2]; 2],
@@ -88,6 +96,11 @@ impl Hold {
                 row[side] = Vector3::new(axis.x, axis.y, cross(arm, axis)) * sign;
             }
         }
+    }
+
+    /// Whether the tiles press on each other here.
+    pub fn is_held(&self) -> bool {
+        self.impulses[0] > 0.0
     }
 
     /// The tiles with their part of a row: 0 along the normal, 1 along the tangent.
@@ -138,6 +151,7 @@ impl Response {
 
     /// The impulses along normal and tangent that the contact law requires, from the velocities
     /// without them.
+    #[inline(always)]
     fn impulses(&self, lack: f64, slip: f64) -> [f64; 2] {
         if lack <= 0.0 {
             return [0.0; 2];
@@ -153,11 +167,27 @@ impl Response {
     }
 }
 
+/// A velocity, or a point's row for one tile, as (x, y, turn, 0): a vector of the processor.
+type Four = [f64; 4];
+
+#[inline(always)]
+fn four(v: Vector3<f64>) -> Four {
+    [v.x, v.y, v.z, 0.0]
+}
+
+/// The sum of the products of both sides.
+#[inline(always)]
+fn along(row: &[Four; 2], [a, b]: [&Four; 2]) -> f64 {
+    let [x, y, turn, none] = [0, 1, 2, 3].map(|k| row[0][k] * a[k] + row[1][k] * b[k]);
+    (x + turn) + (y + none)
+}
+
 /// A contact point with the data of the solver, for velocities multiplied by the root of the mass (or
 /// inertia): a unit impulse then changes them by the point's row.
 struct Point {
     tiles: [usize; 2],
-    rows: [[Vector3<f64>; 2]; 2],
+    /// Normal and tangent, for both sides.
+    rows: [[Four; 2]; 2],
     response: Response,
     least: f64,
     impulses: [f64; 2],
@@ -168,13 +198,10 @@ struct Point {
 impl Point {
     /// The point of a hold between two tiles of a cluster; `roots` are the inverse roots of the masses.
     fn new(hold: &Hold, tiles: [usize; 2], roots: &[Vector3<f64>], friction: f64) -> Self {
-        let scaled =
-            |row: [Vector3<f64>; 2]| [0, 1].map(|k| row[k].component_mul(&roots[tiles[k]]));
-        let rows = hold.rows.map(scaled);
-        let product = |a: usize, b: usize| -> f64 {
-            let sides = rows[a].iter().zip(&rows[b]);
-            sides.map(|(a, b)| a.dot(b)).sum()
-        };
+        let rows = hold
+            .rows
+            .map(|row| [0, 1].map(|k| four(row[k].component_mul(&roots[tiles[k]]))));
+        let product = |a: usize, b: usize| along(&rows[a], [&rows[b][0], &rows[b][1]]);
         let [nn, nt, tt] = [product(0, 0), product(0, 1), product(1, 1)];
         Self {
             tiles,
@@ -186,24 +213,28 @@ impl Point {
         }
     }
 
-    fn push(&self, [push, rub]: [f64; 2], velocities: &mut [Vector3<f64>]) {
+    #[inline(always)]
+    fn push(&self, [push, rub]: [f64; 2], velocities: &mut [Four]) {
         let [normal, tangent] = &self.rows;
         for (side, tile) in self.tiles.into_iter().enumerate() {
-            velocities[tile] += normal[side] * push + tangent[side] * rub;
+            let velocity = &mut velocities[tile];
+            for (k, v) in velocity.iter_mut().enumerate() {
+                *v += normal[side][k] * push + tangent[side][k] * rub;
+            }
         }
     }
 
     /// Solves for the impulses of this point.
-    fn solve(&mut self, velocities: &mut [Vector3<f64>]) {
-        let [a, b] = self.tiles.map(|tile| velocities[tile]);
-        let along = |row: &[Vector3<f64>; 2]| row[0].dot(&a) + row[1].dot(&b);
+    #[inline(always)]
+    fn solve(&mut self, velocities: &mut [Four]) {
+        let both = self.tiles.map(|tile| &velocities[tile]);
         let [push, rub] = self.impulses;
         let Response { nn, nt, tt, .. } = self.response;
-        let lack = self.least - along(&self.rows[0]) + nn * push + nt * rub;
+        let lack = self.least - along(&self.rows[0], both) + nn * push + nt * rub;
         if lack <= 0.0 && self.impulses == [0.0; 2] {
             return;
         }
-        let slip = along(&self.rows[1]) - nt * push - tt * rub;
+        let slip = along(&self.rows[1], both) - nt * push - tt * rub;
         let asked = self.response.impulses(lack, slip);
         self.push([asked[0] - push, asked[1] - rub], velocities);
         self.impulses = asked;
@@ -211,7 +242,8 @@ impl Point {
 
     /// After a sweep: goes on by a share of its change, within the friction cone. The velocities have
     /// done so without the cone.
-    fn go_on(&mut self, share: f64, velocities: &mut [Vector3<f64>]) {
+    #[inline(always)]
+    fn go_on(&mut self, share: f64, velocities: &mut [Four]) {
         let now = self.impulses;
         let [push, rub] = [0, 1].map(|row| now[row] + (now[row] - self.swept[row]) * share);
         self.swept = now;
@@ -251,27 +283,44 @@ pub fn hold_back(
                 tiles.push(tile);
             }
         }
-        let points = cluster.iter().map(|k| {
+        let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
+        let roots: Vec<_> = roots.collect();
+        let point = |k: &usize| {
             // The rim's part of a row is zero, so it can be assigned to any tile.
             let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
             let second = second.or(first).unwrap_or(0);
-            (&holds[*k], [first.unwrap_or(second), second])
-        });
-        let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
-        let roots: Vec<_> = roots.collect();
-        let points = points.map(|(hold, tiles)| Point::new(hold, tiles, &roots, friction));
-        let mut points: Vec<Point> = points.collect();
+            let tiles = [first.unwrap_or(second), second];
+            Point::new(&holds[*k], tiles, &roots, friction)
+        };
+        let cluster = from_both_halves(&cluster);
+        let mut points: Vec<Point> = cluster.iter().map(point).collect();
         let own = tiles.iter().zip(&roots);
-        let own = own.map(|(tile, root)| velocities[*tile].component_div(root));
-        let mut own: Vec<_> = own.collect();
-        solve(&roots, &mut own, &mut points, error);
+        let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
+        let mut own: Vec<Four> = own.collect();
+        Level::best().run(Solution {
+            roots: &roots,
+            velocities: &mut own,
+            points: &mut points,
+            error,
+        });
         for (k, point) in cluster.iter().zip(&points) {
             holds[*k].impulses = point.impulses;
         }
-        for ((tile, velocity), root) in tiles.iter().zip(own).zip(&roots) {
-            velocities[*tile] = velocity.component_mul(root);
+        for ((tile, [x, y, turn, _]), root) in tiles.iter().zip(own).zip(&roots) {
+            velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
         }
     }
+}
+
+/// The first, the first of the second half, the second, and so on.
+fn from_both_halves(list: &[usize]) -> Vec<usize> {
+    let (first, second) = list.split_at(list.len().div_ceil(2));
+    let mut both = Vec::with_capacity(list.len());
+    for (k, one) in first.iter().enumerate() {
+        both.push(*one);
+        both.extend(second.get(k));
+    }
+    both
 }
 
 /// The clusters of points that share tiles, by index.
@@ -298,51 +347,66 @@ fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
     found
 }
 
-/// Solves for all points of a cluster whose masses have these inverse roots; returns the number of
-/// sweeps.
-fn solve(
-    roots: &[Vector3<f64>],
-    velocities: &mut [Vector3<f64>],
-    points: &mut [Point],
+/// Solves for all points of a cluster whose masses have these inverse roots; its result is the number
+/// of sweeps.
+struct Solution<'a> {
+    roots: &'a [Vector3<f64>],
+    velocities: &'a mut [Four],
+    points: &'a mut [Point],
     error: f64,
-) -> usize {
-    for point in points.iter() {
-        point.push(point.impulses, velocities);
-    }
-    let mut before = velocities.to_vec();
-    let mut swept = before.clone();
-    let mut last = f64::INFINITY;
-    for sweep in 0..SWEEPS {
-        for point in points.iter_mut() {
-            point.solve(velocities);
+}
+
+impl Task for Solution<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) -> usize {
+        let Self {
+            roots,
+            velocities,
+            points,
+            error,
+        } = self;
+        for point in points.iter() {
+            point.push(point.impulses, velocities);
         }
-        // Nearly redundant points may keep correcting each other, so the change over a whole sweep
-        // counts.
-        let changes = velocities.iter().zip(&before).zip(roots);
-        let [mut size, mut fastest] = [0.0; 2];
-        for ((now, before), root) in changes {
-            let square = (now - before).norm_squared();
-            size += square;
-            fastest = f64::max(fastest, square * root.x * root.x);
-        }
-        if fastest < error * error {
-            return sweep + 1;
-        }
-        if sweep + PLAIN < SWEEPS {
-            let share = (size / last).sqrt().min(MOMENTUM);
-            for (now, swept) in velocities.iter_mut().zip(&mut swept) {
-                let change = *now - *swept;
-                *swept = *now;
-                *now += change * share;
-            }
+        let mut before = velocities.to_vec();
+        let mut swept = before.clone();
+        let mut last = f64::INFINITY;
+        for sweep in 0..SWEEPS {
             for point in points.iter_mut() {
-                point.go_on(share, velocities);
+                point.solve(velocities);
             }
-            last = size;
+            // Nearly redundant points may keep correcting each other, so the change over a whole
+            // sweep counts.
+            let [mut size, mut fastest] = [0.0; 2];
+            for ((now, before), root) in velocities.iter().zip(&before).zip(roots) {
+                let [x, y, turn] = [0, 1, 2].map(|k| now[k] - before[k]);
+                let square = x * x + y * y + turn * turn;
+                size += square;
+                fastest = f64::max(fastest, square * root.x * root.x);
+            }
+            if fastest < error * error {
+                return sweep + 1;
+            }
+            if sweep + PLAIN < SWEEPS {
+                let share = (size / last).sqrt().min(MOMENTUM);
+                for (now, swept) in velocities.iter_mut().zip(&mut swept) {
+                    for (now, swept) in now.iter_mut().zip(swept) {
+                        let change = *now - *swept;
+                        *swept = *now;
+                        *now += change * share;
+                    }
+                }
+                for point in points.iter_mut() {
+                    point.go_on(share, velocities);
+                }
+                last = size;
+            }
+            before.copy_from_slice(velocities);
         }
-        before.copy_from_slice(velocities);
+        SWEEPS
     }
-    SWEEPS
 }
 
 /// Kinetic energy (J) of velocities.
@@ -432,8 +496,18 @@ mod tests {
                     })
                     .collect();
                 let scaled = start.iter().zip(&roots);
-                let scaled: Vec<_> = scaled.map(|(v, root)| v.component_div(root)).collect();
-                let sweeps = solve(&roots, &mut scaled.clone(), &mut points, ERROR);
+                let scaled: Vec<_> = scaled
+                    .map(|(v, root)| four(v.component_div(root)))
+                    .collect();
+                let mut solve = || {
+                    Level::best().run(Solution {
+                        roots: &roots,
+                        velocities: &mut scaled.clone(),
+                        points: &mut points,
+                        error: ERROR,
+                    })
+                };
+                let sweeps = solve();
                 all += sweeps;
                 let mut now = start.clone();
                 hold_back(&inverse, &mut now, &mut holds, [friction, ERROR]);
@@ -448,7 +522,7 @@ mod tests {
                     );
                 }
                 // Starting from the impulses of the solution, the solver converges at once.
-                let again = solve(&roots, &mut scaled.clone(), &mut points, ERROR);
+                let again = solve();
                 assert!(again <= sweeps, "{again} {sweeps}");
             }
             assert!(all < 20 * 200, "{all} sweeps at {friction}");

@@ -34,15 +34,15 @@ use crate::tile::outline::cross;
 
 /// The error (m) of places in contact per step at which the solver stops: over a step of h (s), an error
 /// of velocities by this over h.
-const MISPLACED: f64 = 5e-9;
-/// The same for the velocities (m/s) after a step: 1/1,000 of a typical kick of the shaking.
-const VELOCITY_ERROR: f64 = 1e-5;
+const MISPLACED: f64 = 2e-8;
+/// The same for the velocities (m/s) after a step: 1/300 of a typical kick of the shaking.
+const VELOCITY_ERROR: f64 = 3e-5;
 /// Points with gaps below this (m) are in contact: about ten times [`MISPLACED`].
-const TOUCHED: f64 = 5e-8;
+const TOUCHED: f64 = 2e-7;
 /// Outlines are kept apart by this (m). The force of two blocks changes sign where their pole faces
 /// pass through each other, so tiles must not overlap at all; this changes an energy by the force
 /// times this distance.
-pub const SKIN: f64 = 1e-7;
+pub const SKIN: f64 = 3e-7;
 /// Overlapping tiles are pushed apart by at most this per step (m).
 const PUSHED_OUT: f64 = 1e-6;
 /// Smallest distance (m) within which contact points are searched for.
@@ -206,9 +206,9 @@ pub struct Island<'a> {
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
-    /// The relative acceleration of each pair by its own force, and the part of it along the contact
-    /// that friction cannot stop (m/s^2).
-    pulls: Vec<[f64; 2]>,
+    /// The relative acceleration (m/s^2) of each pair by its own force, and the force (N) on the
+    /// second tile in the frame of the first.
+    pulls: Vec<(f64, Vector2<f64>)>,
     /// The potential energy of the pairs (J).
     potential: f64,
     /// The correction of kinetic energy that is still outstanding (J).
@@ -257,24 +257,23 @@ impl Island<'_> {
         while time < duration {
             crate::interruption::check();
             let left = duration - time;
-            let longest = self.longest_step(state).min(left);
+            let longest = self.longest_step(state, masses[1]).min(left);
             let points = self.points(state, longest);
             let longest = longest.min(self.time_to_travel(&state.velocities, &points));
             let h = self.until_knock(state, &points, longest);
-            let (way, holds, h) = self.way(state, &points, masses[1], h);
-            lost += self.step(state, (way, holds), masses, h);
+            let (way, points, h) = self.way(state, points, masses[1], h);
+            lost += self.step(state, (way, points), masses, h);
             time = if h == left { duration } else { time + h };
         }
         lost
     }
 
-    /// All accelerations, those of the fastest points of each pair by its own force and along the
-    /// contact (m/s^2), and the energy of the pairs (J).
+    /// All accelerations, those of the fastest points of each pair by its own force (m/s^2) with the
+    /// force, and the energy of the pairs (J).
     fn accelerations(
         &mut self,
         masses: &[Vector3<f64>],
-    ) -> (Vec<Vector3<f64>>, Vec<[f64; 2]>, f64) {
-        let friction = self.settings.friction;
+    ) -> (Vec<Vector3<f64>>, Vec<(f64, Vector2<f64>)>, f64) {
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
@@ -291,9 +290,7 @@ impl Island<'_> {
                 strength += fastest(crowd, mover, &own);
             }
             let force = poses[two.first].rotation.inverse() * pulls[1].xy();
-            let lightness = tiles.map(|tile| 1.0 / masses[tile].x);
-            let along = near.slide(force, friction) * (lightness[0] + lightness[1]);
-            strengths.push([strength, along]);
+            strengths.push((strength, force));
         }
         (all, strengths, potential)
     }
@@ -317,19 +314,21 @@ impl Island<'_> {
     }
 
     /// The longest step (s) in which the forces of pairs in relative motion change little.
-    fn longest_step(&self, state: &State) -> f64 {
-        let limit = |(two, near): &(Two, &mut NearPair), [pull, along]: [f64; 2]| {
+    fn longest_step(&self, state: &State, inverse: &[Vector3<f64>]) -> f64 {
+        let limit = |(two, near): &(Two, &mut NearPair), (pull, force): (f64, Vector2<f64>)| {
             let speed = self.relative(*two, &state.velocities);
             if speed < SLOW {
                 return f64::INFINITY;
             }
             let are_together =
                 near.room <= self.travel() && self.settings.restitution * speed < SLOW;
-            let [whole, along] = [pull, along].map(|it| longest_step(self.feature, it));
-            match are_together {
-                true => (ALONG * along).min(TOGETHER * whole),
-                false => whole,
+            let whole = longest_step(self.feature, pull);
+            if !are_together {
+                return whole;
             }
+            let lightness = [two.first, two.second].map(|tile| inverse[tile].x);
+            let along = near.slide(force, self.settings.friction) * (lightness[0] + lightness[1]);
+            (ALONG * longest_step(self.feature, along)).min(TOGETHER * whole)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, *pull));
@@ -352,24 +351,19 @@ impl Island<'_> {
     fn way(
         &self,
         state: &State,
-        points: &[Hold],
+        mut holds: Vec<Hold>,
         inverse: &[Vector3<f64>],
         mut h: f64,
     ) -> (Vec<Vector3<f64>>, Vec<Hold>, f64) {
         loop {
-            let mut holds = points.to_vec();
             for hold in &mut holds {
                 hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
-                hold.impulses = hold.impulses.map(|force| force * 0.5 * h);
+                hold.impulses = hold.forces.map(|force| force * 0.5 * h);
             }
             let mut way = state.halfway(h);
             let error = (MISPLACED / h).min(VELOCITY_ERROR);
-            hold_back(
-                inverse,
-                &mut way,
-                &mut holds,
-                [self.settings.friction, error],
-            );
+            let law = [self.settings.friction, error];
+            hold_back(inverse, &mut way, &mut holds, law);
             let share = self.time_to_travel(&way, &holds) / h;
             if FARTHEST * share >= 1.0 {
                 return (way, holds, h);
@@ -408,7 +402,7 @@ impl Island<'_> {
                 let gap = point.gap - SKIN;
                 let mut hold = Hold::new(tiles.map(Some), at, axis, gap, centre);
                 hold.pair = Some(k);
-                hold.impulses = near.force(&point.on_moving);
+                hold.forces = near.force(&point.on_moving);
                 holds.push(hold);
             }
         }
@@ -451,7 +445,7 @@ impl Island<'_> {
     fn step(
         &mut self,
         state: &mut State,
-        (way, holds): (Vec<Vector3<f64>>, Vec<Hold>),
+        (way, mut holds): (Vec<Vector3<f64>>, Vec<Hold>),
         [masses, inverse]: [&[Vector3<f64>]; 2],
         h: f64,
     ) -> f64 {
@@ -459,43 +453,25 @@ impl Island<'_> {
         let mut free = state.halfway(h);
         let before = state.velocities.clone();
         let pulled = std::mem::take(&mut state.accelerations);
-        // The return velocities at touched points, whether contact lasts for the whole step or not.
-        let mut touched: Vec<(Hold, Option<f64>)> = Vec::new();
-        let mut held: Vec<Hold> = Vec::new();
-        for mut hold in holds {
-            if hold.gap + hold.rate(&way) * h > TOUCHED {
-                continue;
-            }
-            let is_held = hold.impulses[0] > 0.0;
-            let back = is_held.then(|| {
+        holds.retain(|hold| hold.gap + hold.rate(&way) * h <= TOUCHED);
+        // The return velocities at points where contact lasts for the whole step.
+        let back = |hold: &Hold| {
+            hold.is_held().then(|| {
                 let [u, a] = [&before, &pulled].map(|of| hold.rate(of));
                 closes(hold.gap, u, a).map_or(0.0, |(_, speed)| speed)
-            });
-            hold.least = 0.0;
-            if is_held {
-                held.push(hold);
-            }
-            touched.push((hold, back));
-        }
-        if held.iter().any(|hold| hold.rate(&way) > LEAST_BOUNCE) {
+            })
+        };
+        let backs: Vec<Option<f64>> = holds.iter().map(back).collect();
+        let is_held = backs.iter().any(Option::is_some);
+        let is_pushed_out = |hold: &Hold| hold.is_held() && hold.rate(&way) > LEAST_BOUNCE;
+        if holds.iter().any(is_pushed_out) {
             // Overlapping tiles are pushed apart in the step, but must not fly apart after it.
+            let mut held = holds.clone();
+            held.retain(Hold::is_held);
+            held.iter_mut().for_each(|hold| hold.least = 0.0);
             hold_back(inverse, &mut free, &mut held, law);
-        } else if !held.is_empty() {
+        } else if is_held {
             free.copy_from_slice(&way);
-        }
-        for (_, near) in &mut self.pairs {
-            near.held.clear();
-        }
-        for (hold, _) in &touched {
-            if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
-                let pose = &self.poses[first];
-                let (_, near) = &mut self.pairs[pair];
-                near.held.push(Touch {
-                    at: pose.inverse_transform(hold.point),
-                    normal: pose.rotation.inverse() * hold.axis,
-                    forces: hold.impulses.map(|impulse| impulse / (0.5 * h)),
-                });
-            }
         }
         for ((rider, pose), way) in self.riders.iter_mut().zip(&mut self.poses).zip(&way) {
             rider.mover.place += way * h;
@@ -512,22 +488,24 @@ impl Island<'_> {
         let energy = kinetic(masses, &before) + work.sum::<f64>() + state.potential - potential;
         state.accelerations = accelerations;
         state.potential = potential;
-        if held.is_empty() {
+        if !is_held {
             put_right(state, &mut velocities, (masses, &self.steady), energy, h);
         }
-        if touched.is_empty() {
+        for (_, near) in &mut self.pairs {
+            near.held.clear();
+        }
+        if holds.is_empty() {
             state.velocities = velocities;
             return 0.0;
         }
-        let energy = match held.is_empty() {
-            true => kinetic(masses, &velocities),
-            false => energy,
+        let energy = match is_held {
+            true => energy,
+            false => kinetic(masses, &velocities),
         };
         let riders = &self.riders;
         let centre = |tile: usize| riders[tile].mover.place.xy();
-        let mut approaches = Vec::with_capacity(touched.len());
-        let mut holds: Vec<Hold> = Vec::with_capacity(touched.len());
-        for (mut hold, back) in touched {
+        let mut approaches = Vec::with_capacity(holds.len());
+        for (hold, back) in holds.iter_mut().zip(backs) {
             // The point moves with the tile in front of it.
             let carried = hold.tiles[1].map_or(Vector2::zeros(), |tile| {
                 let arm = hold.point - (riders[tile].mover.place.xy() - way[tile].xy() * h);
@@ -535,7 +513,6 @@ impl Island<'_> {
             });
             hold.place(hold.point + carried, centre);
             approaches.push(back.unwrap_or(-hold.rate(&velocities)));
-            holds.push(hold);
         }
         let restitution = self.settings.restitution;
         let bounces = approaches.iter().any(|u| restitution * u > LEAST_BOUNCE);
@@ -558,7 +535,24 @@ impl Island<'_> {
                 *v += change * share;
             }
         }
+        self.remember(&holds, h);
         energy - kinetic(masses, &state.velocities)
+    }
+
+    /// Keeps the forces at points of contact, by their impulses in half a step (s), as a guess for the
+    /// next step.
+    fn remember(&mut self, holds: &[Hold], h: f64) {
+        for hold in holds {
+            if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
+                let pose = &self.poses[first];
+                let (_, near) = &mut self.pairs[pair];
+                near.held.push(Touch {
+                    at: pose.inverse_transform(hold.point),
+                    normal: pose.rotation.inverse() * hold.axis,
+                    forces: hold.impulses.map(|impulse| impulse / (0.5 * h)),
+                });
+            }
+        }
     }
 }
 
