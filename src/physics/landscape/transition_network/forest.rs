@@ -1,6 +1,7 @@
 //! The links that minimax paths use, and where basins meet.
 
 use std::cmp::Reverse;
+use std::collections::binary_heap::PeekMut;
 use std::collections::{BinaryHeap, HashSet};
 
 use ordered_float::OrderedFloat;
@@ -9,9 +10,6 @@ use petgraph::unionfind::UnionFind;
 use super::ahead::Ends;
 use super::{Link, Network, Route};
 use crate::parallel;
-
-/// Number of links examined for those that can be weighed in parallel.
-const LOOKED_AT: usize = 32;
 
 /// Two basins that meet, in ascending order of the energy at which they do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +25,105 @@ pub struct Merge {
 /// A link ordered by its peak (J), then by its length (m), which determines the work to weigh it,
 /// then by its number.
 type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
+
+/// The parts of a forest, with the links that may lead out of each.
+struct Parts {
+    joined: UnionFind<u32>,
+    /// By the node that stands for the part.
+    outwards: Vec<BinaryHeap<Reverse<ByPeak>>>,
+    /// Parts that have such links.
+    left: Vec<u32>,
+}
+
+impl Parts {
+    fn new(network: &Network, tree: &[u32], links: &[u32]) -> Self {
+        let mut joined = UnionFind::<u32>::new(network.nodes.len());
+        let ends = |number: u32| {
+            let Link { from, to, .. } = network.links[number as usize];
+            [from, to]
+        };
+        for number in tree {
+            let [from, to] = ends(*number);
+            joined.union(from, to);
+        }
+        let by_peak = parallel::map(links, |&number| Reverse(network.by_peak(number)));
+        let mut outwards = vec![Vec::new(); network.nodes.len()];
+        for (number, by_peak) in links.iter().zip(by_peak) {
+            let parts = ends(*number).map(|node| joined.find_mut(node));
+            if parts[0] != parts[1] {
+                for part in parts {
+                    outwards[part as usize].push(by_peak);
+                }
+            }
+        }
+        let outwards: Vec<_> = outwards.into_iter().map(BinaryHeap::from).collect();
+        let mut left: Vec<u32> = (0..network.nodes.len() as u32).collect();
+        left.retain(|part| !outwards[*part as usize].is_empty());
+        Self {
+            joined,
+            outwards,
+            left,
+        }
+    }
+
+    /// For each part: its lowest link or, if it must be weighed first, adds it to the `open` ones.
+    fn advance(&mut self, network: &Network, lowest: &mut Vec<u32>, open: &mut Vec<usize>) {
+        let mut left = std::mem::take(&mut self.left);
+        left.retain(|part| self.joined.find_mut(*part) == *part);
+        // From a single part none leads out; its queue, which has most links, need not be emptied.
+        if left.len() < 2 {
+            return;
+        }
+        left.retain(|part| match self.lowest(network, *part) {
+            Some(number) if network.is_weighed(number as usize) => {
+                lowest.push(number);
+                true
+            }
+            Some(number) => {
+                open.push(number as usize);
+                true
+            }
+            None => false,
+        });
+        self.left = left;
+        open.sort_unstable();
+        open.dedup();
+    }
+
+    /// The link at the head of a part's queue that leads out of it.
+    fn lowest(&mut self, network: &Network, part: u32) -> Option<u32> {
+        let queue = &mut self.outwards[part as usize];
+        while let Some(mut head) = queue.peek_mut() {
+            let Reverse(known) = *head;
+            let Link { from, to, .. } = network.links[known.2 as usize];
+            let leads_out = self.joined.find_mut(from) != self.joined.find_mut(to);
+            if !leads_out || network.is_blocked(known.2 as usize) {
+                PeekMut::pop(head);
+                continue;
+            }
+            let now = network.by_peak(known.2);
+            if now == known {
+                return Some(known.2);
+            }
+            *head = Reverse(now);
+        }
+        None
+    }
+
+    /// Joins the parts of two nodes; returns whether they were two.
+    fn join(&mut self, from: u32, to: u32) -> bool {
+        let [a, b] = [from, to].map(|node| self.joined.find_mut(node));
+        if !self.joined.union(a, b) {
+            return false;
+        }
+        let mut queues = [a, b].map(|part| std::mem::take(&mut self.outwards[part as usize]));
+        queues.sort_by_key(BinaryHeap::len);
+        let [mut few, mut many] = queues;
+        many.append(&mut few);
+        self.outwards[self.joined.find_mut(a) as usize] = many;
+        true
+    }
+}
 
 impl Network<'_> {
     /// Determines the motions that minimax paths use, so that merges need only examine later links:
@@ -47,55 +144,27 @@ impl Network<'_> {
 
     /// Extends a part of the forest, `tree`, by some links.
     ///
-    /// Kruskal's algorithm: links are queued by their peaks, unweighed ones by lower bounds of
-    /// these, and only those that might join two parts are weighed. Blocked links join nothing.
+    /// Borůvka's algorithm: each part of the forest is joined to another by the lowest link that leads
+    /// out of it. Links are queued by their peaks, unweighed ones by lower bounds of these, so only
+    /// those are weighed that are at the head of a part's queue; those of all parts together. Blocked
+    /// links join nothing.
     fn span_by(&mut self, mut tree: Vec<u32>, links: Vec<u32>) {
         let is_same = |number: &u32| self.is_same(*number as usize);
-        let (same, mut left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
-        let mut joined = UnionFind::<u32>::new(self.nodes.len());
-        for number in &tree {
-            let link = &self.links[*number as usize];
-            joined.union(link.from, link.to);
-        }
-        left.retain(|number| {
-            let link = &self.links[*number as usize];
-            !joined.equiv(link.from, link.to)
-        });
-        let by_peak = |number| self.by_peak(number);
-        let by_peak = parallel::map(&left, |&number| Reverse(by_peak(number)));
-        let mut waiting = BinaryHeap::from(by_peak);
-        // Together with a link that has to be weighed, later ones that join other parts of the
-        // forest are weighed; this collects the links examined meanwhile, and the parts that they
-        // touch.
-        let (mut open, mut aside, mut touched) = (Vec::new(), Vec::new(), Vec::new());
+        let (same, left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
+        let mut parts = Parts::new(self, &tree, &left);
         loop {
-            let next = waiting.pop();
-            if let Some(Reverse((_, _, number))) = next {
-                let Link { from, to, .. } = self.links[number as usize];
-                let parts = [from, to].map(|node| joined.find_mut(node));
-                if parts[0] == parts[1] || self.is_blocked(number as usize) {
-                    continue;
-                }
-                let is_weighed = self.is_weighed(number as usize);
-                if open.is_empty() && is_weighed {
-                    joined.union(from, to);
-                    tree.push(number);
-                    continue;
-                }
-                if !is_weighed && parts.iter().any(|part| !touched.contains(part)) {
-                    open.push(number as usize);
-                }
-                touched.extend(parts);
-                aside.push(number);
+            let (mut lowest, mut open) = (Vec::new(), Vec::new());
+            parts.advance(self, &mut lowest, &mut open);
+            if lowest.is_empty() && open.is_empty() {
+                break;
             }
-            if aside.len() == LOOKED_AT || next.is_none() {
-                if aside.is_empty() {
-                    break;
+            self.weigh(&open);
+            for number in lowest {
+                let Link { from, to, .. } = self.links[number as usize];
+                // Both parts may have chosen the same link.
+                if parts.join(from, to) {
+                    tree.push(number);
                 }
-                self.weigh(&open);
-                waiting.extend(aside.drain(..).map(|number| Reverse(self.by_peak(number))));
-                open.clear();
-                touched.clear();
             }
         }
         self.around.iter_mut().for_each(Vec::clear);

@@ -9,8 +9,8 @@ use crate::roadmap::Point;
 use crate::roadmap::edge::{EdgeCosts, SIDE_BY_SIDE, costs_side_by_side};
 
 /// Links weighed together are distributed in this many parts, each with at least this many links.
-const PARTS: usize = 2;
-const FEW: usize = 16;
+const PARTS: usize = 64;
+const FEW: usize = 4;
 
 impl Network<'_> {
     pub(super) fn is_weighed(&self, link: usize) -> bool {
