@@ -139,13 +139,13 @@ impl<'a> Certifier<'a> {
     }
 
     /// Records a proved pathway, from end to end.
-    pub(super) fn note_way(&mut self, points: &[Configuration]) {
-        if self.ways.include(points) {
+    pub(super) fn note_way(&mut self, proved: &ProvedPath) {
+        if self.ways.include(&proved.points) {
             return;
         }
-        let value = |q: &Configuration| self.bounded.value(q).0;
-        let way: Vec<_> = points.iter().map(|q| (*q, value(q))).collect();
-        let start = self.ends.holding(&self.store, &points[0]);
+        let way = proved.points.iter().copied();
+        let way: Vec<_> = way.zip(proved.energies.iter().copied()).collect();
+        let start = self.store.holding(&proved.points[0]);
         self.ways.add(&self.store, start, &way);
     }
 

@@ -1,6 +1,4 @@
-//! The leaves that contain the ends of queries, kept from one round to the next.
-
-use std::collections::HashMap;
+//! The leaves that contain the ends of queries.
 
 use super::level::Seeds;
 use super::proved::Goal;
@@ -10,33 +8,13 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::bounded::Bounded;
 use crate::order::Order;
 
-/// The leaves of a store that hold something, by their numbers; only leaves added since the last
-/// call are examined.
-#[derive(Default)]
-struct Holders<T> {
-    known: Vec<(u32, T)>,
-    seen: u32,
-}
-
-impl<T: Copy> Holders<T> {
-    fn look(&mut self, store: &Store, holds: impl Fn(u32) -> Option<T>) -> &[(u32, T)] {
-        self.known.retain(|(id, _)| store.leaf(*id).live);
-        let end = store.len() as u32;
-        let fresh = (self.seen..end).filter(|&id| store.leaf(id).live);
-        self.known
-            .extend(fresh.filter_map(|id| Some((id, holds(id)?))));
-        self.seen = end;
-        &self.known
-    }
-}
-
-/// Where the ends of queries lie in a store.
+/// The leaves that hold configurations with the tiles far apart, which any query may end in.
 #[derive(Default)]
 pub(super) struct Ends {
-    /// Keyed by the bits of a configuration.
-    at: HashMap<[u64; 3], Holders<()>>,
     /// With the energy (J) there.
-    far: Holders<f64>,
+    far: Vec<(u32, f64)>,
+    /// Number of leaves at the last call.
+    seen: u32,
 }
 
 impl Ends {
@@ -48,14 +26,15 @@ impl Ends {
         from: &Configuration,
         goal: &Goal,
     ) -> Seeds {
-        let low = |ids: Vec<u32>| ids.into_iter().map(|id| (id, f64::NEG_INFINITY)).collect();
-        let from: Vec<(u32, f64)> = low(self.holding(store, from));
-        let places = goal.places.iter();
-        let mut to: Vec<(u32, f64)> = places
-            .flat_map(|place| low(self.holding(store, place)))
-            .collect();
+        let holding = |q: &Configuration| {
+            let held = store.holding(q).into_iter();
+            held.map(|id| (id, f64::NEG_INFINITY)).collect::<Vec<_>>()
+        };
+        let from = holding(from);
+        let mut to: Vec<(u32, f64)> = goal.places.iter().flat_map(holding).collect();
         if goal.free {
-            to.extend(self.far(store, bounded));
+            self.look(store, bounded);
+            to.extend(&self.far);
         }
         // If a leaf holds several, the first of them.
         to.order_by_key(|(id, _)| *id);
@@ -63,21 +42,9 @@ impl Ends {
         Seeds { from, to }
     }
 
-    /// The leaves that hold a configuration.
-    pub fn holding(&mut self, store: &Store, q: &Configuration) -> Vec<u32> {
-        let bits = [q.x, q.y, q.theta].map(f64::to_bits);
-        let place = store.place(q);
-        let holds = |id: u32| {
-            let key = &store.leaf(id).key;
-            (key.may_hold(&place) && store.cell(key).contains(q)).then_some(())
-        };
-        let held = self.at.entry(bits).or_default().look(store, holds);
-        held.iter().map(|(id, ())| *id).collect()
-    }
-
-    /// The leaves that hold configurations with the tiles far apart.
-    fn far(&mut self, store: &Store, bounded: &Bounded) -> &[(u32, f64)] {
-        self.far.look(store, |id| {
+    /// Examines the leaves added since the last call.
+    fn look(&mut self, store: &Store, bounded: &Bounded) {
+        let energy = |id: u32| {
             let leaf = store.leaf(id);
             let cell = store.cell(&leaf.key);
             if bounded.space.is_far(&cell.centre) {
@@ -85,7 +52,13 @@ impl Ends {
             }
             let end = far_end(bounded.space, &cell)?;
             Some(bounded.value(&end).1)
-        })
+        };
+        self.far.retain(|(id, _)| store.leaf(*id).live);
+        let end = store.len() as u32;
+        let fresh = (self.seen..end).filter(|&id| store.leaf(id).live);
+        let far = fresh.filter_map(|id| Some((id, energy(id)?)));
+        self.far.extend(far);
+        self.seen = end;
     }
 }
 

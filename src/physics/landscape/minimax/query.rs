@@ -152,7 +152,7 @@ impl<'q, 'a> Query<'q, 'a> {
             .joined_to_the_ends(known)
             .and_then(|path| query.certifier.known_path(&path, effort.tolerance));
         if let Some(best) = &query.best {
-            query.certifier.note_way(&best.points);
+            query.certifier.note_way(best);
         }
         query.is_known = query.level() <= proved;
         query
@@ -230,7 +230,7 @@ impl<'q, 'a> Query<'q, 'a> {
         let sharpness = SHARPNESS * self.effort.tolerance;
         match self.certifier.bounded.prove(&path, sharpness, ceiling) {
             Ok(proved) if proved.upper <= ceiling || self.best.is_none() => {
-                self.certifier.note_way(&proved.points);
+                self.certifier.note_way(&proved);
                 self.best = Some(proved);
                 self.improved = true;
                 Ok(())

@@ -1,6 +1,7 @@
 //! The leaves of a subdivision of the configuration space, and which of them are adjacent.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use super::lower::Assessment;
 use crate::cell::Cell;
@@ -62,6 +63,8 @@ pub(super) struct Leaf {
     pub live: bool,
     /// The leaf that it is a part of; itself for a first cell.
     pub whole: u32,
+    /// If it is none any more, its parts that are not blocked.
+    parts: Range<u32>,
 }
 
 /// The leaves. All other parts of the table's configuration space are blocked.
@@ -169,11 +172,39 @@ impl Store {
                 list.swap_remove(place);
             }
         }
-        self.add(Some(id), parts, &around);
+        self.leaves[id as usize].parts = self.add(Some(id), parts, &around);
     }
 
-    /// Adds leaves that touch each other and the leaves `around` only, cut from the leaf `whole`.
-    fn add(&mut self, whole: Option<u32>, parts: &[(Key, Assessment)], around: &[u32]) {
+    /// The leaves that hold a configuration, ascending.
+    pub fn holding(&self, q: &Configuration) -> Vec<u32> {
+        let place = self.place(q);
+        let firsts = (0..)
+            .zip(&self.leaves)
+            .take_while(|(id, leaf)| leaf.whole == *id);
+        let mut open: Vec<u32> = firsts.map(|(id, _)| id).collect();
+        let mut held = Vec::new();
+        while let Some(id) = open.pop() {
+            let leaf = self.leaf(id);
+            if !leaf.key.may_hold(&place) {
+                continue;
+            }
+            open.extend(leaf.parts.clone());
+            if leaf.live && self.cell(&leaf.key).contains(q) {
+                held.push(id);
+            }
+        }
+        held.sort_unstable();
+        held
+    }
+
+    /// Adds leaves that touch each other and the leaves `around` only, cut from the leaf `whole`;
+    /// returns their numbers.
+    fn add(
+        &mut self,
+        whole: Option<u32>,
+        parts: &[(Key, Assessment)],
+        around: &[u32],
+    ) -> Range<u32> {
         let first = self.leaves.len() as u32;
         for (id, &(key, known)) in (first..).zip(parts) {
             let neighbours: Vec<u32> = around
@@ -194,8 +225,10 @@ impl Store {
                 known,
                 live: true,
                 whole: whole.unwrap_or(id),
+                parts: 0..0,
             });
         }
+        first..self.leaves.len() as u32
     }
 
     /// The midpoint of the intersection of two touching leaves.
@@ -239,7 +272,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn neighbours_are_exactly_the_leaves_that_touch() {
+    fn neighbours_are_the_leaves_that_touch_and_the_tree_leads_to_those_that_hold_a_place() {
         let mut store = first_cells();
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         for _ in 0..200 {
@@ -271,7 +304,15 @@ pub(super) mod tests {
                 .collect();
             assert_eq!(listed, touching);
         }
+        for _ in 0..200 {
+            let [x, y] = [1.0, 0.7].map(|half: f64| rng.random_range(-half..half));
+            let q = Configuration::new(x, y, rng.random_range(-PI..PI));
+            let holds = |id: &u32| store.cell(&store.leaf(*id).key).contains(&q);
+            let held: Vec<u32> = live.iter().copied().filter(holds).collect();
+            assert_eq!(store.holding(&q), held);
+        }
     }
+
     #[test]
     fn a_cell_is_halved_down_to_units_and_holds_what_its_halves_do() {
         let mut rng = ChaCha8Rng::seed_from_u64(3);

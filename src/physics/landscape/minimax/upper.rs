@@ -35,6 +35,8 @@ pub(in crate::landscape) struct ProvedPath {
     /// The highest point met.
     pub peak: Configuration,
     pub points: Vec<Configuration>,
+    /// Lower bounds of the energies (J) of the points; they differ from them by rounding only.
+    pub energies: Vec<f64>,
 }
 
 impl Bounded<'_> {
@@ -56,23 +58,27 @@ impl Bounded<'_> {
         };
         let mut points = vec![*first];
         let mut owners = vec![0];
+        let mut values = vec![self.value(first)];
         for (k, q) in path.iter().enumerate().skip(1) {
             self.extend(&mut points, q, k + 1 == path.len()).ok_or(k)?;
-            let added = &points[owners.len()..];
-            let allowed = |q: &Configuration| self.space.contains(q) && self.value(q).0 <= give_up;
-            if !added.iter().all(allowed) {
-                return Err(k);
+            for q in &points[owners.len()..] {
+                let value = self.value(q);
+                if !self.space.contains(q) || value.0 > give_up {
+                    return Err(k);
+                }
+                values.push(value);
             }
             owners.resize(points.len(), k);
         }
         debug_assert_eq!(points.last(), Some(last));
         let (upper, peak) = self
-            .highest(&points, tolerance, give_up)
+            .highest((&points, &values), tolerance, give_up)
             .map_err(|stretch| owners[stretch + 1])?;
         Ok(ProvedPath {
             upper,
             peak,
             points,
+            energies: values.into_iter().map(|value| value.0).collect(),
         })
     }
 
@@ -191,28 +197,21 @@ impl Bounded<'_> {
         )
     }
 
-    /// The proved highest energy on the straight stretches between the points, and the highest
-    /// point met; or the number of a stretch that rises above `give_up`.
+    /// The proved highest energy on the straight stretches between the points, which have these
+    /// [values](Self::value), and the highest point met; or the number of a stretch that rises above
+    /// `give_up`.
     fn highest(
         &self,
-        points: &[Configuration],
+        (points, values): (&[Configuration], &[(f64, f64)]),
         tolerance: f64,
         give_up: f64,
     ) -> Result<(f64, Configuration), usize> {
-        let mut floor = f64::NEG_INFINITY;
-        let mut peak = points[0];
-        let mut raise = |q: &Configuration| {
-            let value = self.value(q).1;
-            if value > floor {
-                floor = value;
-                peak = *q;
+        let (mut level, mut peak) = (f64::NEG_INFINITY, points[0]);
+        for (q, value) in points.iter().zip(values) {
+            if value.1 > level {
+                (level, peak) = (value.1, *q);
             }
-            floor
-        };
-        let mut level = points
-            .iter()
-            .map(&mut raise)
-            .fold(f64::NEG_INFINITY, f64::max);
+        }
         let mut upper = level;
         let mut open: Vec<(Configuration, Configuration, usize, usize)> = points
             .windows(2)
@@ -230,7 +229,10 @@ impl Bounded<'_> {
                 continue;
             }
             let middle = a.interpolate(&b, 0.5);
-            level = raise(&middle);
+            let value = self.value(&middle).1;
+            if value > level {
+                (level, peak) = (value, middle);
+            }
             if level > give_up {
                 return Err(stretch);
             }

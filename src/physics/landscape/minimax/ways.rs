@@ -121,7 +121,6 @@ fn within(store: &Store, key: &Key, [from, to]: [&Configuration; 2]) -> Option<[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::landscape::minimax::ends::Ends;
     use crate::landscape::minimax::store::tests::{KNOWN, first_cells};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
@@ -159,12 +158,11 @@ mod tests {
     fn ways_are_in_the_leaves_that_hold_their_points_however_those_are_cut() {
         let mut rng = ChaCha8Rng::seed_from_u64(4);
         let mut store = first_cells();
-        let mut ends = Ends::default();
         let mut ways = Ways::default();
         let mut all = Vec::new();
         for _ in 0..3 {
             let new = way(&mut rng);
-            let start = ends.holding(&store, &new[0].0);
+            let start = store.holding(&new[0].0);
             let points: Vec<Configuration> = new.iter().map(|(q, _)| *q).collect();
             assert!(!ways.include(&points));
             ways.add(&store, start, &new);
