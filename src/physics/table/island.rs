@@ -202,13 +202,20 @@ pub struct Island<'a> {
     pub contact_loss: f64,
 }
 
+/// The own force of a pair of tiles.
+#[derive(Clone, Copy)]
+struct Strength {
+    /// The relative acceleration (m/s^2) of the tiles' fastest points by it.
+    acceleration: f64,
+    /// On the second tile, in the frame of the first (N).
+    force: Vector2<f64>,
+}
+
 /// Accelerations and energies at one time.
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
-    /// The relative acceleration (m/s^2) of each pair by its own force, and the force (N) on the
-    /// second tile in the frame of the first.
-    pulls: Vec<(f64, Vector2<f64>)>,
+    pulls: Vec<Strength>,
     /// The potential energy of the pairs (J).
     potential: f64,
     /// The correction of kinetic energy that is still outstanding (J).
@@ -268,12 +275,11 @@ impl Island<'_> {
         lost
     }
 
-    /// All accelerations, those of the fastest points of each pair by its own force (m/s^2) with the
-    /// force, and the energy of the pairs (J).
+    /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and their energy (J).
     fn accelerations(
         &mut self,
         masses: &[Vector3<f64>],
-    ) -> (Vec<Vector3<f64>>, Vec<(f64, Vector2<f64>)>, f64) {
+    ) -> (Vec<Vector3<f64>>, Vec<Strength>, f64) {
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
@@ -283,14 +289,17 @@ impl Island<'_> {
             let movers = tiles.map(|k| &riders[k].mover);
             let (energy, pulls) = near.pull(crowd, movers, tiles.map(|k| &poses[k]));
             potential += energy;
-            let mut strength = 0.0;
+            let mut acceleration = 0.0;
             for ((tile, mover), pull) in tiles.into_iter().zip(movers).zip(pulls) {
                 let own = pull.component_div(&masses[tile]);
                 all[tile] += own;
-                strength += fastest(crowd, mover, &own);
+                acceleration += fastest(crowd, mover, &own);
             }
             let force = poses[two.first].rotation.inverse() * pulls[1].xy();
-            strengths.push((strength, force));
+            strengths.push(Strength {
+                acceleration,
+                force,
+            });
         }
         (all, strengths, potential)
     }
@@ -315,23 +324,24 @@ impl Island<'_> {
 
     /// The longest step (s) in which the forces of pairs in relative motion change little.
     fn longest_step(&self, state: &State, inverse: &[Vector3<f64>]) -> f64 {
-        let limit = |(two, near): &(Two, &mut NearPair), (pull, force): (f64, Vector2<f64>)| {
+        let limit = |(two, near): &(Two, &mut NearPair), pull: &Strength| {
             let speed = self.relative(*two, &state.velocities);
             if speed < SLOW {
                 return f64::INFINITY;
             }
             let are_together =
                 near.room <= self.travel() && self.settings.restitution * speed < SLOW;
-            let whole = longest_step(self.feature, pull);
+            let whole = longest_step(self.feature, pull.acceleration);
             if !are_together {
                 return whole;
             }
             let lightness = [two.first, two.second].map(|tile| inverse[tile].x);
-            let along = near.slide(force, self.settings.friction) * (lightness[0] + lightness[1]);
+            let along =
+                near.slide(pull.force, self.settings.friction) * (lightness[0] + lightness[1]);
             (ALONG * longest_step(self.feature, along)).min(TOGETHER * whole)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
-        let limits = pairs.map(|(pair, pull)| limit(pair, *pull));
+        let limits = pairs.map(|(pair, pull)| limit(pair, pull));
         self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
