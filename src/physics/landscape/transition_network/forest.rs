@@ -36,7 +36,7 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(network: &Network, tree: &[u32], links: &[u32]) -> Self {
+    fn new(network: &Network, tree: &[u32], mut links: Vec<u32>) -> Self {
         let mut joined = UnionFind::<u32>::new(network.nodes.len());
         let ends = |number: u32| {
             let Link { from, to, .. } = network.links[number as usize];
@@ -46,14 +46,21 @@ impl Parts {
             let [from, to] = ends(*number);
             joined.union(from, to);
         }
-        let by_peak = parallel::map(links, |&number| Reverse(network.by_peak(number)));
-        let mut outwards = vec![Vec::new(); network.nodes.len()];
+        let mut parts_of = |number: &u32| ends(*number).map(|node| joined.find_mut(node) as usize);
+        links.retain(|number| {
+            let [a, b] = parts_of(number);
+            a != b
+        });
+        let by_peak = parallel::map(&links, |&number| Reverse(network.by_peak(number)));
+        // With the room they need and no more: there are millions.
+        let mut counts = vec![0; network.nodes.len()];
+        for part in links.iter().flat_map(&mut parts_of) {
+            counts[part] += 1;
+        }
+        let mut outwards: Vec<Vec<_>> = counts.into_iter().map(Vec::with_capacity).collect();
         for (number, by_peak) in links.iter().zip(by_peak) {
-            let parts = ends(*number).map(|node| joined.find_mut(node));
-            if parts[0] != parts[1] {
-                for part in parts {
-                    outwards[part as usize].push(by_peak);
-                }
+            for part in parts_of(number) {
+                outwards[part].push(by_peak);
             }
         }
         let outwards: Vec<_> = outwards.into_iter().map(BinaryHeap::from).collect();
@@ -151,7 +158,7 @@ impl Network<'_> {
     fn span_by(&mut self, mut tree: Vec<u32>, links: Vec<u32>) {
         let is_same = |number: &u32| self.is_same(*number as usize);
         let (same, left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
-        let mut parts = Parts::new(self, &tree, &left);
+        let mut parts = Parts::new(self, &tree, left);
         loop {
             let (mut lowest, mut open) = (Vec::new(), Vec::new());
             parts.advance(self, &mut lowest, &mut open);
