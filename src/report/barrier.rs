@@ -18,7 +18,7 @@ use physics::units::{si, si_range};
 /// The files of the command.
 pub const FILES: Command = Command {
     name: "barrier",
-    files: &[REPORT, PAGE, "pathway.csv"],
+    files: &[REPORT, PAGE, PATHWAY],
     pictures: &["profile", "poses"],
 };
 

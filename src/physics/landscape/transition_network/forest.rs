@@ -73,28 +73,29 @@ impl Parts {
         }
     }
 
-    /// For each part: its lowest link or, if it must be weighed first, adds it to the `open` ones.
-    fn advance(&mut self, network: &Network, lowest: &mut Vec<u32>, open: &mut Vec<usize>) {
+    /// The lowest links out of the parts, and the links that must be weighed to know the others.
+    fn lowest_links(&mut self, network: &Network) -> (Vec<u32>, Vec<usize>) {
+        let (mut lowest, mut open) = (Vec::new(), Vec::new());
         let mut left = std::mem::take(&mut self.left);
         left.retain(|part| self.joined.find_mut(*part) == *part);
         // From a single part none leads out; its queue, which has most links, need not be emptied.
         if left.len() < 2 {
-            return;
+            return (lowest, open);
         }
-        left.retain(|part| match self.lowest(network, *part) {
-            Some(number) if network.is_weighed(number as usize) => {
+        for part in left {
+            let Some(number) = self.lowest(network, part) else {
+                continue;
+            };
+            if network.is_weighed(number as usize) {
                 lowest.push(number);
-                true
-            }
-            Some(number) => {
+            } else {
                 open.push(number as usize);
-                true
             }
-            None => false,
-        });
-        self.left = left;
+            self.left.push(part);
+        }
         open.sort_unstable();
         open.dedup();
+        (lowest, open)
     }
 
     /// The link at the head of a part's queue that leads out of it.
@@ -160,8 +161,7 @@ impl Network<'_> {
         let (same, left): (Vec<u32>, Vec<u32>) = links.into_iter().partition(is_same);
         let mut parts = Parts::new(self, &tree, left);
         loop {
-            let (mut lowest, mut open) = (Vec::new(), Vec::new());
-            parts.advance(self, &mut lowest, &mut open);
+            let (lowest, open) = parts.lowest_links(self);
             if lowest.is_empty() && open.is_empty() {
                 break;
             }
