@@ -26,11 +26,14 @@ pub struct Merge {
 /// then by its number.
 type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 
+/// The links that may lead out of a part, the lowest first.
+type Queue = BinaryHeap<Reverse<ByPeak>>;
+
 /// The parts of a forest, with the links that may lead out of each.
 struct Parts {
     joined: UnionFind<u32>,
     /// By the node that stands for the part.
-    outwards: Vec<BinaryHeap<Reverse<ByPeak>>>,
+    outwards: Vec<Queue>,
     /// Parts that have such links.
     left: Vec<u32>,
 }
@@ -82,8 +85,16 @@ impl Parts {
         if left.len() < 2 {
             return (lowest, open);
         }
-        for part in left {
-            let Some(number) = self.lowest(network, part) else {
+        let queue = |part: &u32| std::mem::take(&mut self.outwards[*part as usize]);
+        let mut queues: Vec<(Queue, Option<u32>)> =
+            left.iter().map(queue).map(|queue| (queue, None)).collect();
+        let joined = &self.joined;
+        parallel::for_each(&mut queues, |(queue, head)| {
+            *head = leading_out(network, joined, queue);
+        });
+        for (part, (queue, head)) in left.into_iter().zip(queues) {
+            self.outwards[part as usize] = queue;
+            let Some(number) = head else {
                 continue;
             };
             if network.is_weighed(number as usize) {
@@ -96,26 +107,6 @@ impl Parts {
         open.sort_unstable();
         open.dedup();
         (lowest, open)
-    }
-
-    /// The link at the head of a part's queue that leads out of it.
-    fn lowest(&mut self, network: &Network, part: u32) -> Option<u32> {
-        let queue = &mut self.outwards[part as usize];
-        while let Some(mut head) = queue.peek_mut() {
-            let Reverse(known) = *head;
-            let Link { from, to, .. } = network.links[known.2 as usize];
-            let leads_out = self.joined.find_mut(from) != self.joined.find_mut(to);
-            if !leads_out || network.is_blocked(known.2 as usize) {
-                PeekMut::pop(head);
-                continue;
-            }
-            let now = network.by_peak(known.2);
-            if now == known {
-                return Some(known.2);
-            }
-            *head = Reverse(now);
-        }
-        None
     }
 
     /// Joins the parts of two nodes; returns whether they were two.
@@ -131,6 +122,25 @@ impl Parts {
         self.outwards[self.joined.find_mut(a) as usize] = many;
         true
     }
+}
+
+/// The link at the head of a part's queue that leads out of it.
+fn leading_out(network: &Network, joined: &UnionFind<u32>, queue: &mut Queue) -> Option<u32> {
+    while let Some(mut head) = queue.peek_mut() {
+        let Reverse(known) = *head;
+        let Link { from, to, .. } = network.links[known.2 as usize];
+        let leads_out = joined.find(from) != joined.find(to);
+        if !leads_out || network.is_blocked(known.2 as usize) {
+            PeekMut::pop(head);
+            continue;
+        }
+        let now = network.by_peak(known.2);
+        if now == known {
+            return Some(known.2);
+        }
+        *head = Reverse(now);
+    }
+    None
 }
 
 impl Network<'_> {
