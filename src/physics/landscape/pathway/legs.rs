@@ -2,10 +2,10 @@
 //! shorter way round). The pathway *is* these motions, not a curve sampled at its points: each leg
 //! is proved free, and its highest point is one of the pathway's points.
 
-use super::push;
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
-use crate::landscape::results::Pathway;
+use crate::landscape::results::{Pathway, PathwayPoint};
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::knot::Knot;
 use crate::roadmap::profile::Profile;
@@ -46,14 +46,25 @@ pub fn of_configurations(problem: &Problem, all: &[Configuration], bend: f64) ->
 
 /// The same where the energies are known.
 pub(super) fn of_milestones(problem: &Problem, all: &[Point], bend: f64) -> Pathway {
-    let mut pathway = Pathway::new();
     let corners = free_polyline(problem, all).unwrap_or_default();
-    let Some(first) = corners.first() else {
-        return pathway;
-    };
-    push(problem, &mut pathway, first.q, first.energy);
-    for ends in corners.windows(2) {
-        add_leg(problem, &mut pathway, [&ends[0], &ends[1]], bend, PUSHED);
+    let first = corners.first().map(|first| (first.q, first.energy));
+    let ends: Vec<&[Point]> = corners.windows(2).collect();
+    let legs = parallel::flat_map(&ends, |ends| {
+        let mut leg = Vec::new();
+        add_leg(problem, &mut leg, [&ends[0], &ends[1]], bend, PUSHED);
+        leg
+    });
+    let mut pathway = Pathway::new();
+    for (configuration, energy) in first.into_iter().chain(legs) {
+        let s = pathway.last().map_or(0.0, |last| {
+            last.s + problem.space.distance(&last.configuration, &configuration)
+        });
+        pathway.push(PathwayPoint {
+            s,
+            configuration,
+            energy,
+            clearance: problem.clearance(&configuration),
+        });
     }
     pathway
 }
@@ -104,7 +115,7 @@ fn middle(problem: &Problem, from: &Configuration, to: &Configuration) -> Option
 
 /// Appends a free leg: its end, its summits and dips, and points between them where it is long or its
 /// energy bends.
-fn add_leg(problem: &Problem, pathway: &mut Pathway, [a, b]: [&Point; 2], bend: f64, depth: u32) {
+fn add_leg(problem: &Problem, pathway: &mut Vec<At>, [a, b]: [&Point; 2], bend: f64, depth: u32) {
     let leg = Leg {
         problem,
         from: a.q,
@@ -207,7 +218,7 @@ impl Leg<'_> {
 
     /// Appends the points after `a` up to `b`, both on the leg, close enough for the energy to be
     /// nearly linear between them.
-    fn refine(&self, pathway: &mut Pathway, a: At, b: At) {
+    fn refine(&self, pathway: &mut Vec<At>, a: At, b: At) {
         let length = self.problem.space.distance(&a.0, &b.0);
         if length > self.problem.scaled(SHORTEST) {
             let middle = a.0.interpolate(&b.0, 0.5);
@@ -220,6 +231,6 @@ impl Leg<'_> {
                 return;
             }
         }
-        push(self.problem, pathway, b.0, b.1);
+        pathway.push(b);
     }
 }

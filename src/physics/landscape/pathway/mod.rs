@@ -9,7 +9,6 @@ use std::collections::HashSet;
 use super::results::{Pathway, PathwayPoint, highest_point};
 use super::transition_network::{Cost, Network, Route};
 use crate::configuration::{Configuration, ConfigurationSpace};
-use crate::problem::Problem;
 use crate::roadmap::Point;
 
 pub use legs::of_configurations;
@@ -119,19 +118,6 @@ pub fn along(network: &Network, route: &Route, limits: Option<&Limits>, bend: f6
         all = bypassed(problem, all, limits);
     }
     of_milestones(problem, &all, bend)
-}
-
-/// Appends a point.
-fn push(problem: &Problem, pathway: &mut Pathway, configuration: Configuration, energy: f64) {
-    let s = pathway.last().map_or(0.0, |last| {
-        last.s + problem.space.distance(&last.configuration, &configuration)
-    });
-    pathway.push(PathwayPoint {
-        s,
-        configuration,
-        energy,
-        clearance: problem.clearance(&configuration),
-    });
 }
 
 enum Stretch {

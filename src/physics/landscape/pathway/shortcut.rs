@@ -4,6 +4,7 @@ use super::legs::OVERLAP;
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::order::Order;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::profile::Profile;
 use crate::roadmap::{Point, ProfileTolerance};
@@ -179,12 +180,14 @@ fn worst_detour(
 
 /// From each point the farthest is tried first, then the one half as far along, and so on.
 fn cut_short(problem: &Problem, points: &[Configuration], limits: &Limits) -> Vec<Configuration> {
-    let milestones: Vec<Point> = points.iter().map(|q| Point::new(problem, *q)).collect();
-    let mut price = 0.0;
-    let mut prices = vec![price];
-    for pair in milestones.windows(2) {
-        price += motion(problem, [&pair[0], &pair[1]], limits).1;
-        prices.push(price);
+    let milestones = parallel::map(points, |q| Point::new(problem, *q));
+    let pairs: Vec<&[Point]> = milestones.windows(2).collect();
+    let steps = parallel::map(&pairs, |pair| {
+        motion(problem, [&pair[0], &pair[1]], limits).1
+    });
+    let mut prices = vec![0.0];
+    for (k, step) in steps.into_iter().enumerate() {
+        prices.push(prices[k] + step);
     }
     let is_better = |from: usize, to: usize| {
         let ends = [&milestones[from], &milestones[to]];
