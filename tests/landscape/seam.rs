@@ -275,7 +275,8 @@ fn the_map_takes_the_lower_of_both_sides() {
     let map = EnergyMap::new(&problem, &window, 8);
     for sample in &map.lowest.values {
         let sample = sample.expect("free").configuration;
-        let at = |theta| potential.energy(&Configuration::new(sample.x, sample.y, theta));
+        let energy = |q: &Configuration| Potential::energy(&potential, q);
+        let at = |theta| energy(&Configuration::new(sample.x, sample.y, theta));
         let lowest = (0..10_000)
             .map(|k| at(PI * f64::from(k) / 5000.0))
             .fold(f64::INFINITY, f64::min);

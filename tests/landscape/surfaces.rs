@@ -265,11 +265,12 @@ pub fn check_bounds<P: Potential + CellBounds>(potential: &P, extent: f64) {
         let steepest = potential.curvature_bound(&cell.centre, reach);
         for _ in 0..20 {
             let d = cell.half.map(|half| random(1.0) * half);
-            let at = |t: f64| cell.centre.moved(Vector3::from(d) * t);
-            let u = potential.energy(&at(1.0));
+            let energy =
+                |t: f64| Potential::energy(potential, &cell.centre.moved(Vector3::from(d) * t));
+            let u = energy(1.0);
             let rest = u - enclosure.form.at(d);
             assert!(rest >= enclosure.low && rest <= enclosure.high, "{cell:?}");
-            let bend = (u - 2.0 * enclosure.form.value + potential.energy(&at(-1.0))).abs();
+            let bend = (u - 2.0 * enclosure.form.value + energy(-1.0)).abs();
             let travelled = potential.displacement(d.into()).powi(2);
             assert!(bend <= steepest * travelled * (1.0 + 1e-9) + 1e-9 * u.abs());
         }

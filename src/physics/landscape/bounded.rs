@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::budget::Budget;
 use crate::cell::Cell;
-use crate::configuration::ConfigurationSpace;
+use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::contact::Contact;
 use crate::contact::cells::{ContactCells, Cuts};
 use crate::potential::CellBounds;
@@ -56,6 +56,12 @@ impl<'a> Bounded<'a> {
         self.bounds.enclose(cell)
     }
 
+    /// The energy (J) of one configuration, to rounding.
+    pub fn energy(&self, q: &Configuration) -> f64 {
+        self.count(self.bounds.work());
+        self.bounds.energy(q)
+    }
+
     /// The contact conditions of a cell, `None` if it is blocked. Also counts the work for bounds
     /// over the rest.
     pub fn classify(&self, cell: &Cell) -> Option<Cuts> {
@@ -70,6 +76,12 @@ impl<'a> Bounded<'a> {
         let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
         self.count(A_CELL + AN_EDGE * edges + A_CUT * bounds);
         found
+    }
+
+    /// Approximate units of work to assess a cell.
+    pub fn work(&self) -> u64 {
+        let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
+        self.bounds.work() + A_CELL + AN_EDGE * edges
     }
 
     /// Counts work.

@@ -1,7 +1,9 @@
 //! The paper's tile, against figures from a dense grid fitted to contact.
 
+use std::sync::atomic::{self, AtomicUsize};
+
 use tilebind::configuration::Configuration;
-use tilebind::landscape::minimax::{End, Ordering};
+use tilebind::landscape::minimax::{Bracket, CertifyError, End, Goal, Ordering, Question};
 use tilebind::potential::MagnetModel;
 
 use super::scene::{Scene, effort};
@@ -107,4 +109,64 @@ fn the_bracket_does_not_depend_on_the_number_of_threads() {
     let one = on(1);
     assert_eq!(one, on(3));
     assert!(one.cells > 100);
+}
+
+/// More questions than are open at once, some of them twice, and one that cannot be answered.
+#[test]
+fn barriers_asked_for_together_are_bracketed_as_those_asked_for_alone() {
+    let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Dipole);
+    let slid = |by: f64| Configuration::new(0.43, by, 0.0);
+    let ends = [
+        Goal::free(),
+        Goal::at(design.pair.bound),
+        Goal::at(slid(0.04)),
+    ];
+    let effort = effort(2e-4, 100_000);
+    let ask = |from: Configuration, to: &Goal| Question {
+        from,
+        to: to.clone(),
+        known: Vec::new(),
+        effort,
+    };
+    let starts = [-0.04, 0.08, -0.08];
+    let mut questions: Vec<Question> = starts
+        .iter()
+        .flat_map(|by| ends.iter().map(|end| ask(slid(*by), end)))
+        .collect();
+    let alone: Vec<Bracket> = questions
+        .iter()
+        .map(|question| scene.certifier().answer(question).unwrap())
+        .collect();
+    questions.push(ask(Configuration::new(0.0, 0.0, 0.0), &ends[0]));
+    let questions = vec![questions; 4].concat();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            let most = AtomicUsize::new(0);
+            let answered = |count| most.store(count, atomic::Ordering::Relaxed);
+            let answers = scene.certifier().answers(&questions, &answered);
+            (answers, most.into_inner())
+        })
+    };
+    let (together, answered) = on(1);
+    assert_eq!(answered, 4 * alone.len());
+    for answers in together.chunks(alone.len() + 1) {
+        for (alone, found) in alone.iter().zip(answers) {
+            let found = found.as_ref().unwrap();
+            assert!(found.bounds.width() <= 2e-4, "{found:?}");
+            let [a, b] = [&alone.bounds, &found.bounds];
+            assert_eq!(a.compare(b), Ordering::Undecided, "{a:?} {b:?}");
+        }
+        assert!(matches!(
+            answers[alone.len()],
+            Err(CertifyError::NotFree(_))
+        ));
+    }
+    // They share what is subdivided.
+    let cells = |brackets: &mut dyn Iterator<Item = &Bracket>| -> usize {
+        brackets.map(|bracket| bracket.cells).sum()
+    };
+    let shared = cells(&mut together.iter().flatten());
+    assert!(shared < cells(&mut alone.iter()), "{shared}");
+    assert_eq!((together, answered), on(3));
 }

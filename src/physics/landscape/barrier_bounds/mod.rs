@@ -2,14 +2,14 @@
 
 mod escapes;
 mod joined;
+mod narrowing;
 mod schedule;
 
 use std::collections::VecDeque;
 
 use super::catalogue::{Catalogue, LEAST_GAIN};
-use super::minimax::{Bracket, Certifier, Effort, End};
-use super::pathway::{self, Limits};
-use super::results::{Barrier, Pathway, Place, StateKind, Uncertified, highest_point};
+use super::minimax::{Certifier, Effort, Goal, Question};
+use super::results::{Barrier, Place, StateKind, Uncertified};
 use crate::budget::{Allowance, Ended};
 use crate::configuration::Configuration;
 use crate::observer::Observer;
@@ -20,9 +20,6 @@ pub use schedule::widths;
 
 /// Bounds are narrowed once more if the requested width has shrunk to this fraction.
 const LESS: f64 = 0.75;
-
-/// Energy tolerance of pathways, as a fraction of the bond's depth.
-const BEND: f64 = 1e-3;
 
 /// Settings of the certification.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,46 +95,45 @@ pub fn certify(
     let mut count: usize = rounds.iter().map(|(_, numbers)| numbers.len()).sum();
     let mut done = 0;
     while let Some((width, numbers)) = rounds.pop_front() {
-        // The width (J) that a barrier's bounds are to be narrowed to, if they are to be.
-        let open = |catalogue: &Catalogue, left: &[usize], number: usize| {
+        // The effort for a barrier's bounds, if they are to be narrowed.
+        let effort = |catalogue: &Catalogue, left: &[usize], number: usize| {
             let barrier = &catalogue.barriers[number];
             let wanted = schedule::wanted(barrier, settings, depth);
             let is_done = barrier.bounds.width() <= width.max(wanted) || left[number] == 0;
-            (!is_done).then(|| schedule::step(width, wanted, settings))
+            (!is_done).then(|| Effort {
+                tolerance: schedule::step(width, wanted, settings),
+                cells: left[number],
+            })
         };
-        let foreseen = numbers.iter().filter_map(|&number| {
-            let tolerance = open(catalogue, &left, number)?;
-            let (start, _, known) = ends(catalogue, &catalogue.barriers[number])?;
-            Some((start, known, tolerance))
-        });
-        certifier.foresee(&foreseen.collect::<Vec<_>>());
+        let open: Vec<(usize, Effort)> = numbers
+            .iter()
+            .filter_map(|&number| Some((number, effort(catalogue, &left, number)?)))
+            .collect();
+        done += numbers.len() - open.len();
+        if let Some(over) = certifier.ended() {
+            ended = ended.or((!open.is_empty()).then_some(over));
+            continue;
+        }
+        let answered = |more: usize| observer.part("certificate", done + more, count);
+        answered(0);
+        let narrowed = narrowing::narrow(problem, &mut certifier, catalogue, &open, &answered);
+        done += open.len();
         // Barriers that turned out so much lower that narrower bounds are requested.
         let mut lowered = Vec::new();
-        for number in numbers {
-            observer.part("certificate", done, count);
-            done += 1;
-            let Some(tolerance) = open(catalogue, &left, number) else {
-                continue;
-            };
-            ended = certifier.ended();
-            if ended.is_some() {
-                continue;
-            }
-            let effort = Effort {
-                tolerance,
-                cells: left[number],
-            };
-            let narrowed = narrow(problem, &mut certifier, catalogue, number, &effort);
-            if catalogue.barriers[number].bounds.width() > tolerance {
+        for ((number, before), narrowed) in open.into_iter().zip(narrowed) {
+            let is_reached = catalogue.barriers[number].bounds.width() <= before.tolerance;
+            let is_cut_short = !is_reached && certifier.ended().is_some();
+            if is_cut_short {
                 ended = certifier.ended();
+                most[number] = most[number].min(narrowed.most);
+            } else {
+                most[number] = narrowed.most;
             }
-            most[number] = narrowed.most;
-            left[number] = schedule::cells_left(
-                left[number].saturating_sub(narrowed.cells),
-                catalogue.barriers[number].bounds.width() <= effort.tolerance,
-                settings,
-            );
-            if open(catalogue, &left, number).is_some_and(|next| next < LESS * effort.tolerance) {
+            let unspent = left[number].saturating_sub(narrowed.cells);
+            left[number] = schedule::cells_left(unspent, is_reached, settings);
+            if effort(catalogue, &left, number)
+                .is_some_and(|next| next.tolerance < LESS * before.tolerance)
+            {
                 lowered.push(number);
                 count += 1;
             }
@@ -173,114 +169,37 @@ pub fn certify(
 fn raise(certifier: &Certifier, catalogue: &mut Catalogue, most: &[f64]) {
     for (number, most) in most.iter().enumerate() {
         let barrier = &catalogue.barriers[number];
-        let (Some(lower), Some((start, to, _))) = (barrier.bounds.lower, ends(catalogue, barrier))
+        let (Some(lower), Some((from, to))) = (barrier.bounds.lower, ends(catalogue, barrier))
         else {
             continue;
         };
-        let follows = certifier.proved(&start, &to).min(*most);
+        let follows = certifier.proved(&from, &to).min(*most);
         catalogue.barriers[number].bounds.lower = Some(lower.max(follows));
     }
 }
 
-/// The result of narrowing the bounds of a barrier.
-struct Narrowed {
-    /// Cells that it took.
-    cells: usize,
-    /// The barrier to another place that was found to be lower, if any.
-    beside: Option<Barrier>,
-    /// Largest allowed lower bound (J).
-    most: f64,
+/// The question of a barrier's bounds, with its known pathway.
+fn question(catalogue: &Catalogue, barrier: &Barrier, effort: &Effort) -> Option<Question> {
+    let (from, to) = ends(catalogue, barrier)?;
+    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
+    let end = to.places.first();
+    known.extend(end.filter(|end| known.last().is_some_and(|last| last != *end)));
+    Some(Question {
+        from,
+        to,
+        known,
+        effort: *effort,
+    })
 }
 
-/// Narrows the bounds of a barrier, those of an escape over all ways out.
-fn narrow(
-    problem: &Problem,
-    certifier: &mut Certifier,
-    catalogue: &mut Catalogue,
-    number: usize,
-    effort: &Effort,
-) -> Narrowed {
-    let mut narrowed = Narrowed {
-        cells: 0,
-        beside: None,
-        most: f64::INFINITY,
-    };
-    let bend = BEND * problem.depth();
-    let barrier = &catalogue.barriers[number];
-    let (Place::State(from), Some((start, to, known))) = (barrier.from, ends(catalogue, barrier))
-    else {
-        return narrowed;
-    };
-    let escape = escapes::bracket(problem, certifier, catalogue, (barrier, &known), effort);
-    let barrier = &mut catalogue.barriers[number];
-    if let Some((escape, found)) = escape {
-        narrowed.cells = escape.cells;
-        match found {
-            None if !escape.improved => {
-                barrier.bounds.tighten(escape.bounds);
-                return narrowed;
-            }
-            // There is a lower path that cannot be reported: the escape is not higher than it.
-            None => narrowed.most = escape.bounds.lower.unwrap_or(f64::NEG_INFINITY),
-            Some(way) if way.to == barrier.to => {
-                take_over(problem, barrier, &escape, bend);
-                return narrowed;
-            }
-            Some(way) if !barrier.has_way() && catalogue.bound_state != Some(from) => {
-                *barrier = way;
-                return narrowed;
-            }
-            way => narrowed.beside = way,
-        }
-    }
-    if let Ok(bracket) = certifier.bracket(&start, &to, &known, effort) {
-        narrowed.cells += bracket.cells;
-        take_over(problem, barrier, &bracket, bend);
-    }
-    barrier.bounds.lower = barrier.bounds.lower.map(|lower| lower.min(narrowed.most));
-    narrowed
-}
-
-/// The start and end of a barrier's paths, and the known path including its end.
-fn ends(
-    catalogue: &Catalogue,
-    barrier: &Barrier,
-) -> Option<(Configuration, End, Vec<Configuration>)> {
+/// The start and end of a barrier's paths; `None` for what comes from `free`.
+fn ends(catalogue: &Catalogue, barrier: &Barrier) -> Option<(Configuration, Goal)> {
     let Place::State(from) = barrier.from else {
         return None;
     };
     let to = match barrier.to {
-        Place::State(to) => End::At(catalogue.states[to].configuration),
-        Place::Free => End::Free,
+        Place::State(to) => Goal::at(catalogue.states[to].configuration),
+        Place::Free => Goal::free(),
     };
-    let mut known: Vec<Configuration> = barrier.pathway.iter().map(|p| p.configuration).collect();
-    if let End::At(to) = to
-        && known.last().is_some_and(|last| *last != to)
-    {
-        known.push(to);
-    }
-    Some((catalogue.states[from].configuration, to, known))
-}
-
-fn take_over(problem: &Problem, barrier: &mut Barrier, bracket: &Bracket, bend: f64) {
-    barrier.bounds.tighten(bracket.bounds);
-    // In place of a pathway that could not be proved the certificate's own may lie higher.
-    let lower = |upper: &f64| bracket.improved && *upper < barrier.saddle_energy;
-    let Some(upper) = bracket.bounds.upper.filter(lower) else {
-        return;
-    };
-    if let Some(pathway) = shortest(problem, &bracket.pathway, upper, bend) {
-        barrier.lead_along(pathway);
-    }
-}
-
-/// A pathway of the certificate, which leads through the middles of its cells, shortened, if it
-/// does not rise above `upper` (J).
-fn shortest(problem: &Problem, points: &[Configuration], upper: f64, bend: f64) -> Option<Pathway> {
-    let limits = Limits::below(upper, problem);
-    let direct = pathway::shortened(problem, points, &limits);
-    let mut pathways = [direct.as_slice(), points]
-        .into_iter()
-        .map(|points| pathway::of_configurations(problem, points, bend));
-    pathways.find(|pathway| highest_point(pathway).is_some_and(|highest| highest.energy <= upper))
+    Some((catalogue.states[from].configuration, to))
 }

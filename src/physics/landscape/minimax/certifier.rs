@@ -1,13 +1,12 @@
 //! The certifier: one subdivision of the configuration space that serves many queries.
 
 use super::ends::Ends;
-use super::lower::Assessment;
 use super::proved::Proofs;
-use super::store::{Key, Store};
+use super::store::{Part, Store};
 use super::upper::ProvedPath;
 use super::ways::Ways;
 use crate::budget::{Allowance, Budget, Ended};
-use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::configuration::ConfigurationSpace;
 use crate::contact::Contact;
 use crate::landscape::bounded::Bounded;
 use crate::landscape::results::Uncertified;
@@ -17,11 +16,8 @@ use crate::potential::CellBounds;
 /// A pathway's energy is bounded to within this fraction of the tolerance.
 pub(super) const SHARPNESS: f64 = 0.05;
 
-/// Halvings of a leaf, one after the other, in one round.
-const HALVINGS: usize = 3;
-
-/// Number of first cells and known pathways processed between two checks of the remaining effort.
-/// It does not depend on the number of threads, so the results do not either.
+/// Number of first cells assessed between two checks of the remaining effort. It does not depend on
+/// the number of threads, so the results do not either.
 const AT_ONCE: usize = 64;
 
 /// Certifies barriers of one landscape. Each query reuses what earlier ones found out about the
@@ -32,17 +28,8 @@ pub struct Certifier<'a> {
     pub(super) ends: Ends,
     pub(super) assessed: usize,
     budget: Budget,
-    /// Pathways that were proved in advance, or are known not to be provable.
-    foreseen: Vec<Foreseen>,
     pub(super) proofs: Proofs,
     ways: Ways,
-}
-
-/// A pathway, the tolerance (J) of its proof, and the outcome.
-struct Foreseen {
-    path: Vec<Configuration>,
-    tolerance: f64,
-    proved: Option<ProvedPath>,
 }
 
 impl<'a> Certifier<'a> {
@@ -77,7 +64,6 @@ impl<'a> Certifier<'a> {
             ends: Ends::default(),
             assessed: 0,
             budget: Budget::new(allowed),
-            foreseen: Vec::new(),
             proofs: Proofs::default(),
             ways: Ways::default(),
         };
@@ -107,37 +93,6 @@ impl<'a> Certifier<'a> {
         self.budget.ended()
     }
 
-    /// Proves known pathways in parallel, which sequential queries cannot; each to the tolerance
-    /// (J) of its later query. Results of an earlier call are discarded; pathways left when the
-    /// effort is spent are proved by the queries.
-    pub fn foresee(&mut self, paths: &[(Configuration, Vec<Configuration>, f64)]) {
-        self.foreseen.clear();
-        for paths in paths.chunks(AT_ONCE) {
-            if self.ended().is_some() {
-                return;
-            }
-            let bounded = &self.bounded;
-            let foreseen = parallel::map(paths, |(from, known, tolerance)| {
-                let path = from_its_start(*from, known);
-                Foreseen {
-                    proved: known_path(bounded, &path, *tolerance),
-                    path,
-                    tolerance: *tolerance,
-                }
-            });
-            self.foreseen.extend(foreseen);
-        }
-    }
-
-    /// The result of proving a known pathway for a query with a tolerance (J).
-    pub(super) fn known_path(&self, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
-        let is_it = |known: &&Foreseen| known.tolerance == tolerance && known.path == path;
-        match self.foreseen.iter().find(is_it) {
-            Some(known) => known.proved.clone(),
-            None => known_path(&self.bounded, path, tolerance),
-        }
-    }
-
     /// Records a proved pathway, from end to end.
     pub(super) fn note_way(&mut self, proved: &ProvedPath) {
         if self.ways.include(&proved.points) {
@@ -163,30 +118,28 @@ impl<'a> Certifier<'a> {
         self.assessed
     }
 
-    /// Subdivides leaves, and their parts as long as these may be passed at `level` (J); returns
-    /// how many leaves could be subdivided.
-    pub(super) fn subdivide(&mut self, ids: &[u32], level: f64) -> usize {
-        let divided: Vec<_> = parallel::map(ids, |&id| {
+    /// Subdivides leaves by so many halvings, one after the other, as long as the parts may be passed
+    /// at the leaf's level (J); returns for each how many cells were assessed: 0 if it is too small
+    /// to be subdivided.
+    pub(super) fn subdivide(&mut self, leaves: &[(u32, f64)], halvings: u32) -> Vec<usize> {
+        let divided = parallel::map(leaves, |&(id, level)| {
             let leaf = self.store.leaf(id);
-            self.parts(&leaf.key, &leaf.known, level)
+            self.parts((leaf.key, leaf.known), level, halvings)
         });
-        let mut count = 0;
-        for (&id, (parts, assessed)) in ids.iter().zip(&divided) {
-            if *assessed > 0 {
-                self.store.replace(id, parts);
-                self.assessed += assessed;
-                count += 1;
-            }
-        }
-        count
+        let (parts, assessed): (Vec<_>, Vec<usize>) = divided.into_iter().unzip();
+        let divided = leaves.iter().map(|(id, _)| *id).zip(parts).zip(&assessed);
+        let divided = divided.filter(|(_, assessed)| **assessed > 0);
+        let divided: Vec<_> = divided.map(|(leaf, _)| leaf).collect();
+        self.store.replace(&divided);
+        self.assessed += assessed.iter().sum::<usize>();
+        assessed
     }
 
-    /// The parts of a leaf that are not blocked, and how many cells were assessed to find them: 0
-    /// if the leaf is too small to be halved.
-    fn parts(&self, key: &Key, known: &Assessment, level: f64) -> (Vec<(Key, Assessment)>, usize) {
-        let mut parts = vec![(*key, *known)];
+    /// The parts of a leaf that are not blocked, and how many cells were assessed to find them.
+    fn parts(&self, whole: Part, level: f64, halvings: u32) -> (Vec<Part>, usize) {
+        let mut parts = vec![whole];
         let mut assessed = 0;
-        for _ in 0..HALVINGS {
+        for _ in 0..halvings {
             let mut smaller = Vec::new();
             for (key, known) in parts {
                 let halves = key.halves(known.axis).filter(|_| known.lower <= level);
@@ -204,15 +157,4 @@ impl<'a> Certifier<'a> {
         }
         (parts, assessed)
     }
-}
-
-/// A known pathway, its start included.
-pub(super) fn from_its_start(from: Configuration, known: &[Configuration]) -> Vec<Configuration> {
-    let others = known.iter().filter(|q| **q != from);
-    std::iter::once(&from).chain(others).copied().collect()
-}
-
-fn known_path(bounded: &Bounded, path: &[Configuration], tolerance: f64) -> Option<ProvedPath> {
-    let proved = bounded.prove(path, SHARPNESS * tolerance, f64::INFINITY);
-    proved.ok()
 }

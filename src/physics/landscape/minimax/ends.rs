@@ -1,12 +1,13 @@
 //! The leaves that contain the ends of queries.
 
+use super::Goal;
 use super::level::Seeds;
-use super::proved::Goal;
 use super::store::Store;
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::bounded::Bounded;
 use crate::order::Order;
+use crate::parallel;
 
 /// The leaves that hold configurations with the tiles far apart, which any query may end in.
 #[derive(Default)]
@@ -18,14 +19,9 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// The leaves that hold either end of a query.
-    pub fn seeds(
-        &mut self,
-        store: &Store,
-        bounded: &Bounded,
-        from: &Configuration,
-        goal: &Goal,
-    ) -> Seeds {
+    /// The leaves that hold either end of a query, where those far apart are as at the last
+    /// [look](Self::look).
+    pub fn seeds(&self, store: &Store, from: &Configuration, goal: &Goal) -> Seeds {
         let holding = |q: &Configuration| {
             let held = store.holding(q).into_iter();
             held.map(|id| (id, f64::NEG_INFINITY)).collect::<Vec<_>>()
@@ -33,7 +29,6 @@ impl Ends {
         let from = holding(from);
         let mut to: Vec<(u32, f64)> = goal.places.iter().flat_map(holding).collect();
         if goal.free {
-            self.look(store, bounded);
             to.extend(&self.far);
         }
         // If a leaf holds several, the first of them.
@@ -43,7 +38,7 @@ impl Ends {
     }
 
     /// Examines the leaves added since the last call.
-    fn look(&mut self, store: &Store, bounded: &Bounded) {
+    pub fn look(&mut self, store: &Store, bounded: &Bounded) {
         let energy = |id: u32| {
             let leaf = store.leaf(id);
             let cell = store.cell(&leaf.key);
@@ -54,11 +49,12 @@ impl Ends {
             Some(bounded.value(&end).1)
         };
         self.far.retain(|(id, _)| store.leaf(*id).live);
-        let end = store.len() as u32;
-        let fresh = (self.seen..end).filter(|&id| store.leaf(id).live);
-        let far = fresh.filter_map(|id| Some((id, energy(id)?)));
-        self.far.extend(far);
-        self.seen = end;
+        let fresh: Vec<u32> = (self.seen..store.len() as u32)
+            .filter(|&id| store.leaf(id).live)
+            .collect();
+        self.far
+            .extend(parallel::flat_map(&fresh, |&id| Some((id, energy(id)?))));
+        self.seen = store.len() as u32;
     }
 }
 

@@ -326,7 +326,7 @@ mod tests {
                     let whole = store.leaf(id).clone();
                     if let Some(halves) = whole.key.halves(whole.known.axis) {
                         let parts = halves.map(|key| (key, known(whole.known.lower)));
-                        store.replace(id, &parts);
+                        store.replace(&[(id, parts.to_vec())]);
                     }
                 }
                 level -= if round % 5 == 0 { 0.01 } else { 0.0 };

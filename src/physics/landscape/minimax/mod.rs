@@ -19,7 +19,8 @@
 //! just below the best upper bound. The cells where it would spill over to the other end form a
 //! divide, and only its cells are subdivided (see `flood`): wrong guesses cost time, never the
 //! proof. The lowest pass suggests a pathway; if one along it can be proved, the upper bound
-//! decreases. If no chain is left at E = infinity, the start is caged.
+//! decreases. If no chain is left at E = infinity, the start is caged. Several queries share one
+//! subdivision and advance together, one flood of each at a time.
 //!
 //! # What is proved, and what is assumed
 //!
@@ -36,8 +37,8 @@
 //!   platform's sine, cosine, arc and exponential functions are accurate to 8 units in the last
 //!   place.
 //!
-//! The same query to the same certifier gives the same bracket on any number of threads, unless a
-//! time limit ends it early. A bracket that ended early is also valid, only wider.
+//! The same queries to the same certifier give the same brackets on any number of threads, unless a
+//! time limit ends them early. A bracket that ended early is also valid, only wider.
 
 mod certifier;
 mod ends;
@@ -46,7 +47,9 @@ mod level;
 pub(crate) mod lower;
 mod proved;
 mod query;
+mod question;
 mod store;
+mod together;
 mod upper;
 mod ways;
 
@@ -54,6 +57,7 @@ use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
 
 pub use certifier::Certifier;
+pub use question::{Goal, Question};
 
 /// Where a certified path ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +89,7 @@ pub struct Effort {
 }
 
 /// Bounds of a barrier's highest energy, and the pathway that proves the upper one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bracket {
     /// The proved bounds.
     pub bounds: SaddleBounds,
@@ -97,7 +101,7 @@ pub struct Bracket {
     /// Whether the pathway was found by the certificate: lower than the given one, or instead of
     /// one that could not be proved.
     pub improved: bool,
-    /// Cells assessed for this query.
+    /// Cells assessed at the expense of this query.
     pub cells: usize,
     /// Rounds of subdivision.
     pub rounds: usize,

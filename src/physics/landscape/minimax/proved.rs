@@ -4,39 +4,9 @@
 //! are an ultrametric: of the three between A, B and C the two highest are equal. A lower bound for
 //! paths from A to the first of several places also holds for each of them.
 
+use super::Goal;
 use crate::configuration::Configuration;
 use crate::landscape::results::SaddleBounds;
-
-/// Where a path may end.
-#[derive(Clone)]
-pub(super) struct Goal {
-    /// At any of these,
-    pub places: Vec<Configuration>,
-    /// or, if true, with the tiles far apart.
-    pub free: bool,
-}
-
-impl Goal {
-    pub fn at(place: Configuration) -> Self {
-        Self {
-            places: vec![place],
-            free: false,
-        }
-    }
-
-    /// The place, if there is exactly one.
-    pub fn only(&self) -> Option<&Configuration> {
-        match &self.places[..] {
-            [place] if !self.free => Some(place),
-            _ => None,
-        }
-    }
-
-    /// Whether this goal includes every place of another one.
-    fn includes(&self, other: &Self) -> bool {
-        self.free >= other.free && other.places.iter().all(|q| self.places.contains(q))
-    }
-}
 
 /// Bounds between a configuration and the first of some places.
 struct Proved {

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::lower::Assessment;
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
+use crate::parallel;
 
 /// Every coordinate is divided into this many units, the smallest size a cell can have.
 const UNITS: u32 = 1 << 30;
@@ -54,6 +55,9 @@ impl Key {
     }
 }
 
+/// A cell of the subdivision, and what is known of it.
+pub(super) type Part = (Key, Assessment);
+
 /// A cell of the subdivision that is neither subdivided nor blocked.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf {
@@ -71,6 +75,8 @@ pub(super) struct Leaf {
 #[derive(Clone, Debug)]
 pub(super) struct Store {
     half_size: [f64; 2],
+    /// Number of first cells, the first of the leaves, sorted by x.
+    firsts: usize,
     leaves: Vec<Leaf>,
     // The data that floods use most are stored side by side.
     neighbours: Vec<Vec<u32>>,
@@ -85,6 +91,7 @@ impl Store {
     pub fn new(space: &ConfigurationSpace) -> Self {
         Self {
             half_size: space.half_size,
+            firsts: 0,
             leaves: Vec::new(),
             neighbours: Vec::new(),
             lowers: Vec::new(),
@@ -158,30 +165,53 @@ impl Store {
     }
 
     /// Adds the first cells.
-    pub fn fill(&mut self, cells: &[(Key, Assessment)]) {
-        self.add(None, cells, &[]);
+    pub fn fill(&mut self, cells: &[Part]) {
+        let all = self.push(None, cells);
+        self.firsts = cells.len();
+        self.neighbours = parallel::map(0..cells.len(), |id| self.touching(id as u32, all.clone()));
     }
 
-    /// Replaces a leaf by its parts that are not blocked.
-    pub fn replace(&mut self, id: u32, parts: &[(Key, Assessment)]) {
-        self.leaves[id as usize].live = false;
-        let around = std::mem::take(&mut self.neighbours[id as usize]);
-        for &n in &around {
-            let list = &mut self.neighbours[n as usize];
-            if let Some(place) = list.iter().position(|&k| k == id) {
-                list.swap_remove(place);
-            }
+    /// Replaces leaves by their parts that are not blocked.
+    pub fn replace(&mut self, wholes: &[(u32, Vec<Part>)]) {
+        let first = self.leaves.len();
+        let mut around = Vec::new();
+        for (id, parts) in wholes {
+            let parts = self.push(Some(*id), parts);
+            let whole = &mut self.leaves[*id as usize];
+            (whole.live, whole.parts) = (false, parts);
+            around.extend(self.neighbours(*id));
         }
-        self.leaves[id as usize].parts = self.add(Some(id), parts, &around);
+        around.sort_unstable();
+        around.dedup();
+        around.retain(|&id| self.leaf(id).live);
+        let of_those_around = parallel::map(&around, |&id| {
+            self.touching(id, self.neighbours(id).iter().copied())
+        });
+        let of_parts = parallel::map(first..self.leaves.len(), |id| {
+            let whole = self.leaves[id].whole;
+            let around = self.neighbours(whole).iter().copied();
+            self.touching(id as u32, around.chain([whole]))
+        });
+        for (id, neighbours) in around.into_iter().zip(of_those_around) {
+            self.neighbours[id as usize] = neighbours;
+        }
+        self.neighbours.extend(of_parts);
+        for (id, _) in wholes {
+            self.neighbours[*id as usize] = Vec::new();
+        }
     }
 
     /// The leaves that hold a configuration, ascending.
     pub fn holding(&self, q: &Configuration) -> Vec<u32> {
         let place = self.place(q);
-        let firsts = (0..)
-            .zip(&self.leaves)
-            .take_while(|(id, leaf)| leaf.whole == *id);
-        let mut open: Vec<u32> = firsts.map(|(id, _)| id).collect();
+        let firsts = &self.leaves[..self.firsts];
+        let is_left = |leaf: &Leaf| f64::from(leaf.key.low[0] + leaf.key.size[0]) < place[0] - 1.0;
+        let is_near = |leaf: &Leaf| f64::from(leaf.key.low[0]) <= place[0] + 1.0;
+        let [start, end] = [
+            firsts.partition_point(is_left),
+            firsts.partition_point(is_near),
+        ];
+        let mut open: Vec<u32> = (start as u32..end as u32).collect();
         let mut held = Vec::new();
         while let Some(id) = open.pop() {
             let leaf = self.leaf(id);
@@ -197,26 +227,10 @@ impl Store {
         held
     }
 
-    /// Adds leaves that touch each other and the leaves `around` only, cut from the leaf `whole`;
-    /// returns their numbers.
-    fn add(
-        &mut self,
-        whole: Option<u32>,
-        parts: &[(Key, Assessment)],
-        around: &[u32],
-    ) -> Range<u32> {
+    /// Adds leaves, cut from the leaf `whole`, without their neighbours; returns their numbers.
+    fn push(&mut self, whole: Option<u32>, parts: &[Part]) -> Range<u32> {
         let first = self.leaves.len() as u32;
         for (id, &(key, known)) in (first..).zip(parts) {
-            let neighbours: Vec<u32> = around
-                .iter()
-                .copied()
-                .chain(first..id)
-                .filter(|&n| self.leaves[n as usize].key.touches(&key))
-                .collect();
-            for &n in &neighbours {
-                self.neighbours[n as usize].push(id);
-            }
-            self.neighbours.push(neighbours);
             self.lowers.push(known.lower);
             self.by_energy.push(known.by_energy());
             self.by_overlap.push(known.overlap);
@@ -229,6 +243,23 @@ impl Store {
             });
         }
         first..self.leaves.len() as u32
+    }
+
+    /// The leaves that touch a leaf, among these or, where they are none any more, their parts.
+    fn touching(&self, id: u32, among: impl Iterator<Item = u32>) -> Vec<u32> {
+        let key = &self.leaf(id).key;
+        let now = |n: u32| {
+            let leaf = self.leaf(n);
+            if leaf.live {
+                n..n + 1
+            } else {
+                leaf.parts.clone()
+            }
+        };
+        among
+            .flat_map(now)
+            .filter(|&n| n != id && self.leaf(n).key.touches(key))
+            .collect()
     }
 
     /// The midpoint of the intersection of two touching leaves.
@@ -275,17 +306,24 @@ pub(super) mod tests {
     fn neighbours_are_the_leaves_that_touch_and_the_tree_leads_to_those_that_hold_a_place() {
         let mut store = first_cells();
         let mut rng = ChaCha8Rng::seed_from_u64(2);
-        for _ in 0..200 {
-            let id = rng.random_range(0..store.len() as u32);
-            if !store.leaf(id).live {
-                continue;
-            }
-            let mut parts = vec![store.leaf(id).key];
-            for axis in 0..3 {
-                parts = parts.iter().flat_map(|k| k.halves(axis).unwrap()).collect();
-            }
-            parts.remove(rng.random_range(0..8));
-            store.replace(id, &parts.iter().map(|k| (*k, KNOWN)).collect::<Vec<_>>());
+        for _ in 0..60 {
+            // Some beside each other.
+            let mut ids: Vec<u32> = store.live().map(|(id, _)| id).collect();
+            let first = rng.random_range(0..ids.len() - 4);
+            ids = ids[first..first + 4].to_vec();
+            ids.extend(store.neighbours(ids[0]));
+            ids.sort_unstable();
+            ids.dedup();
+            let wholes = ids.iter().map(|&id| {
+                let mut parts = vec![store.leaf(id).key];
+                for axis in 0..3 {
+                    parts = parts.iter().flat_map(|k| k.halves(axis).unwrap()).collect();
+                }
+                parts.remove(rng.random_range(0..8));
+                (id, parts.into_iter().map(|key| (key, KNOWN)).collect())
+            });
+            let wholes: Vec<_> = wholes.collect();
+            store.replace(&wholes[..wholes.len().min(6)]);
         }
         let live: Vec<u32> = store.live().map(|(id, _)| id).collect();
         for &a in live.iter().step_by(7) {

@@ -8,6 +8,7 @@ use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Contact, closest_admissible};
 use crate::landscape::bounded::Bounded;
+use crate::parallel;
 
 /// How far (m) inner points of a pathway are lifted off contact, so that a chord between two of
 /// them does not cut into it.
@@ -27,6 +28,10 @@ const DEPTH: usize = 12;
 /// A stretch is halved at most this often to bound its energy.
 const FINEST: usize = 24;
 
+/// Points and stretches examined before a pathway can be given up. It does not depend on the number
+/// of threads, so the results do not either.
+const AT_ONCE: usize = 64;
+
 /// A pathway proved free throughout, and the proved bound of its energy.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::landscape) struct ProvedPath {
@@ -35,7 +40,7 @@ pub(in crate::landscape) struct ProvedPath {
     /// The highest point met.
     pub peak: Configuration,
     pub points: Vec<Configuration>,
-    /// Lower bounds of the energies (J) of the points; they differ from them by rounding only.
+    /// The energies (J) of the points, to rounding.
     pub energies: Vec<f64>,
 }
 
@@ -53,33 +58,50 @@ impl Bounded<'_> {
         tolerance: f64,
         give_up: f64,
     ) -> Result<ProvedPath, usize> {
-        let (Some(first), Some(last)) = (path.first(), path.last()) else {
-            return Err(0);
-        };
-        let mut points = vec![*first];
-        let mut owners = vec![0];
-        let mut values = vec![self.value(first)];
-        for (k, q) in path.iter().enumerate().skip(1) {
-            self.extend(&mut points, q, k + 1 == path.len()).ok_or(k)?;
-            for q in &points[owners.len()..] {
-                let value = self.value(q);
-                if !self.space.contains(q) || value.0 > give_up {
-                    return Err(k);
-                }
-                values.push(value);
+        let (points, owners) = self.freed(path)?;
+        let mut energies: Vec<f64> = Vec::new();
+        for part in points.chunks(AT_ONCE) {
+            let known = energies.len();
+            energies.extend(parallel::map(part, |q| self.energy(q)));
+            let is_out = |k: &usize| !self.space.contains(&points[*k]) || energies[*k] > give_up;
+            if let Some(k) = (known..energies.len()).find(is_out) {
+                return Err(owners[k]);
             }
-            owners.resize(points.len(), k);
         }
-        debug_assert_eq!(points.last(), Some(last));
         let (upper, peak) = self
-            .highest((&points, &values), tolerance, give_up)
+            .highest((&points, &energies), tolerance, give_up)
             .map_err(|stretch| owners[stretch + 1])?;
         Ok(ProvedPath {
             upper,
             peak,
             points,
-            energies: values.into_iter().map(|value| value.0).collect(),
+            energies,
         })
+    }
+
+    /// The points of a pathway through the given points, proved free, and for each of them the
+    /// number of the given point before which it was inserted, or which it is.
+    ///
+    /// # Errors
+    /// The number of a point before which the pathway cannot be proved free.
+    fn freed(&self, path: &[Configuration]) -> Result<(Vec<Configuration>, Vec<usize>), usize> {
+        let mut points = vec![*path.first().ok_or(0usize)?];
+        let mut owners = vec![0];
+        let stretches: Vec<&[Configuration]> = path.windows(2).collect();
+        for (part, stretches) in stretches.chunks(AT_ONCE).enumerate() {
+            let free = parallel::map(stretches, |ends| self.is_free(&ends[0], &ends[1]));
+            for (i, (ends, is_free)) in stretches.iter().zip(free).enumerate() {
+                let k = part * AT_ONCE + i + 1;
+                if is_free && points.last() == Some(&ends[0]) {
+                    points.push(ends[1]);
+                } else {
+                    self.extend(&mut points, &ends[1], k + 1 == path.len())
+                        .ok_or(k)?;
+                }
+                owners.resize(points.len(), k);
+            }
+        }
+        Ok((points, owners))
     }
 
     /// Appends a proved free path from the last point to `to` or, unless it is the `end`, to `to`
@@ -198,47 +220,79 @@ impl Bounded<'_> {
     }
 
     /// The proved highest energy on the straight stretches between the points, which have these
-    /// [values](Self::value), and the highest point met; or the number of a stretch that rises above
-    /// `give_up`.
+    /// energies (J), and the highest point met; or the number of a stretch that rises above
+    /// `give_up`. Each bound includes the ends of its stretch.
     fn highest(
         &self,
-        (points, values): (&[Configuration], &[(f64, f64)]),
+        (points, energies): (&[Configuration], &[f64]),
         tolerance: f64,
         give_up: f64,
     ) -> Result<(f64, Configuration), usize> {
-        let (mut level, mut peak) = (f64::NEG_INFINITY, points[0]);
-        for (q, value) in points.iter().zip(values) {
-            if value.1 > level {
-                (level, peak) = (value.1, *q);
-            }
-        }
-        let mut upper = level;
-        let mut open: Vec<(Configuration, Configuration, usize, usize)> = points
-            .windows(2)
-            .enumerate()
-            .map(|(k, w)| (w[0], w[1], k, 0))
+        let met = points.iter().zip(energies);
+        let highest = met.max_by_key(|(_, energy)| OrderedFloat(**energy));
+        let (mut peak, mut level) = highest.map(|(q, energy)| (*q, *energy)).ok_or(0usize)?;
+        let mut upper = self.value(&peak).1;
+        let stretches = points.windows(2).enumerate();
+        let mut open: Vec<Stretch> = stretches
+            .map(|(number, ends)| Stretch {
+                ends: [ends[0], ends[1]],
+                number,
+                halvings: 0,
+            })
             .collect();
-        while let Some((a, b, stretch, depth)) = open.pop() {
-            let known = self.enclose(&Cell::spanned_by(&a, &b));
-            let highest = known.form.greatest_along(&a.step_to(&b).into()) + known.high;
-            if highest <= level + tolerance || depth == FINEST {
-                if highest > give_up {
-                    return Err(stretch);
+        while !open.is_empty() {
+            let part = open.split_off(open.len().saturating_sub(AT_ONCE));
+            let bounds = parallel::map(&part, |stretch| {
+                let highest = self.highest_on(stretch);
+                let middle = stretch.middle();
+                let is_close = highest <= level + tolerance;
+                (highest, middle, (!is_close).then(|| self.energy(&middle)))
+            });
+            for (_, middle, energy) in &bounds {
+                if let Some(energy) = energy.filter(|energy| *energy > level) {
+                    (level, peak) = (energy, *middle);
                 }
-                upper = upper.max(highest);
-                continue;
             }
-            let middle = a.interpolate(&b, 0.5);
-            let value = self.value(&middle).1;
-            if value > level {
-                (level, peak) = (value, middle);
+            for (stretch, (highest, middle, _)) in part.iter().zip(bounds) {
+                let is_last = highest <= level + tolerance || stretch.halvings == FINEST;
+                if level > give_up || is_last && highest > give_up {
+                    return Err(stretch.number);
+                }
+                if is_last {
+                    upper = upper.max(highest);
+                } else {
+                    open.extend(stretch.halved_at(middle));
+                }
             }
-            if level > give_up {
-                return Err(stretch);
-            }
-            open.push((a, middle, stretch, depth + 1));
-            open.push((middle, b, stretch, depth + 1));
         }
         Ok((upper, peak))
+    }
+
+    /// The proved highest energy (J) on a stretch, its ends included.
+    fn highest_on(&self, Stretch { ends: [a, b], .. }: &Stretch) -> f64 {
+        let known = self.enclose(&Cell::spanned_by(a, b));
+        known.form.greatest_along(&a.step_to(b).into()) + known.high
+    }
+}
+
+/// A straight part of a pathway, after so many halvings of the stretch of this number.
+struct Stretch {
+    ends: [Configuration; 2],
+    number: usize,
+    halvings: usize,
+}
+
+impl Stretch {
+    fn middle(&self) -> Configuration {
+        self.ends[0].interpolate(&self.ends[1], 0.5)
+    }
+
+    fn halved_at(&self, middle: Configuration) -> [Self; 2] {
+        let [a, b] = self.ends;
+        [[a, middle], [middle, b]].map(|ends| Self {
+            ends,
+            number: self.number,
+            halvings: self.halvings + 1,
+        })
     }
 }

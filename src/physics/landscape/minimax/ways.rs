@@ -172,7 +172,7 @@ mod tests {
                 let on: Vec<u32> = ways.leaves(&store).map(|(id, _)| id).collect();
                 let id = on[rng.random_range(0..on.len())];
                 let halves = store.leaf(id).key.halves(rng.random_range(0..3)).unwrap();
-                store.replace(id, &halves.map(|key| (key, KNOWN)));
+                store.replace(&[(id, halves.map(|key| (key, KNOWN)).to_vec())]);
             }
             let found: BTreeMap<u32, f64> = ways.leaves(&store).collect();
             let held = held(&store, &all);

@@ -8,7 +8,7 @@ use super::{Completeness, OpenRegion, regions};
 use crate::configuration::Configuration;
 use crate::landscape::catalogue::Catalogue;
 use crate::landscape::exploration::Exploration;
-use crate::landscape::minimax::{Certifier, Effort};
+use crate::landscape::minimax::{Certifier, Effort, Goal, Question};
 use crate::landscape::pathway;
 use crate::observer::Silent;
 
@@ -74,14 +74,19 @@ impl Search<'_> {
         let allowed = minimum.energy + self.exits.rise;
         let known = known_way(survey, listed, &minimum.q).unwrap_or_default();
         self.exits.prove(&known, allowed).or_else(|| {
-            let goals: Vec<_> = listed.states.iter().map(|s| s.configuration).collect();
+            let places = listed.states.iter().map(|s| s.configuration).collect();
             let contact = problem.contact.as_ref();
             let mut certifier = Certifier::new(problem.bounds().ok()?, contact, &problem.space);
-            let effort = Effort {
-                tolerance: SHARP * self.exits.rise,
-                cells: CELLS,
+            let question = Question {
+                from: minimum.q,
+                to: Goal { places, free: true },
+                known,
+                effort: Effort {
+                    tolerance: SHARP * self.exits.rise,
+                    cells: CELLS,
+                },
             };
-            let way = certifier.escape(&minimum.q, &goals, &known, &effort).ok()?;
+            let way = certifier.answer(&question).ok()?;
             way.bounds.upper.filter(|upper| *upper <= allowed)
         })
     }

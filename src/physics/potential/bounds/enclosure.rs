@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::cell::{Cell, Quadratic};
+use crate::configuration::Configuration;
 
 /// Bounds of the energy over a cell: for every *free* configuration of the cell at the offset d
 /// from its centre, `U(d) - form(d)` lies in [`low`, `high`] (J), rounding included.
@@ -89,6 +90,15 @@ pub trait CellBounds: Sync {
     /// Encloses U over the free configurations of a cell. If nothing is known, `low` is minus
     /// infinity and `high` plus infinity; no entry is ever NaN.
     fn enclose(&self, cell: &Cell) -> Enclosure;
+
+    /// U (J) of one configuration, to rounding.
+    fn energy(&self, q: &Configuration) -> f64 {
+        let point = Cell {
+            centre: *q,
+            half: [0.0; 3],
+        };
+        self.enclose(&point).form.value
+    }
 
     /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a cell.
     fn work(&self) -> u64 {

@@ -101,10 +101,11 @@ use super::dipole::{DipoleBounds, Spread};
 use super::near::SLACK;
 use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
-use crate::potential::CuboidPotential;
+use crate::configuration::Configuration;
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::correction::Correction;
 use crate::potential::simd::Level;
+use crate::potential::{CuboidPotential, Potential};
 use crate::scale::Scale;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
@@ -341,6 +342,10 @@ impl CellBounds for CuboidBounds {
             self.add_near(&mut out, cell, i, j, nodes);
         }
         out
+    }
+
+    fn energy(&self, q: &Configuration) -> f64 {
+        self.potential.energy(q)
     }
 
     fn work(&self) -> u64 {

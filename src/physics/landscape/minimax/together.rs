@@ -1,0 +1,227 @@
+//! Queries answered together: their floods rise at the same time, and whatever they ask for is
+//! subdivided at once.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::ops::RangeInclusive;
+
+use super::certifier::Certifier;
+use super::query::{Found, Query};
+use super::{Bracket, CertifyError, Effort, End, Goal, Question};
+use crate::configuration::Configuration;
+use crate::parallel;
+
+/// Queries open at the same time. It does not depend on the number of threads, so the results do not
+/// either.
+const TOGETHER: usize = 32;
+
+/// Halvings of a leaf, one after the other, in one round.
+const HALVINGS: RangeInclusive<u32> = 3..=8;
+
+/// Leaves subdivided between two checks of the remaining effort.
+const BATCH: usize = 512;
+
+/// Units of work of a flood for each existing leaf, and for each flooded one.
+const LEAF: u64 = 2;
+const FLOODED: u64 = 50;
+
+/// A query and the number of its question.
+type Open<'q> = (usize, Query<'q>);
+
+/// Why a leaf is subdivided.
+struct Wish {
+    /// Its parts are subdivided further as long as they may be passed at this level (J).
+    level: f64,
+    /// The places of the queries that asked for it; the first one's effort is spent.
+    by: Vec<usize>,
+}
+
+impl Certifier<'_> {
+    /// Brackets the minimax energy from `from` to `to`, alone. `known` is a pathway between them,
+    /// if one is known.
+    ///
+    /// # Errors
+    /// If an end is not free or not on the table.
+    pub fn bracket(
+        &mut self,
+        from: &Configuration,
+        to: &End,
+        known: &[Configuration],
+        effort: &Effort,
+    ) -> Result<Bracket, CertifyError> {
+        let question = Question {
+            from: *from,
+            to: to.into(),
+            known: known.to_vec(),
+            effort: *effort,
+        };
+        self.answer(&question)
+    }
+
+    /// Brackets one barrier.
+    ///
+    /// # Errors
+    /// If an end is not free or not on the table.
+    pub fn answer(&mut self, question: &Question) -> Result<Bracket, CertifyError> {
+        let mut answers = self.answers(std::slice::from_ref(question), &|_| ());
+        answers.pop().expect("one answer for each question")
+    }
+
+    /// Brackets barriers together: each makes use of the subdivision and of the bounds found for the
+    /// others. `answered` is told how many are done. Where the certifier's
+    /// effort is spent first, the last brackets are empty.
+    ///
+    /// # Errors
+    /// Of each question, if one of its ends is not free or not on the table.
+    pub fn answers(
+        &mut self,
+        questions: &[Question],
+        answered: &dyn Fn(usize),
+    ) -> Vec<Result<Bracket, CertifyError>> {
+        let checked = questions.iter().map(|question| self.check(question));
+        let mut answers: Vec<_> = checked
+            .map(|checked| checked.map(|()| Bracket::default()))
+            .collect();
+        let sound = (0..questions.len()).filter(|&number| answers[number].is_ok());
+        let mut waiting: VecDeque<usize> = sound.collect();
+        let mut ready: VecDeque<Open> = VecDeque::new();
+        let mut open: Vec<Open> = Vec::new();
+        let mut count = 0;
+        loop {
+            let is_over = self.ended().is_some();
+            while open.len() < TOGETHER && !is_over {
+                if ready.is_empty() {
+                    let next: Vec<usize> = waiting.drain(..TOGETHER.min(waiting.len())).collect();
+                    ready = self.begun(&next, questions);
+                }
+                let Some(next) = ready.pop_front() else { break };
+                open.push(next);
+            }
+            for (_, query) in &mut open {
+                query.learn(&self.proofs);
+            }
+            let (mut closed, others): (Vec<Open>, _) = open
+                .into_iter()
+                .partition(|(_, query)| is_over || query.is_answered());
+            open = others;
+            if is_over {
+                closed.extend(ready.drain(..));
+            }
+            for (number, bracket) in self.conclude(&closed) {
+                let Question { from, to, .. } = &questions[number];
+                self.proofs
+                    .add(from, to, &bracket.bounds, bracket.pathway.last());
+                answers[number] = Ok(bracket);
+                count += 1;
+                answered(count);
+            }
+            if is_over || open.is_empty() && ready.is_empty() && waiting.is_empty() {
+                return answers;
+            }
+            self.advance(&mut open);
+        }
+    }
+
+    /// The lower bound (J) for paths to a goal implied by everything proved so far.
+    pub fn proved(&self, from: &Configuration, to: &Goal) -> f64 {
+        self.proofs.least(from, to)
+    }
+
+    fn check(&self, question: &Question) -> Result<(), CertifyError> {
+        for end in std::iter::once(&question.from).chain(&question.to.places) {
+            if !self.bounded.space.contains(end) {
+                return Err(CertifyError::OffTheTable(*end));
+            }
+            let contact = self.bounded.contact;
+            if contact.is_some_and(|contact| !contact.is_free(end)) {
+                return Err(CertifyError::NotFree(*end));
+            }
+        }
+        Ok(())
+    }
+
+    /// The queries of some questions, with their known pathways proved.
+    fn begun<'q>(&mut self, numbers: &[usize], questions: &'q [Question]) -> VecDeque<Open<'q>> {
+        let begin = |&number: &usize| (number, Query::new(&self.bounded, &questions[number]));
+        let begun = parallel::map(numbers, begin);
+        for (_, query) in &begun {
+            if let Some(way) = query.best() {
+                self.note_way(way);
+            }
+        }
+        begun.into()
+    }
+
+    /// The brackets of queries, with the numbers of their questions.
+    fn conclude(&mut self, closed: &[Open]) -> Vec<(usize, Bracket)> {
+        if closed.is_empty() {
+            return Vec::new();
+        }
+        self.ends.look(&self.store, &self.bounded);
+        parallel::map(closed, |(number, query)| (*number, query.conclude(self)))
+    }
+
+    /// One step of all open queries: a flood of each, and the subdivisions for which they ask.
+    fn advance(&mut self, open: &mut [Open]) {
+        self.ends.look(&self.store, &self.bounded);
+        let known = self.passable();
+        let found = parallel::map(&*open, |(_, query)| query.flood(self, &known));
+        let leaves = self.store.len() as u64;
+        let mut wishes: BTreeMap<u32, Wish> = BTreeMap::new();
+        let mut asked = Vec::new();
+        let mut floods = 0;
+        for (by, ((_, query), (flooded, found))) in open.iter_mut().zip(found).enumerate() {
+            floods += leaves * LEAF + flooded as u64 * FLOODED;
+            match found {
+                Found::NoWay => query.has_no_way(),
+                Found::Lower(way) => {
+                    self.note_way(&way);
+                    query.improve(way);
+                }
+                Found::Divide(_) if query.is_spent() => query.give_up(),
+                Found::Divide(ids) => {
+                    let level = query.level();
+                    for &id in &ids {
+                        let wish = wishes.entry(id).or_insert_with(|| Wish {
+                            level,
+                            by: Vec::new(),
+                        });
+                        wish.level = wish.level.max(level);
+                        wish.by.push(by);
+                    }
+                    asked.push((by, ids));
+                }
+            }
+        }
+        self.spend(floods);
+        self.grant(&wishes, floods, open);
+        for (by, ids) in asked {
+            let query = &mut open[by].1;
+            if ids.iter().all(|&id| self.store.leaf(id).live) {
+                query.give_up();
+            } else {
+                query.rounds += 1;
+            }
+        }
+    }
+
+    /// Subdivides leaves until the effort is spent: the fewer there are the finer, so that this costs
+    /// no less than the floods (units of work) that have to be repeated afterwards.
+    fn grant(&mut self, wishes: &BTreeMap<u32, Wish>, floods: u64, open: &mut [Open]) {
+        let costs = |halvings: u32| ((wishes.len() as u64) << (halvings + 1)) * self.bounded.work();
+        let enough = |halvings: &u32| costs(*halvings) >= floods;
+        let halvings = HALVINGS.into_iter().find(enough).unwrap_or(*HALVINGS.end());
+        let leaves: Vec<(u32, f64)> = wishes.iter().map(|(id, wish)| (*id, wish.level)).collect();
+        let wishes: Vec<&Wish> = wishes.values().collect();
+        for (leaves, wishes) in leaves.chunks(BATCH).zip(wishes.chunks(BATCH)) {
+            for (&assessed, wish) in self.subdivide(leaves, halvings).iter().zip(wishes) {
+                open[wish.by[0]].1.cells += assessed;
+                for &by in &wish.by {
+                    open[by].1.gained += assessed;
+                }
+            }
+            if self.ended().is_some() {
+                return;
+            }
+        }
+    }
+}
