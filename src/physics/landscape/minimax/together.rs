@@ -67,8 +67,8 @@ impl Certifier<'_> {
     }
 
     /// Brackets barriers together: each makes use of the subdivision and of the bounds found for the
-    /// others. `answered` is told how many are done. Where the certifier's
-    /// effort is spent first, the last brackets are empty.
+    /// others. `answered` is told how many are done. Where the certifier's effort is spent first, the
+    /// last brackets are empty.
     ///
     /// # Errors
     /// Of each question, if one of its ends is not free or not on the table.
