@@ -15,6 +15,14 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// The cell of one configuration alone.
+    pub fn at(q: &Configuration) -> Self {
+        Self {
+            centre: *q,
+            half: [0.0; 3],
+        }
+    }
+
     /// The cell spanned by two configurations, the shorter way round in theta.
     pub fn spanned_by(a: &Configuration, b: &Configuration) -> Self {
         let step = a.step_to(b);

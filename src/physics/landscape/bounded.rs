@@ -73,15 +73,18 @@ impl<'a> Bounded<'a> {
             let all = cuts.all.len() as u64;
             all + cuts.corners.len() as u64 * (2 * all + 2)
         });
-        let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
-        self.count(A_CELL + AN_EDGE * edges + A_CUT * bounds);
+        self.count(self.work_of_contact() + A_CUT * bounds);
         found
     }
 
     /// Approximate units of work to assess a cell.
     pub fn work(&self) -> u64 {
+        self.bounds.work() + self.work_of_contact()
+    }
+
+    fn work_of_contact(&self) -> u64 {
         let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
-        self.bounds.work() + A_CELL + AN_EDGE * edges
+        A_CELL + AN_EDGE * edges
     }
 
     /// Counts work.

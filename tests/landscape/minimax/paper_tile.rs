@@ -111,7 +111,7 @@ fn the_bracket_does_not_depend_on_the_number_of_threads() {
     assert!(one.cells > 100);
 }
 
-/// More questions than are open at once, some of them twice, and one that cannot be answered.
+/// More questions than are open at once: four times the same, one of which cannot be answered.
 #[test]
 fn barriers_asked_for_together_are_bracketed_as_those_asked_for_alone() {
     let (scene, design) = Scene::shipped("paper-tile", MagnetModel::Dipole);

@@ -208,10 +208,7 @@ impl Bounded<'_> {
 
     /// Lower and upper bound of the energy (J) of one configuration; they differ by rounding only.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
-        let known = self.enclose(&Cell {
-            centre: *q,
-            half: [0.0; 3],
-        });
+        let known = self.enclose(&Cell::at(q));
         let rounding = known.form.rounding(&[0.0; 3]);
         (
             known.form.value + known.low - rounding,

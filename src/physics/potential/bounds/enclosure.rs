@@ -93,11 +93,7 @@ pub trait CellBounds: Sync {
 
     /// U (J) of one configuration, to rounding.
     fn energy(&self, q: &Configuration) -> f64 {
-        let point = Cell {
-            centre: *q,
-            half: [0.0; 3],
-        };
-        self.enclose(&point).form.value
+        self.enclose(&Cell::at(q)).form.value
     }
 
     /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a cell.
