@@ -60,7 +60,7 @@ impl FourthDerivative<'_> {
             let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
             for from in (0..fixed.x.len()).step_by(WIDTH) {
                 let pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
-                let distance = l.sub(l.mul(pairs.rr, l.reciprocal_sqrt(pairs.rr)), lost);
+                let distance = l.sub(l.mul(pairs.rr, pairs.inverse), lost);
                 if l.least(l.sub(distance, radii)) < 0.0 {
                     return None;
                 }

@@ -47,11 +47,11 @@ impl Task for Correction<'_> {
                         let mask = l.load(&mask);
                         let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
                         pairs.arm = arm;
-                        pairs.moments = l.mul(pairs.moments, mask);
-                        // Omitted pairs must neither divide by zero nor require terms.
+                        // Omitted pairs must neither add anything nor require terms.
                         let counts = l.sub(mask, l.splat(0.5));
-                        pairs.rr = l.select(counts, pairs.rr, l.splat(far::AWAY));
-                        let terms = Far::terms(&far.squares, l.least(pairs.rr));
+                        pairs.inverse = l.select(counts, pairs.inverse, l.splat(0.0));
+                        let least = l.least(l.select(counts, pairs.rr, l.splat(f64::MAX)));
+                        let terms = Far::terms(&far.squares, least);
                         if known < terms {
                             far.series.evaluate::<L, true>(
                                 l,
@@ -82,6 +82,8 @@ fn without_dipole(coefficients: &mut Coefficients) {
         coefficients.im[at] = 0.0;
         coefficients.turn_re[at] = 0.0;
         coefficients.turn_im[at] = 0.0;
+        coefficients.slope_re[at] = 0.0;
+        coefficients.slope_im[at] = 0.0;
     }
 }
 

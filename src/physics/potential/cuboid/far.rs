@@ -54,14 +54,29 @@ impl<F: Copy> Sums<F> {
 pub struct Pairs<F> {
     /// Products of the moments (A^2 m^4).
     pub moments: F,
-    /// Vector (m) from each fixed block to the moving one, and its squared length.
+    /// Vector (m) from each fixed block to the moving one, its squared length, and the reciprocal
+    /// of its length (1/m); a pair for which this is 0 adds nothing.
     pub r: [F; 2],
     pub rr: F,
+    pub inverse: F,
     /// Vector (m) from the moving tile's reference point to the block.
     pub arm: Complex<f64>,
 }
 
 impl<F: Copy> Pairs<F> {
+    /// Pairs that add nothing.
+    #[inline(always)]
+    pub fn none<L: Lanes<F = F>>(l: L) -> Self {
+        let zero = l.splat(0.0);
+        Self {
+            moments: zero,
+            r: [zero; 2],
+            rr: zero,
+            inverse: zero,
+            arm: Complex::ZERO,
+        }
+    }
+
     /// The members of a group from `from` on, and a block at `place`.
     #[inline(always)]
     pub fn new<L: Lanes<F = F>>(
@@ -75,10 +90,12 @@ impl<F: Copy> Pairs<F> {
             l.sub(l.splat(place.re), l.load(&fixed.x[from..])),
             l.sub(l.splat(place.im), l.load(&fixed.y[from..])),
         ];
+        let rr = l.mul_add(r[0], r[0], l.mul(r[1], r[1]));
         Self {
             moments: l.mul(l.splat(moment), l.load(&fixed.moment[from..])),
             r,
-            rr: l.mul_add(r[0], r[0], l.mul(r[1], r[1])),
+            rr,
+            inverse: l.reciprocal_sqrt(rr),
             arm: Complex::new(0.0, 0.0),
         }
     }
@@ -117,87 +134,101 @@ fn add<L: Lanes, const N: usize, const SLOPE: bool>(
     pairs: &Pairs<L::F>,
     sums: &mut Sums<L::F>,
 ) {
-    let r = pairs.r;
-    let inverse = l.reciprocal_sqrt(pairs.rr);
+    let inverse = pairs.inverse;
     let q = l.mul(inverse, inverse);
-    // v = conj(r)^2 / r^2.
-    let xy = l.mul(l.mul(q, r[0]), r[1]);
+    let [x, y] = pairs.r;
+    // The conjugates of v^n: v = conj(r)^2 / r^2.
+    let half = l.mul(l.mul(q, x), y);
     let v = [
-        l.mul(q, l.neg_mul_add(r[1], r[1], l.mul(r[0], r[0]))),
-        l.mul(l.splat(-2.0), xy),
+        l.mul(q, l.neg_mul_add(y, y, l.mul(x, x))),
+        l.add(half, half),
     ];
-    // v^n and, if requested, n v^n.
-    let zero = l.splat(0.0);
-    let mut powers = [[zero; 2]; TERMS + 1];
-    let mut slopes = [[zero; 2]; TERMS + 1];
-    powers[1] = v;
+    let mut powers = [v; TERMS + 1];
     for n in 2..=N {
-        powers[n] = product(l, powers[n / 2], powers[n - n / 2]);
+        powers[n] = l.complex_product(powers[n / 2], powers[n - n / 2]);
     }
-    if SLOPE {
-        for n in 1..=N {
-            let order = l.splat(n as f64);
-            slopes[n] = [l.mul(order, powers[n][0]), l.mul(order, powers[n][1])];
-        }
-    }
-    let (mut energy, mut radial, mut angular, mut turning) = (zero, zero, zero, zero);
-    for k in (0..N).rev() {
-        let first = index(k, 0);
-        let mut value = l.splat(c.re[first]);
-        let mut turn = l.splat(c.turn_re[first]);
-        let mut slope = zero;
-        for n in 1..k + 2 {
-            let [re, im] = [l.splat(c.re[first + n]), l.splat(c.im[first + n])];
-            value = real(l, powers[n], re, im, value);
-            if SLOPE {
-                // The imaginary part of C n v^n.
-                slope = l.mul_add(re, slopes[n][1], l.mul_add(im, slopes[n][0], slope));
-                let (re, im) = (c.turn_re[first + n], c.turn_im[first + n]);
-                turn = real(l, powers[n], l.splat(re), l.splat(im), turn);
-            }
-        }
-        energy = l.mul_add(energy, q, value);
+    let last = polynomials::<L, SLOPE>(l, N - 1, c, &powers);
+    let (mut energy, mut angular, mut turning) = (last.value, last.slope, last.turn);
+    // The derivative of the energy's series by q.
+    let mut bent = if N > 1 { energy } else { l.splat(0.0) };
+    for k in (0..N - 1).rev() {
+        let term = polynomials::<L, SLOPE>(l, k, c, &powers);
         if SLOPE {
-            radial = l.mul_add(value, l.splat(-((3 + 2 * k) as f64)), l.mul(radial, q));
-            angular = l.mul_add(slope, l.splat(2.0), l.mul(angular, q));
-            turning = l.mul_add(turning, q, turn);
+            if k < N - 2 {
+                bent = l.mul_add(bent, q, energy);
+            }
+            angular = l.mul_add(angular, q, term.slope);
+            turning = l.mul_add(turning, q, term.turn);
         }
+        energy = l.mul_add(energy, q, term.value);
     }
     let scale = l.mul(pairs.moments, l.mul(q, inverse));
     sums.energy = l.mul_add(scale, energy, sums.energy);
     if SLOPE {
         let turn = l.mul(scale, turning);
         let scale = l.mul(scale, q);
+        // A power 3 + 2 k of 1 / r loses that much along r: 3 U + 2 q dU/dq.
+        let change = l.mul(bent, q);
+        let radial = l.mul_add(l.splat(3.0), energy, l.add(change, change));
         let (radial, angular) = (l.mul(scale, radial), l.mul(scale, angular));
-        let gx = l.neg_mul_add(angular, r[1], l.mul(radial, r[0]));
-        let gy = l.mul_add(angular, r[0], l.mul(radial, r[1]));
-        let turn = l.mul_add(l.splat(pairs.arm.re), gy, turn);
-        let turn = l.neg_mul_add(l.splat(pairs.arm.im), gx, turn);
-        let [x, y, t] = sums.gradient;
-        sums.gradient = [l.add(x, gx), l.add(y, gy), l.add(t, turn)];
+        // Along r it decreases: minus the gradient.
+        let fx = l.mul_add(radial, x, l.mul(angular, y));
+        let fy = l.neg_mul_add(angular, x, l.mul(radial, y));
+        let turn = l.neg_mul_add(l.splat(pairs.arm.re), fy, turn);
+        let turn = l.mul_add(l.splat(pairs.arm.im), fx, turn);
+        let [sum_x, sum_y, sum_turn] = sums.gradient;
+        sums.gradient = [l.sub(sum_x, fx), l.sub(sum_y, fy), l.add(sum_turn, turn)];
     }
 }
 
-/// The product of two complex numbers.
-#[inline(always)]
-fn product<L: Lanes>(l: L, a: [L::F; 2], b: [L::F; 2]) -> [L::F; 2] {
-    [
-        l.neg_mul_add(a[1], b[1], l.mul(a[0], b[0])),
-        l.mul_add(a[1], b[0], l.mul(a[0], b[1])),
-    ]
+/// A term's polynomial, and its derivatives by the angles phi and beta.
+struct Polynomials<F> {
+    value: F,
+    slope: F,
+    turn: F,
 }
 
-/// The real part of `(re + i im) v`, and a sum.
+/// Those of term `k`; derivatives are zero unless requested.
+// Several arrays are walked at once.
+#[allow(clippy::needless_range_loop)]
 #[inline(always)]
-fn real<L: Lanes>(l: L, v: [L::F; 2], re: L::F, im: L::F, sum: L::F) -> L::F {
-    l.neg_mul_add(im, v[1], l.mul_add(re, v[0], sum))
+fn polynomials<L: Lanes, const SLOPE: bool>(
+    l: L,
+    k: usize,
+    c: &Coefficients,
+    powers: &[[L::F; 2]; TERMS + 1],
+) -> Polynomials<L::F> {
+    let first = index(k, 0);
+    let zero = l.splat(0.0);
+    let mut value = l.splat(c.re[first]);
+    let mut slope = zero;
+    let mut turn = if SLOPE {
+        l.splat(c.turn_re[first])
+    } else {
+        zero
+    };
+    for n in 1..k + 2 {
+        let (at, power) = (first + n, powers[n]);
+        value = real(l, power, c.re[at], c.im[at], value);
+        if SLOPE {
+            turn = real(l, power, c.turn_re[at], c.turn_im[at], turn);
+            slope = real(l, power, c.slope_re[at], c.slope_im[at], slope);
+        }
+    }
+    Polynomials { value, slope, turn }
+}
+
+/// The real part of `re + i im` times the conjugate of a number, and a sum.
+#[inline(always)]
+fn real<L: Lanes>(l: L, v: [L::F; 2], re: f64, im: f64, sum: L::F) -> L::F {
+    l.mul_add(l.splat(im), v[1], l.mul_add(l.splat(re), v[0], sum))
 }
 
 /// The weakness of padding blocks.
 const NO_MOMENT: f64 = 1e60;
 
-/// The squared distance (m^2) of padding blocks.
-pub const AWAY: f64 = 1e12;
+/// The distance (m) of padding blocks.
+const AWAY: f64 = 1e6;
 
 /// Fixed blocks of one size and one axis (up to its sign), as a structure of arrays padded to a
 /// multiple of the number of lanes with blocks without moment.
@@ -272,7 +303,7 @@ impl Group {
     /// Pads to whole vectors.
     pub fn fill(&mut self) {
         // Far from everything, so that padding never counts as near.
-        fill(&mut self.x, AWAY.sqrt());
+        fill(&mut self.x, AWAY);
         fill(&mut self.y, 0.0);
         fill(&mut self.moment, 0.0);
         fill(&mut self.weakness, NO_MOMENT);

@@ -20,7 +20,7 @@
 //! worst in the tests) and 1e-4 closer, contact and sliding contact included (4e-6 at worst), for
 //! blocks of about 1 cm; it scales with the blocks' width. Where the energy passes through zero on
 //! a slide, the error is relative to 1 mm times the force. At the hand-over to the far form
-//! energies step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)`.
+//! energies step by less than 4e-9 of `mu0 m1 m2 / (4 pi r^3)` of the strongest pair.
 //!
 //! # Edges
 //! Energies are finite at every configuration, including overlaps. In contact the gradient is the
@@ -151,7 +151,7 @@ impl Far {
         enough.map_or(TERMS, |(terms, _)| *terms)
     }
 
-    /// The squared distance below which the pole faces are summed.
+    /// The squared distance (m^2) below which the pole faces of a single pair are summed.
     fn near(&self) -> f64 {
         self.squares[STEPS.len() - 1]
     }

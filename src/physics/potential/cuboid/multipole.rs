@@ -133,6 +133,9 @@ pub struct Coefficients {
     /// The derivatives by beta.
     pub turn_re: [f64; ROOM],
     pub turn_im: [f64; ROOM],
+    /// The derivatives by phi, which are again coefficients: `-i l C_kl`.
+    pub slope_re: [f64; ROOM],
+    pub slope_im: [f64; ROOM],
 }
 
 impl Coefficients {
@@ -141,8 +144,25 @@ impl Coefficients {
         im: [0.0; ROOM],
         turn_re: [0.0; ROOM],
         turn_im: [0.0; ROOM],
+        slope_re: [0.0; ROOM],
+        slope_im: [0.0; ROOM],
     };
 }
+
+/// l of each coefficient.
+const ORDERS: [f64; ROOM] = {
+    let mut orders = [0.0; ROOM];
+    let mut k = 0;
+    while k < TERMS {
+        let mut half = 0;
+        while half < k + 2 {
+            orders[index(k, half)] = (2 * half) as f64;
+            half += 1;
+        }
+        k += 1;
+    }
+    orders
+};
 
 /// The series of two block sizes.
 #[derive(Clone, Debug)]
@@ -224,8 +244,8 @@ impl Multipole {
         high
     }
 
-    /// Computes the coefficients of some terms for `turn` = e^(i beta), and their derivatives if
-    /// requested.
+    /// Computes the coefficients of some terms for `turn` = e^(i beta), those for derivatives only
+    /// if requested.
     #[inline(always)]
     pub fn evaluate<L: Lanes, const SLOPE: bool>(
         &self,
@@ -235,9 +255,10 @@ impl Multipole {
         known: &mut Coefficients,
     ) {
         let step = turn * turn;
-        let mut phases = [turn; TERMS];
-        for j in 1..TERMS {
-            phases[j] = phases[j - 1] * step;
+        // Coefficients of later terms in the last vector remain to be computed.
+        let mut turns = [turn; TERMS];
+        for j in 1..terms.end {
+            turns[j] = turns[j - 1] * step;
         }
         let mut i = index(terms.start, 0) / WIDTH * WIDTH;
         // Term k has the orders up to k.
@@ -249,7 +270,7 @@ impl Multipole {
             let zero = l.splat(0.0);
             let (mut re, mut im) = (zero, zero);
             let (mut turn_re, mut turn_im) = (zero, zero);
-            for (j, phase) in phases[..orders].iter().enumerate() {
+            for (j, phase) in turns[..orders].iter().enumerate() {
                 let (cos, sin) = (l.splat(phase.re), l.splat(phase.im));
                 let sum = l.load(&self.sums[j][i..]);
                 let difference = l.load(&self.differences[j][i..]);
@@ -266,6 +287,9 @@ impl Multipole {
             if SLOPE {
                 l.store(turn_re, &mut known.turn_re[i..]);
                 l.store(turn_im, &mut known.turn_im[i..]);
+                let order = l.load(&ORDERS[i..]);
+                l.store(l.mul(order, im), &mut known.slope_re[i..]);
+                l.store(l.neg_mul_add(order, re, zero), &mut known.slope_im[i..]);
             }
             i += WIDTH;
         }

@@ -3,7 +3,7 @@
 use nalgebra::{Complex, Vector2, Vector3};
 
 use super::block::{BlockPair, PairEnergy};
-use super::far::{self, Group, Pairs, Sums};
+use super::far::{self, Group, Pairs, STEPS, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::{self, Near};
 use super::{CuboidPotential, Far, Meeting};
@@ -75,6 +75,48 @@ impl<F: Copy> Strongest<F> {
     }
 }
 
+/// How many vectors of pairs are placed before they are summed, so that a processor has some of
+/// them to work on while it waits for others.
+const AHEAD: usize = 4;
+
+/// A vector of pairs of two groups.
+#[derive(Clone, Copy)]
+struct Row<F> {
+    pairs: Pairs<F>,
+    /// The least squared distance (m^2).
+    least: f64,
+    /// The place of the first fixed block in its group, and of the moving one.
+    at: [usize; 2],
+}
+
+impl<F: Copy> Row<F> {
+    #[inline(always)]
+    fn none<L: Lanes<F = F>>(l: L) -> Self {
+        Self {
+            pairs: Pairs::none(l),
+            least: 0.0,
+            at: [0; 2],
+        }
+    }
+
+    /// Lists the pairs closer than this squared distance (m^2) instead of counting them.
+    #[inline(always)]
+    fn leave_out<L: Lanes<F = F>>(&mut self, l: L, near: f64, list: &mut Vec<[usize; 2]>) {
+        let mut squares = [0.0; WIDTH];
+        l.store(self.pairs.rr, &mut squares);
+        self.least = f64::MAX;
+        for (lane, square) in squares.into_iter().enumerate() {
+            if square < near {
+                list.push([self.at[0] + lane, self.at[1]]);
+            } else {
+                self.least = self.least.min(square);
+            }
+        }
+        let outside = l.sub(self.pairs.rr, l.splat(near));
+        self.pairs.inverse = l.select(outside, self.pairs.inverse, l.splat(0.0));
+    }
+}
+
 /// Coefficients of the far form that are computed, for two groups and those of the same kinds.
 struct Known {
     coefficients: Coefficients,
@@ -142,37 +184,39 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     ) {
         let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
         let steps = far.steps(strongest / (fixed.strongest * moving.strongest));
+        let near = steps[STEPS.len() - 1];
         let mut sums = Sums::zero(l);
         known.look_at([fixed, moving]);
-        for j in 0..moving.count {
-            let arm = turn * Complex::new(moving.x[j], moving.y[j]);
-            let place = centre + arm;
-            for from in (0..fixed.x.len()).step_by(WIDTH) {
-                let mut pairs = Pairs::new(l, fixed, from, place, moving.moment[j]);
+        let mut rows = [Row::none(l); AHEAD];
+        let (mut j, mut from) = (0, 0);
+        let mut left = moving.count * (fixed.x.len() / WIDTH);
+        while left > 0 {
+            let count = left.min(AHEAD);
+            left -= count;
+            for row in &mut rows[..count] {
+                let arm = turn * Complex::new(moving.x[j], moving.y[j]);
+                let mut pairs = Pairs::new(l, fixed, from, centre + arm, moving.moment[j]);
                 pairs.arm = arm;
-                let mut least = l.least(pairs.rr);
-                if least < far.near() {
-                    let mut squares = [0.0; WIDTH];
-                    l.store(pairs.rr, &mut squares);
-                    for (lane, square) in squares.iter().enumerate() {
-                        if *square < far.near() {
-                            near_pairs.push([from + lane, j]);
-                        }
-                    }
-                    // The near ones have no moment here and are far enough.
-                    let outside = l.sub(pairs.rr, l.splat(far.near()));
-                    pairs.moments = l.select(outside, pairs.moments, l.splat(0.0));
-                    pairs.rr = l.select(outside, pairs.rr, l.splat(far::AWAY));
-                    least = l.least(pairs.rr);
+                let least = l.least(pairs.rr);
+                let at = [from, j];
+                *row = Row { pairs, least, at };
+                from += WIDTH;
+                if from == fixed.x.len() {
+                    (j, from) = (j + 1, 0);
                 }
-                let terms = Far::terms(steps, least);
+            }
+            for row in &mut rows[..count] {
+                if row.least < near {
+                    row.leave_out(l, near, near_pairs);
+                }
+                let terms = Far::terms(steps, row.least);
                 let coefficients = &mut known.coefficients;
                 if known.terms < terms {
                     far.series
                         .evaluate::<L, SLOPE>(l, turn, known.terms..terms, coefficients);
                     known.terms = terms;
                 }
-                far::add_terms::<L, SLOPE>(l, terms, coefficients, &pairs, &mut sums);
+                far::add_terms::<L, SLOPE>(l, terms, coefficients, &row.pairs, &mut sums);
             }
         }
         total.add::<L, SLOPE>(l, &sums, fixed.axis);

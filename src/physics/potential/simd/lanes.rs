@@ -82,6 +82,15 @@ pub trait Arithmetic: Copy {
         let e = self.neg_mul_add(a, y, self.splat(1.0));
         self.mul_add(y, self.mul_add(e, e, e), y)
     }
+
+    /// The product of two complex numbers.
+    #[inline(always)]
+    fn complex_product(self, u: [Self::F; 2], v: [Self::F; 2]) -> [Self::F; 2] {
+        [
+            self.neg_mul_add(u[1], v[1], self.mul(u[0], v[0])),
+            self.mul_add(u[0], v[1], self.mul(u[1], v[0])),
+        ]
+    }
 }
 
 /// See [`Arithmetic::reciprocal_sqrt`].

@@ -86,14 +86,6 @@ pub(in crate::potential::bounds) struct Spread {
 /// A vector of complex numbers.
 type Complex<F> = [F; 2];
 
-#[inline(always)]
-fn product<L: Lanes>(l: L, u: Complex<L::F>, v: Complex<L::F>) -> Complex<L::F> {
-    [
-        l.neg_mul_add(u[1], v[1], l.mul(u[0], v[0])),
-        l.mul_add(u[0], v[1], l.mul(u[1], v[0])),
-    ]
-}
-
 /// `u* v`.
 #[inline(always)]
 fn conjugate_product<L: Lanes>(l: L, u: Complex<L::F>, v: Complex<L::F>) -> Complex<L::F> {
@@ -194,8 +186,7 @@ impl<const BLOCKS: bool> Taylor<'_, BLOCKS> {
         let q = &self.cell.centre;
         let (sin, cos) = libm::sincos(q.theta);
         let turn = [l.splat(cos), l.splat(sin)];
-        let arm = product(
-            l,
+        let arm = l.complex_product(
             turn,
             [l.load(&moving.x[first..]), l.load(&moving.y[first..])],
         );
@@ -213,7 +204,7 @@ impl<const BLOCKS: bool> Taylor<'_, BLOCKS> {
         Dipoles {
             place: sum(l, [l.splat(q.x), l.splat(q.y)], arm),
             arm,
-            moment: product(l, turn, moment),
+            moment: l.complex_product(turn, moment),
             reach,
             near: l.mul_add(near, near, l.splat(NEAR * NEAR * TINY * TINY)),
             remainder: self.remainder(l, w, reach, lever),
@@ -285,11 +276,11 @@ impl<const BLOCKS: bool> Taylor<'_, BLOCKS> {
 
         // e = e^{-i phi}
         let e = [l.mul(d[0], i1), l.neg_mul_add(d[1], i1, l.splat(0.0))];
-        let e2 = product(l, e, e);
-        let m1 = product(l, m, e);
-        let m2 = product(l, m, e2);
-        let m3 = product(l, m1, e2);
-        let m4 = product(l, m2, e2);
+        let e2 = l.complex_product(e, e);
+        let m1 = l.complex_product(m, e);
+        let m2 = l.complex_product(m, e2);
+        let m3 = l.complex_product(m1, e2);
+        let m4 = l.complex_product(m2, e2);
         let n1 = conjugate_product(l, m, e);
         let n2 = conjugate_product(l, m, e2);
         let [three, five, seven] = [l.splat(3.0), l.splat(5.0), l.splat(7.0)];
@@ -339,25 +330,25 @@ fn shares<L: Lanes>(l: L, dipoles: &Dipoles<L::F>, sums: &Sums<L::F>) -> [L::F; 
     let s3 = scale(l, -0.9375, sums.s3);
     let m3 = scale(l, -0.1875, sums.m3);
 
-    let v = product(l, mu, s1);
-    let mu_s2 = product(l, mu, s2);
+    let v = l.complex_product(mu, s1);
+    let mu_s2 = l.complex_product(mu, s2);
     let mu_m2 = conjugate_times(l, mu, m2);
     let p = sum(l, mu_s2, mu_m2);
     // How P changes as the moment turns: i N.
     let n = difference(l, mu_s2, mu_m2);
-    let q = sum(l, product(l, mu, s3), conjugate_product(l, mu, m3));
+    let q = sum(l, l.complex_product(mu, s3), conjugate_product(l, mu, m3));
     let two = l.splat(2.0);
-    let r = l.mul(two, product(l, mu, m3)[0]);
+    let r = l.mul(two, l.complex_product(mu, m3)[0]);
 
     let zero = l.splat(0.0);
     let arm = dipoles.arm;
     let turn = [l.sub(zero, arm[1]), arm[0]];
-    let turn_p = product(l, turn, p);
-    let turn_n = product(l, turn, n);
-    let turn_q = product(l, turn, q);
-    let turn_turn_q = product(l, turn, turn_q);
+    let turn_p = l.complex_product(turn, p);
+    let turn_n = l.complex_product(turn, n);
+    let turn_q = l.complex_product(turn, q);
+    let turn_turn_q = l.complex_product(turn, turn_q);
     let turn2 = l.mul_add(turn[0], turn[0], l.mul(turn[1], turn[1]));
-    let arm_p = product(l, arm, p);
+    let arm_p = l.complex_product(arm, p);
     // 2 [turn turn Q + |turn|^2 R - arm P + 2 i turn N - mu S1]
     let bend = l.mul_add(turn2, r, turn_turn_q[0]);
     let bend = l.sub(bend, arm_p[0]);
