@@ -42,10 +42,8 @@ pub trait Complexes: Lanes {
     /// `a b`.
     #[inline(always)]
     fn z_mul(self, a: Z<Self::F>, b: Z<Self::F>) -> Z<Self::F> {
-        Z {
-            re: self.neg_mul_add(a.im, b.im, self.mul(a.re, b.re)),
-            im: self.mul_add(a.im, b.re, self.mul(a.re, b.im)),
-        }
+        let [re, im] = self.complex_product([b.re, b.im], [a.re, a.im]);
+        Z { re, im }
     }
     /// `a b + c`.
     #[inline(always)]

@@ -64,19 +64,6 @@ pub struct Pairs<F> {
 }
 
 impl<F: Copy> Pairs<F> {
-    /// Pairs that add nothing.
-    #[inline(always)]
-    pub fn none<L: Lanes<F = F>>(l: L) -> Self {
-        let zero = l.splat(0.0);
-        Self {
-            moments: zero,
-            r: [zero; 2],
-            rr: zero,
-            inverse: zero,
-            arm: Complex::ZERO,
-        }
-    }
-
     /// The members of a group from `from` on, and a block at `place`.
     #[inline(always)]
     pub fn new<L: Lanes<F = F>>(

@@ -90,15 +90,6 @@ struct Row<F> {
 }
 
 impl<F: Copy> Row<F> {
-    #[inline(always)]
-    fn none<L: Lanes<F = F>>(l: L) -> Self {
-        Self {
-            pairs: Pairs::none(l),
-            least: 0.0,
-            at: [0; 2],
-        }
-    }
-
     /// Lists the pairs closer than this squared distance (m^2) instead of counting them.
     #[inline(always)]
     fn leave_out<L: Lanes<F = F>>(&mut self, l: L, near: f64, list: &mut Vec<[usize; 2]>) {
@@ -184,10 +175,11 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     ) {
         let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
         let steps = far.steps(strongest / (fixed.strongest * moving.strongest));
-        let near = steps[STEPS.len() - 1];
+        // Pole faces never reach farther than for a single pair: blocks that replace others have none.
+        let near = steps[STEPS.len() - 1].min(far.near());
         let mut sums = Sums::zero(l);
         known.look_at([fixed, moving]);
-        let mut rows = [Row::none(l); AHEAD];
+        let mut rows = [None; AHEAD];
         let (mut j, mut from) = (0, 0);
         let mut left = moving.count * (fixed.x.len() / WIDTH);
         while left > 0 {
@@ -199,13 +191,13 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                 pairs.arm = arm;
                 let least = l.least(pairs.rr);
                 let at = [from, j];
-                *row = Row { pairs, least, at };
+                *row = Some(Row { pairs, least, at });
                 from += WIDTH;
                 if from == fixed.x.len() {
                     (j, from) = (j + 1, 0);
                 }
             }
-            for row in &mut rows[..count] {
+            for row in rows[..count].iter_mut().flatten() {
                 if row.least < near {
                     row.leave_out(l, near, near_pairs);
                 }
