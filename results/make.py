@@ -385,8 +385,11 @@ def crowd(name):
 def growth(work):
     path = work.folder / "growth.csv"
     work.script("growth/growth.py", work.program, str(path), "--limit", "150")
-    work.keep("growth.csv", path)
-    work.keep("growth.svg", path.with_suffix(".svg"))
+    blocks = work.folder / "growth-blocks.csv"
+    work.script("growth/growth.py", work.program, str(blocks), "--limit", "1000", "--model", "cuboid", "--only", "magnets")
+    for kept in (path, blocks):
+        work.keep(kept.name, kept)
+        work.keep(f"{kept.stem}.svg", kept.with_suffix(".svg"))
 
 
 def scale(work):
@@ -431,7 +434,7 @@ PARTS = [
          f"{GROWN}; git, cc and libX11's headers for xgrow"),
     *(Part(f"assembly-{part}", "grown", 60, files, assembly(part), GROWN) for part, files in ASSEMBLY.items()),
     *(Part(f"table-{name}", "table", 15, [f"table/{name}.csv"], crowd(name)) for name in CROWDS),
-    Part("growth", "times", 12, ["growth.csv", "growth.svg"], growth),
+    Part("growth", "times", 30, ["growth.csv", "growth.svg", "growth-blocks.csv", "growth-blocks.svg"], growth),
     Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
     Part("bench", "times", 5, ["bench.csv"], bench),
 ]
@@ -567,8 +570,9 @@ def growth_table():
     """Seconds and, in brackets, as a multiple of the family's first."""
     sizes = [2**power for power in range(9)]
     rows = {}
-    for it in table("growth.csv"):
-        rows.setdefault((it["family"], it["asked"]), {})[int(it["size"])] = it["processor_s"]
+    for name, model in (("growth", ""), ("growth-blocks", ", blocks")):
+        for it in table(f"{name}.csv"):
+            rows.setdefault((it["family"] + model, it["asked"]), {})[int(it["size"])] = it["processor_s"]
 
     def cells(family, asked):
         found, first = rows[family, asked], next(iter(rows[family, "usual"].values()))

@@ -69,8 +69,9 @@
 //!   threads, on an idle or a busy machine, unless a time limit (`--certify-seconds`,
 //!   `--complete-seconds`) ends a proof.
 //! - For two tiles with 16,384 pairs of magnets and more (128 each), distant groups of point dipoles
-//!   are replaced by fewer dipoles, with a proved error. Blocks, discs, upright and shielded magnets
-//!   are not grouped; their cost is proportional to the number of pairs. From about 64 magnets per
+//!   are replaced by fewer dipoles, with a proved error, and the field of one tile's blocks is
+//!   tabulated, with an error measured in tests. Discs, upright and shielded magnets are neither
+//!   grouped nor tabulated; their cost is proportional to the number of pairs. From about 64 magnets per
 //!   face on, surveys take long in any case, up to hours for hundreds of magnets: there are many
 //!   states, and the motions that join them are followed to a fraction of the pitch.
 //! - Curves are polygons: chords deviate from arcs and sine waves by up to a hundredth of their

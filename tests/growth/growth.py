@@ -1,10 +1,12 @@
 """How the time of an analysis grows with a design: over magnets a face, corners, and faces with magnets.
 
-    tests/growth/growth.py target/release/tilebind results/growth.csv [--limit SECONDS]
+    tests/growth/growth.py target/release/tilebind results/growth.csv [--limit SECONDS] [--model MODEL]
+        [--only FAMILY]
 
 analyses designs of one family a row, without proofs (`analyse --certify-seconds 0
 --complete-seconds 0`), and writes the processor time of each (user and system, of all threads,
 pictures included), with what was asked for and found, and the picture of the table beside it.
+Magnets are dipoles unless `--model` is given.
 `--draw TABLE` draws an existing table; `--design FAMILY SIZE` prints a design.
 
 Beyond 16,384 pairs of magnets `analyse` asks for less: fewer milestones, far starts and kinds of
@@ -216,11 +218,17 @@ def draw(table):
 
 def main():
     arguments = sys.argv[1:]
-    limit = 3600.0
-    if "--limit" in arguments:
-        at = arguments.index("--limit")
-        limit = float(arguments[at + 1])
+
+    def option(name, default):
+        if name not in arguments:
+            return default
+        at = arguments.index(name)
+        value = arguments[at + 1]
         del arguments[at : at + 2]
+        return value
+
+    limit = float(option("--limit", "3600"))
+    model, only = option("--model", "dipole"), option("--only", "")
     if arguments[:1] == ["--draw"] and len(arguments) == 2:
         return draw(Path(arguments[1]))
     if arguments[:1] == ["--design"] and len(arguments) == 3:
@@ -233,13 +241,16 @@ def main():
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for family, (sizes, make, pairs) in FAMILIES.items():
+            if not family.startswith(only):
+                continue
             late = set()
             for size in sizes:
                 many = pairs(size) > MANY_PAIRS
                 for asked, options in [("less", []), ("usual", USUAL)] if many else [("usual", [])]:
                     found = [""] * (len(COLUMNS) - 4)
                     if asked not in late:
-                        found = measure(program, make(size), limit, options)
+                        text = make(size).replace('model = "dipole"', f'model = "{model}"')
+                        found = measure(program, text, limit, options)
                     if found[0] == "":
                         late.add(asked)
                     row = [family, size, pairs(size), asked, *found]

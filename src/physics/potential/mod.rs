@@ -21,12 +21,13 @@
 //! is `results/paper-tile/models.svg`), and with dipoles its table of states has the energy of
 //! blocks and the dipoles' error for each state.
 //!
-//! For two tiles with very many magnets (128 each), far groups of equal magnets are replaced by fewer
-//! of them at the nodes of an interpolation, with a proved error as a fraction of the pairs' `mu0 m1 m2
-//! / (4 pi r^3)`, r the distance of the groups: 1e-11 for point dipoles, 1e-9 for blocks. Of dipoles,
-//! the field of the fixed tile is also tabulated (`patches`) with the same error, so that the cost of
-//! an energy is proportional to the number of the moving tile's magnets, not to the number of pairs.
-//! Bounds over cells use groups of dipoles only; of blocks they are sums over all pairs.
+//! For two tiles with very many magnets (128 each), far groups of equal dipoles are replaced by fewer
+//! of them at the nodes of an interpolation, with a proved error of 1e-11 of the pairs' `mu0 m1 m2 / (4
+//! pi r^3)`, r the distance of the groups, and the field of the fixed tile is tabulated (`patches`) with
+//! the same error, so that the cost of an energy is proportional to the number of the moving tile's
+//! magnets, not to the number of pairs. Blocks have such a table, too, with an error measured at 2e-8 of
+//! the strongest pair. Bounds over cells use groups of dipoles only; of blocks they are sums over all
+//! pairs.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
 //! ([`bounds`]), which certify barriers; so has the energy with smooth shields. The nearest-face

@@ -8,16 +8,19 @@ use super::field::{Frame, TOGETHER};
 use super::tasks::frame_of_one;
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
-use crate::potential::patches::square::{NEAR, POWERS, Spread};
+use crate::potential::patches::dipoles::{POWERS, Spread};
+use crate::potential::patches::square::NEAR;
 use crate::potential::simd::lanes::{Arithmetic, Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r`, with r the pair's distance
-/// minus `reach`; infinite if an r is not positive.
+/// minus `reach`; infinite if an r is not more than `least`.
 pub struct DerivativeBound<'a, const TERMS: usize> {
     pub potential: &'a DipolePotential,
     pub q: &'a Configuration,
     pub reach: f64,
+    /// Not negative (m).
+    pub least: f64,
     /// The polynomial's coefficients, highest power first.
     pub terms: [f64; TERMS],
 }
@@ -39,7 +42,7 @@ impl<const TERMS: usize> Task for DerivativeBound<'_, TERMS> {
             self.block::<L, 1>(l, &frame, first, &mut sums);
             first += WIDTH;
         }
-        sums.finish(l)
+        sums.finish(l, self.least)
     }
 }
 
@@ -60,9 +63,9 @@ impl<F: Copy> Sums<F> {
     }
 
     #[inline(always)]
-    fn finish<L: Lanes<F = F>>(&self, l: L) -> f64 {
+    fn finish<L: Lanes<F = F>>(&self, l: L, least: f64) -> f64 {
         let bound = l.sum(self.bound);
-        if bound.is_finite() && l.least(self.nearest) > 0.0 {
+        if bound.is_finite() && l.least(self.nearest) > least {
             bound
         } else {
             f64::INFINITY
@@ -175,7 +178,7 @@ impl<const TERMS: usize> Task for TabulatedBound<'_, TERMS> {
                 }
             }
         }
-        far + sums.finish(l)
+        far + sums.finish(l, self.bound.least)
     }
 }
 

@@ -29,7 +29,7 @@ use super::groups::tree::{Grain, Group, Tree};
 use super::groups::walk::Sight;
 use super::lever::Lever;
 use super::motion;
-use super::patches::Patches;
+use super::patches::dipoles::Patches;
 use super::simd::Level;
 use super::simd::lanes::WIDTH;
 use crate::configuration::Configuration;
@@ -154,16 +154,20 @@ impl DipolePotential {
         }
     }
 
-    fn derivative_bound<const TERMS: usize>(
+    /// The sum over all pairs of `K / r^3` times a polynomial in `1 / r` ([`motion`]; its coefficients,
+    /// highest power first), with r the pair's distance minus `reach` (m), or more; infinite if an r is
+    /// not more than `least` (m).
+    pub(super) fn derivative_bound<const TERMS: usize>(
         &self,
         terms: [f64; TERMS],
         q: &Configuration,
-        reach: f64,
+        [reach, least]: [f64; 2],
     ) -> f64 {
         let bound = DerivativeBound {
             potential: self,
             q,
             reach,
+            least,
             terms,
         };
         let Some(many) = &self.many else {
@@ -233,12 +237,12 @@ impl Potential for DipolePotential {
 
     fn curvature_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let terms = motion::second_derivative(self.lever.turn());
-        self.derivative_bound(terms, q, reach)
+        self.derivative_bound(terms, q, [reach, 0.0])
     }
 
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
         let terms = motion::fourth_derivative(self.lever.turn());
-        self.derivative_bound(terms, q, reach)
+        self.derivative_bound(terms, q, [reach, 0.0])
     }
 
     fn is_dear(&self) -> bool {

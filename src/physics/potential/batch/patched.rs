@@ -10,8 +10,9 @@ use super::field::{Field, Shares, field_of_each};
 use super::tasks::{frame_of_one, summed};
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
-use crate::potential::patches::polynomial::{ORDER, Polynomial};
-use crate::potential::patches::square::{NEAR, Near, Patch};
+use crate::potential::patches::dipoles::{Near, ORDER, Patch};
+use crate::potential::patches::polynomial::Polynomial;
+use crate::potential::patches::square::NEAR;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
 /// Number of vectors in a row of coefficients.
@@ -103,7 +104,11 @@ fn of_near<L: Lanes, const SLOPE: bool>(
 /// Each column of coefficients is a polynomial in y, of which Horner's rule gives value, slope and
 /// half the bend.
 #[inline(always)]
-fn far<L: Lanes, const SLOPE: bool>(l: L, polynomial: &Polynomial, place: [f64; 2]) -> Field<L::F> {
+fn far<L: Lanes, const SLOPE: bool>(
+    l: L,
+    polynomial: &Polynomial<ORDER>,
+    place: [f64; 2],
+) -> Field<L::F> {
     let scale = polynomial.scale;
     let powers = powers((place[0] - polynomial.centre[0]) * scale);
     let v = l.splat((place[1] - polynomial.centre[1]) * scale);

@@ -89,7 +89,7 @@ impl<F: Copy> Pairs<F> {
 }
 
 /// The possible numbers of terms, ascending.
-pub const STEPS: [usize; 6] = [2, 3, 4, 5, 6, TERMS];
+pub const STEPS: [usize; 7] = [2, 3, 4, 5, 6, 8, TERMS];
 
 /// Adds the first `terms` terms of the series, one of [`STEPS`], to the sums.
 #[inline(always)]
@@ -106,6 +106,7 @@ pub fn add_terms<L: Lanes, const SLOPE: bool>(
         4 => add::<L, 4, SLOPE>(l, c, pairs, sums),
         5 => add::<L, 5, SLOPE>(l, c, pairs, sums),
         6 => add::<L, 6, SLOPE>(l, c, pairs, sums),
+        8 => add::<L, 8, SLOPE>(l, c, pairs, sums),
         _ => add::<L, TERMS, SLOPE>(l, c, pairs, sums),
     }
 }
@@ -225,7 +226,7 @@ pub struct Group {
     pub size: usize,
     /// The axis of all of them.
     pub axis: Complex<f64>,
-    /// Which of the tile's blocks they are; empty if they replace others.
+    /// Which of the tile's blocks they are.
     pub members: Vec<usize>,
     /// Their number, without the padding.
     pub count: usize,
@@ -260,11 +261,6 @@ impl Group {
     /// Adds a block, pointing along the axis (sign 1) or against it (-1).
     pub fn push(&mut self, member: usize, position: Vector2<f64>, moment: f64) {
         self.members.push(member);
-        self.push_stand(position, moment);
-    }
-
-    /// Adds a block that replaces others.
-    pub fn push_stand(&mut self, position: Vector2<f64>, moment: f64) {
         let place = Complex::new(position.x, position.y) * self.axis.conj();
         self.count += 1;
         self.x.push(place.re);

@@ -109,11 +109,6 @@ impl Limits {
         motion::bound(&motion::second_derivative(turn), self.dipole, distance)
     }
 
-    /// `mu0 m1 m2 / (4 pi)` (J m^3).
-    pub(super) fn dipole(&self) -> f64 {
-        self.dipole
-    }
-
     /// The same by the pole faces, given the smallest distance of each pair of them (m).
     pub fn curvature_of_faces(&self, turn: f64, distances: [f64; 4]) -> f64 {
         let [width, height] = self.face;

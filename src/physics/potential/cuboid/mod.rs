@@ -9,11 +9,12 @@
 //!   Gauss quadrature (`sheet`, `panel`, `quadrature`); the discontinuous parts of the gradient's
 //!   integrands are treated separately (`closed`).
 //! * Beyond about three block sizes, where closed forms lose digits, the multipole series is used
-//!   (`multipole`, `far`), with eight terms at first and down to two farther out. The bound of the
+//!   (`multipole`, `far`), with ten terms at first and down to two farther out. The bound of the
 //!   omitted terms decides: 1e-9 of `mu0 m1 m2 / (4 pi r^3)`, for the strongest pair if pairs are
 //!   summed.
 //!
-//! * Very many blocks far away are replaced by a few (`many`).
+//! * With many blocks the field of the fixed tile is tabulated (`table`), and bounds are those of
+//!   groups (`many`).
 //!
 //! # Accuracy
 //! Relative to the pair's energy, force, and force times 1 cm: 1e-6 from a gap of 1 mm up (2e-7 at
@@ -28,7 +29,6 @@
 //! logarithm, where edges of pole faces meet. Derivatives computed from differences of energies are
 //! only as accurate as the energies: at contact use steps of about 0.1 mm.
 
-mod bend;
 pub mod block;
 mod closed;
 #[cfg(test)]
@@ -41,19 +41,19 @@ pub(in crate::potential) mod multipole;
 mod panel;
 pub(crate) mod quadrature;
 pub(in crate::potential) mod sheet;
-
 mod sum;
+mod table;
 
-use std::borrow::Cow;
+use std::sync::Arc;
 
 use nalgebra::{Complex, Vector3};
 
-use super::Potential;
+use super::dipole::dipoles;
 use super::lever::Lever;
 use super::simd::Level;
+use super::{DipolePotential, Potential, motion};
 use crate::configuration::Configuration;
 use crate::tile::Magnet;
-use bend::FourthDerivative;
 pub use block::{Block, PairEnergy};
 use far::{Group, STEPS};
 use limits::Limits;
@@ -61,6 +61,7 @@ use many::{Many, Meeting};
 use multipole::{Multipole, TERMS};
 pub use panel::exact;
 use sum::{Each, Sum};
+use table::Field;
 
 /// The relative error of a pair (in units of `mu0 m1 m2 / (4 pi r^3)`) at which the far form
 /// replaces the pole faces and, in units of the strongest pair's value, at which its terms are
@@ -77,9 +78,10 @@ pub struct CuboidPotential {
     moving_groups: Vec<Group>,
     /// For each size of a fixed block and each size of a moving one.
     far: Vec<Vec<Far>>,
-    /// All pairs of a fixed and a moving group.
-    all: Vec<Meeting>,
     many: Option<Many>,
+    field: Option<Arc<Field>>,
+    /// The blocks as dipoles.
+    dipoles: DipolePotential,
     lever: Lever,
 }
 
@@ -207,6 +209,7 @@ impl CuboidPotential {
     /// The potential of two tiles' magnets, for the given instruction set.
     pub fn with_level(fixed: &[Magnet], moving: &[Magnet], level: Level) -> Self {
         let lever = Lever::of(moving.iter().flat_map(|magnet| magnet.corners()));
+        let dipoles = DipolePotential::with_level(&dipoles(fixed), &dipoles(moving), level);
         let ((fixed, fixed_sizes), (moving, moving_sizes)) = (by_size(fixed), by_size(moving));
         let (mut fixed_groups, moving_groups) = (groups(&fixed), groups(&moving));
         for group in &mut fixed_groups {
@@ -221,18 +224,8 @@ impl CuboidPotential {
                     .collect()
             })
             .collect();
+        let field = Field::new((&fixed, &fixed_groups), (&moving, &moving_sizes), level);
         let many = Many::new([&fixed, &moving], [&fixed_groups, &moving_groups], &far);
-        let lever = many.as_ref().map_or(lever, |many| {
-            let radii = moving.iter().map(|it| it.block.radius());
-            many.lever(radii.fold(0.0, f64::max))
-        });
-        let all = (0..moving_groups.len())
-            .flat_map(|j| (0..fixed_groups.len()).map(move |i| [i, j]))
-            .map(|groups| Meeting {
-                groups,
-                replaced: None,
-            })
-            .collect();
         Self {
             level,
             fixed,
@@ -240,8 +233,9 @@ impl CuboidPotential {
             fixed_groups,
             moving_groups,
             far,
-            all,
             many,
+            field: field.map(Arc::new),
+            dipoles,
             lever,
         }
     }
@@ -253,24 +247,6 @@ impl CuboidPotential {
     pub(in crate::potential) fn hand_over(&self) -> f64 {
         let all = self.far.iter().flatten();
         all.map(|far| far.near().sqrt()).fold(0.0, f64::max)
-    }
-
-    /// The groups of either tile whose pairs make up the energy in a configuration or, if a `reach` (m)
-    /// is given, its bounds within it; and these pairs.
-    fn meetings(
-        &self,
-        q: &Configuration,
-        reach: Option<f64>,
-    ) -> ([&[Group]; 2], Cow<'_, [Meeting]>) {
-        let Some(many) = &self.many else {
-            let all = [self.fixed_groups.as_slice(), &self.moving_groups];
-            return (all, Cow::Borrowed(&self.all));
-        };
-        let meetings = match reach {
-            None => many.meetings(q),
-            Some(reach) => many.meetings_within(q, reach),
-        };
-        (many.groups(), Cow::Owned(meetings))
     }
 
     /// The bounds of the derivatives of the fixed block `i` and the moving block `j`, for moments of
@@ -347,37 +323,30 @@ impl Potential for CuboidPotential {
             let pairs = all.flat_map(|second| self.fixed.iter().map(move |first| (first, second)));
             return pairs.fold(0.0, |sum, (first, second)| sum + of_pair(first, second));
         };
-        let [fixed, moving] = many.groups();
-        let of_groups = |meeting: Meeting| {
-            let [first, second] = [&fixed[meeting.groups[0]], &moving[meeting.groups[1]]];
-            if let Some((moments, distance)) = meeting.replaced {
-                let limits = &self.far[first.size][second.size].limits;
+        let of_groups = |it: Meeting| {
+            if let Some((moments, distance)) = it.whole {
+                let limits = &self.far[it.fixed.size][it.moving.size].limits;
                 return moments * limits.curvature(turn, distance);
             }
-            let blocks = second.members.iter().map(|j| &self.moving[*j]);
-            blocks
-                .flat_map(|b| {
-                    first
-                        .members
-                        .iter()
-                        .map(move |i| of_pair(&self.fixed[*i], b))
-                })
-                .sum()
+            let fixed = it.fixed.members.iter().map(|i| &self.fixed[*i]);
+            let with_all = |j: &usize| {
+                let pairs = fixed.clone().map(|first| of_pair(first, &self.moving[*j]));
+                pairs.sum::<f64>()
+            };
+            it.moving.members.iter().map(with_all).sum()
         };
-        let meetings = many.meetings_within(q, reach).into_iter();
-        meetings
-            .map(of_groups)
-            .fold(0.0, |sum: f64, share: f64| sum + share)
+        let meetings = many.meetings(q, reach).map(of_groups);
+        meetings.fold(0.0, |sum: f64, share: f64| sum + share)
     }
 
-    /// Known only if all blocks are farther apart than their own size: closer, the second
-    /// derivative's bound is tighter.
+    /// That of dipoles as far apart as the blocks' nearest points. Known only if all blocks are
+    /// farther apart than their own size: closer, the second derivative's bound is tighter.
     fn fourth_derivative_bound(&self, q: &Configuration, reach: f64) -> f64 {
-        self.level.run(FourthDerivative {
-            potential: self,
-            q,
-            reach,
-        })
+        let radii = self.far.iter().flatten().map(|far| far.radii);
+        let radii = radii.fold(0.0, f64::max);
+        let terms = motion::fourth_derivative(self.lever.turn());
+        self.dipoles
+            .derivative_bound(terms, q, [reach + radii, radii])
     }
 
     fn displacement(&self, step: Vector3<f64>) -> f64 {

@@ -36,7 +36,7 @@ use nalgebra::Complex;
 use crate::potential::simd::lanes::{Lanes, WIDTH};
 
 /// Terms of the series that are summed, the dipole included.
-pub const TERMS: usize = 8;
+pub const TERMS: usize = 10;
 
 /// Terms of the series that enter the bound of the error.
 const BOUND_TERMS: usize = 16;

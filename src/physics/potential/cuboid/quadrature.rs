@@ -63,8 +63,12 @@ pub static RULES: LazyLock<[Rule; ANALYTIC + 2]> = LazyLock::new(|| {
     ]
 });
 
+/// The indices of the Gauss-Legendre rules of 4 and of 6 nodes.
+pub const FOUR: usize = 0;
+pub const SIX: usize = 2;
+
 /// The indices of the Gauss-Legendre rules of 4, 8 and 16 nodes.
-pub const FOUR_EIGHT_SIXTEEN: [usize; 3] = [0, 4, 8];
+pub const FOUR_EIGHT_SIXTEEN: [usize; 3] = [FOUR, 4, 8];
 
 /// The Gauss-Legendre rule with `N` nodes over [-1, 1], exact for polynomials of degree `2 N - 1`.
 ///

@@ -1,12 +1,15 @@
 //! The sum over all pairs of blocks at one configuration.
 
+use std::ops::Range;
+
 use nalgebra::{Complex, Vector2, Vector3};
 
 use super::block::{BlockPair, PairEnergy};
 use super::far::{self, Group, Pairs, STEPS, Sums};
 use super::multipole::{Coefficients, TERMS};
 use super::panel::{self, Near};
-use super::{CuboidPotential, Far, Meeting};
+use super::table::{self, Field};
+use super::{CuboidPotential, Far};
 use crate::configuration::Configuration;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -24,37 +27,140 @@ impl<const SLOPE: bool> Task for Sum<'_, SLOPE> {
     fn run<L: Lanes>(self, l: L) -> Self::Output {
         let (sin, cos) = libm::sincos(self.q.theta);
         let rotation = Complex::new(cos, sin);
-        let ([all_fixed, all_moving], meetings) = self.potential.meetings(self.q, None);
+        match &self.potential.field {
+            Some(field) if field.holds(self.q) => self.in_field(l, field, rotation),
+            _ => self.over_groups(l, rotation),
+        }
+    }
+}
+
+impl<const SLOPE: bool> Sum<'_, SLOPE> {
+    /// The sum over all pairs of groups.
+    #[inline(always)]
+    fn over_groups<L: Lanes>(&self, l: L, rotation: Complex<f64>) -> (f64, Vector3<f64>) {
+        let [all_fixed, all_moving] = [&self.potential.fixed_groups, &self.potential.moving_groups];
         let mut strongest = Strongest::new(l);
-        for Meeting { groups, replaced } in meetings.iter() {
-            if replaced.is_none() {
-                let groups = [&all_fixed[groups[0]], &all_moving[groups[1]]];
-                self.find_strongest(l, groups, rotation, &mut strongest);
+        for moving in all_moving {
+            for fixed in all_fixed {
+                self.find_strongest(l, &Members::all([fixed, moving]), rotation, &mut strongest);
             }
         }
-        let strongest = strongest.value(l);
+        let context = (rotation, strongest.value(l));
         let mut sums = Sums::zero(l);
-        let mut known = Known::none();
-        let mut near = Vec::new();
+        let (mut known, mut near) = (Known::none(), Vec::new());
         let (mut energy, mut gradient) = (0.0, Vector3::zeros());
-        for Meeting { groups, .. } in meetings.iter() {
-            let groups = [&all_fixed[groups[0]], &all_moving[groups[1]]];
-            let context = (rotation, strongest);
-            self.add_far(l, groups, context, &mut known, &mut sums, &mut near);
-            if !near.is_empty() {
-                let sum = self.near(groups, rotation, &near);
-                energy += sum.0;
-                gradient += sum.1;
-                near.clear();
+        for moving in all_moving {
+            for fixed in all_fixed {
+                let members = Members::all([fixed, moving]);
+                self.add_far(l, &members, context, &mut known, &mut sums, &mut near);
+                if !near.is_empty() {
+                    let sum = self.near([fixed, moving], rotation, &near);
+                    energy += sum.0;
+                    gradient += sum.1;
+                    near.clear();
+                }
             }
         }
-        let scale = -MU0_OVER_4PI;
-        energy += scale * l.sum(sums.energy);
+        self.add_sums(l, &sums, -MU0_OVER_4PI, &mut energy, &mut gradient);
+        (energy, gradient)
+    }
+
+    /// The sum over the moving blocks, in the tabulated field of the fixed ones.
+    #[inline(always)]
+    fn in_field<L: Lanes>(
+        &self,
+        l: L,
+        field: &Field,
+        rotation: Complex<f64>,
+    ) -> (f64, Vector3<f64>) {
+        let [all_fixed, all_moving] = [&self.potential.fixed_groups, &self.potential.moving_groups];
+        let centre = Complex::new(self.q.x, self.q.y);
+        let (mut patches, mut strongest) = (Vec::new(), Strongest::new(l));
+        for moving in all_moving {
+            for j in 0..moving.count {
+                let arm = moving.axis * rotation * Complex::new(moving.x[j], moving.y[j]);
+                let patch = field.at(moving.size, centre + arm, all_fixed);
+                for (_, fixed) in &patch.near {
+                    let some = Members::one([fixed, moving], j);
+                    self.find_strongest(l, &some, rotation, &mut strongest);
+                }
+                patches.push((arm, patch));
+            }
+        }
+        let context = (rotation, strongest.value(l));
+        let (mut sums, mut far) = (Sums::zero(l), Sums::zero(l));
+        let (mut known, mut near) = (Known::none(), Vec::new());
+        let (mut energy, mut gradient) = (0.0, Vector3::zeros());
+        let mut lists = vec![Vec::new(); all_fixed.len()];
+        let mut patches = patches.into_iter();
+        for moving in all_moving {
+            let faces = field.faces(l, moving.size, moving.axis * rotation);
+            for (j, (arm, patch)) in (0..moving.count).zip(&mut patches) {
+                let block = (centre + arm, arm, moving.moment[j]);
+                table::add::<L, SLOPE>(l, patch, &faces, block, &mut far);
+                for (number, fixed) in &patch.near {
+                    let some = Members::one([fixed, moving], j);
+                    self.add_far(l, &some, context, &mut known, &mut sums, &mut near);
+                    let near = near
+                        .drain(..)
+                        .map(|[i, j]: [usize; 2]| [fixed.members[i], j]);
+                    lists[*number].extend(near);
+                }
+            }
+            for (fixed, list) in all_fixed.iter().zip(&mut lists) {
+                if !list.is_empty() {
+                    let sum = self.near([fixed, moving], rotation, list);
+                    energy += sum.0;
+                    gradient += sum.1;
+                    list.clear();
+                }
+            }
+        }
+        self.add_sums(l, &far, 1.0, &mut energy, &mut gradient);
+        self.add_sums(l, &sums, -MU0_OVER_4PI, &mut energy, &mut gradient);
+        (energy, gradient)
+    }
+
+    /// Adds sums in units of `scale`.
+    #[inline(always)]
+    fn add_sums<L: Lanes>(
+        &self,
+        l: L,
+        sums: &Sums<L::F>,
+        scale: f64,
+        energy: &mut f64,
+        gradient: &mut Vector3<f64>,
+    ) {
+        *energy += scale * l.sum(sums.energy);
         if SLOPE {
             let [x, y, turn] = sums.gradient;
-            gradient += Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
+            *gradient += Vector3::new(l.sum(x), l.sum(y), l.sum(turn)) * scale;
         }
-        (energy, gradient)
+    }
+}
+
+/// A group of fixed blocks, and some blocks of a group of moving ones.
+struct Members<'a> {
+    fixed: &'a Group,
+    moving: &'a Group,
+    range: Range<usize>,
+}
+
+impl<'a> Members<'a> {
+    fn all([fixed, moving]: [&'a Group; 2]) -> Self {
+        Self {
+            fixed,
+            moving,
+            range: 0..moving.count,
+        }
+    }
+
+    fn one([fixed, moving]: [&'a Group; 2], j: usize) -> Self {
+        Self {
+            fixed,
+            moving,
+            range: j..j + 1,
+        }
     }
 }
 
@@ -142,12 +248,16 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     fn find_strongest<L: Lanes>(
         &self,
         l: L,
-        [fixed, moving]: [&Group; 2],
+        Members {
+            fixed,
+            moving,
+            range,
+        }: &Members,
         rotation: Complex<f64>,
         strongest: &mut Strongest<L::F>,
     ) {
         let (_, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
-        for j in 0..moving.count {
+        for j in range.clone() {
             let place = centre + turn * Complex::new(moving.x[j], moving.y[j]);
             let (x, y) = (l.splat(place.re), l.splat(place.im));
             let weakness = l.splat(moving.weakness[j]);
@@ -167,7 +277,11 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     fn add_far<L: Lanes>(
         &self,
         l: L,
-        [fixed, moving]: [&Group; 2],
+        Members {
+            fixed,
+            moving,
+            range,
+        }: &Members,
         (rotation, strongest): (Complex<f64>, f64),
         known: &mut Known,
         total: &mut Sums<L::F>,
@@ -175,13 +289,13 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
     ) {
         let (far, turn, centre) = self.potential.facing([fixed, moving], self.q, rotation);
         let steps = far.steps(strongest / (fixed.strongest * moving.strongest));
-        // Pole faces never reach farther than for a single pair: blocks that replace others have none.
+        // Pole faces never reach farther than for a single pair.
         let near = steps[STEPS.len() - 1].min(far.near());
         let mut sums = Sums::zero(l);
         known.look_at([fixed, moving]);
         let mut rows = [None; AHEAD];
-        let (mut j, mut from) = (0, 0);
-        let mut left = moving.count * (fixed.x.len() / WIDTH);
+        let (mut j, mut from) = (range.start, 0);
+        let mut left = range.len() * (fixed.x.len() / WIDTH);
         while left > 0 {
             let count = left.min(AHEAD);
             left -= count;

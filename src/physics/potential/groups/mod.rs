@@ -18,8 +18,7 @@
 //! a table of the fixed tile's field ([`super::patches`]) for the moving tile's groups within its
 //! range.
 //!
-//! Blocks of one size and one axis are replaced by such blocks in the same way
-//! ([`CuboidPotential`](super::CuboidPotential)).
+//! Blocks are grouped in the same way for their bounds ([`CuboidPotential`](super::CuboidPotential)).
 //!
 //! The method is that of Fong and Darve, *The black-box fast multipole method* (Journal of
 //! Computational Physics 228 (2009), 8712), without translations between levels: a pair of groups

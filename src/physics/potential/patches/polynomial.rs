@@ -1,6 +1,6 @@
 //! The potential of dipoles as a polynomial in a square that has none of them nearby.
 //!
-//! phi is interpolated at the n by n products of Chebyshev's nodes, n = [`ORDER`], in a square of
+//! phi is interpolated at the n by n products of Chebyshev's nodes, n = [`ORDER`](super::dipoles::ORDER), in a square of
 //! half side h. With I and J the interpolations along x and y, `1 - I J = (1 - I) + (1 - J) - (1 -
 //! I) (1 - J)`. The n-th derivative of `1 / r` in any n directions is at most `n! / r^(n + 1)`, so
 //! those of the potential of a dipole of moment m are at most `(n + 1)! m / D^(n + 2)` where it is
@@ -14,7 +14,7 @@
 //! 2 (n + 1) n^2 / q (q/2)^n + 2 (n + 1) (n + 2) (q/2)^n + 4 n^2 / q (q/2)^(2n) (2n + 1)! / n!^2
 //! ```
 //!
-//! which decreases with D: at [`FARTHEST`] it is 1.7e-12, and for the energy of a pair at a
+//! which decreases with D: at [`FARTHEST`](super::dipoles::FARTHEST) it is 1.7e-12, and for the energy of a pair at a
 //! distance r less than 1e-11 of `mu0 m1 m2 / (4 pi r^3)`.
 //!
 //! The polynomial is stored by powers of `x / h` and `y / h`. For dipoles at `D >= h / FARTHEST`
@@ -23,60 +23,82 @@
 //! rounding.
 
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
 use nalgebra::{SMatrix, Vector2};
 
 use crate::matrix::product;
 use crate::potential::dipole::Dipole;
 use crate::potential::groups::interpolation::nodes;
-use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 
-/// Number of terms of the polynomial along either side.
-pub const ORDER: usize = 16;
-
-/// The largest ratio of a square's half side to the distance of a dipole at which the dipole's
-/// potential is part of the polynomial.
-pub const FARTHEST: f64 = 3.0 / 16.0;
-
-type Table = SMatrix<f64, ORDER, ORDER>;
-
-/// A polynomial in a square.
+/// A polynomial of `N` terms along either side, in a square.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
-pub struct Polynomial {
+pub struct Polynomial<const N: usize> {
     /// The coefficient of `(x / h)^i (y / h)^j` at place i of row j.
-    pub rows: [[f64; ORDER]; ORDER],
+    pub rows: [[f64; N]; N],
     /// The centre of the square (m).
     pub centre: [f64; 2],
     /// `1 / h` (1/m).
     pub scale: f64,
 }
 
-impl Polynomial {
-    /// The polynomial of the potential of dipoles (moments in sqrt(J m^3)) in the square of the
-    /// given centre and half side (m).
-    pub fn of(far: &[Dipole], centre: Vector2<f64>, half: f64, level: Level) -> Self {
-        let nodes = nodes(ORDER);
-        let xs = std::array::from_fn(|i| centre.x + half * nodes[i]);
-        let mut values = Table::zeros();
-        for (j, node) in nodes.iter().enumerate() {
-            let mut row = [0.0; ORDER];
-            level.run(Sampled {
-                far,
-                xs: &xs,
-                y: centre.y + half * node,
-                out: &mut row,
-            });
-            for (i, value) in row.into_iter().enumerate() {
-                values[(i, j)] = value;
+/// The way from values at Chebyshev's nodes to a polynomial.
+#[derive(Clone, Debug)]
+pub struct Interpolation<const N: usize> {
+    nodes: [f64; N],
+    /// From values at the nodes to coefficients of Chebyshev's polynomials:
+    /// `(2 - [k = 0]) / n cos(k (2 i + 1) pi / (2 n))`.
+    to_chebyshev: SMatrix<f64, N, N>,
+    /// From these to coefficients of powers, by `T_(k+1) = 2 x T_k - T_(k-1)`; whole numbers.
+    to_powers: SMatrix<f64, N, N>,
+}
+
+impl<const N: usize> Interpolation<N> {
+    pub fn new() -> Self {
+        let to_chebyshev = SMatrix::from_fn(|k, i| {
+            let weight = if k == 0 { 1.0 } else { 2.0 } / N as f64;
+            weight * libm::cos(PI * (k * (2 * i + 1)) as f64 / (2 * N) as f64)
+        });
+        let mut to_powers = SMatrix::<f64, N, N>::zeros();
+        to_powers[(0, 0)] = 1.0;
+        to_powers[(1, 1)] = 1.0;
+        for k in 2..N {
+            for i in 0..N {
+                let raised = if i > 0 {
+                    to_powers[(i - 1, k - 1)]
+                } else {
+                    0.0
+                };
+                to_powers[(i, k)] = 2.0 * raised - to_powers[(i, k - 2)];
             }
         }
-        let both_ways =
-            |change: &Table, table| product(&product(change, table), &change.transpose());
-        let coefficients = both_ways(&TO_POWERS, &both_ways(&TO_CHEBYSHEV, &values));
+        let nodes = nodes(N);
         Self {
+            nodes: std::array::from_fn(|i| nodes[i]),
+            to_chebyshev,
+            to_powers,
+        }
+    }
+
+    /// The places (m) at which values are needed for a square of the given centre and half side
+    /// (m): their x and their y, row by row.
+    pub fn places(&self, centre: Vector2<f64>, half: f64) -> [Vec<f64>; 2] {
+        let [x, y] = [centre.x, centre.y].map(|middle| self.nodes.map(|node| middle + half * node));
+        let all = |place: fn(&[f64; N], &[f64; N], usize) -> f64| {
+            (0..N * N).map(|k| place(&x, &y, k)).collect()
+        };
+        [all(|x, _, k| x[k % N]), all(|_, y, k| y[k / N])]
+    }
+
+    /// The polynomial with the values at these places.
+    pub fn polynomial(&self, centre: Vector2<f64>, half: f64, values: &[f64]) -> Polynomial<N> {
+        let values = SMatrix::from_column_slice(values);
+        let both_ways = |change: &SMatrix<f64, N, N>, table| {
+            product(&product(change, table), &change.transpose())
+        };
+        let coefficients = both_ways(&self.to_powers, &both_ways(&self.to_chebyshev, &values));
+        Polynomial {
             rows: std::array::from_fn(|j| std::array::from_fn(|i| coefficients[(i, j)])),
             centre: centre.into(),
             scale: 1.0 / half,
@@ -84,65 +106,47 @@ impl Polynomial {
     }
 }
 
-/// From values at the nodes to coefficients of Chebyshev's polynomials:
-/// `(2 - [k = 0]) / n cos(k (2 i + 1) pi / (2 n))`.
-static TO_CHEBYSHEV: LazyLock<Table> = LazyLock::new(|| {
-    Table::from_fn(|k, i| {
-        let weight = if k == 0 { 1.0 } else { 2.0 } / ORDER as f64;
-        weight * libm::cos(PI * (k * (2 * i + 1)) as f64 / (2 * ORDER) as f64)
-    })
-});
-
-/// From these to coefficients of powers, by `T_(k+1) = 2 x T_k - T_(k-1)`; whole numbers.
-static TO_POWERS: LazyLock<Table> = LazyLock::new(|| {
-    let mut table = Table::zeros();
-    table[(0, 0)] = 1.0;
-    table[(1, 1)] = 1.0;
-    for k in 2..ORDER {
-        for i in 0..ORDER {
-            let raised = if i > 0 { table[(i - 1, k - 1)] } else { 0.0 };
-            table[(i, k)] = 2.0 * raised - table[(i, k - 2)];
-        }
-    }
-    table
-});
-
-/// The potential of dipoles (moments in sqrt(J m^3)) at places of a row, with f64 accuracy.
-struct Sampled<'a> {
-    far: &'a [Dipole],
-    /// The places' x, and the y of all (m).
-    xs: &'a [f64; ORDER],
-    y: f64,
-    out: &'a mut [f64; ORDER],
+/// The potential of dipoles (moments in sqrt(J m^3)) at places (m), whose number is a multiple of
+/// [`WIDTH`], with f64 accuracy.
+pub struct Sampled<'a> {
+    pub far: &'a [Dipole],
+    pub places: &'a [Vec<f64>; 2],
 }
 
 impl Task for Sampled<'_> {
-    type Output = ();
+    type Output = Vec<f64>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, l: L) {
-        for first in (0..ORDER).step_by(WIDTH) {
-            let x = l.load(&self.xs[first..]);
+    fn run<L: Lanes>(self, l: L) -> Vec<f64> {
+        let mut values = vec![0.0; self.places[0].len()];
+        for first in (0..values.len()).step_by(WIDTH) {
+            let [x, y] = [
+                l.load(&self.places[0][first..]),
+                l.load(&self.places[1][first..]),
+            ];
             let mut sum = l.splat(0.0);
             for source in self.far {
                 let dx = l.sub(x, l.splat(source.position.x));
-                let dy = l.splat(self.y - source.position.y);
+                let dy = l.sub(y, l.splat(source.position.y));
                 let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
                 let along = l.mul(l.splat(source.moment.y), dy);
                 let along = l.mul_add(l.splat(source.moment.x), dx, along);
                 sum = l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))));
             }
-            l.store(sum, &mut self.out[first..]);
+            l.store(sum, &mut values[first..]);
         }
+        values
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
+    use super::super::dipoles::{FARTHEST, ORDER};
     use super::*;
+    use crate::potential::simd::Level;
 
     /// The slope of a polynomial along either side.
-    fn slope(polynomial: &Polynomial, place: Vector2<f64>) -> Vector2<f64> {
+    fn slope<const N: usize>(polynomial: &Polynomial<N>, place: Vector2<f64>) -> Vector2<f64> {
         let at = (place - Vector2::from(polynomial.centre)) * polynomial.scale;
         let mut slope = Vector2::zeros();
         for (j, row) in polynomial.rows.iter().enumerate() {
@@ -170,52 +174,51 @@ mod tests {
         2.0 * (n + 1.0) * (n * n / q + n + 2.0) * share + both
     }
 
-    /// Dipoles beside a square, before its corner and at its diagonal, at the smallest allowed
-    /// distance and closer: inside the square the error is within the bound, and somewhere close to
-    /// it.
-    #[test]
-    fn no_more_is_lost_than_is_said() {
-        let half = 0.3;
-        for q in [FARTHEST, 0.3, 0.6] {
-            let distance = half / q;
-            let mut most = 0f64;
-            for (k, level) in
-                (0..24).flat_map(|k| Level::available().into_iter().map(move |l| (k, l)))
-            {
-                let (turn, corner) = (f64::from(k) * 0.26, f64::from(k % 3) / 2.0);
-                let way = Vector2::new(distance, 0.0);
-                let diagonal = Vector2::new(1.0, 1.0) * (distance / 2f64.sqrt());
-                let position = if corner < 1.0 {
-                    way + Vector2::new(half, corner * 2.0 * half)
-                } else {
-                    diagonal + Vector2::new(half, half)
-                };
-                let moment = Vector2::new(libm::cos(turn), libm::sin(turn));
-                let centre = Vector2::new(0.7, -0.2);
-                let dipole = Dipole {
-                    position: position + centre,
-                    moment,
-                };
-                let polynomial = Polynomial::of(&[dipole], centre, half, level);
-                for i in 0..=16 {
-                    for j in 0..=16 {
-                        let at = [i, j].map(|k| half * (f64::from(k) / 8.0 - 1.0));
-                        let place = centre + Vector2::from(at);
-                        let d = place - dipole.position;
-                        let r = d.norm();
-                        let exact = (moment - d * (3.0 * moment.dot(&d) / (r * r))) / r.powi(3);
-                        let off = (slope(&polynomial, place) - exact) * distance.powi(3);
-                        let rounded = 2e-13 / q;
-                        assert!(
-                            off.amax() <= lost(q) + rounded,
-                            "{q}: {} {}",
-                            off.amax(),
-                            lost(q)
-                        );
-                        most = most.max(off.amax());
-                    }
+    /// The largest error of a slope in a square of half the side q D, as a fraction of `m / D^3`, with
+    /// dipoles at the distance D beside the square, before its corner and at its diagonal.
+    pub fn largest_error<const N: usize>(q: f64) -> f64 {
+        let (half, centre) = (0.3, Vector2::new(0.7, -0.2));
+        let distance = half / q;
+        let interpolation = Interpolation::<N>::new();
+        let mut most = 0f64;
+        for (k, level) in (0..24).flat_map(|k| Level::available().into_iter().map(move |l| (k, l)))
+        {
+            let (turn, corner) = (f64::from(k) * 0.26, f64::from(k % 3) / 2.0);
+            let position = if corner < 1.0 {
+                Vector2::new(distance + half, corner * 2.0 * half)
+            } else {
+                Vector2::new(1.0, 1.0) * (half + distance / 2f64.sqrt())
+            };
+            let moment = Vector2::new(libm::cos(turn), libm::sin(turn));
+            let dipole = Dipole {
+                position: position + centre,
+                moment,
+            };
+            let (far, places) = (&[dipole], &interpolation.places(centre, half));
+            let values = level.run(Sampled { far, places });
+            let polynomial = interpolation.polynomial(centre, half, &values);
+            for i in 0..=16 {
+                for j in 0..=16 {
+                    let at = [i, j].map(|k| half * (f64::from(k) / 8.0 - 1.0));
+                    let place = centre + Vector2::from(at);
+                    let d = place - dipole.position;
+                    let r = d.norm();
+                    let exact = (moment - d * (3.0 * moment.dot(&d) / (r * r))) / r.powi(3);
+                    let off = (slope(&polynomial, place) - exact) * distance.powi(3);
+                    most = most.max(off.amax());
                 }
             }
+        }
+        most
+    }
+
+    /// At the smallest allowed distance and closer the error is within the bound, and somewhere close
+    /// to it.
+    #[test]
+    fn no_more_is_lost_than_is_said() {
+        for q in [FARTHEST, 0.3, 0.6] {
+            let (most, rounded) = (largest_error::<ORDER>(q), 2e-13 / q);
+            assert!(most <= lost(q) + rounded, "{q}: {most} {}", lost(q));
             assert!(
                 q < 0.2 || most > 1e-3 * lost(q),
                 "{q}: far too wide, {most} {}",
