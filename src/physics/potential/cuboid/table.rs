@@ -31,8 +31,8 @@ use super::sheet::potential;
 use crate::configuration::Configuration;
 use crate::potential::groups::are_many;
 use crate::potential::patches::polynomial::{Interpolation, Polynomial};
-use crate::potential::patches::square::distance;
-use crate::potential::patches::table::{Rule, Source, Table};
+use crate::potential::patches::square::{Rule, Source, distance};
+use crate::potential::patches::table::Table;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 use crate::units::MU0_OVER_4PI;
@@ -156,7 +156,7 @@ impl Field {
         let (square, kept) = of_size.table.at([place.re, place.im]);
         kept.get_or_init(|| {
             let (far, wide) = (
-                square.far(&of_size.table),
+                square.far(&of_size.table.sources),
                 of_size.table.rule.wide(square.half),
             );
             let places = of_size.interpolation.places(square.centre, wide);

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use nalgebra::Vector2;
 
 use super::polynomial::{Interpolation, Polynomial, Sampled};
-use super::square::{NEAR, Square, distance};
-use super::table::{Rule, Source, Table};
+use super::square::{NEAR, Rule, Source, Square, distance};
+use super::table::Table;
 use crate::potential::dipole::{Dipole, fill};
 use crate::potential::simd::Level;
 
@@ -110,7 +110,7 @@ impl Patches {
     pub fn at(&self, place: [f64; 2]) -> &Patch {
         let (square, kept) = self.table.at(place);
         kept.patch.get_or_init(|| {
-            let far = square.far(&self.table);
+            let far = square.far(&self.table.sources);
             let wide = self.table.rule.wide(square.half);
             let places = self.interpolation.places(square.centre, wide);
             let (far, places) = (&far, &places);
@@ -130,7 +130,7 @@ impl Patches {
     }
 
     fn spread(&self, square: &Square) -> Spread {
-        let far = square.far(&self.table);
+        let far = square.far(&self.table.sources);
         let half = square.half / CUTS as f64;
         let middle = |k: usize| (2 * k + 1) as f64 * half - square.half;
         let sums = |i: usize, j: usize| {

@@ -1,8 +1,8 @@
 //! A square of the plane, and the sources near it.
 
-use nalgebra::Vector2;
+use std::fmt::Debug;
 
-use super::table::{Rule, Source, Table};
+use nalgebra::Vector2;
 
 /// Largest number of sources near a square: as many as the widest vectors hold.
 pub const NEAR: usize = 8;
@@ -11,6 +11,30 @@ pub const NEAR: usize = 8;
 /// polynomial's second derivative amplifies the rounding of the values by `n^4 / 3`, but here only
 /// by about `5 n^2`.
 const WIDER: f64 = 1.125;
+
+/// What makes a field.
+pub trait Source: Clone + Debug {
+    /// What is kept of the field in a square, empty until it is used.
+    type Kept: Clone + Debug + Default;
+
+    /// How far it reaches from the reference point (m).
+    fn reach(&self) -> f64;
+
+    /// A lower bound of its distance from a square with a centre and half a side (m).
+    fn distance(&self, centre: Vector2<f64>, half: f64) -> f64;
+}
+
+/// Which sources count as near a square.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// The field is needed this far beyond the square (m).
+    pub more: f64,
+    /// Sources are near that are closer to the square in which the field is needed than half its
+    /// side divided by this.
+    pub farthest: f64,
+    /// Squares whose half side (m) is smaller are not halved.
+    pub smallest: f64,
+}
 
 /// A square and the sources near it.
 #[derive(Clone, Debug)]
@@ -40,15 +64,12 @@ impl Square {
     pub fn around<S: Source>(
         centre: Vector2<f64>,
         half: f64,
-        table: &Table<S>,
+        (sources, rule): (&[S], &Rule),
         candidates: &[u32],
     ) -> Self {
-        let wide = table.rule.wide(half);
-        let nearest = table.rule.nearest(half) * (1.0 + 1e-12);
-        let is_near = |number: &&u32| {
-            let source = &table.sources[**number as usize];
-            source.distance(centre, wide) < nearest
-        };
+        let wide = rule.wide(half);
+        let nearest = rule.nearest(half) * (1.0 + 1e-12);
+        let is_near = |number: &&u32| sources[**number as usize].distance(centre, wide) < nearest;
         Self {
             centre,
             half,
@@ -57,17 +78,17 @@ impl Square {
     }
 
     /// One of the four quarters. Sources not near the whole are not near the quarter.
-    pub fn quarter<S: Source>(&self, at: [usize; 2], table: &Table<S>) -> Self {
+    pub fn quarter<S: Source>(&self, at: [usize; 2], field: (&[S], &Rule)) -> Self {
         let half = self.half / 2.0;
         let offset = at.map(|k| if k == 0 { -half } else { half });
         let centre = self.centre + Vector2::from(offset);
-        Self::around(centre, half, table, &self.near)
+        Self::around(centre, half, field, &self.near)
     }
 
     /// The sources that are not near.
-    pub fn far<S: Source>(&self, table: &Table<S>) -> Vec<S> {
+    pub fn far<S: Source>(&self, sources: &[S]) -> Vec<S> {
         let mut near = self.near.iter().copied().peekable();
-        let numbered = (0..).zip(&table.sources);
+        let numbered = (0..).zip(sources);
         let far = numbered
             .filter_map(|(number, source)| near.next_if_eq(&number).is_none().then_some(source));
         far.cloned().collect()

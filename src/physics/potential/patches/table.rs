@@ -1,11 +1,8 @@
 //! The plane around a tile, cut into squares that are finer near its magnets.
 
-use std::fmt::Debug;
 use std::sync::OnceLock;
 
-use nalgebra::Vector2;
-
-use super::square::{NEAR, Square};
+use super::square::{NEAR, Rule, Source, Square};
 
 /// The table reaches this many times as far from the reference point as the magnets.
 const REACH: f64 = 8.0;
@@ -16,30 +13,6 @@ const CELLS: usize = 8;
 /// Cells are not halved more often than this: to about a 2000th of the farthest magnet's distance.
 /// At this level any number of magnets may be near.
 const DEEPEST: usize = 11;
-
-/// What makes a field.
-pub trait Source: Clone + Debug {
-    /// What is kept of the field in a square, empty until it is used.
-    type Kept: Clone + Debug + Default;
-
-    /// How far it reaches from the reference point (m).
-    fn reach(&self) -> f64;
-
-    /// A lower bound of its distance from a square with a centre and half a side (m).
-    fn distance(&self, centre: Vector2<f64>, half: f64) -> f64;
-}
-
-/// Which sources count as near a square.
-#[derive(Clone, Copy, Debug)]
-pub struct Rule {
-    /// The field is needed this far beyond the square (m).
-    pub more: f64,
-    /// Sources are near that are closer to the square in which the field is needed than half its
-    /// side divided by this.
-    pub farthest: f64,
-    /// Squares whose half side (m) is smaller are not halved.
-    pub smallest: f64,
-}
 
 /// A table of the field of some sources.
 #[derive(Clone, Debug)]
@@ -114,7 +87,7 @@ impl<S: Source> Table<S> {
         let centre = [x, y].map(|k| (2 * k + 1) as f64 * half - self.half);
         let all: Vec<u32> = (0..self.sources.len() as u32).collect();
         let (mut squares, mut levels) = (Vec::new(), Vec::new());
-        let whole = Square::around(centre.into(), half, self, &all);
+        let whole = Square::around(centre.into(), half, (&self.sources, &self.rule), &all);
         let mut open = vec![(whole, [0; 2])];
         let mut settled: Vec<(u32, [usize; 2], usize)> = Vec::new();
         for level in 0..=DEEPEST {
@@ -134,7 +107,7 @@ impl<S: Source> Table<S> {
                     settled.push((number, [x, y], level));
                 } else {
                     finer.extend([(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| {
-                        let quarter = square.quarter([i, j], self);
+                        let quarter = square.quarter([i, j], (&self.sources, &self.rule));
                         (quarter, [2 * x + i, 2 * y + j])
                     }));
                 }
