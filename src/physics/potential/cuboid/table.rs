@@ -30,11 +30,11 @@ use super::quadrature::{FOUR, RULES, SIX};
 use super::sheet::potential;
 use crate::configuration::Configuration;
 use crate::potential::groups::are_many;
-use crate::potential::patches::polynomial::{Interpolation, Polynomial};
+use crate::potential::patches::polynomial::{Charge, Interpolation, Polynomial, Sampled};
 use crate::potential::patches::square::{Rule, Source, distance};
 use crate::potential::patches::table::Table;
 use crate::potential::simd::Level;
-use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
+use crate::potential::simd::lanes::{Lanes, WIDTH};
 use crate::units::MU0_OVER_4PI;
 
 /// Number of terms of the polynomials along either side.
@@ -161,15 +161,13 @@ impl Field {
             );
             let places = of_size.interpolation.places(square.centre, wide);
             let thickness = of_size.size[2];
-            let is_apart = |it: &&Fixed| {
-                let reach = (it.block.size[2] + thickness).max(it.block.size[1]) / 2.0;
-                it.distance(square.centre, wide) > APART * reach
-            };
-            let (apart, close): (Vec<&Fixed>, Vec<&Fixed>) = far.iter().partition(is_apart);
+            let seen = far.iter().map(|it| {
+                let distance = it.distance(square.centre, wide);
+                Seen::new(&it.block, thickness, distance)
+            });
+            let (apart, close): (Vec<Seen>, Vec<Seen>) = seen.partition(|it| it.series.is_some());
             let values = self.level.run(Sampled {
-                near: &close,
-                far: &apart,
-                thickness,
+                far: &[close, apart].concat(),
                 places: &places,
             });
             let near = square.near.iter();
@@ -275,42 +273,45 @@ pub fn add<L: Lanes, const SLOPE: bool>(
     }
 }
 
-/// The potential (J/A) of blocks, integrated over a thickness (m), at places (m), whose number is a
-/// multiple of [`WIDTH`].
-struct Sampled<'a> {
-    /// The blocks whose pole faces are integrated in closed form, and those so far from all places
-    /// that charges stand for them.
-    near: &'a [&'a Fixed],
-    far: &'a [&'a Fixed],
+/// A block whose potential (J/A) is integrated over a thickness (m).
+#[derive(Clone)]
+struct Seen<'a> {
+    block: &'a Block,
     thickness: f64,
-    places: &'a [Vec<f64>; 2],
+    /// The coefficients in the heights, if the block is so far away that charges stand for it;
+    /// otherwise its pole faces are integrated in closed form.
+    series: Option<[f64; HEIGHTS]>,
 }
 
-impl Task for Sampled<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, l: L) -> Vec<f64> {
-        let mut values = vec![0.0; self.places[0].len()];
-        for first in (0..values.len()).step_by(WIDTH) {
-            let [x, y] = [&self.places[0], &self.places[1]];
-            let place = [l.load(&x[first..]), l.load(&y[first..])];
-            let mut sum = l.splat(0.0);
-            for Fixed { block, .. } in self.near {
-                sum = of_faces(l, block, self.thickness, place, sum);
-            }
-            for Fixed { block, .. } in self.far {
-                sum = of_charges(l, block, self.thickness, place, sum);
-            }
-            l.store(sum, &mut values[first..]);
+impl<'a> Seen<'a> {
+    /// From at least a distance (m).
+    fn new(block: &'a Block, thickness: f64, distance: f64) -> Self {
+        let [_, width, own] = block.size;
+        let reach = (own + thickness).max(width) / 2.0;
+        Self {
+            block,
+            thickness,
+            series: (distance > APART * reach).then(|| heights(own, thickness)),
         }
-        values
+    }
+}
+
+impl Charge for Seen<'_> {
+    #[inline(always)]
+    fn add<L: Lanes>(&self, l: L, place: [L::F; 2], sum: L::F) -> L::F {
+        match &self.series {
+            Some(series) => of_charges(l, self, series, place, sum),
+            None => of_faces(l, self, place, sum),
+        }
     }
 }
 
 /// Adds the potential of a block.
 #[inline(always)]
-fn of_faces<L: Lanes>(l: L, block: &Block, thickness: f64, place: [L::F; 2], sum: L::F) -> L::F {
+fn of_faces<L: Lanes>(l: L, seen: &Seen, place: [L::F; 2], sum: L::F) -> L::F {
+    let Seen {
+        block, thickness, ..
+    } = seen;
     let [length, width, own] = block.size;
     let heights = [(own + thickness) / 2.0, (own - thickness).abs() / 2.0];
     // Phi is twice what `potential` gives.
@@ -354,13 +355,14 @@ const APART: f64 = 6.0;
 #[inline(always)]
 fn of_charges<L: Lanes>(
     l: L,
-    block: &Block,
-    thickness: f64,
+    Seen {
+        block, thickness, ..
+    }: &Seen,
+    series: &[f64; HEIGHTS],
     place: [L::F; 2],
     mut sum: L::F,
 ) -> L::F {
-    let [length, width, own] = block.size;
-    let series = heights(own, thickness);
+    let [length, width, _] = block.size;
     let rule = &RULES[SIX];
     let [along, across] = relative(l, block, place);
     let charge = MU0_OVER_4PI * block.moment * thickness / length;
@@ -471,23 +473,14 @@ mod tests {
                 };
                 [0, 1].map(|i| (0..WIDTH).map(|k| place(k)[i]).collect::<Vec<_>>())
             };
-            let fixed = Fixed {
-                block,
-                group: 0,
-                at: 0,
-            };
-            let sampled = |way: f64, near: &[&Fixed], far: &[&Fixed]| {
+            let sampled = |way: f64, distance: f64| {
+                let far = &[Seen::new(&block, thickness, distance)];
                 let places = &from(way);
-                Level::best().run(Sampled {
-                    near,
-                    far,
-                    thickness,
-                    places,
-                })
+                Level::best().run(Sampled { far, places })
             };
             // The closed forms lose digits like the fourth power of the distance.
             for (way, lost) in [(1.0, 1e-10), (2.0, 16e-10)] {
-                let (faces, charges) = (sampled(way, &[&fixed], &[]), sampled(way, &[], &[&fixed]));
+                let (faces, charges) = (sampled(way, 0.0), sampled(way, 1.0));
                 let largest = faces.iter().fold(0f64, |most, value| most.max(value.abs()));
                 for (one, other) in faces.iter().zip(&charges) {
                     assert!((one - other).abs() < lost * largest, "{one} {other}");

@@ -106,36 +106,47 @@ impl<const N: usize> Interpolation<N> {
     }
 }
 
-/// The potential of dipoles (moments in sqrt(J m^3)) at places (m), whose number is a multiple of
-/// [`WIDTH`], with f64 accuracy.
-pub struct Sampled<'a> {
-    pub far: &'a [Dipole],
+/// Something whose potential is known.
+pub trait Charge {
+    /// Adds its potential at places (m) to a sum.
+    fn add<L: Lanes>(&self, l: L, place: [L::F; 2], sum: L::F) -> L::F;
+}
+
+/// The potential of several at places (m), whose number is a multiple of [`WIDTH`].
+pub struct Sampled<'a, C> {
+    pub far: &'a [C],
     pub places: &'a [Vec<f64>; 2],
 }
 
-impl Task for Sampled<'_> {
+impl<C: Charge> Task for Sampled<'_, C> {
     type Output = Vec<f64>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Vec<f64> {
-        let mut values = vec![0.0; self.places[0].len()];
+        let [x, y] = self.places;
+        let mut values = vec![0.0; x.len()];
         for first in (0..values.len()).step_by(WIDTH) {
-            let [x, y] = [
-                l.load(&self.places[0][first..]),
-                l.load(&self.places[1][first..]),
-            ];
+            let place = [l.load(&x[first..]), l.load(&y[first..])];
             let mut sum = l.splat(0.0);
-            for source in self.far {
-                let dx = l.sub(x, l.splat(source.position.x));
-                let dy = l.sub(y, l.splat(source.position.y));
-                let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
-                let along = l.mul(l.splat(source.moment.y), dy);
-                let along = l.mul_add(l.splat(source.moment.x), dx, along);
-                sum = l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))));
+            for charge in self.far {
+                sum = charge.add(l, place, sum);
             }
             l.store(sum, &mut values[first..]);
         }
         values
+    }
+}
+
+/// With moments in sqrt(J m^3), and f64 accuracy.
+impl Charge for Dipole {
+    #[inline(always)]
+    fn add<L: Lanes>(&self, l: L, [x, y]: [L::F; 2], sum: L::F) -> L::F {
+        let dx = l.sub(x, l.splat(self.position.x));
+        let dy = l.sub(y, l.splat(self.position.y));
+        let r2 = l.mul_add(dx, dx, l.mul(dy, dy));
+        let along = l.mul(l.splat(self.moment.y), dy);
+        let along = l.mul_add(l.splat(self.moment.x), dx, along);
+        l.add(sum, l.div(along, l.mul(r2, l.sqrt(r2))))
     }
 }
 
