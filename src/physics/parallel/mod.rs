@@ -16,7 +16,7 @@ use crate::interruption;
 
 /// Number of parts per thread, if there are enough items: few enough that distribution costs
 /// nothing, many enough that no thread waits long for the last part.
-const PARTS: usize = 256;
+const PARTS: usize = 32;
 
 /// Items that threads access by index.
 pub trait Items: Sync {
@@ -129,7 +129,11 @@ pub fn threads() -> usize {
 
 /// The number of items in a part.
 fn size(count: usize) -> usize {
-    count.div_ceil(PARTS * rayon::current_num_threads()).max(1)
+    let threads = match split::is_recording() {
+        true => split::AS_FOR,
+        false => threads(),
+    };
+    count.div_ceil(PARTS * threads).max(1)
 }
 
 /// Runs this many parts on all threads; no further part starts once one has failed or was

@@ -1,12 +1,15 @@
 //! How work divides over threads: the whole of it against its critical path, the longest chain of
 //! steps of which each waits for the one before.
 //!
-//! Recorded on one thread, where nothing waits, they bound the time on any number of threads p that
+//! Recorded on one thread, where nothing waits, but divided as for [`AS_FOR`], they bound the time on any number of threads p that
 //! never idle while there is work: it is at most `path + (work - path) / p` (Brent 1974, J. ACM 21,
 //! 201). Distribution, memory and shared caches cost nothing here.
 
 use std::cell::RefCell;
 use std::time::Instant;
+
+/// Work is divided into parts as for this number of threads while it is recorded.
+pub(super) const AS_FOR: usize = 16;
 
 thread_local! {
     /// The work that is recorded, with the parts of it in progress; empty where nothing is recorded.
@@ -86,6 +89,11 @@ pub fn so_far() -> Split {
     OPEN.with_borrow(|open| open.first().map_or(Split::default(), Open::split))
 }
 
+/// Whether work is recorded on this thread.
+pub(super) fn is_recording() -> bool {
+    OPEN.with_borrow(|open| !open.is_empty())
+}
+
 /// Runs a parallel region, whose parts call [`part`].
 pub(super) fn region(run: impl FnOnce()) {
     run();
@@ -98,7 +106,7 @@ pub(super) fn region(run: impl FnOnce()) {
 
 /// Runs a part of a region.
 pub(super) fn part(run: impl FnOnce()) {
-    if OPEN.with_borrow(Vec::is_empty) {
+    if !is_recording() {
         return run();
     }
     OPEN.with_borrow_mut(|open| open.push(Open::new()));

@@ -122,39 +122,43 @@ impl<'a> Certifier<'a> {
     /// at the leaf's level (J); returns for each how many cells were assessed: 0 if it is too small
     /// to be subdivided.
     pub(super) fn subdivide(&mut self, leaves: &[(u32, f64)], halvings: u32) -> Vec<usize> {
-        let divided = parallel::map(leaves, |&(id, level)| {
-            let leaf = self.store.leaf(id);
-            self.parts((leaf.key, leaf.known), level, halvings)
-        });
-        let (parts, assessed): (Vec<_>, Vec<usize>) = divided.into_iter().unzip();
-        let divided = leaves.iter().map(|(id, _)| *id).zip(parts).zip(&assessed);
-        let divided = divided.filter(|(_, assessed)| **assessed > 0);
-        let divided: Vec<_> = divided.map(|(leaf, _)| leaf).collect();
+        let mut divided: Vec<(u32, Vec<Part>)> =
+            leaves.iter().map(|(id, _)| (*id, Vec::new())).collect();
+        let mut assessed = vec![0; leaves.len()];
+        let leaf = |id: u32| (self.store.leaf(id).key, self.store.leaf(id).known);
+        let mut open: Vec<(usize, Part)> = (0..leaves.len())
+            .map(|place| (place, leaf(leaves[place].0)))
+            .collect();
+        for _ in 0..halvings {
+            let halves = parallel::map(&open, |(place, part)| self.halves(part, leaves[*place].1));
+            let mut smaller = Vec::new();
+            for ((place, part), halves) in open.into_iter().zip(halves) {
+                let Some(halves) = halves else {
+                    divided[place].1.push(part);
+                    continue;
+                };
+                assessed[place] += halves.len();
+                smaller.extend(halves.into_iter().flatten().map(|half| (place, half)));
+            }
+            open = smaller;
+        }
+        for (place, part) in open {
+            divided[place].1.push(part);
+        }
+        let mut counts = assessed.iter();
+        divided.retain(|_| counts.next().is_some_and(|assessed| *assessed > 0));
         self.store.replace(&divided);
         self.assessed += assessed.iter().sum::<usize>();
         assessed
     }
 
-    /// The parts of a leaf that are not blocked, and how many cells were assessed to find them.
-    fn parts(&self, whole: Part, level: f64, halvings: u32) -> (Vec<Part>, usize) {
-        let mut parts = vec![whole];
-        let mut assessed = 0;
-        for _ in 0..halvings {
-            let mut smaller = Vec::new();
-            for (key, known) in parts {
-                let halves = key.halves(known.axis).filter(|_| known.lower <= level);
-                let Some(halves) = halves else {
-                    smaller.push((key, known));
-                    continue;
-                };
-                assessed += 2;
-                smaller.extend(halves.into_iter().filter_map(|half| {
-                    let part = self.bounded.assess(&self.store.cell(&half))?;
-                    Some((half, part.within(&known)))
-                }));
-            }
-            parts = smaller;
-        }
-        (parts, assessed)
+    /// The halves of a cell that are not blocked; `None` if it cannot be passed at a level (J), or not
+    /// be halved.
+    fn halves(&self, (key, known): &Part, level: f64) -> Option<[Option<Part>; 2]> {
+        let halves = key.halves(known.axis).filter(|_| known.lower <= level)?;
+        Some(halves.map(|half| {
+            let part = self.bounded.assess(&self.store.cell(&half))?;
+            Some((half, part.within(known)))
+        }))
     }
 }

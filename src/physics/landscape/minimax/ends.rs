@@ -6,55 +6,62 @@ use super::store::Store;
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::bounded::Bounded;
-use crate::order::Order;
 use crate::parallel;
 
 /// The leaves that hold configurations with the tiles far apart, which any query may end in.
 #[derive(Default)]
 pub(super) struct Ends {
-    /// With the energy (J) there.
-    far: Vec<(u32, f64)>,
-    /// Number of leaves at the last call.
-    seen: u32,
+    /// For each leaf at the last look, the energy (J) there; NaN if it holds none.
+    far: Vec<f64>,
 }
+
+/// The leaves that hold the start and the places of a query, in this order; empty at first.
+#[derive(Default)]
+pub(super) struct Held(Vec<Vec<u32>>);
 
 impl Ends {
     /// The leaves that hold either end of a query, where those far apart are as at the last
-    /// [look](Self::look).
-    pub fn seeds(&self, store: &Store, from: &Configuration, goal: &Goal) -> Seeds {
-        let holding = |q: &Configuration| {
-            let held = store.holding(q).into_iter();
-            held.map(|id| (id, f64::NEG_INFINITY)).collect::<Vec<_>>()
-        };
-        let from = holding(from);
-        let mut to: Vec<(u32, f64)> = goal.places.iter().flat_map(holding).collect();
-        if goal.free {
-            to.extend(&self.far);
+    /// [look](Self::look). `held` are those that held the configurations at the last call.
+    pub fn seeds(
+        &self,
+        store: &Store,
+        (from, goal): (&Configuration, &Goal),
+        held: &mut Held,
+    ) -> Seeds<'_> {
+        let places = std::iter::once(from).chain(&goal.places);
+        if held.0.is_empty() {
+            held.0 = places.map(|q| store.holding(q)).collect();
+        } else {
+            for (q, ids) in places.zip(&mut held.0) {
+                if ids.iter().any(|&id| !store.leaf(id).live) {
+                    *ids = store.still_holding(std::mem::take(ids), q);
+                }
+            }
         }
-        // If a leaf holds several, the first of them.
-        to.order_by_key(|(id, _)| *id);
-        to.dedup_by_key(|(id, _)| *id);
-        Seeds { from, to }
+        let seed = |id: &u32| (*id, f64::NEG_INFINITY);
+        let mut to: Vec<u32> = held.0[1..].concat();
+        to.sort_unstable();
+        to.dedup();
+        Seeds {
+            from: held.0[0].iter().map(seed).collect(),
+            to: to.iter().map(seed).collect(),
+            far: goal.free.then_some(&self.far),
+        }
     }
 
     /// Examines the leaves added since the last call.
     pub fn look(&mut self, store: &Store, bounded: &Bounded) {
-        let energy = |id: u32| {
-            let leaf = store.leaf(id);
+        let energy = |id: usize| {
+            let leaf = store.leaf(id as u32);
             let cell = store.cell(&leaf.key);
             if bounded.space.is_far(&cell.centre) {
-                return Some(leaf.known.estimate);
+                return leaf.known.estimate;
             }
-            let end = far_end(bounded.space, &cell)?;
-            Some(bounded.value(&end).1)
+            let end = far_end(bounded.space, &cell);
+            end.map_or(f64::NAN, |end| bounded.value(&end).1)
         };
-        self.far.retain(|(id, _)| store.leaf(*id).live);
-        let fresh: Vec<u32> = (self.seen..store.len() as u32)
-            .filter(|&id| store.leaf(id).live)
-            .collect();
-        self.far
-            .extend(parallel::flat_map(&fresh, |&id| Some((id, energy(id)?))));
-        self.seen = store.len() as u32;
+        let fresh = parallel::map(self.far.len()..store.len(), energy);
+        self.far.extend(fresh);
     }
 }
 

@@ -5,9 +5,67 @@ use std::collections::BinaryHeap;
 
 use super::level::{Seeds, ordered};
 use super::store::Store;
+use crate::order::Order;
 
-/// The result of a flood from one end of a query to the other.
-pub(super) struct Watershed {
+/// Flags of a leaf in a flood: touched by a flooded leaf, or flooded,
+const TOUCHED: u8 = 1;
+/// joined to the other end below the divide,
+const BEYOND: u8 = 2;
+/// in the divide,
+const DIVIDE: u8 = 4;
+/// holds the other end,
+const GOAL: u8 = 8;
+/// or has a rank of its own in this flood.
+const SETTLED: u8 = 16;
+
+/// Stands for the previous leaf of a start of the flood.
+const NONE: u32 = u32::MAX;
+
+/// A leaf crossed by a known path counts as passable, whatever its midpoint suggests, if the path
+/// lies below the level by more than this factor times the distance of the leaf's lower bound below
+/// the path. Larger leaves contain more than the path, and a flood would leak through.
+const MARGIN: f64 = 16.0;
+
+/// A leaf to spread to: its rank, its number, and the previous leaf, compared in this order. One
+/// number is compared without branches, which nothing could predict.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u128);
+
+impl Entry {
+    fn new(rank: f64, id: u32, before: u32) -> Self {
+        Self(u128::from(ordered(rank)) << 64 | u128::from(id) << 32 | u128::from(before))
+    }
+
+    fn parts(self) -> (u64, u32, u32) {
+        ((self.0 >> 64) as u64, (self.0 >> 32) as u32, self.0 as u32)
+    }
+}
+
+/// A flood that rises from one end of a query over the passable leaves, those with a lower bound of
+/// at most `level`, in the order of their rank.
+///
+/// After it spills over the lowest remaining pass it runs down the other side. When it reaches the
+/// other end there, or the track of an earlier spill, the highest leaf on its path (the last at
+/// which it rose) becomes part of the divide, and everything flooded since is taken back: it lies
+/// beyond. The divide is the one at which two floods from both ends would meet (Meyer's flooding;
+/// Beucher and Meyer 1993), but beyond it only the paths down to the end are examined: there are
+/// many states with low passes, and their basins are small.
+pub(super) struct Flood<'a> {
+    store: &'a Store,
+    level: f64,
+    // What floods use most is stored side by side: they are limited by memory latency.
+    state: Vec<u8>,
+    /// The leaf from which the flood touched each leaf first, if it did.
+    before: Vec<u32>,
+    seeds: &'a Seeds<'a>,
+    /// Leaves with ranks of their own, by their numbers.
+    settled: Vec<(u32, f64)>,
+    queue: BinaryHeap<Reverse<Entry>>,
+    /// The leaves flooded, one after the other.
+    steps: Vec<u32>,
+    /// The highest rank so far, and the step in which it was reached.
+    top: u64,
+    summit: usize,
     /// Leaves that separate the two ends: without them, no chain of passable leaves joins the ends.
     /// Empty if no chain does anyway.
     pub divide: Vec<u32>,
@@ -17,129 +75,85 @@ pub(super) struct Watershed {
     pub flooded: usize,
 }
 
-/// Flags of a leaf in a flood: joined to the other end below the divide,
-const BEYOND: u8 = 1;
-/// in the divide,
-const DIVIDE: u8 = 2;
-/// holds the other end,
-const GOAL: u8 = 4;
-/// or cannot be passed below the level.
-const BARRED: u8 = 8;
-
-/// Stands for the previous leaf of a start of the flood and of an untouched leaf.
-const NONE: u32 = u32::MAX;
-const DRY: u32 = u32::MAX - 1;
-
-/// A leaf crossed by a known path counts as passable, whatever its midpoint suggests, if the path
-/// lies below the level by more than this factor times the distance of the leaf's lower bound below
-/// the path. Larger leaves contain more than the path, and a flood would leak through.
-const SETTLED: f64 = 16.0;
-
-/// A leaf's data for a flood. Values used together are stored together, because floods are limited
-/// by memory latency.
-struct Ground {
-    rank: f64,
-    /// The leaf from which the flood touched it first.
-    before: u32,
-    state: u8,
-}
-
-/// A leaf to spread to: its rank, its number, and the previous leaf, compared in this order.
-type Entry = Reverse<(u64, u32, u32)>;
-
-/// A flood that rises from one end over the passable leaves, those with a lower bound of at most
-/// `level`, in the order of their rank.
-///
-/// After it spills over the lowest remaining pass it runs down the other side. When it reaches the
-/// other end there, or the track of an earlier spill, the highest leaf on its path (the last at
-/// which it rose) becomes part of the divide, and everything flooded since is taken back: it lies
-/// beyond. The divide is the one at which two floods from both ends would meet (Meyer's flooding;
-/// Beucher and Meyer 1993), but beyond it only the paths down to the end are examined: there are
-/// many states with low passes, and their basins are small.
-struct Flood<'a> {
-    store: &'a Store,
-    ground: Vec<Ground>,
-    /// Leaves that hold the other end, and the energy (J) known of it there, by their numbers.
-    goals: Vec<(u32, f64)>,
-    queue: BinaryHeap<Entry>,
-    /// The leaves flooded, one after the other.
-    steps: Vec<u32>,
-    /// The highest rank so far, and the step in which it was reached.
-    top: u64,
-    summit: usize,
-    found: Watershed,
-}
-
-/// The leaves that separate the ends of a query below a level (J), where `known` leaves can be
-/// passed at an energy (J). If the divide has more than `most` leaves (at least one), those of the
-/// lowest passes are returned.
-pub(super) fn watershed(
-    store: &Store,
-    seeds: &Seeds,
-    (level, known): (f64, &[(u32, f64)]),
-    most: usize,
-) -> Watershed {
-    let mut flood = Flood::new(store, seeds, level, known);
-    while flood.found.divide.len() < most {
-        let Some(Reverse((rank, id, before))) = flood.queue.pop() else {
-            break;
-        };
-        // Leaves that were taken back need no processing.
-        if flood.ground[id as usize].before == before {
-            flood.step(rank, id);
-        }
-    }
-    flood.found
-}
-
 impl<'a> Flood<'a> {
-    fn new(store: &'a Store, seeds: &Seeds, level: f64, known: &[(u32, f64)]) -> Self {
-        let ranks = if level < f64::INFINITY {
-            &store.by_energy
-        } else {
-            &store.by_overlap
-        };
-        let ground = |(lower, rank): (&f64, &f64)| Ground {
-            rank: *rank,
-            before: DRY,
-            state: if *lower <= level { 0 } else { BARRED },
-        };
-        let mut ground: Vec<Ground> = store.lowers.iter().zip(ranks).map(ground).collect();
-        for &(id, energy) in known {
-            let settled = energy + SETTLED * (energy - store.lower(id));
-            if settled < level {
-                let rank = &mut ground[id as usize].rank;
-                *rank = rank.min(settled);
-            }
-        }
+    /// A flood between the ends of a query below a level (J), where `known` leaves can be passed at
+    /// an energy (J).
+    pub fn new(store: &'a Store, seeds: &'a Seeds<'a>, level: f64, known: &[(u32, f64)]) -> Self {
         let mut flood = Self {
             store,
-            ground,
-            goals: seeds.to.clone(),
+            level,
+            state: seeds.far.map_or_else(|| vec![0; store.len()], goals),
+            before: vec![0; store.len()],
+            seeds,
+            settled: Vec::new(),
             queue: BinaryHeap::new(),
             steps: Vec::new(),
             top: 0,
             summit: 0,
-            found: Watershed {
-                divide: Vec::new(),
-                pass: None,
-                flooded: 0,
-            },
+            divide: Vec::new(),
+            pass: None,
+            flooded: 0,
         };
-        flood
-            .goals
-            .sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for &(id, energy) in known {
+            let settled = energy + MARGIN * (energy - store.lower(id));
+            if settled < level {
+                flood.settled.push((id, settled.min(flood.rank(id))));
+                flood.state[id as usize] |= SETTLED;
+            }
+        }
+        flood.settled.order_by_key(|(id, _)| *id);
         for &(id, _) in &seeds.to {
-            flood.ground[id as usize].state |= GOAL;
+            flood.state[id as usize] |= GOAL;
         }
         for &(id, energy) in &seeds.from {
-            let ground = &mut flood.ground[id as usize];
-            if ground.state & BARRED == 0 && ground.before == DRY {
-                ground.before = NONE;
-                flood.queue.push(Reverse((ordered(energy), id, NONE)));
+            if flood.is_dry(id) {
+                flood.touch(id, NONE, energy);
             }
         }
         flood
+    }
+
+    /// Lets the flood rise until the ends are separated, or the divide has `most` leaves (at least
+    /// one), those of the lowest passes.
+    pub fn rise(&mut self, most: usize) {
+        while self.divide.len() < most {
+            let Some(Reverse(next)) = self.queue.pop() else {
+                break;
+            };
+            let (rank, id, before) = next.parts();
+            // Leaves that were taken back need no processing.
+            if self.is(id, TOUCHED) && self.before[id as usize] == before {
+                self.step(rank, id);
+            }
+        }
+    }
+
+    fn is(&self, id: u32, flags: u8) -> bool {
+        self.state[id as usize] & flags != 0
+    }
+
+    /// Whether a leaf can be passed and is not touched.
+    fn is_dry(&self, id: u32) -> bool {
+        !self.is(id, TOUCHED | DIVIDE) && self.store.lower(id) <= self.level
+    }
+
+    fn touch(&mut self, id: u32, before: u32, rank: f64) {
+        self.state[id as usize] |= TOUCHED;
+        self.before[id as usize] = before;
+        self.queue.push(Reverse(Entry::new(rank, id, before)));
+    }
+
+    fn rank(&self, id: u32) -> f64 {
+        let own = || self.settled[self.settled.partition_point(|own| own.0 < id)].1;
+        if let Some(energy) = self.is(id, GOAL).then(|| self.seeds.goal(id)).flatten() {
+            energy
+        } else if self.is(id, SETTLED) {
+            own()
+        } else if self.level < f64::INFINITY {
+            self.store.by_energy[id as usize]
+        } else {
+            self.store.by_overlap[id as usize]
+        }
     }
 
     fn step(&mut self, rank: u64, id: u32) {
@@ -147,81 +161,57 @@ impl<'a> Flood<'a> {
             (self.top, self.summit) = (rank, self.steps.len());
         }
         self.steps.push(id);
-        self.found.flooded += 1;
-        if self.state(id) & GOAL != 0 {
+        self.flooded += 1;
+        if self.is(id, GOAL) {
             self.divide(id, None);
         } else if let Some(beyond) = self.beyond(id) {
             self.divide(id, Some(beyond));
         } else {
-            self.spread(id);
+            let store = self.store;
+            for &n in store.neighbours(id) {
+                if self.is_dry(n) {
+                    self.touch(n, id, self.rank(n));
+                }
+            }
         }
-    }
-
-    fn state(&self, id: u32) -> u8 {
-        self.ground[id as usize].state
-    }
-
-    /// The known energy (J) of the other end in a leaf that holds it.
-    fn goal(&self, id: u32) -> f64 {
-        self.goals[self.goals.partition_point(|goal| goal.0 < id)].1
     }
 
     /// A leaf beside this one that is joined to the other end no higher than the flood is.
     fn beyond(&self, id: u32) -> Option<u32> {
-        let around = self.store.neighbours(id).iter().copied();
-        around
-            .filter(|&n| self.state(n) & (BEYOND | GOAL) != 0)
-            .find(|&n| match self.state(n) & (BEYOND | DIVIDE | BARRED) {
-                0 => ordered(self.goal(n)) <= self.top,
-                joined => joined == BEYOND,
-            })
-    }
-
-    fn spread(&mut self, id: u32) {
-        let store = self.store;
-        for &n in store.neighbours(id) {
-            let ground = &mut self.ground[n as usize];
-            if ground.before != DRY || ground.state & (DIVIDE | BARRED) != 0 {
-                continue;
-            }
-            ground.before = id;
-            let rank = if ground.state & GOAL != 0 {
-                self.goal(n)
-            } else {
-                ground.rank
-            };
-            self.queue.push(Reverse((ordered(rank), n, id)));
-        }
+        let is_joined = |n: &u32| match self.state[*n as usize] & (BEYOND | GOAL | DIVIDE) {
+            GOAL => self.store.lower(*n) <= self.level && ordered(self.rank(*n)) <= self.top,
+            joined => joined & (BEYOND | DIVIDE) == BEYOND,
+        };
+        self.store.neighbours(id).iter().copied().find(is_joined)
     }
 
     /// Takes back everything flooded since the summit when the flood reaches this leaf, which holds
-    /// the other end or touches the leaf `beyond`.
+    /// the other end or is beside the leaf `beyond`.
     fn divide(&mut self, id: u32, beyond: Option<u32>) {
-        if self.found.pass.is_none() {
-            self.found.pass = Some(self.chain(id, beyond));
+        if self.pass.is_none() {
+            self.pass = Some(self.chain(id, beyond));
         }
         let store = self.store;
         let summit = self.steps[self.summit];
         for &gone in &self.steps[self.summit..] {
-            self.ground[gone as usize].state |= BEYOND;
+            self.state[gone as usize] |= BEYOND;
             for &n in store.neighbours(gone) {
-                let before = &mut self.ground[n as usize].before;
-                if *before == gone {
-                    *before = DRY;
+                if self.before[n as usize] == gone {
+                    self.state[n as usize] &= !TOUCHED;
                 }
             }
         }
-        let state = &mut self.ground[summit as usize].state;
+        let state = &mut self.state[summit as usize];
         *state = *state & !BEYOND | DIVIDE;
         self.steps.truncate(self.summit);
-        self.found.divide.push(summit);
+        self.divide.push(summit);
     }
 
     /// The chain of leaves from end to end, and its highest estimate (J). It reaches the other end
     /// itself only while nothing else is beyond.
     fn chain(&self, id: u32, beyond: Option<u32>) -> (f64, Vec<u32>) {
         let parents = std::iter::successors(Some(id), |&id| {
-            Some(self.ground[id as usize].before).filter(|before| *before != NONE)
+            Some(self.before[id as usize]).filter(|before| *before != NONE)
         });
         let mut chain: Vec<u32> = parents.collect();
         chain.reverse();
@@ -230,9 +220,15 @@ impl<'a> Flood<'a> {
         let inner = chain.iter().skip(1).filter(|id| **id != end);
         let highest = inner
             .map(|&id| self.store.leaf(id).known.estimate)
-            .fold(self.goal(end), f64::max);
+            .fold(self.rank(end), f64::max);
         (highest, chain)
     }
+}
+
+/// The flags of leaves of which some are far.
+fn goals(far: &[f64]) -> Vec<u8> {
+    let flag = |energy: &f64| if energy.is_nan() { 0 } else { GOAL };
+    far.iter().map(flag).collect()
 }
 
 #[cfg(test)]
@@ -294,15 +290,18 @@ mod tests {
             store.fill(&keys.map(|key| (key, known(0.0))).collect::<Vec<_>>());
             let seeds = Seeds {
                 from: vec![(3, f64::NEG_INFINITY)],
-                to: vec![(900, 0.1), (500, 0.2)],
+                to: vec![(500, 0.2), (900, 0.1)],
+                far: None,
             };
             let mut level = 0.8;
             for round in 0..40 {
-                let all = watershed(&store, &seeds, (level, &[]), usize::MAX);
+                let mut all = Flood::new(&store, &seeds, level, &[]);
+                all.rise(usize::MAX);
                 let lowest = minimax(&store, &seeds, level, &[]);
                 assert_eq!(all.pass.is_some(), lowest.is_some());
                 assert_eq!(minimax(&store, &seeds, level, &all.divide), None);
-                let few = watershed(&store, &seeds, (level, &[]), 12);
+                let mut few = Flood::new(&store, &seeds, level, &[]);
+                few.rise(12);
                 assert_eq!(few.divide, all.divide[..few.divide.len()]);
                 let Some((_, chain)) = all.pass else {
                     continue;

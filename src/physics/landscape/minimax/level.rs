@@ -7,19 +7,29 @@ use super::store::Store;
 
 /// The leaves that contain either end of a query, with the lowest known energy (J) of the end in
 /// them.
-pub(super) struct Seeds {
+pub(super) struct Seeds<'a> {
     pub from: Vec<(u32, f64)>,
+    /// Places where it may end, ascending.
     pub to: Vec<(u32, f64)>,
+    /// If it may also end with the tiles far apart: for each leaf, the energy (J) where they are, NaN
+    /// if they are nowhere so.
+    pub far: Option<&'a [f64]>,
+}
+
+impl Seeds<'_> {
+    /// The energy (J) of the other end in a leaf that holds it.
+    pub fn goal(&self, id: u32) -> Option<f64> {
+        let place = self.to.binary_search_by_key(&id, |goal| goal.0);
+        let far = || self.far.map(|far| far[id as usize]);
+        let goal = place.ok().map(|place| self.to[place].1).or_else(far);
+        goal.filter(|energy| !energy.is_nan())
+    }
 }
 
 /// The lowest level (J) at which a chain of touching leaves with lower bounds of at most that level
 /// joins the ends: no free path between them stays below it. Infinite if there is no chain.
 pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut seen = vec![false; store.len()];
-    let mut goal = vec![false; store.len()];
-    for &(id, _) in &seeds.to {
-        goal[id as usize] = true;
-    }
     let mut queue = BinaryHeap::new();
     for &(id, _) in &seeds.from {
         seen[id as usize] = true;
@@ -28,7 +38,7 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut level = f64::NEG_INFINITY;
     while let Some(Reverse((lower, id))) = queue.pop() {
         level = level.max(unordered(lower));
-        if goal[id as usize] {
+        if seeds.goal(id).is_some() {
             return level;
         }
         for &n in store.neighbours(id) {

@@ -40,6 +40,7 @@
 //! The same queries to the same certifier give the same brackets on any number of threads, unless a
 //! time limit ends them early. A bracket that ended early is also valid, only wider.
 
+mod adjacency;
 mod certifier;
 mod ends;
 mod flood;

@@ -39,6 +39,11 @@ impl Proofs {
         });
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
     /// The implied lower bound (J) for paths from a configuration to a goal.
     pub fn least(&self, from: &Configuration, goal: &Goal) -> f64 {
         let direct = self.between(from, goal);

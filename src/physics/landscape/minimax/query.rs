@@ -1,8 +1,8 @@
 //! One query: the search for a pathway, and for the proof that no pathway is much lower.
 
 use super::certifier::{Certifier, SHARPNESS};
-use super::ends::far_end;
-use super::flood::watershed;
+use super::ends::{Held, far_end};
+use super::flood::Flood;
 use super::level::{Seeds, least_level};
 use super::proved::Proofs;
 use super::upper::ProvedPath;
@@ -37,8 +37,9 @@ pub(super) struct Query<'q> {
     pub cells: usize,
     /// and those assessed because it asked for them, among others.
     pub gained: usize,
-    /// Whether earlier proofs suffice.
-    is_known: bool,
+    /// Energy (J) that every path reaches because of this number of earlier proofs.
+    proved: (usize, f64),
+    held: Held,
     /// Whether nothing more can be done.
     is_over: bool,
     /// Whether floods rise from the far end, because it lies higher and its basin is smaller.
@@ -70,7 +71,8 @@ impl<'q> Query<'q> {
             rounds: 0,
             cells: 0,
             gained: 0,
-            is_known: false,
+            proved: (0, f64::NEG_INFINITY),
+            held: Held::default(),
             is_over: false,
             from_behind: end > start,
         };
@@ -95,9 +97,16 @@ impl<'q> Query<'q> {
 
     /// Takes account of what is proved by now.
     pub fn learn(&mut self, proofs: &Proofs) {
-        let proved = proofs.least(&self.question.from, &self.question.to);
-        self.floor = self.floor.max(proved);
-        self.is_known = self.level() <= proved;
+        if self.proved.0 < proofs.count() {
+            let proved = proofs.least(&self.question.from, &self.question.to);
+            self.proved = (proofs.count(), proved);
+            self.floor = self.floor.max(proved);
+        }
+    }
+
+    /// Whether earlier proofs suffice.
+    fn is_known(&self) -> bool {
+        self.level() <= self.proved.1
     }
 
     /// Whether the bracket is narrow enough, or nothing more can be done.
@@ -129,28 +138,29 @@ impl<'q> Query<'q> {
 
     /// Lets a flood rise over the leaves, of which those `known` can be passed at an energy (J);
     /// returns the number of leaves flooded and what was found.
-    pub fn flood(&self, certifier: &Certifier, known: &[(u32, f64)]) -> (usize, Found) {
+    pub fn search(&mut self, certifier: &Certifier, known: &[(u32, f64)]) -> (usize, Found) {
         interruption::check();
+        let store = &certifier.store;
         let level = self.level();
         let seeds = self.seeds(certifier);
-        let most = SPLITS.max(self.gained / SPLIT_SHARE);
-        let found = watershed(&certifier.store, &seeds, (level, known), most);
-        let Some((pass, mut chain)) = found.pass else {
-            return (found.flooded, Found::NoWay);
+        let mut flood = Flood::new(store, &seeds, level, known);
+        flood.rise(SPLITS.max(self.gained / SPLIT_SHARE));
+        let Some((pass, mut chain)) = flood.pass.take() else {
+            return (flood.flooded, Found::NoWay);
         };
         if self.from_behind {
             chain.reverse();
         }
-        let mut to_divide = found.divide;
+        let mut to_divide = flood.divide;
         if pass < level + (1.0 - WORTHWHILE) * self.question.effort.tolerance {
             match self.lower_way(certifier, &chain) {
-                Ok(way) => return (found.flooded, Found::Lower(way)),
+                Ok(way) => return (flood.flooded, Found::Lower(way)),
                 Err(blamed) => to_divide.extend(blamed),
             }
         }
         to_divide.sort_unstable();
         to_divide.dedup();
-        (found.flooded, Found::Divide(to_divide))
+        (flood.flooded, Found::Divide(to_divide))
     }
 
     /// Tries to prove a lower pathway along a chain of leaves; otherwise returns the leaves that
@@ -209,32 +219,34 @@ impl<'q> Query<'q> {
     }
 
     /// The leaves that hold either end, first that from which floods rise.
-    fn seeds(&self, certifier: &Certifier) -> Seeds {
+    fn seeds<'c>(&mut self, certifier: &'c Certifier) -> Seeds<'c> {
         let Question { from, to, .. } = self.question;
-        let Seeds { from, to } = certifier.ends.seeds(&certifier.store, from, to);
+        let Certifier { ends, store, .. } = certifier;
+        let mut seeds = ends.seeds(store, (from, to), &mut self.held);
         if self.from_behind {
-            Seeds { from: to, to: from }
-        } else {
-            Seeds { from, to }
+            std::mem::swap(&mut seeds.from, &mut seeds.to);
         }
+        seeds
     }
 
     /// The bracket as it is known.
-    pub fn conclude(&self, certifier: &Certifier) -> Bracket {
-        let lower = if self.is_known {
+    pub fn conclude(&mut self, certifier: &Certifier) -> Bracket {
+        let lower = if self.is_known() {
             self.floor
         } else {
-            least_level(&certifier.store, &self.seeds(certifier)).max(self.floor)
+            let seeds = self.seeds(certifier);
+            least_level(&certifier.store, &seeds).max(self.floor)
         };
-        let best = self.best.as_ref();
+        let best = self.best.take();
+        let saddle = best.as_ref().map(|path| path.peak);
         Bracket {
             bounds: SaddleBounds {
                 lower: lower.is_finite().then_some(lower),
-                upper: best.map(|path| path.upper),
+                upper: best.as_ref().map(|path| path.upper),
                 caged: self.caged,
             },
-            pathway: best.map_or_else(Vec::new, |path| path.points.clone()),
-            saddle: best.map(|path| path.peak),
+            pathway: best.map_or_else(Vec::new, |path| path.points),
+            saddle,
             improved: self.improved,
             cells: self.cells,
             rounds: self.rounds,

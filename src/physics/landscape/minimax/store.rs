@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use super::adjacency::Adjacency;
 use super::lower::Assessment;
 use crate::cell::Cell;
 use crate::configuration::{Configuration, ConfigurationSpace};
@@ -79,7 +80,7 @@ pub(super) struct Store {
     firsts: usize,
     leaves: Vec<Leaf>,
     // The data that floods use most are stored side by side.
-    neighbours: Vec<Vec<u32>>,
+    neighbours: Adjacency,
     pub lowers: Vec<f64>,
     /// The rank of each leaf in a flood by energy,
     pub by_energy: Vec<f64>,
@@ -93,7 +94,7 @@ impl Store {
             half_size: space.half_size,
             firsts: 0,
             leaves: Vec::new(),
-            neighbours: Vec::new(),
+            neighbours: Adjacency::default(),
             lowers: Vec::new(),
             by_energy: Vec::new(),
             by_overlap: Vec::new(),
@@ -146,7 +147,7 @@ impl Store {
 
     /// The leaves that touch a leaf.
     pub fn neighbours(&self, id: u32) -> &[u32] {
-        &self.neighbours[id as usize]
+        self.neighbours.of(id)
     }
 
     /// A leaf's lower bound of the energy (J).
@@ -168,7 +169,10 @@ impl Store {
     pub fn fill(&mut self, cells: &[Part]) {
         let all = self.push(None, cells);
         self.firsts = cells.len();
-        self.neighbours = parallel::map(0..cells.len(), |id| self.touching(id as u32, all.clone()));
+        let touching = |id| self.touching(id as u32, all.clone());
+        for neighbours in parallel::map(0..cells.len(), touching) {
+            self.neighbours.push(&neighbours);
+        }
     }
 
     /// Replaces leaves by their parts that are not blocked.
@@ -193,12 +197,15 @@ impl Store {
             self.touching(id as u32, around.chain([whole]))
         });
         for (id, neighbours) in around.into_iter().zip(of_those_around) {
-            self.neighbours[id as usize] = neighbours;
+            self.neighbours.replace(id, &neighbours);
         }
-        self.neighbours.extend(of_parts);
+        for neighbours in of_parts {
+            self.neighbours.push(&neighbours);
+        }
         for (id, _) in wholes {
-            self.neighbours[*id as usize] = Vec::new();
+            self.neighbours.replace(*id, &[]);
         }
+        self.neighbours.compact();
     }
 
     /// The leaves that hold a configuration, ascending.
@@ -211,7 +218,12 @@ impl Store {
             firsts.partition_point(is_left),
             firsts.partition_point(is_near),
         ];
-        let mut open: Vec<u32> = (start as u32..end as u32).collect();
+        self.still_holding((start as u32..end as u32).collect(), q)
+    }
+
+    /// The leaves that hold a configuration, ascending, found from former ones.
+    pub fn still_holding(&self, mut open: Vec<u32>, q: &Configuration) -> Vec<u32> {
+        let place = self.place(q);
         let mut held = Vec::new();
         while let Some(id) = open.pop() {
             let leaf = self.leaf(id);

@@ -96,9 +96,8 @@ impl Certifier<'_> {
                 let Some(next) = ready.pop_front() else { break };
                 open.push(next);
             }
-            for (_, query) in &mut open {
-                query.learn(&self.proofs);
-            }
+            let proofs = &self.proofs;
+            parallel::for_each(&mut open, |(_, query)| query.learn(proofs));
             let (mut closed, others): (Vec<Open>, _) = open
                 .into_iter()
                 .partition(|(_, query)| is_over || query.is_answered());
@@ -106,7 +105,7 @@ impl Certifier<'_> {
             if is_over {
                 closed.extend(ready.drain(..));
             }
-            for (number, bracket) in self.conclude(&closed) {
+            for (number, bracket) in self.conclude(&mut closed) {
                 let Question { from, to, .. } = &questions[number];
                 self.proofs
                     .add(from, to, &bracket.bounds, bracket.pathway.last());
@@ -152,25 +151,27 @@ impl Certifier<'_> {
     }
 
     /// The brackets of queries, with the numbers of their questions.
-    fn conclude(&mut self, closed: &[Open]) -> Vec<(usize, Bracket)> {
+    fn conclude(&mut self, closed: &mut [Open]) -> Vec<(usize, Bracket)> {
         if closed.is_empty() {
             return Vec::new();
         }
         self.ends.look(&self.store, &self.bounded);
-        parallel::map(closed, |(number, query)| (*number, query.conclude(self)))
+        let brackets = of_each(closed, |query| query.conclude(self));
+        let numbers = closed.iter().map(|(number, _)| *number);
+        numbers.zip(brackets).collect()
     }
 
     /// One step of all open queries: a flood of each, and the subdivisions for which they ask.
     fn advance(&mut self, open: &mut [Open]) {
         self.ends.look(&self.store, &self.bounded);
         let known = self.passable();
-        let found = parallel::map(&*open, |(_, query)| query.flood(self, &known));
+        let found = of_each(open, |query| query.search(self, &known));
         let leaves = self.store.len() as u64;
+        let work = |(flooded, _): &(usize, Found)| leaves * LEAF + *flooded as u64 * FLOODED;
+        let floods = found.iter().map(work).sum();
         let mut wishes: BTreeMap<u32, Wish> = BTreeMap::new();
         let mut asked = Vec::new();
-        let mut floods = 0;
-        for (by, ((_, query), (flooded, found))) in open.iter_mut().zip(found).enumerate() {
-            floods += leaves * LEAF + flooded as u64 * FLOODED;
+        for (by, ((_, query), (_, found))) in open.iter_mut().zip(found).enumerate() {
             match found {
                 Found::NoWay => query.has_no_way(),
                 Found::Lower(way) => {
@@ -224,4 +225,19 @@ impl Certifier<'_> {
             }
         }
     }
+}
+
+/// Does something with each query, in parallel.
+fn of_each<'q, T: Send>(
+    open: &mut [Open<'q>],
+    work: impl Fn(&mut Query<'q>) -> T + Sync,
+) -> Vec<T> {
+    let mut results: Vec<_> = open.iter_mut().map(|open| (open, None)).collect();
+    parallel::for_each(&mut results, |((_, query), result)| {
+        *result = Some(work(query))
+    });
+    results
+        .into_iter()
+        .filter_map(|(_, result)| result)
+        .collect()
 }

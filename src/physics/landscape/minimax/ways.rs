@@ -1,10 +1,10 @@
 //! The leaves crossed by proved pathways.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::store::{Key, Store};
 use crate::configuration::Configuration;
+use crate::parallel;
 
 /// Pathways and the leaves that they cross, kept from one round to the next.
 #[derive(Default)]
@@ -13,11 +13,18 @@ pub(super) struct Ways {
     points: Vec<(Configuration, f64)>,
     /// The range of points of each pathway.
     each: Vec<Range<usize>>,
-    /// The stretches that cross each leaf, as indices of their first points, and the highest energy
-    /// (J) on them there, interpolated linearly between the points.
-    leaves: BTreeMap<u32, (Vec<u32>, f64)>,
-    /// Number of leaves at the last call.
-    seen: u32,
+    /// By leaf.
+    crossed: Vec<Crossed>,
+    /// The leaves that something crosses, ascending up to the last call.
+    now: Vec<u32>,
+}
+
+/// What crosses a leaf.
+struct Crossed {
+    /// Stretches, as indices of their first points.
+    stretches: Vec<u32>,
+    /// The highest energy (J) on them there, interpolated linearly between the points.
+    highest: f64,
 }
 
 impl Ways {
@@ -54,37 +61,74 @@ impl Ways {
     /// The leaves crossed now, with the highest energy (J) on the pathways there.
     pub fn leaves(&mut self, store: &Store) -> impl Iterator<Item = (u32, f64)> {
         self.follow(store);
-        self.leaves.iter().map(|(&id, &(_, energy))| (id, energy))
+        self.now.retain(|&id| store.leaf(id).live);
+        self.now.sort_unstable();
+        let highest = |&id: &u32| (id, self.crossed[id as usize].highest);
+        self.now.iter().map(highest)
     }
 
     /// Examines the leaves added since the last call.
     fn follow(&mut self, store: &Store) {
-        for id in self.seen..store.len() as u32 {
-            if let Some((stretches, _)) = self.leaves.get(&store.leaf(id).whole) {
-                for stretch in stretches.clone() {
-                    self.note(store, id, stretch);
+        while self.crossed.len() < store.len() {
+            let first = self.crossed.len();
+            let whole = |id: usize| store.leaf(id as u32).whole as usize;
+            // Parts of parts come after those that they are parts of.
+            let is_next = |id: &usize| whole(*id) < first || whole(*id) == *id;
+            let fresh = (first..store.len()).take_while(is_next).count();
+            let crossed = parallel::map(first..first + fresh, |id| {
+                let mut crossed = Crossed::default();
+                let whole = self
+                    .crossed
+                    .get(whole(id))
+                    .map(|whole| &whole.stretches[..]);
+                for &stretch in whole.unwrap_or_default() {
+                    crossed.include(stretch, self.highest_in(store, id as u32, stretch));
                 }
-            }
+                crossed
+            });
+            let is_crossed = |id: &u32| !crossed[*id as usize - first].stretches.is_empty();
+            let fresh = first as u32..(first + fresh) as u32;
+            self.now.extend(fresh.filter(is_crossed));
+            self.crossed.extend(crossed);
         }
-        self.seen = store.len() as u32;
-        self.leaves.retain(|&id, _| store.leaf(id).live);
     }
 
     /// Records a stretch that crosses a leaf; false if it does not.
     fn note(&mut self, store: &Store, id: u32, stretch: u32) -> bool {
+        let highest = self.highest_in(store, id, stretch);
+        let crossed = &mut self.crossed[id as usize];
+        if highest.is_some() && crossed.stretches.is_empty() {
+            self.now.push(id);
+        }
+        crossed.include(stretch, highest);
+        highest.is_some()
+    }
+
+    /// The highest energy (J) on a stretch in a leaf, if it crosses the leaf.
+    fn highest_in(&self, store: &Store, id: u32, stretch: u32) -> Option<f64> {
         let k = stretch as usize;
         let [(from, a), (to, b)] = [self.points[k], self.points[k + 1]];
-        let Some(within) = within(store, &store.leaf(id).key, [&from, &to]) else {
-            return false;
-        };
+        let within = within(store, &store.leaf(id).key, [&from, &to])?;
         let [first, last] = within.map(|t| a + (b - a) * t);
-        let (stretches, highest) = self
-            .leaves
-            .entry(id)
-            .or_insert((Vec::new(), f64::NEG_INFINITY));
-        stretches.push(stretch);
-        *highest = highest.max(first).max(last);
-        true
+        Some(first.max(last))
+    }
+}
+
+impl Crossed {
+    /// Adds a stretch, if it has a highest energy (J) here.
+    fn include(&mut self, stretch: u32, highest: Option<f64>) {
+        let Some(highest) = highest else { return };
+        self.stretches.push(stretch);
+        self.highest = self.highest.max(highest);
+    }
+}
+
+impl Default for Crossed {
+    fn default() -> Self {
+        Self {
+            stretches: Vec::new(),
+            highest: f64::NEG_INFINITY,
+        }
     }
 }
 
@@ -120,6 +164,8 @@ fn within(store: &Store, key: &Key, [from, to]: [&Configuration; 2]) -> Option<[
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::landscape::minimax::store::tests::{KNOWN, first_cells};
     use rand::{RngExt, SeedableRng};
