@@ -29,11 +29,16 @@ type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 /// The links that may lead out of a part, the lowest first.
 type Queue = BinaryHeap<Reverse<ByPeak>>;
 
+/// Links weighed at the same time, if there are so many that may turn out lowest.
+const TOGETHER: usize = 64;
+
 /// The parts of a forest, with the links that may lead out of each.
 struct Parts {
     joined: UnionFind<u32>,
     /// By the node that stands for the part.
     outwards: Vec<Queue>,
+    /// By the same, the links weighed in vain since it was last joined to another.
+    in_vain: Vec<usize>,
     /// Parts that have such links.
     left: Vec<u32>,
 }
@@ -71,6 +76,7 @@ impl Parts {
         left.retain(|part| !outwards[*part as usize].is_empty());
         Self {
             joined,
+            in_vain: vec![0; outwards.len()],
             outwards,
             left,
         }
@@ -85,23 +91,26 @@ impl Parts {
         if left.len() < 2 {
             return (lowest, open);
         }
-        let queue = |part: &u32| std::mem::take(&mut self.outwards[*part as usize]);
-        let mut queues: Vec<(Queue, Option<u32>)> =
-            left.iter().map(queue).map(|queue| (queue, None)).collect();
+        // As many more as were weighed in vain, so at most half of all is in vain in the end.
+        let most = (TOGETHER / left.len()).max(1);
+        let part = |part: &u32| {
+            let part = *part as usize;
+            let ahead = self.in_vain[part].clamp(1, most);
+            (std::mem::take(&mut self.outwards[part]), ahead, Vec::new())
+        };
+        let mut parts: Vec<(Queue, usize, Vec<u32>)> = left.iter().map(part).collect();
         let joined = &self.joined;
-        parallel::for_each(&mut queues, |(queue, head)| {
-            *head = leading_out(network, joined, queue);
+        parallel::for_each(&mut parts, |(queue, ahead, found)| {
+            *found = leading_out(network, joined, queue, *ahead);
         });
-        for (part, (queue, head)) in left.into_iter().zip(queues) {
+        for (part, (queue, _, found)) in left.into_iter().zip(parts) {
             self.outwards[part as usize] = queue;
-            let Some(number) = head else {
-                continue;
-            };
-            if network.is_weighed(number as usize) {
-                lowest.push(number);
-            } else {
-                open.push(number as usize);
+            match found[..] {
+                [] => continue,
+                [number] if network.is_weighed(number as usize) => lowest.push(number),
+                _ => open.extend(found.iter().map(|number| *number as usize)),
             }
+            self.in_vain[part as usize] += found.len();
             self.left.push(part);
         }
         open.sort_unstable();
@@ -110,22 +119,53 @@ impl Parts {
     }
 
     /// Joins the parts of two nodes; returns whether they were two.
-    fn join(&mut self, from: u32, to: u32) -> bool {
+    fn join(&mut self, network: &Network, from: u32, to: u32) -> bool {
         let [a, b] = [from, to].map(|node| self.joined.find_mut(node));
         if !self.joined.union(a, b) {
             return false;
         }
         let mut queues = [a, b].map(|part| std::mem::take(&mut self.outwards[part as usize]));
         queues.sort_by_key(BinaryHeap::len);
-        let [mut few, mut many] = queues;
-        many.append(&mut few);
-        self.outwards[self.joined.find_mut(a) as usize] = many;
+        let [few, mut many] = queues;
+        let joined = self.joined.find_mut(a) as usize;
+        let mut leads_out = |link: &Reverse<ByPeak>| {
+            let Link { from, to, .. } = network.links[link.0.2 as usize];
+            [from, to].map(|node| self.joined.find_mut(node) as usize) != [joined; 2]
+        };
+        many.extend(few.into_iter().filter(&mut leads_out));
+        self.outwards[joined] = many;
+        self.in_vain[joined] = 0;
         true
     }
 }
 
+/// The lowest link that leads out of a part, if it is weighed; otherwise this one and up to `most`
+/// that may turn out lower than it.
+fn leading_out(
+    network: &Network,
+    joined: &UnionFind<u32>,
+    queue: &mut Queue,
+    most: usize,
+) -> Vec<u32> {
+    let (mut found, mut open) = (Vec::new(), Vec::new());
+    while found.len() < most
+        && let Some(number) = head(network, joined, queue)
+    {
+        let is_weighed = network.is_weighed(number as usize);
+        if found.is_empty() || !is_weighed {
+            found.push(number);
+        }
+        if is_weighed {
+            break;
+        }
+        open.extend(queue.pop());
+    }
+    queue.extend(open);
+    found
+}
+
 /// The link at the head of a part's queue that leads out of it.
-fn leading_out(network: &Network, joined: &UnionFind<u32>, queue: &mut Queue) -> Option<u32> {
+fn head(network: &Network, joined: &UnionFind<u32>, queue: &mut Queue) -> Option<u32> {
     while let Some(mut head) = queue.peek_mut() {
         let Reverse(known) = *head;
         let Link { from, to, .. } = network.links[known.2 as usize];
@@ -179,7 +219,7 @@ impl Network<'_> {
             for number in lowest {
                 let Link { from, to, .. } = self.links[number as usize];
                 // Both parts may have chosen the same link.
-                if parts.join(from, to) {
+                if parts.join(self, from, to) {
                     tree.push(number);
                 }
             }
