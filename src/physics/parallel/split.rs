@@ -1,9 +1,10 @@
 //! How work divides over threads: the whole of it against its critical path, the longest chain of
 //! steps of which each waits for the one before.
 //!
-//! Recorded on one thread, where nothing waits, but divided as for [`AS_FOR`], they bound the time on any number of threads p that
-//! never idle while there is work: it is at most `path + (work - path) / p` (Brent 1974, J. ACM 21,
-//! 201). Distribution, memory and shared caches cost nothing here.
+//! Recorded on one thread, where nothing waits, but divided into parts as for 16, they bound the
+//! time on any number of threads p that never idle while there is work: it is at most
+//! `path + (work - path) / p` (Brent 1974, J. ACM 21, 201). Distribution, memory and shared caches
+//! cost nothing here.
 
 use std::cell::RefCell;
 use std::time::Instant;

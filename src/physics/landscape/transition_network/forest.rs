@@ -37,8 +37,8 @@ struct Parts {
     joined: UnionFind<u32>,
     /// By the node that stands for the part.
     outwards: Vec<Queue>,
-    /// By the same, the links weighed in vain since it was last joined to another.
-    in_vain: Vec<usize>,
+    /// By the same, the links looked at since it was last joined to another.
+    looked_at: Vec<usize>,
     /// Parts that have such links.
     left: Vec<u32>,
 }
@@ -76,7 +76,7 @@ impl Parts {
         left.retain(|part| !outwards[*part as usize].is_empty());
         Self {
             joined,
-            in_vain: vec![0; outwards.len()],
+            looked_at: vec![0; outwards.len()],
             outwards,
             left,
         }
@@ -91,11 +91,11 @@ impl Parts {
         if left.len() < 2 {
             return (lowest, open);
         }
-        // As many more as were weighed in vain, so at most half of all is in vain in the end.
+        // As many at once as were weighed before: hardly more than twice as many as needed.
         let most = (TOGETHER / left.len()).max(1);
         let part = |part: &u32| {
             let part = *part as usize;
-            let ahead = self.in_vain[part].clamp(1, most);
+            let ahead = self.looked_at[part].clamp(1, most);
             (std::mem::take(&mut self.outwards[part]), ahead, Vec::new())
         };
         let mut parts: Vec<(Queue, usize, Vec<u32>)> = left.iter().map(part).collect();
@@ -110,7 +110,7 @@ impl Parts {
                 [number] if network.is_weighed(number as usize) => lowest.push(number),
                 _ => open.extend(found.iter().map(|number| *number as usize)),
             }
-            self.in_vain[part as usize] += found.len();
+            self.looked_at[part as usize] += found.len();
             self.left.push(part);
         }
         open.sort_unstable();
@@ -134,13 +134,13 @@ impl Parts {
         };
         many.extend(few.into_iter().filter(&mut leads_out));
         self.outwards[joined] = many;
-        self.in_vain[joined] = 0;
+        self.looked_at[joined] = 0;
         true
     }
 }
 
-/// The lowest link that leads out of a part, if it is weighed; otherwise this one and up to `most`
-/// that may turn out lower than it.
+/// The lowest link that leads out of a part, if it is weighed; otherwise this one and others that
+/// may turn out lower, up to `most` in all.
 fn leading_out(
     network: &Network,
     joined: &UnionFind<u32>,
