@@ -144,11 +144,10 @@ impl<'a> Flood<'a> {
     }
 
     fn rank(&self, id: u32) -> f64 {
-        let own = || self.settled[self.settled.partition_point(|own| own.0 < id)].1;
         if let Some(energy) = self.is(id, GOAL).then(|| self.seeds.goal(id)).flatten() {
             energy
         } else if self.is(id, SETTLED) {
-            own()
+            self.settled[self.settled.partition_point(|own| own.0 < id)].1
         } else if self.level < f64::INFINITY {
             self.store.by_energy[id as usize]
         } else {

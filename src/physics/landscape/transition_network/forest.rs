@@ -128,11 +128,11 @@ impl Parts {
         queues.sort_by_key(BinaryHeap::len);
         let [few, mut many] = queues;
         let joined = self.joined.find_mut(a) as usize;
-        let mut leads_out = |link: &Reverse<ByPeak>| {
+        let leads_out = |link: &Reverse<ByPeak>| {
             let Link { from, to, .. } = network.links[link.0.2 as usize];
             [from, to].map(|node| self.joined.find_mut(node) as usize) != [joined; 2]
         };
-        many.extend(few.into_iter().filter(&mut leads_out));
+        many.extend(few.into_iter().filter(leads_out));
         self.outwards[joined] = many;
         self.looked_at[joined] = 0;
         true

@@ -53,12 +53,8 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
             for fixed in all_fixed {
                 let members = Members::all([fixed, moving]);
                 self.add_far(l, &members, context, &mut known, &mut sums, &mut near);
-                if !near.is_empty() {
-                    let sum = self.near([fixed, moving], rotation, &near);
-                    energy += sum.0;
-                    gradient += sum.1;
-                    near.clear();
-                }
+                let groups = [fixed, moving];
+                self.add_near(groups, rotation, &mut near, (&mut energy, &mut gradient));
             }
         }
         self.add_sums(l, &sums, -MU0_OVER_4PI, &mut energy, &mut gradient);
@@ -108,17 +104,31 @@ impl<const SLOPE: bool> Sum<'_, SLOPE> {
                 }
             }
             for (fixed, list) in all_fixed.iter().zip(&mut lists) {
-                if !list.is_empty() {
-                    let sum = self.near([fixed, moving], rotation, list);
-                    energy += sum.0;
-                    gradient += sum.1;
-                    list.clear();
-                }
+                let groups = [fixed, moving];
+                self.add_near(groups, rotation, list, (&mut energy, &mut gradient));
             }
         }
         self.add_sums(l, &far, 1.0, &mut energy, &mut gradient);
         self.add_sums(l, &sums, -MU0_OVER_4PI, &mut energy, &mut gradient);
         (energy, gradient)
+    }
+
+    /// Adds the sum over near pairs of two groups, and empties their list.
+    #[inline(always)]
+    fn add_near(
+        &self,
+        groups: [&Group; 2],
+        rotation: Complex<f64>,
+        pairs: &mut Vec<[usize; 2]>,
+        (energy, gradient): (&mut f64, &mut Vector3<f64>),
+    ) {
+        if pairs.is_empty() {
+            return;
+        }
+        let sum = self.near(groups, rotation, pairs);
+        *energy += sum.0;
+        *gradient += sum.1;
+        pairs.clear();
     }
 
     /// Adds sums in units of `scale`.
