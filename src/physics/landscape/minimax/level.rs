@@ -26,7 +26,7 @@ impl Seeds<'_> {
     }
 }
 
-/// The lowest level (J) at which a chain of touching leaves with lower bounds of at most that level
+/// The lowest level (J) at which a chain of adjacent leaves with lower bounds of at most that level
 /// joins the ends: no free path between them stays below it. Infinite if there is no chain.
 pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut seen = vec![false; store.len()];

@@ -23,17 +23,7 @@ pub(crate) struct Assessment {
     pub axis: usize,
 }
 
-/// Weight of a cell's uncertainty in its rank.
-const UNCERTAINTY: f64 = 0.3;
-
 impl Assessment {
-    /// The rank in a flood that rises by energy: the estimate, raised by a part of its
-    /// uncertainty. A flood then enters coarse cells last, so that a divide lies in coarse cells
-    /// rather than in fine ones beside a coarse one through which it would leak.
-    pub fn by_energy(&self) -> f64 {
-        self.estimate + UNCERTAINTY * (self.estimate - self.lower)
-    }
-
     /// Whether the estimate is the placeholder of a cell whose midpoint overlaps deeply.
     pub fn is_overlapping(&self) -> bool {
         self.estimate >= OVERLAPPING

@@ -12,15 +12,16 @@
 //! **Lower bound.** The configuration space is covered by closed cells. Each cell either has no
 //! free configuration, or a lower bound of the energy of its free configurations is known: a Taylor
 //! form with a bounded remainder, minimised over the part of the cell that contact allows. A path
-//! is covered by a chain of touching cells, so if every chain of cells from end to end has one with
-//! a lower bound above E, the barrier is above E.
+//! is covered by a chain of cells that meet in faces (see `store`), so if every such chain from end
+//! to end has a cell with a lower bound above E, the barrier is above E.
 //!
 //! **Search.** A flood rises from one end over the cells with lower bounds of at most E, the target
 //! just below the best upper bound. The cells where it would spill over to the other end form a
-//! divide, and only its cells are subdivided (see `flood`): wrong guesses cost time, never the
-//! proof. The lowest pass suggests a pathway; if one along it can be proved, the upper bound
-//! decreases. If no chain is left at E = infinity, the start is caged. Several queries share one
-//! subdivision and advance together, one flood of each at a time.
+//! divide, and only its cells are subdivided (see `flood`), or the largest cells on its way if all of
+//! it seems passable: wrong guesses cost time, never the proof. The lowest pass suggests a pathway;
+//! if one along it can be proved, the upper bound decreases. If no chain is left at E = infinity,
+//! the start is caged. Several queries share one subdivision and advance together, one flood of each
+//! at a time.
 //!
 //! # What is proved, and what is assumed
 //!

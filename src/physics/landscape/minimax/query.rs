@@ -1,5 +1,7 @@
 //! One query: the search for a pathway, and for the proof that no pathway is much lower.
 
+use ordered_float::OrderedFloat;
+
 use super::certifier::{Certifier, SHARPNESS};
 use super::ends::{Held, far_end};
 use super::flood::Flood;
@@ -11,6 +13,7 @@ use crate::configuration::Configuration;
 use crate::interruption;
 use crate::landscape::bounded::Bounded;
 use crate::landscape::results::SaddleBounds;
+use crate::order::Order;
 
 /// Leaves subdivided in one round: at least this many, and this fraction of the cells that the query
 /// gained. A fraction of all leaves would give too much weight to the first guesses, which are the
@@ -22,6 +25,9 @@ const SPLIT_SHARE: usize = 32;
 /// tolerance, and accepted if it is lower by the second.
 const WORTHWHILE: f64 = 0.25;
 const GAIN: f64 = 0.1;
+
+/// Without a known pathway, straight motions to so many of the nearest places are tried.
+const NEAREST: usize = 4;
 
 /// A query in progress.
 pub(super) struct Query<'q> {
@@ -57,7 +63,7 @@ pub(super) enum Found {
 }
 
 impl<'q> Query<'q> {
-    /// Begins a query: proves its known pathway.
+    /// Begins a query: proves its known pathway, or a straight one.
     pub fn new(bounded: &Bounded, question: &'q Question) -> Self {
         let value = |q: &Configuration| bounded.value(q).0;
         let start = value(&question.from);
@@ -77,9 +83,14 @@ impl<'q> Query<'q> {
             from_behind: end > start,
         };
         let sharpness = SHARPNESS * question.effort.tolerance;
-        query.best = query
-            .joined_to_the_ends(bounded)
-            .and_then(|path| bounded.prove(&path, sharpness, f64::INFINITY).ok());
+        let proved = |path: &[Configuration]| bounded.prove(path, sharpness, f64::INFINITY).ok();
+        let known = query.joined_to_the_ends(bounded);
+        query.best = known.and_then(|path| proved(&path));
+        if query.best.is_none() {
+            let straight = query.straight(bounded);
+            query.best = straight.iter().find_map(|path| proved(path));
+            query.improved = query.best.is_some();
+        }
         query
     }
 
@@ -216,6 +227,15 @@ impl<'q> Query<'q> {
             path.push(*to.only()?);
         }
         Some(path)
+    }
+
+    /// Straight motions to the nearest places.
+    fn straight(&self, bounded: &Bounded) -> Vec<[Configuration; 2]> {
+        let Question { from, to, .. } = self.question;
+        let mut places = to.places.clone();
+        places.order_by_key(|q| OrderedFloat(bounded.space.distance(from, q)));
+        places.truncate(NEAREST);
+        places.into_iter().map(|place| [*from, place]).collect()
     }
 
     /// The leaves that hold either end, first that from which floods rise.

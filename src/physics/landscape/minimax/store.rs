@@ -1,4 +1,10 @@
 //! The leaves of a subdivision of the configuration space, and which of them are adjacent.
+//!
+//! Leaves are adjacent if they meet in a face: those that meet only in an edge or a corner need not
+//! be. A path that stays at or below an energy E has, at each of its points, only leaves with lower
+//! bounds of at most E around it, as each of them contains the point; and all leaves around a point
+//! are joined through faces that contain it, because a ball about it without the edges and corners
+//! is connected.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -35,6 +41,11 @@ impl Key {
         Some([lower, upper])
     }
 
+    /// In cubes of units.
+    pub fn volume(&self) -> f64 {
+        self.size.map(f64::from).iter().product()
+    }
+
     /// Whether the cell may hold what lies at a [place](Store::place).
     pub fn may_hold(&self, place: &[f64; 3]) -> bool {
         let holds = |i: usize, at: f64| {
@@ -45,14 +56,24 @@ impl Key {
         holds(0, place[0]) && holds(1, place[1]) && turns.iter().any(|&at| holds(2, at))
     }
 
-    /// Whether two closed cells share a point. The angle is periodic.
-    fn touches(&self, other: &Self) -> bool {
-        let meet = |i: usize| {
-            self.low[i] <= other.low[i] + other.size[i]
-                && other.low[i] <= self.low[i] + self.size[i]
+    /// Whether two cells of a subdivision meet in a face, or a part of one. The angle is periodic.
+    fn meets(&self, other: &Self) -> bool {
+        let end = |key: &Self, i: usize| key.low[i] + key.size[i];
+        let overlap = |i: usize| self.low[i] < end(other, i) && other.low[i] < end(self, i);
+        let abut = |i: usize| {
+            let around = |a: &Self, b: &Self| i == 2 && a.low[2] == 0 && end(b, 2) == UNITS;
+            self.low[i] == end(other, i)
+                || other.low[i] == end(self, i)
+                || around(self, other)
+                || around(other, self)
         };
-        let around = |a: &Self, b: &Self| a.low[2] == 0 && b.low[2] + b.size[2] == UNITS;
-        meet(0) && meet(1) && (meet(2) || around(self, other) || around(other, self))
+        let apart = |i: usize| !overlap(i);
+        match (apart(0), apart(1), apart(2)) {
+            (true, false, false) => abut(0),
+            (false, true, false) => abut(1),
+            (false, false, true) => abut(2),
+            _ => false,
+        }
     }
 }
 
@@ -82,8 +103,8 @@ pub(super) struct Store {
     // The data that floods use most are stored side by side.
     neighbours: Adjacency,
     pub lowers: Vec<f64>,
-    /// The rank of each leaf in a flood by energy,
-    pub by_energy: Vec<f64>,
+    /// The rank of each leaf in a flood by energy (J),
+    pub estimates: Vec<f64>,
     /// and in one by overlap.
     pub by_overlap: Vec<f64>,
 }
@@ -96,7 +117,7 @@ impl Store {
             leaves: Vec::new(),
             neighbours: Adjacency::default(),
             lowers: Vec::new(),
-            by_energy: Vec::new(),
+            estimates: Vec::new(),
             by_overlap: Vec::new(),
         }
     }
@@ -145,7 +166,7 @@ impl Store {
         &self.leaves[id as usize]
     }
 
-    /// The leaves that touch a leaf.
+    /// The leaves that meet a leaf in a face.
     pub fn neighbours(&self, id: u32) -> &[u32] {
         self.neighbours.of(id)
     }
@@ -169,8 +190,8 @@ impl Store {
     pub fn fill(&mut self, cells: &[Part]) {
         let all = self.push(None, cells);
         self.firsts = cells.len();
-        let touching = |id| self.touching(id as u32, all.clone());
-        for neighbours in parallel::map(0..cells.len(), touching) {
+        let adjacent = |id| self.adjacent(id as u32, all.clone());
+        for neighbours in parallel::map(0..cells.len(), adjacent) {
             self.neighbours.push(&neighbours);
         }
     }
@@ -189,12 +210,12 @@ impl Store {
         around.dedup();
         around.retain(|&id| self.leaf(id).live);
         let of_those_around = parallel::map(&around, |&id| {
-            self.touching(id, self.neighbours(id).iter().copied())
+            self.adjacent(id, self.neighbours(id).iter().copied())
         });
         let of_parts = parallel::map(first..self.leaves.len(), |id| {
             let whole = self.leaves[id].whole;
             let around = self.neighbours(whole).iter().copied();
-            self.touching(id as u32, around.chain([whole]))
+            self.adjacent(id as u32, around.chain([whole]))
         });
         for (id, neighbours) in around.into_iter().zip(of_those_around) {
             self.neighbours.replace(id, &neighbours);
@@ -244,7 +265,7 @@ impl Store {
         let first = self.leaves.len() as u32;
         for (id, &(key, known)) in (first..).zip(parts) {
             self.lowers.push(known.lower);
-            self.by_energy.push(known.by_energy());
+            self.estimates.push(known.estimate);
             self.by_overlap.push(known.overlap);
             self.leaves.push(Leaf {
                 key,
@@ -257,8 +278,9 @@ impl Store {
         first..self.leaves.len() as u32
     }
 
-    /// The leaves that touch a leaf, among these or, where they are none any more, their parts.
-    fn touching(&self, id: u32, among: impl Iterator<Item = u32>) -> Vec<u32> {
+    /// The leaves that meet a leaf in a face, among these or, where they are none any more, their
+    /// parts.
+    fn adjacent(&self, id: u32, among: impl Iterator<Item = u32>) -> Vec<u32> {
         let key = &self.leaf(id).key;
         let now = |n: u32| {
             let leaf = self.leaf(n);
@@ -270,11 +292,11 @@ impl Store {
         };
         among
             .flat_map(now)
-            .filter(|&n| n != id && self.leaf(n).key.touches(key))
+            .filter(|&n| n != id && self.leaf(n).key.meets(key))
             .collect()
     }
 
-    /// The midpoint of the intersection of two touching leaves.
+    /// The midpoint of the intersection of two adjacent leaves.
     pub fn between(&self, a: u32, b: u32) -> Configuration {
         let (a, b) = (self.cell(&self.leaf(a).key), self.cell(&self.leaf(b).key));
         let step = a.centre.step_to(&b.centre);
@@ -315,7 +337,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn neighbours_are_the_leaves_that_touch_and_the_tree_leads_to_those_that_hold_a_place() {
+    fn neighbours_are_the_leaves_that_share_a_face_and_the_tree_leads_to_those_that_hold_a_place() {
         let mut store = first_cells();
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         for _ in 0..60 {
@@ -341,18 +363,22 @@ pub(super) mod tests {
         for &a in live.iter().step_by(7) {
             let mut listed = store.neighbours(a).to_vec();
             listed.sort_unstable();
-            // Touching, judged from the boxes alone.
+            // Judged from the boxes alone.
             let box_a = store.cell(&store.leaf(a).key);
-            let touching: Vec<u32> = live
+            let adjacent: Vec<u32> = live
                 .iter()
                 .copied()
                 .filter(|&b| {
                     let box_b = store.cell(&store.leaf(b).key);
                     let step = box_a.centre.step_to(&box_b.centre);
-                    b != a && (0..3).all(|i| step[i].abs() <= box_a.half[i] + box_b.half[i] + 1e-12)
+                    let apart = (0..3).map(|i| step[i].abs() - box_a.half[i] - box_b.half[i]);
+                    let apart: Vec<f64> = apart.collect();
+                    b != a
+                        && apart.iter().all(|apart| *apart < 1e-12)
+                        && apart.iter().filter(|apart| **apart < -1e-12).count() == 2
                 })
                 .collect();
-            assert_eq!(listed, touching);
+            assert_eq!(listed, adjacent);
         }
         for _ in 0..200 {
             let [x, y] = [1.0, 0.7].map(|half: f64| rng.random_range(-half..half));
@@ -360,6 +386,62 @@ pub(super) mod tests {
             let holds = |id: &u32| store.cell(&store.leaf(*id).key).contains(&q);
             let held: Vec<u32> = live.iter().copied().filter(holds).collect();
             assert_eq!(store.holding(&q), held);
+        }
+    }
+
+    /// Paths that lead exactly along edges and through corners of leaves as well.
+    #[test]
+    fn leaves_around_the_points_of_a_path_are_joined_through_faces() {
+        let mut store = first_cells();
+        let mut rng = ChaCha8Rng::seed_from_u64(5);
+        for _ in 0..400 {
+            let live: Vec<u32> = store.live().map(|(id, _)| id).collect();
+            let id = live[rng.random_range(0..live.len())];
+            let halves = store.leaf(id).key.halves(rng.random_range(0..3)).unwrap();
+            store.replace(&[(id, halves.map(|key| (key, KNOWN)).to_vec())]);
+        }
+        let live: Vec<(u32, Key)> = store.live().map(|(id, leaf)| (id, leaf.key)).collect();
+        let corner = |rng: &mut ChaCha8Rng| {
+            let (_, key) = live[rng.random_range(0..live.len())];
+            key.low
+        };
+        for _ in 0..100 {
+            let ends = [corner(&mut rng), corner(&mut rng)];
+            let holds = |key: &Key, at: [f64; 3]| {
+                let within = |i: usize, at: f64| {
+                    f64::from(key.low[i]) <= at && at <= f64::from(key.low[i] + key.size[i])
+                };
+                let turns = [at[2], at[2] - f64::from(UNITS), at[2] + f64::from(UNITS)];
+                within(0, at[0]) && within(1, at[1]) && turns.iter().any(|&at| within(2, at))
+            };
+            let mut met: Vec<u32> = Vec::new();
+            // From corner to corner along the axes, in steps that meet every leaf on the way.
+            let mut at = ends[0].map(f64::from);
+            for axis in 0..3 {
+                let [from, to] = ends.map(|end| f64::from(end[axis]));
+                for step in 0..=4096 {
+                    at[axis] = from + (to - from) * f64::from(step) / 4096.0;
+                    met.extend(
+                        live.iter()
+                            .filter(|(_, key)| holds(key, at))
+                            .map(|leaf| leaf.0),
+                    );
+                }
+            }
+            met.sort_unstable();
+            met.dedup();
+            let mut open = vec![met[0]];
+            let mut joined = open.clone();
+            while let Some(id) = open.pop() {
+                for &n in store.neighbours(id) {
+                    if met.contains(&n) && !joined.contains(&n) {
+                        joined.push(n);
+                        open.push(n);
+                    }
+                }
+            }
+            joined.sort_unstable();
+            assert_eq!(joined, met);
         }
     }
 

@@ -20,8 +20,7 @@ const HALVINGS: RangeInclusive<u32> = 3..=8;
 /// Leaves subdivided between two checks of the remaining effort.
 const BATCH: usize = 512;
 
-/// Units of work of a flood for each existing leaf, and for each flooded one.
-const LEAF: u64 = 2;
+/// Units of work of a flood for each flooded leaf.
 const FLOODED: u64 = 50;
 
 /// A query and the number of its question.
@@ -166,8 +165,7 @@ impl Certifier<'_> {
         self.ends.look(&self.store, &self.bounded);
         let known = self.passable();
         let found = of_each(open, |query| query.search(self, &known));
-        let leaves = self.store.len() as u64;
-        let work = |(flooded, _): &(usize, Found)| leaves * LEAF + *flooded as u64 * FLOODED;
+        let work = |(flooded, _): &(usize, Found)| *flooded as u64 * FLOODED;
         let floods = found.iter().map(work).sum();
         let mut wishes: BTreeMap<u32, Wish> = BTreeMap::new();
         let mut asked = Vec::new();
