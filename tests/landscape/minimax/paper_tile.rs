@@ -5,6 +5,7 @@ use std::sync::atomic::{self, AtomicUsize};
 use tilebind::configuration::Configuration;
 use tilebind::landscape::minimax::{Bracket, CertifyError, End, Goal, Ordering, Question};
 use tilebind::potential::MagnetModel;
+use tilebind::potential::shielding::{Shield, Shields};
 
 use super::scene::{Scene, effort};
 
@@ -64,6 +65,35 @@ fn brackets_of_blocks_are_as_narrow_as_asked_and_nest() {
                 bracket.bounds.upper.unwrap() >= saddle - 2e-6,
                 "{bracket:?}"
             );
+        }
+    }
+}
+
+/// Where large leaves that hold an end, or that meet in an edge alone, lie beside the pass, only
+/// subdividing them tells the ends apart; the leaves at the pass are low at any size.
+#[test]
+fn searches_end_where_large_leaves_lie_beside_the_pass() {
+    let (blocks, design) = Scene::shipped("paper-tile", MagnetModel::Cuboid);
+    let shield = Shield {
+        attenuation: 0.8,
+        length: 0.03,
+        width: 0.3,
+        front_gain: 1.0,
+    };
+    let shields = Shields {
+        fixed: vec![Some(shield); 4],
+        moving: vec![Some(shield); 4],
+        ..Shields::default()
+    };
+    let [fixed, moving] = blocks.tiles.clone();
+    let shielded = Scene::shielded(fixed, moving, blocks.space.half_size, &shields);
+    for (scene, depth) in [(blocks, 118.64e-3), (shielded, 65.47e-3)] {
+        for from in [[0.43, 0.1003, 0.0], [0.43, -0.04, 0.0]] {
+            let narrow = effort(1e-4 * depth, 1_000_000);
+            let bracket = scene.bracket(&from.into(), &End::At(design.pair.bound), &narrow);
+            assert!(bracket.bounds.width() <= 1e-4 * depth, "{bracket:?}");
+            // 6,000 to 13,000; millions without subdividing them.
+            assert!(bracket.cells < 50_000, "{from:?}: {}", bracket.cells);
         }
     }
 }
