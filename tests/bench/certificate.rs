@@ -10,6 +10,8 @@
 #[path = "../shared/designs.rs"]
 mod designs;
 mod ratio;
+#[path = "../shared/shields.rs"]
+mod shields;
 
 use std::time::Instant;
 
@@ -18,7 +20,6 @@ use tilebind::contact::Contact;
 use tilebind::design::Design;
 use tilebind::landscape::minimax::{Certifier, Effort, End};
 use tilebind::potential::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBounds};
-use tilebind::potential::shielding::{Shield, Shields};
 
 use ratio::ratio;
 
@@ -31,19 +32,8 @@ fn main() {
     println!("point dipoles");
     let dipoles = DipoleBounds::new(fixed, moving);
     measure(&design, &dipoles, 65.47e-3);
-    let shield = Shield {
-        attenuation: 0.8,
-        length: 0.03,
-        width: 0.3,
-        front_gain: 1.0,
-    };
-    let shields = Shields {
-        fixed: vec![Some(shield); 4],
-        moving: vec![Some(shield); 4],
-        ..Shields::default()
-    };
     println!("\npoint dipoles behind shields");
-    let shielded = ShieldedBounds::new(fixed, moving, &shields);
+    let shielded = ShieldedBounds::new(fixed, moving, &shields::behind_all_faces());
     measure(&design, &shielded, 65.47e-3);
     println!("\nblocks");
     let blocks = CuboidBounds::new(fixed, moving);

@@ -24,6 +24,8 @@ mod ranking;
 mod roadmap;
 mod scales;
 mod seam;
+#[path = "../shared/shields.rs"]
+mod shields;
 mod surfaces;
 mod surveys;
 mod symmetry;

@@ -5,9 +5,9 @@ use std::sync::atomic::{self, AtomicUsize};
 use tilebind::configuration::Configuration;
 use tilebind::landscape::minimax::{Bracket, CertifyError, End, Goal, Ordering, Question};
 use tilebind::potential::MagnetModel;
-use tilebind::potential::shielding::{Shield, Shields};
 
 use super::scene::{Scene, effort};
+use crate::shields;
 
 #[test]
 fn brackets_hold_the_reference_saddles() {
@@ -74,17 +74,7 @@ fn brackets_of_blocks_are_as_narrow_as_asked_and_nest() {
 #[test]
 fn searches_end_where_large_leaves_lie_beside_the_pass() {
     let (blocks, design) = Scene::shipped("paper-tile", MagnetModel::Cuboid);
-    let shield = Shield {
-        attenuation: 0.8,
-        length: 0.03,
-        width: 0.3,
-        front_gain: 1.0,
-    };
-    let shields = Shields {
-        fixed: vec![Some(shield); 4],
-        moving: vec![Some(shield); 4],
-        ..Shields::default()
-    };
+    let shields = shields::behind_all_faces();
     let [fixed, moving] = blocks.tiles.clone();
     let shielded = Scene::shielded(fixed, moving, blocks.space.half_size, &shields);
     for (scene, depth) in [(blocks, 118.64e-3), (shielded, 65.47e-3)] {

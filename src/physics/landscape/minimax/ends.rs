@@ -38,13 +38,12 @@ impl Ends {
                 }
             }
         }
-        let seed = |id: &u32| (*id, f64::NEG_INFINITY);
         let mut to: Vec<u32> = held.0[1..].concat();
         to.sort_unstable();
         to.dedup();
         Seeds {
-            from: held.0[0].iter().map(seed).collect(),
-            to: to.iter().map(seed).collect(),
+            from: held.0[0].clone(),
+            to,
             far: goal.free.then_some(&self.far),
         }
     }

@@ -95,7 +95,7 @@ impl<'a> Flood<'a> {
             pass: None,
             flooded: 0,
         };
-        for &(id, _) in &seeds.to {
+        for &id in &seeds.to {
             flood.state[id as usize] |= GOAL;
         }
         for &(id, energy) in known {
@@ -103,9 +103,9 @@ impl<'a> Flood<'a> {
                 flood.state[id as usize] |= KNOWN;
             }
         }
-        for &(id, energy) in &seeds.from {
+        for &id in &seeds.from {
             if flood.is_dry(id) {
-                flood.touch(id, NONE, energy);
+                flood.touch(id, NONE, f64::NEG_INFINITY);
             }
         }
         flood
@@ -262,13 +262,14 @@ mod tests {
     /// Dijkstra's algorithm; the ends count with their energies.
     fn minimax(store: &Store, seeds: &Seeds, level: f64, off: &[u32]) -> Option<f64> {
         let passable = |id: u32| store.lower(id) <= level && !off.contains(&id);
-        let goal = |id: u32| seeds.to.iter().find(|seed| seed.0 == id).map(|seed| seed.1);
+        let goals = seeds.far.unwrap_or_default();
+        let goal = |id: u32| Some(goals[id as usize]).filter(|energy| !energy.is_nan());
         let rank = |id: u32| goal(id).unwrap_or(store.estimates[id as usize]);
         let mut best = vec![f64::INFINITY; store.len()];
         let mut queue = BinaryHeap::new();
-        for &(id, energy) in seeds.from.iter().filter(|seed| passable(seed.0)) {
-            best[id as usize] = energy;
-            queue.push((Reverse(ordered(energy)), id));
+        for &id in seeds.from.iter().filter(|id| passable(**id)) {
+            best[id as usize] = f64::NEG_INFINITY;
+            queue.push((Reverse(ordered(f64::NEG_INFINITY)), id));
         }
         while let Some((_, id)) = queue.pop() {
             if goal(id).is_some() {
@@ -307,13 +308,15 @@ mod tests {
             let mut store = Store::new(&space);
             let keys = Store::first_keys().into_iter();
             store.fill(&keys.map(|key| (key, known(0.0))).collect::<Vec<_>>());
-            let seeds = Seeds {
-                from: vec![(3, f64::NEG_INFINITY)],
-                to: vec![(500, 0.2), (900, 0.1)],
-                far: None,
-            };
             let mut level = 0.8;
             for round in 0..40 {
+                let mut far = vec![f64::NAN; store.len()];
+                (far[500], far[900]) = (0.2, 0.1);
+                let seeds = Seeds {
+                    from: vec![3],
+                    to: Vec::new(),
+                    far: Some(&far),
+                };
                 let mut all = Flood::new(&store, &seeds, level, &[]);
                 all.rise(usize::MAX);
                 let lowest = minimax(&store, &seeds, level, &[]);

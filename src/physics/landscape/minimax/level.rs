@@ -5,24 +5,25 @@ use std::collections::BinaryHeap;
 
 use super::store::Store;
 
-/// The leaves that contain either end of a query, with the lowest known energy (J) of the end in
-/// them.
+/// The leaves that contain either end of a query.
 pub(super) struct Seeds<'a> {
-    pub from: Vec<(u32, f64)>,
-    /// Places where it may end, ascending.
-    pub to: Vec<(u32, f64)>,
+    pub from: Vec<u32>,
+    /// Those with places where it may end, ascending.
+    pub to: Vec<u32>,
     /// If it may also end with the tiles far apart: for each leaf, the energy (J) where they are, NaN
     /// if they are nowhere so.
     pub far: Option<&'a [f64]>,
 }
 
 impl Seeds<'_> {
-    /// The energy (J) of the other end in a leaf that holds it.
+    /// The energy (J) of the other end in a leaf that holds it; minus infinity for a place, from which
+    /// a flood may rise as well.
     pub fn goal(&self, id: u32) -> Option<f64> {
-        let place = self.to.binary_search_by_key(&id, |goal| goal.0);
-        let far = || self.far.map(|far| far[id as usize]);
-        let goal = place.ok().map(|place| self.to[place].1).or_else(far);
-        goal.filter(|energy| !energy.is_nan())
+        if self.to.binary_search(&id).is_ok() {
+            return Some(f64::NEG_INFINITY);
+        }
+        let far = self.far.map(|far| far[id as usize]);
+        far.filter(|energy| !energy.is_nan())
     }
 }
 
@@ -31,7 +32,7 @@ impl Seeds<'_> {
 pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
     let mut seen = vec![false; store.len()];
     let mut queue = BinaryHeap::new();
-    for &(id, _) in &seeds.from {
+    for &id in &seeds.from {
         seen[id as usize] = true;
         queue.push(Reverse((ordered(store.lower(id)), id)));
     }

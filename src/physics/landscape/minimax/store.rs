@@ -67,13 +67,7 @@ impl Key {
                 || around(self, other)
                 || around(other, self)
         };
-        let apart = |i: usize| !overlap(i);
-        match (apart(0), apart(1), apart(2)) {
-            (true, false, false) => abut(0),
-            (false, true, false) => abut(1),
-            (false, false, true) => abut(2),
-            _ => false,
-        }
+        (0..3).filter(|&i| overlap(i)).count() == 2 && (0..3).all(|i| overlap(i) || abut(i))
     }
 }
 
@@ -371,8 +365,8 @@ pub(super) mod tests {
                 .filter(|&b| {
                     let box_b = store.cell(&store.leaf(b).key);
                     let step = box_a.centre.step_to(&box_b.centre);
-                    let apart = (0..3).map(|i| step[i].abs() - box_a.half[i] - box_b.half[i]);
-                    let apart: Vec<f64> = apart.collect();
+                    let apart: [f64; 3] =
+                        std::array::from_fn(|i| step[i].abs() - box_a.half[i] - box_b.half[i]);
                     b != a
                         && apart.iter().all(|apart| *apart < 1e-12)
                         && apart.iter().filter(|apart| **apart < -1e-12).count() == 2
