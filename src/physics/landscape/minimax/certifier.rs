@@ -130,17 +130,20 @@ impl<'a> Certifier<'a> {
             .map(|place| (place, leaf(leaves[place].0)))
             .collect();
         for _ in 0..halvings {
-            let halves = parallel::map(&open, |(place, part)| self.halves(part, leaves[*place].1));
-            let mut smaller = Vec::new();
-            for ((place, part), halves) in open.into_iter().zip(halves) {
-                let Some(halves) = halves else {
-                    divided[place].1.push(part);
+            let mut halves = Vec::new();
+            for (place, (key, known)) in open {
+                let passable = known.lower <= leaves[place].1;
+                let Some(pair) = key.halves(known.axis).filter(|_| passable) else {
+                    divided[place].1.push((key, known));
                     continue;
                 };
-                assessed[place] += halves.len();
-                smaller.extend(halves.into_iter().flatten().map(|half| (place, half)));
+                assessed[place] += pair.len();
+                halves.extend(pair.map(|half| (place, half, known)));
             }
-            open = smaller;
+            open = parallel::flat_map(&halves, |(place, half, whole)| {
+                let part = self.bounded.assess(&self.store.cell(half))?;
+                Some((*place, (*half, part.within(whole))))
+            });
         }
         for (place, part) in open {
             divided[place].1.push(part);
@@ -150,15 +153,5 @@ impl<'a> Certifier<'a> {
         self.store.replace(&divided);
         self.assessed += assessed.iter().sum::<usize>();
         assessed
-    }
-
-    /// The halves of a cell that are not blocked; `None` if it cannot be passed at a level (J), or not
-    /// be halved.
-    fn halves(&self, (key, known): &Part, level: f64) -> Option<[Option<Part>; 2]> {
-        let halves = key.halves(known.axis).filter(|_| known.lower <= level)?;
-        Some(halves.map(|half| {
-            let part = self.bounded.assess(&self.store.cell(&half))?;
-            Some((half, part.within(known)))
-        }))
     }
 }

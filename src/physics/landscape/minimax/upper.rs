@@ -58,11 +58,22 @@ impl Bounded<'_> {
         tolerance: f64,
         give_up: f64,
     ) -> Result<ProvedPath, usize> {
-        let (points, owners) = self.freed(path)?;
+        let mut points = vec![*path.first().ok_or(0usize)?];
         let mut energies: Vec<f64> = Vec::new();
-        for part in points.chunks(AT_ONCE) {
+        // For each point, the number of the given point before which it was inserted, or which it is.
+        let mut owners = vec![0];
+        let stretches: Vec<&[Configuration]> = path.windows(2).collect();
+        for part in 0..stretches.len().div_ceil(AT_ONCE).max(1) {
+            let first = part * AT_ONCE;
+            let few = &stretches[first..stretches.len().min(first + AT_ONCE)];
+            let is_end = first + few.len() == stretches.len();
+            let freed = self.freed(&points[points.len() - 1], few, is_end);
+            for (k, inserted) in (first + 1..).zip(freed) {
+                points.extend(inserted.ok_or(k)?);
+                owners.resize(points.len(), k);
+            }
             let known = energies.len();
-            energies.extend(parallel::map(part, |q| self.energy(q)));
+            energies.extend(parallel::map(&points[known..], |q| self.energy(q)));
             let is_out = |k: &usize| !self.space.contains(&points[*k]) || energies[*k] > give_up;
             if let Some(k) = (known..energies.len()).find(is_out) {
                 return Err(owners[k]);
@@ -79,47 +90,37 @@ impl Bounded<'_> {
         })
     }
 
-    /// The points of a pathway through the given points, proved free, and for each of them the
-    /// number of the given point before which it was inserted, or which it is.
-    ///
-    /// # Errors
-    /// The number of a point before which the pathway cannot be proved free.
-    fn freed(&self, path: &[Configuration]) -> Result<(Vec<Configuration>, Vec<usize>), usize> {
-        let mut points = vec![*path.first().ok_or(0usize)?];
-        let mut owners = vec![0];
-        let stretches: Vec<&[Configuration]> = path.windows(2).collect();
-        for (part, stretches) in stretches.chunks(AT_ONCE).enumerate() {
-            let free = parallel::map(stretches, |ends| self.is_free(&ends[0], &ends[1]));
-            for (i, (ends, is_free)) in stretches.iter().zip(free).enumerate() {
-                let k = part * AT_ONCE + i + 1;
-                if is_free && points.last() == Some(&ends[0]) {
-                    points.push(ends[1]);
-                } else {
-                    self.extend(&mut points, &ends[1], k + 1 == path.len())
-                        .ok_or(k)?;
-                }
-                owners.resize(points.len(), k);
+    /// For each of some consecutive stretches the points of a path proved free, without its first;
+    /// `None` if it cannot be proved free. The first one begins at `from`. Where a stretch is not free
+    /// itself, its path leads to its end lifted off contact, unless that `is_end` of the pathway.
+    fn freed(
+        &self,
+        from: &Configuration,
+        stretches: &[&[Configuration]],
+        is_end: bool,
+    ) -> Vec<Option<Vec<Configuration>>> {
+        let free = parallel::map(stretches, |ends| self.is_free(&ends[0], &ends[1]));
+        let mut targets = parallel::map(0..stretches.len(), |i| {
+            let to = stretches[i][1];
+            let stays = free[i] || is_end && i + 1 == stretches.len();
+            if stays { Some(to) } else { self.lifted(&to) }
+        });
+        // Beyond a place that cannot be lifted there is nothing to prove.
+        let lost = targets.iter().position(Option::is_none);
+        targets.truncate(lost.map_or(targets.len(), |lost| lost + 1));
+        parallel::map(0..targets.len(), |i| {
+            let to = targets[i]?;
+            let mut points = vec![match i {
+                0 => *from,
+                _ => targets[i - 1]?,
+            }];
+            if free[i] && points[0] == stretches[i][0] {
+                points.push(to);
+            } else {
+                self.join(&mut points, &to, DEPTH)?;
             }
-        }
-        Ok((points, owners))
-    }
-
-    /// Appends a proved free path from the last point to `to` or, unless it is the `end`, to `to`
-    /// lifted off contact.
-    fn extend(&self, points: &mut Vec<Configuration>, to: &Configuration, end: bool) -> Option<()> {
-        if self.is_free(points.last()?, to) {
-            points.push(*to);
-            return Some(());
-        }
-        let lifted = if end { None } else { self.lifted(to) };
-        let length = points.len();
-        for target in lifted.iter().chain([to]) {
-            if self.join(points, target, DEPTH).is_some() {
-                return Some(());
-            }
-            points.truncate(length);
-        }
-        None
+            Some(points.split_off(1))
+        })
     }
 
     /// Appends a proved free path from the last point to `to`, bent off contact where needed.
@@ -138,7 +139,7 @@ impl Bounded<'_> {
             return None;
         }
         let middle = from.interpolate(to, 0.5);
-        let middle = self.lifted(&middle).unwrap_or(middle);
+        let middle = self.lifted(&middle)?;
         self.join(points, &middle, depth - 1)?;
         self.join(points, to, depth - 1)
     }
