@@ -12,7 +12,7 @@ use crate::request::Unanswered;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
 use physics::landscape::minimax::{Certifier, Effort, End};
-use physics::landscape::{Barrier, Place, Uncertified, barrier_bounds};
+use physics::landscape::{Barrier, Place, Uncertified, barrier_bounds, pathway};
 use physics::observer::Observer;
 use physics::problem::Problem;
 use ways::Search;
@@ -93,6 +93,9 @@ pub fn barrier(
         check(&problem, to)?;
     }
     let mut barrier = unknown_barrier(&problem, query);
+    if query.to == End::Free && problem.space.is_far(&query.from) {
+        barrier.lead_along(pathway::of_configurations(&problem, &[query.from], 0.0));
+    }
     let search = Search::new(&problem, query);
     let certificate = Certificate::new(&problem, query, &search);
     let uncertified = certificate.as_ref().err().copied();
@@ -120,6 +123,7 @@ pub fn barrier(
                 }
             }
         }
+        Err(_) if barrier.has_way() => (),
         Err(_) => barrier.lead_lower(search.through_roadmap(observer)),
     }
     if !barrier.has_way() && !barrier.bounds.caged {

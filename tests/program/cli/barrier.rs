@@ -86,3 +86,18 @@ fn between_poses_on_a_slope_the_higher_end_is_the_saddle() {
     assert!(number(&entry, "forward_J").abs() < 1e-9);
     assert_eq!(numbers(&entry["saddle_pose"]), [0.45, 0.0, 0.0]);
 }
+
+#[test]
+fn tiles_that_are_far_apart_are_free_without_a_motion() {
+    for effort in [&[][..], &["--certify-work", "0"]] {
+        let from = ["barrier", DESIGN, "--from", "0.7,0,0", "--to", "free"];
+        let entry = json(&[&from[..], effort].concat());
+        let saddle = number(&entry, "saddle_energy_J");
+        assert!(saddle < 0.0 && saddle > -1e-5 && number(&entry, "forward_J") == 0.0);
+        assert_eq!(number(&entry, "length_m"), 0.0);
+        assert_eq!(number(&entry, "work_J"), 0.0);
+        if effort.is_empty() {
+            assert!(number(&entry, "upper_J") - number(&entry, "lower_J") < 1e-12);
+        }
+    }
+}
