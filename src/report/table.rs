@@ -83,7 +83,7 @@ fn told(interval: &Interval) -> String {
         (Some(low), Some(high)) => format!(
             "{} ({} to {})",
             plain(interval.mean, 3),
-            plain(low.max(0.0), 3),
+            plain(low, 3),
             plain(high, 3)
         ),
         _ => plain(interval.mean, 3),
@@ -246,7 +246,8 @@ fn notes(found: &Found, request: &Request) -> Vec<String> {
     }
     if statistics.halved > 0 {
         notes.push(format!(
-            "{} of {} runs were repeated with shorter steps, because more than {} of the energy was missing",
+            "{} of {} runs were repeated with shorter steps, because more than {} of the energy was missing or a \
+             tile moved too far in one step",
             statistics.halved,
             found.runs.len(),
             share(ACCOUNTED)

@@ -19,22 +19,57 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Computed from the runs' values by Student's t.
-    pub fn of(values: &[f64]) -> Self {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
-        let half = (values.len() > 1).then(|| {
+    /// Computed from counts, one a run, by Student's t or, if that is wider, from how rarely the
+    /// counts differ from their median (see [`rare`]): runs that agree do not prove that all do.
+    pub fn of(counts: &[usize]) -> Self {
+        let n = counts.len() as f64;
+        let mean = counts.iter().sum::<usize>() as f64 / n;
+        let off = |count: &usize| (*count as f64 - mean).powi(2);
+        let squares: f64 = counts.iter().map(off).sum();
+        let [below, above] = rare(counts);
+        let half = (counts.len() > 1).then(|| {
             let t = StudentsT::new(0.0, 1.0, n - 1.0);
             let t = t.map_or(f64::NAN, |t| t.inverse_cdf(0.975));
             t * (squares / (n - 1.0) / n).sqrt()
         });
         Self {
             mean,
-            low: half.map(|half| mean - half),
-            high: half.map(|half| mean + half),
+            low: half.map(|half| (mean - half.max(below)).max(0.0)),
+            high: half.map(|half| mean + half.max(above)),
         }
     }
+
+    /// As shares of the largest possible count.
+    pub fn of_at_most(self, most: usize) -> Self {
+        let share = |count: f64| (count / most.max(1) as f64).min(1.0);
+        Self {
+            mean: share(self.mean),
+            low: self.low.map(share),
+            high: self.high.map(share),
+        }
+    }
+}
+
+/// How far the mean may lie below and above that of these counts if differences from the median are
+/// independent rare events: their numbers up and down have Poisson intervals, of which the
+/// interval of the difference follows (Zou and Donner 2008, doi:10.1002/sim.3095).
+fn rare(counts: &[usize]) -> [f64; 2] {
+    let mut sorted = counts.to_vec();
+    sorted.order_by_key(|count| *count);
+    let median = sorted[sorted.len() / 2];
+    let total =
+        |off: fn(usize, usize) -> usize| counts.iter().map(|count| off(*count, median)).sum();
+    let [up, down]: [usize; 2] = [
+        total(usize::saturating_sub),
+        total(|a, b| b.saturating_sub(a)),
+    ];
+    let margins = |events: usize| poisson_interval(events).map(|end| (end - events as f64).abs());
+    let ([up_low, up_high], [down_low, down_high]) = (margins(up), margins(down));
+    [
+        libm::hypot(up_low, down_high),
+        libm::hypot(up_high, down_low),
+    ]
+    .map(|off| off / counts.len() as f64)
 }
 
 /// The state of a table at the end.
@@ -128,7 +163,7 @@ impl Statistics {
     /// Computes the statistics of at least one run.
     pub fn of(runs: &[Run], settings: &TableSettings) -> Self {
         let at_end = |tie: Tie| {
-            let count = |run: &Run| run.samples.last().map_or(0, |last| last.count(tie)) as f64;
+            let count = |run: &Run| run.samples.last().map_or(0, |last| last.count(tie));
             Interval::of(&runs.iter().map(count).collect::<Vec<_>>())
         };
         let kinetic = runs.iter().map(|run| run.kinetic).sum::<f64>() / runs.len() as f64;
@@ -199,7 +234,7 @@ fn moments(runs: &[Run]) -> Vec<Moment> {
     let count = runs.iter().map(|run| run.samples.len()).min().unwrap_or(0);
     (0..count)
         .map(|k| {
-            let of = |get: &dyn Fn(&physics::table::Sample) -> f64| {
+            let of = |get: &dyn Fn(&physics::table::Sample) -> usize| {
                 Interval::of(
                     &runs
                         .iter()
@@ -209,9 +244,9 @@ fn moments(runs: &[Run]) -> Vec<Moment> {
             };
             Moment {
                 time: runs[0].samples[k].time,
-                bonds: of(&|it| it.count(Tie::Bond) as f64),
-                traps: of(&|it| it.count(Tie::Trap) as f64),
-                largest: of(&|it| it.clusters.first().copied().unwrap_or(0) as f64),
+                bonds: of(&|it| it.count(Tie::Bond)),
+                traps: of(&|it| it.count(Tie::Trap)),
+                largest: of(&|it| it.clusters.first().copied().unwrap_or(0)),
             }
         })
         .collect()
@@ -240,4 +275,54 @@ fn lifetime(runs: &[Run], tie: Tie) -> Lifetime {
         lifetime.interval = [high, low].map(|count| (count > 0.0).then(|| lifetime.time / count));
     }
     lifetime
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn runs_that_agree_prove_little() {
+        let ends = |counts: &[usize]| {
+            let found = Interval::of(counts);
+            (found.low, found.high)
+        };
+        assert_eq!(ends(&[3]), (None, None));
+        // Garwood's upper end for no event, over the number of runs.
+        let (low, high) = ends(&[0; 4]);
+        assert!(low == Some(0.0) && (high.unwrap() - 3.689 / 4.0).abs() < 1e-3);
+        let (low, high) = ends(&[12; 20]);
+        let off = [12.0 - low.unwrap(), high.unwrap() - 12.0];
+        assert!(off.iter().all(|off| (off - 3.689 / 20.0).abs() < 1e-3));
+        let of_pairs = Interval::of(&[12; 20]).of_at_most(12);
+        assert!(of_pairs.mean == 1.0 && of_pairs.high == Some(1.0) && of_pairs.low < Some(0.99));
+        // Student's t of four values with a standard deviation of 2.582.
+        let (low, high) = ends(&[3, 5, 7, 9]);
+        assert!(
+            (high.unwrap() - 6.0 - 4.108).abs() < 1e-2 && (6.0 - low.unwrap() - 4.108).abs() < 1e-2
+        );
+    }
+
+    #[test]
+    fn the_mean_of_rare_counts_lies_in_their_intervals() {
+        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        for (mean, runs) in [
+            (0.06, 4),
+            (0.1, 10),
+            (0.3, 4),
+            (1.0, 10),
+            (3.0, 4),
+            (9.9, 5),
+        ] {
+            let mut count = || (0..10).filter(|_| rng.random_bool(mean / 10.0)).count();
+            let mut holds = || {
+                let found = Interval::of(&(0..runs).map(|_| count()).collect::<Vec<_>>());
+                found.low <= Some(mean) && found.high >= Some(mean)
+            };
+            let held = (0..500).filter(|_| holds()).count();
+            assert!(held > 465, "{held} of 500 for {mean} in {runs} runs");
+        }
+    }
 }

@@ -25,34 +25,28 @@ impl Target {
     /// Evaluates at least one run; `kinds` are the kinds of the tiles.
     pub fn of(about: &About, (crowd, kinds): (&Crowd, &[usize]), runs: &[Run]) -> Self {
         let Some(pattern) = &about.pattern else {
-            let share = |run: &Run| bonds(crowd, kinds, run);
+            let found: Vec<_> = runs.iter().map(|run| bonds(crowd, kinds, run)).collect();
+            let bound: Vec<usize> = found.iter().map(|(bound, _)| *bound).collect();
+            let possible = found.first().map_or(0, |(_, possible)| *possible);
             return Self {
-                share: Interval::of(&runs.iter().map(share).collect::<Vec<_>>()),
+                share: Interval::of(&bound).of_at_most(possible),
                 defects: None,
             };
         };
         let grown: Vec<_> = runs.iter().map(|run| grown(crowd, pattern, run)).collect();
-        let of = |pick: fn(&(usize, usize)) -> f64| {
+        let of = |pick: fn(&(usize, usize)) -> usize| {
             Interval::of(&grown.iter().map(pick).collect::<Vec<_>>())
         };
-        let right = of(|it| it.0 as f64);
-        let scaled = |count: f64| count / pattern.len() as f64;
         Self {
-            share: Interval {
-                mean: scaled(right.mean),
-                low: right.low.map(scaled),
-                high: right.high.map(scaled),
-            },
-            defects: Some(of(|it| it.1 as f64)),
+            share: of(|it| it.0).of_at_most(pattern.len()),
+            defects: Some(of(|it| it.1)),
         }
     }
 }
 
-/// The number of bound pairs over the largest possible number of simultaneously bound pairs.
-fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
-    let Some(last) = run.samples.last() else {
-        return 0.0;
-    };
+/// The number of bound pairs, and the largest possible number of simultaneously bound pairs.
+fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> (usize, usize) {
+    let held = run.samples.last().map_or(&[][..], |last| &last.held);
     let [mut bound, mut possible] = [0, 0];
     for second in 0..crowd.kinds.len() {
         for first in 0..second {
@@ -61,7 +55,7 @@ fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
             }
             let of_kind = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
             possible += of_kind(first).min(of_kind(second));
-            let held = last.held.iter().filter(|held| held.tie == Tie::Bond);
+            let held = held.iter().filter(|held| held.tie == Tie::Bond);
             let pairs: Vec<[usize; 2]> = held
                 .map(|held| held.tiles)
                 .filter(|tiles| {
@@ -72,7 +66,7 @@ fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> f64 {
             bound += matched(&pairs);
         }
     }
-    bound as f64 / possible.max(1) as f64
+    (bound, possible)
 }
 
 /// The size of a maximum matching: pairs of which no two share a tile.
