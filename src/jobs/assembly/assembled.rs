@@ -192,6 +192,7 @@ impl Assembly<'_> {
                 () if growth.wrong > 0 => Verdict::ErrorsStay,
                 () => Verdict::Slow,
             },
+            Verdict::TooHard if is_right(growth) => Verdict::MoreHold,
             other => other,
         }
     }

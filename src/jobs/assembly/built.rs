@@ -55,8 +55,10 @@ pub struct Built {
 /// Whether a tile set grows as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// kT is too high: nothing binds.
+    /// kT is too high: bonds of strength tau do not hold a tile.
     TooHard,
+    /// kT is as high, but growths end right all the same, as tiles that more bonds hold stay.
+    MoreHold,
     /// kT is too low: bonds weaker than tau also hold a tile.
     FewerHold,
     /// kT is too low: a single aligned mismatch holds a tile.

@@ -144,6 +144,7 @@ fn entries(assembly: &Assembly) -> Entries {
 fn verdict(assembly: &Assembly) -> &'static str {
     match assembly.verdict() {
         Growth::TooHard => "nothing holds",
+        Growth::MoreHold => "more bonds hold",
         Growth::FewerHold => "fewer bonds than tau hold",
         Growth::MismatchHolds => "a mismatch holds",
         Growth::TauHolds | Growth::OneHolds => "right",

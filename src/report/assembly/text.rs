@@ -13,7 +13,12 @@ pub(super) fn headline(assembly: &Assembly) -> String {
     let (set, gse) = (&built.set, built.gse());
     let told;
     let verdict = match assembly.verdict() {
-        Growth::TooHard => "too hard, so nothing holds and nothing grows",
+        Growth::TooHard => {
+            "too hard: bonds of strength tau do not hold a tile, and growth does not end right"
+        }
+        Growth::MoreHold => {
+            "hard: bonds of strength tau do not hold a tile, but stronger ones do, and growths end right"
+        }
         Growth::FewerHold => "too soft: fewer bonds than tau also hold, so anything grows",
         Growth::MismatchHolds => {
             "too soft: a single aligned mismatch also holds a tile, so errors grow"
@@ -75,10 +80,13 @@ pub(super) fn known(assembly: &Assembly) -> Vec<String> {
     let grown = &built.grown;
     let window = built.window().map(|[low, high]| match low > 0.0 {
         true => format!(
-            "it grows at kT from {} at this coverage",
+            "bonds of strength tau hold a tile, and weaker ones do not, at kT from {} at this coverage",
             si_range(low, high, "J", 3)
         ),
-        false => format!("it grows at kT below {} at this coverage", si(high, "J", 3)),
+        false => format!(
+            "bonds of strength tau hold a tile at kT below {} at this coverage",
+            si(high, "J", 3)
+        ),
     });
     let lattice = assembly.request.lattice.map(|[rows, columns]| {
         let needed = lattice::words(rows, columns);

@@ -373,7 +373,13 @@ fn the_first_line_answers() {
             .replace('\n', " ")
     };
     let run = |kt: &str| run_of(&[COUNTER, "--length", "8"], kt);
-    assert!(run("0.1").contains("nothing grows"));
+    assert!(run("0.1").contains("growth does not end right"));
+    // Two bonds of this lattice hold a tile where one does not.
+    let hard = run_of(
+        &["homogeneous", "--lattice", "3x3", "--length", "6"],
+        "5e-3",
+    );
+    assert!(hard.contains("but stronger ones do"), "{hard}");
     assert!(run("5e-3").contains("too soft"));
     assert!(run("1e-3").contains("anything grows"));
     // Bonds of tau are single ones: wrong ones hold as well when tiles hardly move, and long before
