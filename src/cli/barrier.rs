@@ -32,6 +32,7 @@ pub struct Barrier {
     /// File for the pathway (CSV)
     ///
     /// Between lines the motion is linear in x, y and theta; theta takes the shorter way round.
+    /// Tiles that turn in contact overlap there by up to a millionth of their size.
     #[arg(long, value_name = "FILE")]
     pathway: Option<PathBuf>,
 

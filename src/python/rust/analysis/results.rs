@@ -87,6 +87,7 @@ impl Analysis {
     /// numpy.ndarray
     ///     Structured: `s_m`, `x_m`, `y_m`, `theta_rad`, `energy_J`, `clearance_m`. Between
     ///     points the motion is linear in x, y and theta; theta takes the shorter way round.
+    ///     Tiles that turn in contact overlap there by up to a millionth of their size.
     ///
     /// Raises
     /// ------
