@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::calibration::Request;
+use tilebind::calibration::{Request, check_magnets};
 use tilebind::observer::Silent;
 use tilebind::report::calibration::{FILES, document};
 
@@ -69,6 +69,9 @@ Examples:
 impl Calibrate {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
+        if self.bonds.is_none() {
+            check_magnets(&design)?;
+        }
         let file = self.bonds.as_ref().or(self.table.as_ref());
         let file = file.cloned().unwrap_or_default();
         let mut inputs = self.design.inputs(&design);

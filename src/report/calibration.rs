@@ -61,9 +61,9 @@ fn shields(design: &Design, found: &Calibration) -> Document<'static> {
     Document {
         title: format!("{}: shields fitted to measurements", design.name),
         answer: format!(
-            "{}, magnets as {}s: fitted to {}; held out: {}",
+            "{}, magnets as {}: fitted to {}; held out: {}",
             design.name,
-            design.interaction.model.name(),
+            design.interaction.model.plural(&design.pair),
             counted(fitted),
             counted(held_out),
         ),

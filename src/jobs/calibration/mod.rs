@@ -20,7 +20,7 @@ mod rows;
 
 use clap::Args;
 
-use crate::design::Design;
+use crate::design::{Design, DesignError};
 use crate::pipeline::{self, Settings};
 use crate::request::{self, Unanswered};
 use bonds::{PairTimes, TimesFit};
@@ -69,6 +69,9 @@ pub enum FitError {
     /// The measurements are invalid or too few: what is wrong, and where.
     #[error("{0}")]
     Table(String),
+    /// There is no model of shields behind the design's magnets.
+    #[error(transparent)]
+    Magnets(#[from] DesignError),
     /// There is no bond.
     #[error(transparent)]
     Bond(#[from] BondError),
@@ -92,6 +95,7 @@ impl Request {
     /// # Errors
     /// See [`FitError`].
     pub fn of_forces(&self, design: &Design, table: &str) -> Result<Fitted, FitError> {
+        check_magnets(design)?;
         let rows = read_rows(table)?;
         let (specimen, settings) = Specimen::of(design, self.hold_out.into());
         let found = calibrate(&specimen, &rows, &settings)?;
@@ -129,6 +133,21 @@ impl Request {
             interval: [least, most],
         }))
     }
+}
+
+/// Checks that shields behind the design's magnets can be computed.
+///
+/// # Errors
+/// The first magnet for which they cannot.
+pub fn check_magnets(design: &Design) -> Result<(), DesignError> {
+    let fault = design.unshieldable.clone();
+    fault.map_or(Ok(()), |fault| {
+        let help = format!(
+            "{}; kT can be calibrated with any magnets (--bonds)",
+            fault.help
+        );
+        Err(DesignError { help, ..fault })
+    })
 }
 
 /// The quantities that can be measured at a pose, and their units.

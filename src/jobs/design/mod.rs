@@ -86,7 +86,7 @@ use crate::checksum::sha256;
 use crate::text::decode;
 use build::BuiltTile;
 use drawings::Drawings;
-use error::Result;
+use error::{Result, Span};
 use face::FaceContent;
 use faults::Faults;
 use magnet::{MAGNET_KEYS, MagnetKeys};
@@ -98,6 +98,7 @@ use physics::tile::magnet::Form;
 use physics::tile::strength::Strength;
 use physics::tile::{Magnet, Pair};
 use reader::Section;
+use shield::ShieldKeys;
 use source::Source;
 use target::Bound;
 use tile::{TILES, TileEntry};
@@ -131,6 +132,9 @@ pub struct Design {
     pub pitch: Option<f64>,
     /// The kinds of magnets specified by a shop's grade or pull, each with its size (m).
     pub sold: Vec<(Strength, Magnet)>,
+    /// Why shields behind its magnets cannot be computed, at the first magnet without a model for
+    /// that; `None` if they can.
+    pub unshieldable: Option<DesignError>,
     /// The drawings that the design refers to.
     pub drawings: Vec<Drawing>,
     /// Non-fatal warnings, such as a magnet whose corners break through a curved surface.
@@ -240,7 +244,12 @@ impl Design {
         let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
         let mut warnings = overlap::check_magnets(&entries, &built)?;
         let (shields, doubt) = shields?;
-        check_shielded(&root, &shields, &built)?;
+        let unshieldable = unshieldable(&root, &built);
+        if let Some(fault) = unshieldable.as_ref().filter(|_| !shields.is_none()) {
+            let span = shield_span(&root, &entries)?;
+            let help = "remove `shield`, or describe the magnets as blocks";
+            return Err(source.error(span, &fault.message, help));
+        }
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
         let sold = sold(&built);
@@ -264,6 +273,7 @@ impl Design {
             },
             pitch: keys.pitch,
             sold,
+            unshieldable,
             drawings: Vec::new(),
             warnings,
         };
@@ -401,19 +411,37 @@ fn shields(root: &Section, entries: &[TileEntry; 2]) -> Result<(Shields, Option<
     Ok((shields, None))
 }
 
-/// Rejects shields behind magnets for which there is no model.
-fn check_shielded(root: &Section, shields: &Shields, built: &[BuiltTile; 2]) -> Result<()> {
-    let is_known = |magnet: &Magnet| magnet.form == Form::default();
-    let mut magnets = built.iter().flat_map(|built| &built.tile.magnets);
-    if shields.is_none() || magnets.all(is_known) {
-        return Ok(());
-    }
-    let message = "shields work only behind blocks magnetised in the plane, not behind discs or \
-        upright magnets";
-    Err(root.error(
-        message,
-        "remove `shield`, or describe the magnets as blocks",
+/// The fault of shields behind the first magnet for which there is no model of them; at the key that
+/// describes the magnets, if it is that of all.
+fn unshieldable(root: &Section, built: &[BuiltTile; 2]) -> Option<DesignError> {
+    let placed = |built: &BuiltTile| {
+        let mut magnets = built.tile.magnets.iter().zip(&built.placings);
+        let other = magnets.find(|(magnet, _)| magnet.form != Form::default());
+        other.map(|(_, placing)| placing.span)
+    };
+    let span = built.iter().find_map(placed)?;
+    let section = root.section("magnet", "[magnet]").ok().flatten();
+    let key = section.and_then(|section| ["shape", "axis"].iter().find_map(|key| section.get(key)));
+    Some(root.source.doubt(
+        key.map_or(span, |entry| entry.key_span),
+        "shields work only behind blocks magnetised in the plane, not behind discs or upright \
+         magnets",
+        "describe the magnets as blocks",
     ))
+}
+
+/// The place where the file first describes a shield.
+fn shield_span(root: &Section, entries: &[TileEntry; 2]) -> Result<Span> {
+    if let Some(section) = root.get("shield") {
+        return Ok(section.key_span);
+    }
+    for entry in entries {
+        let mut keys = entry.shield_keys(ShieldKeys::default())?.into_iter();
+        if let Some(span) = keys.find_map(|keys| keys.span()) {
+            return Ok(span);
+        }
+    }
+    Ok(root.span)
 }
 
 fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {

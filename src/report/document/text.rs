@@ -47,7 +47,7 @@ impl Document<'_> {
         for table in self.tables().into_iter().filter(printed) {
             let title = match &table.title[..] {
                 "" => String::new(),
-                title => format!("{title}:\n"),
+                title => wrapped(&format!("{title}:"), width),
             };
             let _ = write!(text, "\n{title}");
             write_fitted(&mut text, &table.texts(), columns);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::{json, numbers, tilebind};
-use crate::program::{stderr, stdout};
+use crate::program::{command, stderr, stdout};
 
 /// The shielded squares of `shapes`, without the shields.
 fn bare() -> String {
@@ -91,8 +91,13 @@ fn the_constants_behind_a_table_are_found_and_may_be_pasted_into_a_design() {
     assert!(held_out["relative"]["energy_J"].as_f64().unwrap() < 1e-4);
     assert_eq!(held_out["rms"]["torque_Nm"], Value::Null);
 
-    let output = tilebind(&arguments);
+    let output = command(&arguments).env("COLUMNS", "60").output().unwrap();
     let summary = stdout(&output);
+    assert!(summary.contains("magnets as dipoles"), "{summary}");
+    let widest = summary.lines().map(|line| line.chars().count()).max();
+    assert!(widest <= Some(60), "{summary}");
+    let blocks = tilebind(&[&arguments[..], &["--model", "cuboid"]].concat());
+    assert!(stdout(&blocks).contains("magnets as blocks"));
     assert!(
         summary
             .replace('\n', " ")
@@ -151,6 +156,20 @@ fn a_wrong_table_is_answered_with_file_line_and_mend() {
             "{told}"
         );
     }
+    let discs = folder.path().join("discs.toml");
+    let lines = bare();
+    let lines = lines
+        .lines()
+        .map(|line| match line.starts_with("size = [0.0") {
+            true => "shape = \"disc\"\ndiameter = 0.005\nheight = 0.003",
+            false => line,
+        });
+    std::fs::write(&discs, lines.collect::<Vec<_>>().join("\n")).unwrap();
+    let output = tilebind(&["calibrate", discs.to_str().unwrap(), file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    let is_placed = told.contains("discs.toml:") && told.contains("| shape = \"disc\"");
+    assert!(is_placed && told.contains("not behind discs"), "{told}");
     let output = tilebind(&["calibrate", "tests/designs/good/flat.toml", "nowhere.csv"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("nowhere.csv"));
