@@ -60,6 +60,14 @@ impl Barrier {
             pathway.map(|file| self.results.folder.force.file(&FILES, file, inputs.clone()));
         let pathway = pathway.transpose()?;
         let output = self.results.folder.output(&FILES, inputs)?;
+        if let (Some(file), Some(output)) = (&self.pathway, &output)
+            && output.may_write(file)
+        {
+            return Err(Failure::Usage(format!(
+                "--pathway {}: --out writes a file of this name: give another name",
+                file.display()
+            )));
+        }
         let query = self.request.query(&design);
         workload::tell_memory(query.settings.check_memory())?;
         self.threads.use_threads()?;

@@ -1,6 +1,5 @@
 //! Ctrl-C and SIGTERM: the command ends with status 75, and its results are complete or absent.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 use std::time::Duration;
@@ -23,12 +22,21 @@ pub fn keep(what: &str) {
     what.clone_into(&mut known);
 }
 
-/// Whether finished work is kept.
-static RESUMABLE: AtomicBool = AtomicBool::new(false);
+/// What an interruption leaves.
+static LEFT: Mutex<&str> = Mutex::new("nothing was written; rerun the command to start again");
 
 /// From now on finished work is kept, and the same command resumes from there.
 pub fn is_resumable() {
-    RESUMABLE.store(true, Ordering::Relaxed);
+    leave("finished parts are saved; rerun the command to resume");
+}
+
+/// From now on the results are written, and the command only waits for the next ones.
+pub fn is_written() {
+    leave("the last results are complete");
+}
+
+fn leave(what: &'static str) {
+    *LEFT.lock().unwrap_or_else(PoisonError::into_inner) = what;
 }
 
 /// From now on an interruption ends the program cleanly, and exceeding a file size limit is an
@@ -38,13 +46,10 @@ pub fn prepare() -> Result<(), Failure> {
     let prepared = ctrlc::set_handler(|| {
         let _whole = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
         let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let message = match RESUMABLE.load(Ordering::Relaxed) {
-            true => "interrupted: finished parts are saved; rerun the command to resume",
-            false => "interrupted: nothing was written; rerun the command to start again",
-        };
+        let left = LEFT.lock().unwrap_or_else(PoisonError::into_inner);
         tell_soon(match known.is_empty() {
-            true => message.to_owned(),
-            false => format!("{message}; {known}"),
+            true => format!("interrupted: {left}"),
+            false => format!("interrupted: {left}; {known}"),
         });
         std::process::exit(INTERRUPTED.into());
     });

@@ -84,6 +84,7 @@ impl Show {
         let document = document(&design, &found);
         if let Some(place) = &self.out {
             self.write(&document, place, self.design.inputs(&design))?;
+            interrupt::is_written();
         }
         if self.json {
             return print(&document.report());

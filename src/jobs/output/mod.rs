@@ -25,7 +25,7 @@ mod staging;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 pub use command::{Command, PICTURES};
 pub use folder::check as check_folder;
@@ -197,6 +197,15 @@ impl Output {
     /// Whether a file of this name is an input of the command.
     pub fn reads(&self, name: &str) -> bool {
         self.is_input(&self.path(name))
+    }
+
+    /// Whether this path is one of the folder's files that the command may write.
+    pub fn may_write(&self, file: &Path) -> bool {
+        let folder = file.parent().zip(file.file_name());
+        let place = folder.map(|(folder, name)| resolved(folder).join(name));
+        let place = place.unwrap_or_default();
+        let name = place.strip_prefix(resolved(&self.folder));
+        name.is_ok_and(|name| self.command.writes(&name.to_string_lossy()))
     }
 
     /// Writes a folder's files, replacing those that the command wrote before.
@@ -379,6 +388,20 @@ pub fn keep(folder: &Path, name: &str, content: &[u8]) -> Result<(), OutputError
 /// Whether this name exists, also as a dangling link.
 fn is_there(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
+}
+
+/// The absolute path of a folder, without links as far as it exists.
+fn resolved(folder: &Path) -> PathBuf {
+    let folder = std::path::absolute(or_here(folder)).unwrap_or_else(|_| folder.to_owned());
+    let mut place = PathBuf::new();
+    for part in folder.components() {
+        match part {
+            Component::ParentDir => drop(place.pop()),
+            part => place.push(part),
+        }
+        place = place.canonicalize().unwrap_or(place);
+    }
+    place
 }
 
 /// The identity of a file, independent of the path; `None` if it does not exist.

@@ -33,6 +33,10 @@ fn endless(folder: &tempfile::TempDir, stderr: Stdio) -> Child {
 
 /// Exit status after a signal that is sent while the command works; it has two seconds to end.
 fn interrupted(mut child: Child, signal: &str) -> Option<i32> {
+    ended(&mut child, signal)
+}
+
+fn ended(child: &mut Child, signal: &str) -> Option<i32> {
     std::thread::sleep(Duration::from_secs(1));
     let mut kill = Command::new("kill");
     let kill = kill.args([signal, &child.id().to_string()]).status();
@@ -74,6 +78,28 @@ fn every_command_can_be_interrupted() {
         let _unwritten = child.stdin.take();
         assert_eq!(interrupted(child, "-TERM"), Some(75), "{line}");
     }
+}
+
+#[test]
+fn what_a_watched_design_wrote_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let watched = ["show", DESIGN, "--watch", "--out", out.to_str().unwrap()];
+    let mut child = command(&watched)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let since = Instant::now();
+    while !out.join("report.json").exists() && since.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    assert_eq!(ended(&mut child, "-INT"), Some(75));
+    let told = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
+    assert!(
+        told.contains("interrupted: the last results are complete"),
+        "{told}"
+    );
 }
 
 /// As behind a pager that shows the first page.
