@@ -55,6 +55,7 @@ impl Dock {
         let problem = design.problem();
         let inputs = input::files_of(&self.design, &design);
         let output = self.results.output(&report::FILES, inputs)?;
+        self.request.check_memory().map_err(Failure::Usage)?;
         self.threads.use_threads()?;
         if self.release.overdamped {
             check_memory(self.threads.count()).map_err(Failure::of)?;

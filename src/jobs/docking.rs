@@ -48,7 +48,7 @@ pub struct Request {
     pub no_walls: bool,
 
     /// Effective energy kT of random shaking (J)
-    #[arg(long, value_name = "E_J", value_parser = request::energy_or_none)]
+    #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub shaking: Option<f64>,
 
     /// Random seed; a trajectory depends only on it and on its own number
@@ -56,7 +56,19 @@ pub struct Request {
     pub seed: u64,
 }
 
+/// Memory (bytes) of a run until its results are written, measured.
+const OF_A_RUN: f64 = 2.6e3;
+
 impl Request {
+    /// Checks that the machine can hold the runs.
+    ///
+    /// # Errors
+    /// If it does not have enough memory.
+    pub fn check_memory(&self) -> Result<(), String> {
+        let checked = memory::check_bytes(OF_A_RUN * self.runs as f64);
+        checked.map_err(|told| format!("--runs {}: {told}: use fewer --runs", self.runs))
+    }
+
     /// The settings of the experiment for these tiles.
     pub fn settings(&self, pair: &Pair) -> DockingSettings {
         DockingSettings {
@@ -156,23 +168,23 @@ pub struct StartOptions {
     pub distance: Option<[f64; 2]>,
 
     /// Largest angle (rad) from the target face's normal to the tile [default: 0.7854]
-    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
+    #[arg(long, value_name = "RAD", value_parser = request::turn)]
     pub direction: Option<f64>,
 
     /// Largest angle (rad) from the bound orientation [default: 1.5]
-    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
+    #[arg(long, value_name = "RAD", value_parser = request::turn)]
     pub orientation: Option<f64>,
 
     /// Initial speed (m/s) [default: 0,1.3]
-    #[arg(long, value_name = "LOW,HIGH", value_parser = range)]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = speeds)]
     pub speed: Option<[f64; 2]>,
 
     /// Largest angle (rad) between the velocity and the line to the fixed tile [default: 0.3]
-    #[arg(long, value_name = "RAD", value_parser = request::angle_or_none)]
+    #[arg(long, value_name = "RAD", value_parser = request::turn)]
     pub aim: Option<f64>,
 
     /// Largest initial angular velocity, either way (rad/s) [default: 0]
-    #[arg(long, value_name = "RATE", value_parser = request::not_negative)]
+    #[arg(long, value_name = "RATE", value_parser = spin)]
     pub spin: Option<f64>,
 }
 
@@ -190,9 +202,18 @@ impl StartOptions {
     }
 }
 
-/// A range as `LOW,HIGH`, neither negative.
-fn range(text: &str) -> Result<[f64; 2], String> {
-    range_of(text, request::not_negative)
+/// Largest speed (m/s) and angular velocity (rad/s): the faster a tile, the shorter its steps.
+const FASTEST: f64 = 1e2;
+const FASTEST_SPIN: f64 = 1e3;
+
+/// An angular velocity (rad/s) of 0 or more.
+fn spin(text: &str) -> Result<f64, String> {
+    request::up_to(FASTEST_SPIN)(text)
+}
+
+/// A range of speeds (m/s).
+fn speeds(text: &str) -> Result<[f64; 2], String> {
+    range_of(text, |end| request::up_to(FASTEST)(end))
 }
 
 /// A range of lengths (m), also with units.
@@ -204,8 +225,9 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
     const FORM: &str = "a range is LOW,HIGH with 0 <= LOW <= HIGH, such as 0.4,0.8";
     let ends = text.split_once(',').ok_or(FORM)?;
     let [low, high] = [ends.0, ends.1].map(|end| read(end.trim()));
-    match (low, high) {
-        (Ok(low), Ok(high)) if low <= high => Ok([low, high]),
+    let told = |why: String| format!("{FORM}; {why}");
+    match (low.map_err(told)?, high.map_err(told)?) {
+        (low, high) if low <= high => Ok([low, high]),
         _ => Err(FORM.to_owned()),
     }
 }
@@ -284,9 +306,9 @@ mod tests {
 
     #[test]
     fn ranges() {
-        assert_eq!(range("0, 1.3"), Ok([0.0, 1.3]));
-        for wrong in ["", "1", "1,0", "-1,1", "a,b", "0,1,2", "0,inf"] {
-            assert!(range(wrong).is_err(), "{wrong}");
+        assert_eq!(speeds("0, 1.3"), Ok([0.0, 1.3]));
+        for wrong in ["", "1", "1,0", "-1,1", "a,b", "0,1,2", "0,inf", "0,1e300"] {
+            assert!(speeds(wrong).is_err(), "{wrong}");
         }
     }
 }

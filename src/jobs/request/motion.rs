@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{not_negative, numbers, share};
+use super::{not_negative, numbers, share, up_to};
 use crate::design::{energy, length};
 use physics::dynamics::{Fan, MotionSettings};
 
@@ -25,7 +25,7 @@ pub struct ContactOptions {
 pub struct MotionOptions {
     /// Drag rate (1/s)
     #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
-          value_parser = not_negative)]
+          value_parser = drag)]
     pub drag: f64,
 
     /// Friction and restitution.
@@ -52,12 +52,24 @@ impl MotionOptions {
     }
 }
 
+/// Largest drag rate (1/s): steps are shorter than its inverse.
+const MOST_DRAG: f64 = 1e4;
+
+/// Least width (m) and largest energy (J) of a fan: steps are as short as its force is steep.
+const NARROWEST: f64 = 1e-3;
+const STRONGEST: f64 = 1e3;
+
+/// A drag rate (1/s) of 0 or more.
+fn drag(text: &str) -> Result<f64, String> {
+    up_to(MOST_DRAG)(text)
+}
+
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
 ///
 /// # Errors
 /// If the text is not a fan.
 pub fn fan(text: &str) -> Result<Fan, String> {
-    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, S above 0, such as \
+    const FORM: &str = "a fan is X,Y,E_J,S in m, m, J and m or with units, such as \
                         0.6,0.6,1e-3,0.2 or \"60 cm,60 cm,1 mJ,20 cm\"; optionally ,A,F: relative \
                         amplitude and frequency (Hz)";
     let read = |(k, part): (usize, &str)| match k {
@@ -71,14 +83,20 @@ pub fn fan(text: &str) -> Result<Fan, String> {
         .enumerate()
         .map(read)
         .collect();
-    match parts.ok_or(FORM)?[..] {
-        [x, y, energy, width] if width > 0.0 => Ok(Fan::steady([x, y], energy, width)),
-        [x, y, energy, width, amplitude, frequency] if width > 0.0 => Ok(Fan {
+    let fan = match parts.ok_or(FORM)?[..] {
+        [x, y, energy, width] => Fan::steady([x, y], energy, width),
+        [x, y, energy, width, amplitude, frequency] => Fan {
             amplitude,
             frequency,
             ..Fan::steady([x, y], energy, width)
-        }),
-        _ => Err(FORM.to_owned()),
+        },
+        _ => return Err(FORM.to_owned()),
+    };
+    match fan.width >= NARROWEST && fan.energy.abs() <= STRONGEST {
+        true => Ok(fan),
+        false => Err(format!(
+            "{FORM}; S is at least {NARROWEST} m, E_J at most {STRONGEST} J"
+        )),
     }
 }
 
@@ -97,7 +115,16 @@ mod tests {
             ..steady
         };
         assert_eq!(fan("0.6,-0.5,1e-3,0.2,0.5,2"), Ok(swinging));
-        for wrong in ["", "1,2,3", "0,0,1,0", "0,0,1,-1", "0,0,1,1,1", "0,0,NaN,1"] {
+        for wrong in [
+            "",
+            "1,2,3",
+            "0,0,1,0",
+            "0,0,1,-1",
+            "0,0,1,1,1",
+            "0,0,NaN,1",
+            "0,0,1e300,1",
+            "0,0,1,1e-300",
+        ] {
             assert!(fan(wrong).is_err(), "{wrong}");
         }
     }

@@ -1,11 +1,16 @@
 //! Parses user input: poses, numbers with limits.
 
+use std::f64::consts::TAU;
+
 use crate::design;
 use crate::text::decimal_comma;
 use physics::configuration::Configuration;
 
 /// Largest coordinate (m, rad): powers of larger ones would be infinite.
 pub const FARTHEST: f64 = 1e30;
+
+/// Largest angle of a pose (rad), two full turns: larger ones are degrees without a unit.
+pub const MOST_TURNED: f64 = 2.0 * TAU;
 
 /// A coordinate (m), or with a unit.
 pub fn coordinate(text: &str) -> Option<f64> {
@@ -27,7 +32,7 @@ pub fn pose(text: &str) -> Result<Configuration, String> {
     let [Some(x), Some(y), Some(theta)] = numbers else {
         return Err(FORM.to_owned());
     };
-    if theta.abs() > 2.0 * std::f64::consts::TAU {
+    if theta.abs() > MOST_TURNED {
         return Err(format!(
             "theta = {theta:?} rad is more than two full turns: for degrees write \
              \"{x},{y},{theta} deg\""
@@ -117,10 +122,11 @@ pub fn length_or_none(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a length of 0 or more is needed, such as 1e-4 (m) or \"0.1 mm\"".to_owned())
 }
 
-/// An angle (rad) of 0 or more, or with a unit.
-pub fn angle_or_none(text: &str) -> Result<f64, String> {
-    design::angle(text).filter(|x| *x >= 0.0).ok_or_else(|| {
-        "a number of 0 or more is needed, in rad or with a unit: \"30 deg\"".to_owned()
+/// An angle (rad) from 0 to a full turn, or with a unit.
+pub fn turn(text: &str) -> Result<f64, String> {
+    let found = design::angle(text).filter(|x| (0.0..=TAU).contains(x));
+    found.ok_or_else(|| {
+        format!("a number from 0 to {TAU:.4} is needed, in rad or with a unit: \"30 deg\"")
     })
 }
 
@@ -128,12 +134,6 @@ pub fn angle_or_none(text: &str) -> Result<f64, String> {
 pub fn energy(text: &str) -> Result<f64, String> {
     let found = design::energy(text).filter(|x| *x > 0.0);
     found.ok_or_else(|| format!("a number greater than 0 is needed, {JOULES}"))
-}
-
-/// An energy (J) of 0 or more, or with a unit.
-pub fn energy_or_none(text: &str) -> Result<f64, String> {
-    let found = design::energy(text).filter(|x| *x >= 0.0);
-    found.ok_or_else(|| format!("a number of 0 or more is needed, {JOULES}"))
 }
 
 /// An energy (J) below 0, or with a unit.
@@ -185,6 +185,14 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x: &f64| x.is_finite() && *x >= 0.0)
         .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+}
+
+/// A number from 0 to `most`.
+pub fn up_to(most: f64) -> impl Fn(&str) -> Result<f64, String> {
+    move |text| {
+        let found = not_negative(text).ok().filter(|x| *x <= most);
+        found.ok_or_else(|| format!("a number from 0 to {most} is needed"))
+    }
 }
 
 /// A share from 0 to 1.
@@ -240,11 +248,10 @@ mod tests {
     fn limits() {
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
         assert_eq!((shaking("3 mJ"), time("2 min")), (Ok(3e-3), Ok(120.0)));
-        assert_eq!(
-            (binding("-3 mJ"), energy_or_none("0")),
-            (Ok(-3e-3), Ok(0.0))
-        );
+        assert_eq!(binding("-3 mJ"), Ok(-3e-3));
         assert!(energy("3 mm").is_err() && energy("0 mJ").is_err() && time("-1 s").is_err());
+        assert!(up_to(5.0)("5").is_ok() && up_to(5.0)("6").is_err() && up_to(5.0)("-1").is_err());
+        assert!(turn("360 deg").is_ok() && turn("1e308").is_err() && turn("-1").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());
         assert_eq!((fraction("30 %"), share("100%")), (Ok(0.3), Ok(1.0)));
         assert!(fraction("100%").is_err() && share("101%").is_err() && share("nan").is_err());

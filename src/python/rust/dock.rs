@@ -55,7 +55,9 @@ pub fn dock(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Docking> {
     let content = design.get().content.clone();
-    let settings = request::<Request>(settings)?.settings(&content.design.pair);
+    let asked = request::<Request>(settings)?;
+    job::check_memory(asked.check_memory())?;
+    let settings = asked.settings(&content.design.pair);
     let found = job::answer(py, progress, |told| {
         docked(content.problem(None), &settings, told)
     })?;

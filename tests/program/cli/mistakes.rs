@@ -81,6 +81,39 @@ fn negative_numbers_are_told_in_our_words() {
     }
 }
 
+/// Values with which trajectories would never end.
+#[test]
+fn docking_has_limits() {
+    let dock = |option, value, said| {
+        refused(
+            &["dock", "shapes/paper-tile.toml", option, value],
+            &[option, said],
+        );
+    };
+    for option in ["--direction", "--orientation", "--aim"] {
+        dock(option, "1e308", "from 0 to 6.2832");
+    }
+    dock("--spin", "1e11", "from 0 to 1000 ");
+    dock("--speed", "0,1e300", "from 0 to 100 ");
+    dock("--drag", "1e11", "from 0 to 10000 ");
+    dock("--shaking", "1e308", "a kT between");
+}
+
+#[test]
+fn a_pathway_is_not_lost_below_the_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("q");
+    let way = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let ends = ["--from", "0.43,0,0", "--to", "free", "--out"];
+    for name in ["q/report.json", "q/../q/report.html", "q/pathway.csv"] {
+        let name = way(name);
+        let asked = ["barrier", "shapes/paper-tile.toml", "--pathway", &name];
+        let asked = [&asked[..], &ends, &[out.to_str().unwrap()]].concat();
+        refused(&asked, &["give another name"]);
+    }
+    assert!(contents(folder.path()).is_empty());
+}
+
 #[test]
 fn wrong_poses() {
     for pose in ["1,2", "1,2,three", "1,2,nan", "1,2,3,4", "1e308,0,0", ""] {

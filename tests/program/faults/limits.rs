@@ -78,6 +78,18 @@ fn memory_that_runs_out_leaves_whole_files() {
     }
 }
 
+#[test]
+fn runs_that_memory_cannot_hold_are_refused() {
+    let dock = ["dock", DESIGN, "--runs", "10000000", "--quiet"];
+    let output = after("ulimit -v 2000000", &dock);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains("26.0 GB of memory") && told.contains("fewer --runs"),
+        "{told}"
+    );
+}
+
 /// Commands with little work, all of which start threads.
 const LITTLE: [&[&str]; 9] = [
     &["rates", DESIGN, "--kt", "3e-3"],

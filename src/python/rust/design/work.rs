@@ -319,6 +319,7 @@ impl Design {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked: docking::Request = request_with(py, settings, "shaking", shaking)?;
         crate::fault::positive("shaking", asked.shaking)?;
+        job::check_memory(asked.check_memory())?;
         if overdamped {
             job::check_memory(docking::check_memory(job::threads()))?;
         }
