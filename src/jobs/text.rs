@@ -115,7 +115,10 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
     let between = match first {
         // Text in quotes may contain anything.
         _ if first.contains('"') => None,
-        _ if first.contains(';') => Some(';'),
+        // A comma between digits may be a decimal one.
+        _ if first.contains(';') && first.matches(';').count() >= commas_between(first) => {
+            Some(';')
+        }
         _ if first.contains('\t') && !first.contains(',') => Some('\t'),
         _ => None,
     };
@@ -130,6 +133,17 @@ pub fn with_commas(table: &str) -> Cow<'_, str> {
         points.replace(between, ",")
     });
     Cow::Owned(changed.collect())
+}
+
+/// The number of commas in a line that are not between two digits.
+fn commas_between(line: &str) -> usize {
+    let digit = |c: Option<u8>| c.is_some_and(|c| c.is_ascii_digit());
+    let bytes = line.as_bytes();
+    let is_decimal =
+        |at: usize| digit(at.checked_sub(1).map(|k| bytes[k])) && digit(bytes.get(at + 1).copied());
+    line.match_indices(',')
+        .filter(|(at, _)| !is_decimal(*at))
+        .count()
 }
 
 /// The message for a text that contains a number with a decimal comma, and what to write (see
@@ -149,6 +163,22 @@ pub(crate) fn column(header: &StringRecord, names: &[&str]) -> Result<Option<usi
         (_, Some(second)) => Err(format!("the column `{}` is there twice", &header[second])),
         (first, None) => Ok(first),
     }
+}
+
+/// Rejects a line with more entries than columns: with decimal commas, its numbers would be wrong.
+///
+/// # Errors
+/// If it has more, and what to write.
+pub(crate) fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
+    if record.iter().skip(entries).all(str::is_empty) {
+        return Ok(());
+    }
+    let text = record.iter().collect::<Vec<_>>().join(",");
+    let comma = decimal_comma(&text).map_or(String::new(), |comma| format!("; {comma}"));
+    let found = record.len();
+    Err(format!(
+        "it has {found} entries instead of {entries}{comma}"
+    ))
 }
 
 #[cfg(test)]
@@ -195,5 +225,8 @@ mod tests {
             assert_eq!(with_commas(table), wanted);
         }
         assert_eq!(with_commas("0,43;0;0\n"), "0.43,0,0\n");
+        assert_eq!(with_commas("0,43;0,1;0,2\n"), "0.43,0.1,0.2\n");
+        let noted = "x,y,theta,note;more\n0.43,0,0,a;b\n";
+        assert_eq!(with_commas(noted), noted);
     }
 }

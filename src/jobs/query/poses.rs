@@ -3,8 +3,8 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::design::angle;
-use crate::request::{FARTHEST, coordinate};
-use crate::text::{column, decimal_comma};
+use crate::request::{FARTHEST, MOST_TURNED, coordinate};
+use crate::text::{column, decimal_comma, not_too_long};
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
@@ -98,21 +98,6 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
     Ok(poses)
 }
 
-/// Rejects a line with too many entries: with decimal commas, its numbers would be wrong.
-fn not_too_long(record: &StringRecord, entries: usize) -> Result<(), String> {
-    let text = record.iter().collect::<Vec<_>>().join(",");
-    match record.iter().skip(entries).any(|entry| !entry.is_empty()) {
-        false => Ok(()),
-        true => {
-            let comma = decimal_comma(&text).map_or(String::new(), |comma| format!("; {comma}"));
-            let found = record.len();
-            Err(format!(
-                "it has {found} entries instead of {entries}{comma}"
-            ))
-        }
-    }
-}
-
 /// The columns of x, y and theta, if the line names columns.
 fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
     if record
@@ -158,6 +143,11 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
     let text = entry(2)?;
     let theta = angle(text).filter(|angle| angle.abs() <= FARTHEST);
     let theta = theta.ok_or_else(|| wrong(2, text, "rad"))?;
+    if theta.abs() > MOST_TURNED {
+        return Err(format!(
+            "theta is `{text}`, more than two full turns (in rad): for degrees write `{theta} deg`"
+        ));
+    }
     Ok(Configuration::from([x, y, theta]))
 }
 
@@ -179,6 +169,10 @@ mod tests {
             ("x,y\n0,0\n", "no column `theta`"),
             ("x,y,theta\n1e308,0,0\n", "line 2: x is `1e308`"),
             ("x,y,theta\n0,0,1e308\n", "line 2: theta is `1e308`"),
+            (
+                "0.2,0,90\n",
+                "line 1: theta is `90`, more than two full turns (in rad): for degrees write `90 deg`",
+            ),
         ] {
             let found = read(text).unwrap_err();
             assert!(found.contains(told), "{found}");

@@ -3,10 +3,11 @@
 use csv::{ReaderBuilder, Trim};
 
 use crate::request::FARTHEST;
-use crate::text::column;
+use crate::text::{column, not_too_long};
 use physics::configuration::Configuration;
 use physics::dynamics::Motion;
-use physics::table::{Crowd, Mover};
+use physics::table::start::check;
+use physics::table::{Crowd, Mover, StartError};
 
 /// The columns.
 const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
@@ -24,7 +25,7 @@ pub struct StartFileError {
 /// Reads the starting tiles, one per line; returns them in the order of their numbers.
 ///
 /// # Errors
-/// If a line cannot be read.
+/// If a line cannot be read, or tiles overlap or extend beyond the rim.
 pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
     let mut reader = ReaderBuilder::new()
         .flexible(true)
@@ -49,6 +50,7 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         return Err(wrong(1, message));
     }
     let places = places.map(Option::unwrap_or_default);
+    let columns = headers.len();
     let mut found: Vec<(usize, u64, Mover)> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| {
@@ -56,6 +58,7 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
             wrong(line, error.to_string())
         })?;
         let line = record.position().map_or(0, csv::Position::line);
+        not_too_long(&record, columns).map_err(|it| wrong(line, it))?;
         let entry = |column: usize| record.get(places[column]).unwrap_or_default();
         let tile: usize = entry(0).parse().map_err(|_| {
             let message = format!("`{}` is not a tile number: count tiles from 0", entry(0));
@@ -107,5 +110,30 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         let message = format!("tile {k} is missing: number the tiles from 0, each once");
         return Err(wrong(it.1, message));
     }
-    Ok(found.into_iter().map(|it| it.2).collect())
+    let lines: Vec<u64> = found.iter().map(|it| it.1).collect();
+    let movers: Vec<Mover> = found.into_iter().map(|it| it.2).collect();
+    check(crowd, &movers, true).map_err(|error| misplaced(&error, &lines))?;
+    Ok(movers)
+}
+
+/// The error of a tile in a place where it cannot be; `lines` are those of the tiles.
+fn misplaced(error: &StartError, lines: &[u64]) -> StartFileError {
+    let (tile, message) = match error {
+        StartError::Overlap { first, second, .. } => (
+            *second,
+            format!(
+                "{error}: move it away from tile {first} (line {})",
+                lines[*first]
+            ),
+        ),
+        StartError::BeyondRim { tile, .. } => {
+            let help = "move it inwards; x and y are in m from the centre of the table";
+            (*tile, format!("{error}: {help}"))
+        }
+        other => (0, other.to_string()),
+    };
+    StartFileError {
+        line: lines[tile],
+        message,
+    }
 }

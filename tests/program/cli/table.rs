@@ -334,6 +334,45 @@ fn wrong_tables_are_refused_with_their_fix() {
 }
 
 #[test]
+fn wrong_starts_are_refused_with_their_line_and_fix() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = folder.path().join("start.csv");
+    let file = start.to_str().unwrap();
+    for (from, to, said) in [
+        (
+            "0,fixed,-0.6,-0.6,",
+            "0,fixed,-0,6,-0,6,",
+            "line 2: it has 10 entries instead of 8",
+        ),
+        (
+            "-0.169,-0.6,",
+            "-0.18,-0.6,",
+            "line 3: tiles 0 and 1 overlap",
+        ),
+        (
+            "-0.169,-0.6,",
+            "-0.18,-0.6,",
+            "move it away from tile 0 (line 2)",
+        ),
+        (
+            "2,fixed,0.6,0.6",
+            "2,fixed,0.9,0.6",
+            "line 4: tile 2 reaches",
+        ),
+        ("2,fixed,0.6,0.6", "2,fixed,0.9,0.6", "move it inwards"),
+    ] {
+        std::fs::write(&start, START.replace(from, to)).unwrap();
+        let output = tilebind(&["table", TILE, "--start", file, "--time", "0.1"]);
+        assert_eq!(output.status.code(), Some(2), "{to}");
+        let told = stderr(&output);
+        assert!(
+            told.contains("start.csv: line") && told.contains(said),
+            "{told}"
+        );
+    }
+}
+
+#[test]
 fn a_table_is_handed_to_hoomd() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
