@@ -126,23 +126,31 @@ fn nearest(remanence: f64) -> String {
 #[rustfmt::skip]
 fn steps(name: &'static str, tile: &MadeTile) -> Table {
     let pocket = |it: &(usize, &Filled)| tile.part.pockets[it.1.pocket].clone();
-    let open = |pocket: &Pocket| if pocket.is_open() { " (*open*)" } else { "" };
+    let open = |pocket: &Pocket| match (pocket.is_open(), pocket.crowded() > 0.0) {
+        (true, true) => " (*open*, *close*)",
+        (true, false) => " (*open*)",
+        (false, true) => " (*close*)",
+        (false, false) => "",
+    };
     let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
     let depths = tile.part.pockets.iter().map(|pocket| plain(pocket.depth));
     let mut depths: Vec<String> = depths.collect();
     depths.sort();
     depths.dedup();
-    let wanting = tile.part.pockets.iter().map(Pocket::wanting).fold(0.0, f64::max);
-    // Rounds up to tenths of a millimetre.
-    let more = (wanting * 1e4 - 1e-6).ceil() / 1e4;
-    let thin = match wanting > 0.0 {
-        true => format!(
-            "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through \
-             the rim and fasten the magnets level with it, or raise `inset` by {} mm, on slopes by more",
-            plain(more)
-        ),
-        false => String::new(),
+    // The most that is wanting, rounded up to tenths of a millimetre.
+    let most = |wanting: fn(&Pocket) -> f64| {
+        let most = tile.part.pockets.iter().map(wanting).fold(0.0, f64::max);
+        (most > 0.0).then(|| plain((most * 1e4 - 1e-6).ceil() / 1e4))
     };
+    let thin = most(Pocket::wanting).map(|more| format!(
+        "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through \
+         the rim and fasten the magnets level with it, or raise `inset` by {more} mm, on slopes by more",
+    ));
+    let close = most(Pocket::crowded).map(|more| format!(
+        "; pockets marked *close* overlap or leave a wall below 0.5 mm between them: space the \
+         magnets out by {more} mm (`pitch`, `at`), or use a smaller --clearance",
+    ));
+    let [thin, close] = [thin, close].map(Option::unwrap_or_default);
     rows((1..).zip(&tile.steps))
         .column("tile", "", "", move |_| name).in_csv()
         .column("step", "step", "", |(step, _)| *step)
@@ -150,6 +158,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "during insertion", "largest repulsion", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("wall_m", "", "", move |it| pocket(it).wall)
+        .column("between_m", "", "", move |it| pocket(it).between)
         .column("depth_m", "", "", move |it| pocket(it).depth)
         .table(name)
         .in_file("order")
@@ -157,7 +166,7 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
             format!("The {name} tile"),
             format!(
                 "{} mm thick; pockets {} mm deep hold the magnets at mid-thickness: insert them \
-                 from above, in this order{thin}",
+                 from above, in this order{thin}{close}",
                 plain(tile.part.thickness),
                 depths.join(" or ")
             ),

@@ -21,7 +21,7 @@ pub use rim::Corner;
 const DENSITY: f64 = 7500.0;
 /// Standard gravity (m/s^2).
 const GRAVITY: f64 = 9.806_65;
-/// Lengths (m) above this were meant in millimetres.
+/// Largest kerf and clearance (m): larger ones were meant in millimetres.
 const LONGEST: f64 = 0.01;
 
 /// The options of the workshop files.
@@ -41,9 +41,14 @@ pub struct Making {
 /// A length of a few millimetres at most.
 fn small(text: &str) -> Result<f64, String> {
     match request::length_or_none(text)? {
-        length if length > LONGEST => Err(format!(
-            "lengths are in m; in millimetres write \"{length} mm\""
-        )),
+        length if length > LONGEST => {
+            let most = format!("it can be at most {} mm", 1e3 * LONGEST);
+            let is_plain = text.trim().parse::<f64>().is_ok();
+            Err(match is_plain && length <= 1e3 * LONGEST {
+                true => format!("{most}; lengths are in m: in millimetres write \"{length} mm\""),
+                false => most,
+            })
+        }
         length => Ok(length),
     }
 }

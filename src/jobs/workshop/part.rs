@@ -5,11 +5,13 @@ use nalgebra::Vector2;
 use super::Making;
 use super::rim::{Corner, rim};
 use crate::request::Unanswered;
+use physics::contact::{Placement, separation};
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
+use physics::tile::outline::ConvexPart;
 use physics::tile::{Face, Magnet, Outline, Tile};
 
-/// Thinnest stable wall (m) between pocket and rim.
+/// Thinnest stable wall (m) between a pocket and the rim or another pocket.
 const THINNEST: f64 = 5e-4;
 
 /// Why a part cannot be cut.
@@ -55,6 +57,9 @@ pub struct Pocket {
     pub depth: f64,
     /// The thinnest wall between the pocket and the tile's rim (m), negative if it breaks through.
     pub wall: f64,
+    /// The thinnest wall between the pocket and another one (m), negative if they overlap; `None`
+    /// for a single pocket.
+    pub between: Option<f64>,
 }
 
 impl Pocket {
@@ -78,9 +83,14 @@ impl Pocket {
         self.wall < THINNEST
     }
 
-    /// How much its wall is too thin (m).
+    /// How much its wall to the rim is too thin (m).
     pub fn wanting(&self) -> f64 {
         (THINNEST - self.wall).max(0.0)
+    }
+
+    /// How much its wall to another pocket is too thin (m).
+    pub fn crowded(&self) -> f64 {
+        self.between.map_or(0.0, |wall| (THINNEST - wall).max(0.0))
     }
 }
 
@@ -90,11 +100,16 @@ impl Part {
     /// # Errors
     /// If the kerf is too wide for the tile's details.
     pub fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
+        let holes = tile.magnets.iter();
+        let holes: Vec<Magnet> = holes.map(|it| grown(it, making.clearance)).collect();
         let mut pockets = Vec::new();
         for (i, magnet) in tile.magnets.iter().enumerate() {
             let before = tile.magnets[..=i].iter();
             let number = before.filter(|other| other.face == magnet.face).count();
-            pockets.push(pocket(tile, magnet, number, making)?);
+            pockets.push(pocket(tile, (magnet, &holes[i]), number, making)?);
+        }
+        for (pocket, wall) in pockets.iter_mut().zip(walls(&holes)) {
+            pocket.between = wall;
         }
         Ok(Self {
             outline: outline(tile, making.kerf)?,
@@ -132,26 +147,26 @@ fn check_details(tile: &Tile, kerf: f64) -> Result<(), PartError> {
     ring.map(|_| ()).map_err(|_| PartError::Kerf(kerf))
 }
 
+/// A magnet that is larger by this much (m) on every side.
+fn grown(magnet: &Magnet, extra: f64) -> Magnet {
+    let [a, b, thickness] = magnet.size;
+    Magnet {
+        size: [a + 2.0 * extra, b + 2.0 * extra, thickness],
+        ..magnet.clone()
+    }
+}
+
 fn pocket(
     tile: &Tile,
-    magnet: &Magnet,
+    (magnet, hole): (&Magnet, &Magnet),
     number: usize,
     making: &Making,
 ) -> Result<Pocket, PartError> {
     let face = &tile.faces[magnet.face];
-    let grown = |extra: f64| Magnet {
-        size: [
-            magnet.size[0] + 2.0 * extra,
-            magnet.size[1] + 2.0 * extra,
-            magnet.size[2],
-        ],
-        ..magnet.clone()
-    };
-    let cut = grown(making.clearance - making.kerf / 2.0);
+    let cut = grown(magnet, making.clearance - making.kerf / 2.0);
     if cut.size[0] <= 0.0 || cut.size[1] <= 0.0 {
         return Err(PartError::Pocket(making.kerf));
     }
-    let hole = grown(making.clearance);
     Ok(Pocket {
         name: format!("{} {number}", face.name),
         pole: magnet.pole(face.normal()),
@@ -159,8 +174,57 @@ fn pocket(
         north: magnet.moment_vector() / magnet.moment * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
-        wall: -reach(&tile.outline, &hole),
+        wall: -reach(&tile.outline, hole),
+        between: None,
     })
+}
+
+/// The thinnest wall (m) between each hole and the others.
+fn walls(holes: &[Magnet]) -> Vec<Option<f64>> {
+    let radius = |hole: &Magnet| libm::hypot(hole.size[0], hole.size[1]) / 2.0;
+    let mut walls = vec![None; holes.len()];
+    for (i, one) in holes.iter().enumerate() {
+        for (j, other) in holes[..i].iter().enumerate() {
+            let apart = (one.position - other.position).norm() - radius(one) - radius(other);
+            let is_known = |wall: &Option<f64>| wall.is_some_and(|wall| wall <= apart);
+            if is_known(&walls[i]) && is_known(&walls[j]) {
+                continue;
+            }
+            let wall = between(&one.outline(), &other.outline());
+            for k in [i, j] {
+                walls[k] = Some(walls[k].map_or(wall, |known: f64| known.min(wall)));
+            }
+        }
+    }
+    walls
+}
+
+/// The distance (m) of two convex holes, negative if they overlap.
+fn between(one: &[Vector2<f64>], other: &[Vector2<f64>]) -> f64 {
+    let [a, b] = [one, other].map(|hole| ConvexPart::new(hole.to_vec()));
+    let apart = separation(&a, &b, &Placement::none());
+    if apart < 0.0 {
+        return apart;
+    }
+    let edges = |hole: &[Vector2<f64>]| -> Vec<[Vector2<f64>; 2]> {
+        let ends = hole.iter().zip(hole.iter().cycle().skip(1));
+        ends.map(|(start, end)| [*start, *end]).collect()
+    };
+    let nearest = |corners: &[Vector2<f64>], hole: &[Vector2<f64>]| {
+        let edges = edges(hole);
+        let pairs = corners
+            .iter()
+            .flat_map(|p| edges.iter().map(|edge| to_edge(p, edge)));
+        pairs.fold(f64::INFINITY, f64::min)
+    };
+    nearest(one, other).min(nearest(other, one))
+}
+
+/// The distance (m) of a point from an edge.
+fn to_edge(point: &Vector2<f64>, [start, end]: &[Vector2<f64>; 2]) -> f64 {
+    let edge = end - start;
+    let share = (point - start).dot(&edge) / edge.norm_squared();
+    (point - start - edge * share.clamp(0.0, 1.0)).norm()
 }
 
 /// How far (m) a hole extends beyond the rim, negative if it leaves a wall.
@@ -193,6 +257,18 @@ fn pocket_rim(magnet: &Magnet) -> Vec<Corner> {
 mod tests {
     use super::*;
     use physics::tile::magnet::{Form, Shape, Standing};
+
+    #[test]
+    fn the_wall_between_holes_is_their_distance_or_the_depth_of_their_overlap() {
+        let square = |x: f64, y: f64| {
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            corners.map(|[dx, dy]| Vector2::new(x + dx, y + dy))
+        };
+        for (x, y, wall) in [(1.5, 0.2, 0.5), (1.3, -1.4, 0.5), (0.8, 0.1, -0.2)] {
+            let found = between(&square(0.0, 0.0), &square(x, y));
+            assert!((found - wall).abs() < 1e-12, "{x} {y}: {found}");
+        }
+    }
 
     /// A wall between two corners of any polygon around the disc.
     #[test]

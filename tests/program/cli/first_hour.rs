@@ -75,10 +75,6 @@ fn impossible_designs_say_what_to_ask_for() {
         (&["--sides", "2"][..], "give 3 to 24"),
         (&["--magnets", "40"], "give 1 to 16"),
         (&["--side", "500"], "give sides of 0.01 to"),
-        (
-            &["--side", "2 cm", "--magnets", "8"],
-            "or --side 0.029 or longer",
-        ),
         (&["--shape", "dovetail"], "a shape is one of flat, tab"),
         (&["--side", "2 kg"], "such as 0.12 (m) or \"12 cm\""),
     ] {
@@ -87,13 +83,34 @@ fn impossible_designs_say_what_to_ask_for() {
         assert!(stderr(&output).contains(said), "{}", stderr(&output));
         assert!(output.stdout.is_empty());
     }
-    // Proposed values are possible.
-    let mended = ["--side", "0.029", "--magnets", "8", "--shape", "flat"];
-    assert!(
-        tilebind(&[&["init", "-"], &mended[..]].concat())
-            .status
-            .success()
-    );
+}
+
+#[test]
+fn what_init_proposes_is_possible() {
+    let inches = ["--side", "10 cm", "--magnet", "0.5 x 0.25 in N52"];
+    let output = tilebind(&[&["init", "-"], &inches[..]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    for asked in [
+        ["--side", "2 cm", "--magnets", "8"],
+        ["--side", "5 cm", "--magnet", "0.5 x 0.25 in N52"],
+    ] {
+        let output = tilebind(&[&["init", "-"], &asked[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{asked:?}");
+        let told = stderr(&output);
+        let words: Vec<&str> = told.split_whitespace().collect();
+        for option in ["--magnets", "--side"] {
+            let at = words.iter().position(|word| *word == option).expect(option);
+            let given = asked.chunks(2).filter(|pair| pair[0] != option);
+            let given: Vec<&str> = given.flatten().copied().collect();
+            let mended = [&["init", "-"], &given[..], &words[at..at + 2]].concat();
+            let output = tilebind(&mended);
+            assert!(
+                output.status.success(),
+                "{told}{mended:?}: {}",
+                stderr(&output)
+            );
+        }
+    }
 }
 
 #[test]
@@ -284,6 +301,53 @@ fn files_for_the_workshop_are_to_scale() {
     let wrong = tilebind(&["make", "shapes/tab-20mm.toml", "-o", out, "--kerf", "0.2"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(stderr(&wrong).contains("in millimetres write"));
+    let wrong = tilebind(&["make", "shapes/tab-20mm.toml", "-o", out, "--kerf", "11 mm"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    let told = stderr(&wrong);
+    assert!(
+        told.contains("at most 10 mm") && !told.contains("in millimetres write"),
+        "{told}"
+    );
+}
+
+#[test]
+fn pockets_that_overlap_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = |pitch: &str, cut: &[&str]| {
+        let design = folder.path().join("design.toml");
+        std::fs::write(&design, squares(pitch)).unwrap();
+        let out = folder.path().join("out");
+        let files = [
+            "make",
+            design.to_str().unwrap(),
+            "--force",
+            "-o",
+            out.to_str().unwrap(),
+        ];
+        let made = tilebind(&[&files[..], cut].concat());
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+        std::fs::read_to_string(out.join("sheet.md")).unwrap()
+    };
+    // By 0.2 mm, and by 2 mm.
+    for (pitch, cut, more) in [
+        ("0.005", &[][..], "out by 0.7 mm"),
+        ("0.015", &["--clearance", "6 mm"], "out by 2.5 mm"),
+    ] {
+        let told = sheet(pitch, cut);
+        assert!(told.contains("*close*") && told.contains(more), "{told}");
+    }
+    assert!(!sheet("0.015", &[]).contains("*close*"));
+}
+
+/// Squares of 10 cm whose target faces carry magnets of 5 mm at a pitch (m).
+fn squares(pitch: &str) -> String {
+    let tile = "side = 0.1\nthickness = 0.005\nmass = 0.05";
+    format!(
+        "[table]\nsize = [1.0, 1.0]\n[magnet]\nsize = [0.005, 0.005, 0.003]\nremanence = 1.2\n\
+         pitch = {pitch}\ninset = 0.001\n[fixed]\n{tile}\n[fixed.faces]\neast = {{ code = \"NNNS\" \
+         }}\n[moving]\n{tile}\n[moving.faces]\nwest = {{ mates = \"east\" }}\n[target]\n\
+         fixed = \"east\"\nmoving = \"west\"\n"
+    )
 }
 
 #[test]

@@ -44,6 +44,9 @@ const LARGEST: f64 = 1.5;
 const USED: f64 = 0.85;
 /// Mass of the paper's tile over its volume (kg / m^3).
 const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
+/// If magnets do not fit, sides this much longer are tried, so many times.
+const LONGER: f64 = 1.03;
+const LENGTHENED: u8 = 60;
 /// Largest number of sides: with more, a tile is nearly a disc, and its faces hardly differ.
 const MOST_SIDES: u32 = 24;
 /// Largest number of magnets: codes for more are not searched here.
@@ -99,6 +102,11 @@ impl Start {
     /// If there is no such tile, or no room for the magnets.
     pub fn design(&self, name: &str) -> Result<String, StartError> {
         self.check()?;
+        self.fitted(name).map_err(|fault| self.no_room(fault))
+    }
+
+    /// The text of the design; if there is none, the fault of the last one that was tried.
+    fn fitted(&self, name: &str) -> Result<String, Option<DesignError>> {
         let mut last = None;
         for (block, pitch) in self.rows() {
             // As far behind the surface as curved lines need, and no farther.
@@ -111,7 +119,7 @@ impl Start {
                 }
             }
         }
-        Err(self.no_room(last))
+        Err(last)
     }
 
     /// Magnets with their spacings (m), the best first.
@@ -127,7 +135,7 @@ impl Start {
         let blocks = blocks.filter(|b| fits(b) || *b == smallest);
         let rows = blocks.flat_map(|block| {
             let room = (USED * self.side - block[1]) / gaps as f64;
-            let least = CLOSEST * block[1];
+            let least = closest(block[1]);
             // Closer ones, and perhaps wider ones, stay clear of flanks.
             let pitches = [1.0, 0.9, 0.8, 0.7, 1.2, 1.5];
             let pitches = pitches.map(|share| tenths(share * wanted.max(least)));
@@ -173,24 +181,42 @@ impl Start {
         self.side / (2.0 * libm::sin(PI / f64::from(self.sides)))
     }
 
+    /// Why the magnets do not fit, and similar requests for which they do.
     fn no_room(&self, fault: Option<DesignError>) -> StartError {
-        let smallest = self.magnet.map_or(BLOCKS[BLOCKS.len() - 1], |own| own.size)[1];
-        let spacing = CLOSEST * smallest;
-        let most = ((USED * self.side - smallest) / spacing).floor().max(0.0) + 1.0;
-        let needed = (spacing * (self.magnets - 1) as f64 + smallest) / USED;
-        let side = (needed * 1e3).ceil() / 1e3;
-        match fault {
-            Some(fault) if needed <= self.side => wrong(
-                format!("the magnets do not fit into this shape: {}", fault.message),
-                "use fewer --magnets, a longer --side, or --shape flat",
+        let fits = |other: &Self| other.check().is_ok() && other.fitted("").is_ok();
+        let fewer = (1..self.magnets)
+            .rev()
+            .map(|magnets| Self { magnets, ..*self });
+        let longer = (1..=LENGTHENED).map(|k| Self {
+            side: (self.side * libm::pow(LONGER, f64::from(k)) * 1e3).ceil() / 1e3,
+            ..*self
+        });
+        let flat = Self {
+            shape: Shape::Flat,
+            ..*self
+        };
+        let advice = [
+            fewer
+                .into_iter()
+                .find(fits)
+                .map(|it| format!("--magnets {} or fewer", it.magnets)),
+            longer
+                .into_iter()
+                .find(fits)
+                .map(|it| format!("--side {} or longer", it.side)),
+            fits(&flat).then(|| "--shape flat".to_owned()),
+        ];
+        let advice: Vec<String> = advice.into_iter().flatten().collect();
+        let message = match fault {
+            Some(fault) => format!("the magnets do not fit into this shape: {}", fault.message),
+            None => format!(
+                "{} magnets do not fit on a side of {} m",
+                self.magnets, self.side
             ),
-            _ => wrong(
-                format!(
-                    "{} magnets do not fit on a side of {} m",
-                    self.magnets, self.side
-                ),
-                format!("use --magnets {most} or fewer, or --side {side} or longer"),
-            ),
+        };
+        match advice.is_empty() {
+            true => wrong(message, "use smaller magnets"),
+            false => wrong(message, format!("use {}", advice.join(", or "))),
         }
     }
 
@@ -264,6 +290,11 @@ model = \"cuboid\"                # blocks, as magnets are; \"dipole\": the pape
         );
         text
     }
+}
+
+/// The least spacing (m) of magnets of this width (m), in tenths of a millimetre.
+fn closest(width: f64) -> f64 {
+    four_digits((CLOSEST * width * 1e4 - 1e-6).ceil() / 1e4)
 }
 
 /// Rounds down to tenths of a millimetre.
