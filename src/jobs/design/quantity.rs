@@ -173,13 +173,14 @@ impl Quantity {
         if (low..=high).contains(&value.abs()) {
             return Ok(());
         }
+        let size = if value.abs() < low { "small" } else { "large" };
         let high = self.with_unit(high);
         let limits = match low > 0.0 {
-            true => format!("from {low} to {high}"),
+            true => format!("from {} to {high}", short(low)),
             false => format!("up to {high}"),
         };
         let message = match self.proposals(value).as_slice() {
-            [] => format!("{what} = {value_and_unit} is too large for a tile"),
+            [] => format!("{what} = {value_and_unit} is too {size} for a tile"),
             proposals => format!(
                 "{what} = {value_and_unit}: did you mean {}?",
                 proposals.join(" or ")
@@ -284,6 +285,7 @@ impl Quantity {
 
     /// A number with its unit, if there is one.
     fn with_unit(&self, value: f64) -> String {
+        let value = short(value);
         format!("{value} {}", self.kind.unit).trim_end().to_owned()
     }
 
@@ -296,6 +298,14 @@ impl Quantity {
             .filter(|(meant, _)| (low..=high).contains(&meant.abs()))
             .map(|(meant, name)| format!("{} ({value} {name})", four_digits(meant)))
             .collect()
+    }
+}
+
+/// A number without more zeros than are easily counted.
+fn short(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-5..1e15 => value.to_string(),
+        _ => format!("{value:e}"),
     }
 }
 
@@ -338,6 +348,11 @@ mod tests {
     #[test]
     fn what_no_unit_explains_is_refused_without_a_guess() {
         assert!(message(TILE_SIDE, 1e9).contains("too large for a tile"));
+        for (quantity, value) in [(TILE_SIDE, 1e-6), (MASS, 1e-320), (REMANENCE, 1e-4)] {
+            let told = message(quantity, value);
+            assert!(told.ends_with("too small for a tile"), "{told}");
+            assert!(told.len() < 60, "{told}");
+        }
         assert!(message(TILE_SIDE, f64::NAN).contains("not a number"));
         assert!(message(TILE_SIDE, 0.0).contains("above zero"));
         assert!(message(INSET, -0.001).contains("must not be negative"));

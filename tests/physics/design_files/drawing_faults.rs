@@ -5,7 +5,7 @@ use super::drawings::{design, drawn, outlined, parse, profiled};
 /// Each drawing with its message, and the line and column of the fault.
 #[test]
 fn drawings_are_refused_where_the_fault_is() {
-    let cases: [(&str, &str, &str); 19] = [
+    let cases: [(&str, &str, &str); 20] = [
         (
             "<path d=\"M0 0h100v100h-100\"/>",
             "the outline is open: its ends are 100 mm apart",
@@ -74,7 +74,12 @@ fn drawings_are_refused_where_the_fault_is() {
         ("<path d=\"M0 0h9v9z\">", "not well-formed XML", "3:1"),
         (
             "<path d=\"M0 0h.1v.1z\"/>",
-            "the outline's width = 0.0001 m",
+            "the outline's width = 0.0001 m is too small",
+            "2:2",
+        ),
+        (
+            "<path transform=\"scale(0)\" d=\"M0 0h9v9z\"/>",
+            "the outline's width must be above zero, not 0 m",
             "2:2",
         ),
         (
@@ -167,6 +172,9 @@ fn a_fault_in_the_design_is_told_there() {
         assert!(error.file.ends_with("design.toml"));
         assert!(error.help.contains(expected), "{error}");
     }
+    let nameless = drawn("<rect width=\"100\" height=\"100\"/>");
+    let error = outlined(&nameless, ", id = \"plate\"").unwrap_err();
+    assert!(error.help.starts_with("remove `id`"), "{error}");
     let text = design("outline = { file = \"b.svg\" }", "", "side = 0.1", (0, 0));
     let error = parse(&square, &text).unwrap_err();
     assert!(

@@ -207,7 +207,12 @@ fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<u
             ),
             None => entry.error(
                 format!("the drawing has no shape with the id \"{wanted}\""),
-                nearest_help(wanted, &ids),
+                match ids.is_empty() {
+                    true => {
+                        "remove `id`, or give a shape this id in the drawing program".to_owned()
+                    }
+                    false => nearest_help(wanted, &ids),
+                },
             ),
         });
     }

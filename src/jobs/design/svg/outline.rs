@@ -180,7 +180,8 @@ fn check_size(ring: &[Vector2<f64>]) -> std::result::Result<(), String> {
     {
         let low = ring.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let high = ring.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-        let check = quantity::TILE_SIDE.check(what, high - low);
+        // A drawing can shrink to a point, and nothing is left of it.
+        let check = quantity::TILE_SIDE.check(what, (high - low).max(0.0));
         check.map_err(|(message, _)| message)?;
     }
     Ok(())
