@@ -47,6 +47,7 @@ mod yaml;
 mod tests;
 
 use std::collections::HashSet;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::design::{DesignError, Place};
@@ -58,8 +59,10 @@ pub use request::Request;
 pub use tile_set::{Glue, MOST, TileSet, TileType};
 pub use wiring::Wiring;
 
-/// Largest strength, and largest energy in kT.
-const MOST_STRENGTH: f64 = 1e6;
+/// Ranges of a strength, of an energy in kT and of tau, and of a share, which can also be 0.
+const STRENGTHS: RangeInclusive<f64> = -1e6..=1e6;
+const ENERGIES: RangeInclusive<f64> = 0.0..=1e6;
+const SHARES: RangeInclusive<f64> = 1e-6..=1e6;
 /// Largest number of rows and columns of a canvas.
 const MOST_CANVAS: usize = 65_536;
 
@@ -174,25 +177,6 @@ impl TileSet {
                 let message = format!("the tile `{}` has the colour {color:?}", tile.name);
                 return wrong(&tile.name, message, "use an X11 colour: red, or #ff0000");
             }
-            if !(tile.stoic.is_finite() && tile.stoic >= 0.0) {
-                let message = format!("the tile `{}` has a share of {}", tile.name, tile.stoic);
-                return wrong(
-                    &tile.name,
-                    message,
-                    "a share (stoic) is a number of 0 or more",
-                );
-            }
-        }
-        let strengths = self.glues.iter().map(|glue| glue.strength);
-        let mut numbers = strengths
-            .chain(self.links.iter().map(|link| link.2))
-            .chain([self.tau, self.gse, self.gmc].into_iter().flatten());
-        if let Some(x) = numbers.find(|x| x.is_nan() || x.abs() > MOST_STRENGTH) {
-            let message = format!(
-                "{x:?} is not a valid strength or energy: at most \
-                {MOST_STRENGTH}"
-            );
-            return wrong("", message, "write it as 1 or 0.5");
         }
         if self.tiles.iter().all(|tile| tile.stoic == 0.0) {
             let message = "all of its tiles have a share of 0, so the table is empty".to_owned();
@@ -201,13 +185,6 @@ impl TileSet {
                 message,
                 "give at least one tile a share (stoic) above 0",
             );
-        }
-        let numbers = [("tau", self.tau), ("Gse", self.gse), ("Gmc", self.gmc)];
-        let negative =
-            |(key, value): &(_, Option<f64>)| value.filter(|x| *x < 0.0).map(|x| (*key, x));
-        if let Some((key, x)) = numbers.iter().find_map(negative) {
-            let message = format!("{key} is {x:?} and must not be negative");
-            return wrong(key, message, "write a number above 0");
         }
         if let Some(size) = self
             .size
@@ -240,6 +217,19 @@ impl TileSet {
         }
         Ok(())
     }
+}
+
+/// A number if it is in its range; otherwise what is wrong with `what`, and the fix.
+fn in_range(what: &str, number: f64, range: &RangeInclusive<f64>) -> Result<f64, (String, String)> {
+    if range.contains(&number) {
+        return Ok(number);
+    }
+    let told = |number: &f64| format!("{number:?}").trim_end_matches(".0").to_owned();
+    let [number, least, most] = [&number, range.start(), range.end()].map(told);
+    Err((
+        format!("{what} is {number}, not from {least} to {most}"),
+        format!("write a number from {least} to {most}, such as 1"),
+    ))
 }
 
 /// A fault at the position where a text assigns the name `needle`, or first contains it.

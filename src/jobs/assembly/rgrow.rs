@@ -7,9 +7,10 @@
 //! key, and a canvas that cannot be a table, are faults.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 use super::yaml::{FORM, Node, Source};
-use super::{MOST, TileSet, TileType};
+use super::{ENERGIES, MOST, SHARES, STRENGTHS, TileSet, TileType, in_range};
 use crate::design::{DesignError, nearest_help};
 
 const HALVES: &str = "write the two halves as tiles that share a strong glue";
@@ -130,7 +131,7 @@ impl Parts {
                     }
                 }
                 name => match number {
-                    Some(at) => self.numbers[at] = Some(numeral(source, value)?),
+                    Some(at) => self.numbers[at] = Some(within(source, value, name, &ENERGIES)?),
                     None => self.steer(source, name, value)?,
                 },
             }
@@ -227,6 +228,25 @@ fn numeral(source: Source, node: &Node) -> Result<f64, DesignError> {
         .ok_or_else(|| source.wrong(node, message, help))
 }
 
+/// A number in a range; messages call it `what`.
+fn within(
+    source: Source,
+    node: &Node,
+    what: &str,
+    range: &RangeInclusive<f64>,
+) -> Result<f64, DesignError> {
+    let found = numeral(source, node)?;
+    in_range(what, found, range).map_err(|(message, help)| source.wrong(node, message, &help))
+}
+
+/// A tile's share: 0, or in its range.
+fn share(source: Source, node: &Node) -> Result<f64, DesignError> {
+    match numeral(source, node)? {
+        0.0 => Ok(0.0),
+        _ => within(source, node, "stoic", &SHARES),
+    }
+}
+
 /// A name, or the number of a nameless one.
 fn ident(source: Source, node: &Node) -> Result<String, DesignError> {
     let number = node.whole().map(|number| number.to_string());
@@ -254,7 +274,7 @@ fn bond(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
     for (key, word, value) in source.entries(node, "a bond")? {
         match word {
             "name" => name = Some(ident(source, value)?),
-            "strength" => strength = Some(numeral(source, value)?),
+            "strength" => strength = Some(within(source, value, word, &STRENGTHS)?),
             _ => return Err(unknown(source, key, word, &OF_BOND)),
         }
     }
@@ -279,7 +299,7 @@ fn tile(source: Source, node: &Node, set: &mut TileSet) -> Result<TileType, Desi
             _ if value.is_null() => {}
             "name" => tile.name = ident(source, value)?,
             "edges" => edges = Some(value),
-            "stoic" => tile.stoic = numeral(source, value)?,
+            "stoic" => tile.stoic = share(source, value)?,
             "color" => tile.color = Some(ident(source, value)?),
             _ => {
                 let shape = value.text().unwrap_or_default();
@@ -318,7 +338,8 @@ fn link(source: Source, node: &Node, set: &mut TileSet) -> Result<(), DesignErro
             source.wrong(node, message, help)
         })
     };
-    let (a, b, strength) = (place(first)?, place(second)?, numeral(source, strength)?);
+    let strength = within(source, strength, "strength", &STRENGTHS);
+    let (a, b, strength) = (place(first)?, place(second)?, strength?);
     match a == b {
         true => set.glues[a].strength = strength,
         false => set.links.push((a, b, strength)),

@@ -89,6 +89,8 @@ fn faults_are_told_with_their_place() {
         (tiles("]}"), Some(2)),
         (tiles(", a], stoic: -1}"), Some(2)),
         (tiles(", a], stoic: much}"), Some(2)),
+        (tiles(", a], stoic: 1e308}"), Some(2)),
+        (tiles(", a], stoic: 1e-320}"), Some(2)),
         (tiles(", a]}") + "glues:\n- [a, b, 1]", Some(4)),
         (tiles(", a]}") + "seed: [1, 1, u]", Some(3)),
         (tiles(", a]}") + "hdoubletiles: [[t, t]]", Some(3)),
@@ -108,7 +110,11 @@ fn faults_are_told_with_their_place() {
         (tiles(", a]}") + "cover_strands: [a]", Some(3)),
         (tiles(", a]}") + "model: SDC", Some(3)),
         (tiles(", a], stoic: 0}"), Some(2)),
-        (tiles(", a]}") + "bonds: [{name: a, strength: 1e308}]", None),
+        (
+            tiles(", a]}") + "bonds: [{name: a, strength: 1e308}]",
+            Some(3),
+        ),
+        (tiles(", a]}") + "options: {threshold: -1}", Some(3)),
         (tiles(", a]}") + "seed: [4294967296, 0, t]", Some(3)),
         (tiles(", a]}") + "seed: [[1, 1, t], [1, 1, t]]", Some(3)),
         (tiles(", a]}") + "tau: -1", Some(3)),
@@ -127,6 +133,9 @@ fn faults_are_told_with_their_place() {
         (one("periodic"), Some(8)),
         (one("stoic=1[0.5]"), Some(8)),
         (one("sed=1,1,1"), Some(8)),
+        (one("T=-1"), Some(8)),
+        (one("g(1,1)=1e9"), Some(8)),
+        (one("").replace("1 1}", "1 1}[inf]"), Some(5)),
         (one("size=8,9"), Some(8)),
         (
             "num tile types=1\nnum binding types=2\nbinding type names={a a}\ntile edges={\n{a 0 0 \

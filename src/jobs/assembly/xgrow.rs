@@ -5,8 +5,9 @@
 //! per line. `%` begins a comment.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
-use super::{Glue, TileSet, TileType};
+use super::{ENERGIES, Glue, SHARES, STRENGTHS, TileSet, TileType, in_range};
 use crate::design::{DesignError, Place, nearest_help};
 
 struct Scanner<'a> {
@@ -68,6 +69,28 @@ impl<'a> Scanner<'a> {
             self.wrong(format!("`{found}` is not a number"), FORM)
         })
     }
+
+    /// A number in a range; messages call it `what`.
+    fn within(&mut self, what: &str, range: &RangeInclusive<f64>) -> Result<f64, DesignError> {
+        self.skip();
+        let start = self.at;
+        let found = self.number()?;
+        in_range(what, found, range).map_err(|(message, help)| {
+            self.at = start;
+            self.wrong(message, &help)
+        })
+    }
+
+    /// A tile's share: 0, or in its range.
+    fn share(&mut self) -> Result<f64, DesignError> {
+        self.skip();
+        let start = self.at;
+        if self.number::<f64>()? == 0.0 {
+            return Ok(0.0);
+        }
+        self.at = start;
+        self.within("the share", &SHARES)
+    }
 }
 
 const FORM: &str = "a .tiles file has: num tile types=, num binding types=, tile edges={{n e s w} \
@@ -114,7 +137,7 @@ pub fn read(text: &str, file: &str) -> Result<TileSet, DesignError> {
     if scan.takes("binding strengths=") {
         scan.expect("{")?;
         for at in 0..glues {
-            set.glues[at].strength = scan.number()?;
+            set.glues[at].strength = scan.within("the strength", &STRENGTHS)?;
         }
         scan.expect("}")?;
     }
@@ -153,7 +176,7 @@ fn tile(scan: &mut Scanner, set: &TileSet, number: usize) -> Result<TileType, De
     scan.expect("}")?;
     let mut tile = TileType::new(number.to_string(), glues);
     if scan.takes("[") {
-        tile.stoic = scan.number()?;
+        tile.stoic = scan.share()?;
         scan.expect("]")?;
     }
     let mut named = |open: &str, close: char| -> Result<Option<String>, DesignError> {
@@ -275,7 +298,7 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
         scan.expect(",")?;
         let b: usize = scan.number()?;
         scan.expect(")=")?;
-        let strength: f64 = scan.number()?;
+        let strength = scan.within("the strength", &STRENGTHS)?;
         let known = 1..=set.glues.len();
         if !known.contains(&a) || !known.contains(&b) {
             return Err(scan.wrong(format!("there is no glue {a} or no glue {b}"), FORM));
@@ -304,11 +327,11 @@ fn argument(scan: &mut Scanner, set: &mut TileSet) -> Result<(), DesignError> {
     } else if scan.takes("size=") {
         set.size = Some([scan.number()?; 2]);
     } else if scan.takes("T=") {
-        set.tau = Some(scan.number()?);
+        set.tau = Some(scan.within("T", &ENERGIES)?);
     } else if scan.takes("Gse=") {
-        set.gse = Some(scan.number()?);
+        set.gse = Some(scan.within("Gse", &ENERGIES)?);
     } else if scan.takes("Gmc=") {
-        set.gmc = Some(scan.number()?);
+        set.gmc = Some(scan.within("Gmc", &ENERGIES)?);
     } else {
         let start = scan.at;
         let line = scan.until(&['\n']).trim();
