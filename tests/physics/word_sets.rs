@@ -140,6 +140,15 @@ side = 0.22
 model = \"dipole\"
 ";
 
+#[test]
+fn a_face_has_a_code_or_magnets() {
+    let face = "[faces]\nA = { code = \"NSN\", magnets = [{ at = 0.02, pole = \"N\" }] }\n";
+    let (_, rest) = SET.split_once('\n').unwrap();
+    let fault = WordSet::parse(&format!("{rest}{face}"), "words.toml", None).unwrap_err();
+    assert!(fault.message.contains("both place the magnets"), "{fault}");
+    assert_eq!(fault.place.map(|place| place.line), Some(10));
+}
+
 /// No sampled or random pose attracts more than the proved bounds say, and settled bounds are as
 /// narrow as requested.
 #[test]

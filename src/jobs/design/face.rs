@@ -66,6 +66,17 @@ impl FaceContent {
     }
 }
 
+/// Rejects a face with both a `code` and `magnets`.
+pub(super) fn not_placed_twice(face: &Section) -> Result<()> {
+    if let (Some(_), Some(magnets)) = (face.get("code"), face.get("magnets")) {
+        return Err(magnets.key_error(
+            "`code` and `magnets` both place the magnets of this face",
+            "keep one of the two",
+        ));
+    }
+    Ok(())
+}
+
 /// The entries of one face: its own over `all`.
 #[derive(Clone, Copy)]
 pub(super) struct FaceEntry<'a> {
@@ -90,12 +101,7 @@ impl<'a> FaceEntry<'a> {
                     ),
                 ));
             }
-            if let (Some(_), Some(magnets)) = (section.get("code"), section.get("magnets")) {
-                return Err(magnets.key_error(
-                    "`code` and `magnets` both place the magnets of this face",
-                    "keep one of the two",
-                ));
-            }
+            not_placed_twice(section)?;
         }
         Ok(Self { own, all })
     }

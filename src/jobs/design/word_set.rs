@@ -18,6 +18,7 @@ use toml::de::DeTable;
 
 use super::drawings::Drawings;
 use super::error::{DesignError, Result};
+use super::face::not_placed_twice;
 use super::faults::Faults;
 use super::magnet::{Axis, MAGNET_KEYS, MagnetKeys, missing_key};
 use super::reader::{Entry, Section};
@@ -185,6 +186,7 @@ fn faces<'a>(root: &Section<'a>) -> Result<Vec<(&'a str, Section<'a>)>> {
     let face = |entry: &Entry<'a>| {
         let face = entry.section(entry.key)?;
         face.allow(&["code", "magnets"]);
+        not_placed_twice(&face)?;
         Ok((entry.key, face))
     };
     entries.iter().map(face).collect()
