@@ -193,3 +193,69 @@ fn proved_crosstalk_lies_below_every_pose() {
         }
     }
 }
+
+/// Three words of seven to nine magnets a pitch apart, or of three magnets anywhere, as a file.
+fn random_set(random: &mut ChaCha8Rng, size: f64, side: f64, spaced: bool) -> String {
+    let pole = |random: &mut ChaCha8Rng| ["N", "S"][random.random_range(0..2)];
+    let mut text = format!("[magnet]\nsize = [{size}, {size}, 0.003]\npitch = 0.03\n");
+    text += &format!("[tile]\nside = {side}\n[faces]\n");
+    let places = random.random_range(7..10);
+    for name in ["A", "B", "C"] {
+        let face = match spaced {
+            true => {
+                let third = |k: i32| side * (f64::from(k) + random.random_range(-0.3..0.3)) / 3.0;
+                let magnets = [-1, 0, 1].map(third);
+                let magnets =
+                    magnets.map(|at| format!("{{ at = {at}, pole = \"{}\" }}", pole(random)));
+                format!("magnets = [{}]", magnets.join(", "))
+            }
+            false => {
+                let code: String = (0..places).map(|_| pole(random)).collect();
+                format!("code = \"{code}\"")
+            }
+        };
+        text += &format!("{name} = {{ {face} }}\n");
+    }
+    text
+}
+
+/// No slide of flush faces attracts more than crosstalk says, however long the faces are, and also
+/// if few slides lie far below all others.
+#[test]
+fn no_slide_of_flush_faces_attracts_more_than_crosstalk_says() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut sets = vec![
+        "words = [\"SNNNNN\", \"NSSSSS\"]\n[tile]\nside = 0.43\n".to_owned(),
+        "words = [\"NNNSNNSSNS\", \"NSNNNNSSSN\"]\n[magnet]\nsize = [0.004, 0.004, 0.003]\n\
+         pitch = 0.03\n[tile]\nside = 0.32\n"
+            .to_owned(),
+    ];
+    for size in [0.004, 0.01, 0.02] {
+        for side in [0.28, 0.43] {
+            for spaced in [false, true] {
+                sets.push(random_set(&mut random, size, side, spaced));
+            }
+        }
+    }
+    for text in sets {
+        let set = WordSet::parse(&text, "words.toml", None).unwrap();
+        let stage = set.carriers();
+        let found = stage.crosstalk(&set.words, None);
+        let faces: Vec<Word> = found.faces().collect();
+        let side = set.stage.pair.target_face().length();
+        for (i, first) in faces.iter().enumerate() {
+            for (j, second) in faces.iter().enumerate().skip(i) {
+                let problem = stage.problem_of(*first, *second);
+                let at = |k: i32| Configuration::new(side, f64::from(k) * 1e-4, 0.0);
+                let last = (side / 1e-4) as i32;
+                let slides = (-last..=last).map(|k| problem.energy(&at(k)));
+                let lowest = slides.fold(f64::INFINITY, f64::min);
+                let strongest = found.strongest[i][j];
+                assert!(
+                    strongest <= lowest + 1e-6 * lowest.abs(),
+                    "{text}{first} on {second}: {strongest} {lowest}"
+                );
+            }
+        }
+    }
+}

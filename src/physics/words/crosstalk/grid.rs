@@ -1,40 +1,37 @@
 //! The energies of all couples on one grid of poses.
 //!
-//! A pose is a tilt of the second tile about the midpoint of its face and a slide along the first
-//! face, in contact. If the couples have more pairs of magnets than there are pairs of places, the
-//! energies of the latter are computed once in a pose and summed with each couple's signs; otherwise
-//! each couple's energy is that of its own tiles, all whose magnets are summed together.
+//! A pose is a tilt of the second tile about the corner that touches, and a slide along the first
+//! face, in contact. The slides resolve the wells of single pairs of magnets; flush faces also meet
+//! where magnets face magnets. If the couples have more pairs of magnets than there are pairs of
+//! places, the energies of the latter are computed once in a pose and summed with each couple's
+//! signs; otherwise each couple's energy is that of its own tiles, all whose magnets are summed
+//! together.
 
+use std::f64::consts::FRAC_PI_2;
+
+use super::minima::{Grid, Setting, Walk};
 use super::{Couple, Stage, energies};
 use crate::configuration::Configuration;
+use crate::order::Order;
 use crate::parallel;
+use crate::potential::MagnetModel;
 use crate::problem::Problem;
-use crate::tile::face_to_face;
+use crate::tile::{Face, Magnet, face_to_face};
 use crate::words::Word;
 
-/// Number of slides per place, and in the width of a magnet at most.
-const SLIDES_A_PLACE: f64 = 8.0;
-const SLIDES_A_WIDTH: f64 = 4.0;
-/// Tilts (rad): fine where faces are nearly flush, coarse beyond.
-pub(super) const FINE: (f64, f64) = (0.01, 0.1);
-const COARSE: (f64, f64) = (0.1, 1.6);
+/// Number of slides in the width of a well.
+const SLIDES_A_WELL: f64 = 4.0;
+/// Slides at which magnets face each other, nearer than this fraction of a step, are one.
+pub(super) const THINNED: f64 = 0.125;
+/// Tilts (rad), step and end: fine where faces are nearly flush, coarse beyond, up to the quarter
+/// turn that lays the next faces of squares along each other.
+const FINE: (f64, f64) = (0.01, 0.1);
+const COARSE: (f64, f64) = (FRAC_PI_2 / 16.0, FRAC_PI_2);
+/// The cosine of a right angle, within rounding.
+const RIGHT: f64 = 1e-9;
 /// Pairs of magnets whose energies are computed, one by one, in the time of one whose energy is
 /// computed with those of its tiles' others, or more.
 const ALONE: usize = 8;
-
-/// Tilt (rad), slide (m), and separation (m).
-pub(super) type Setting = [f64; 3];
-
-/// The energies at a tilt.
-pub(super) struct AtTilt {
-    /// The tilt (rad).
-    pub tilt: f64,
-    /// For each couple, the lowest energy (J) and its setting.
-    pub best: Vec<(f64, Setting)>,
-    /// By slide (m), the energies (J) of the words with their own mates; infinite if the tiles do not
-    /// touch.
-    pub own: Vec<(f64, Vec<f64>)>,
-}
 
 /// How the energies of couples are summed.
 enum Sum<'a> {
@@ -87,8 +84,8 @@ impl Together<'_> {
 }
 
 impl Stage {
-    /// The grid of these couples; `own` are the numbers of those of a word and its own mate.
-    pub(super) fn grid(&self, couples: &[Couple], own: &[usize]) -> Vec<AtTilt> {
+    /// The grid of these couples.
+    pub(super) fn grid(&self, couples: &[Couple]) -> Grid {
         let pairs = couples.iter().map(Couple::pairs).sum::<usize>();
         let sum = if pairs < ALONE * self.places * self.places {
             let problem =
@@ -97,78 +94,112 @@ impl Stage {
         } else {
             Sum::Together(Together::new(self, couples))
         };
-        let slides = self.slides();
-        parallel::map(&tilts(), |&tilt| {
-            let mut best = vec![(f64::INFINITY, [tilt, 0.0, 0.0]); couples.len()];
-            let mut at = |slide: f64| {
-                let setting = [tilt, slide, 0.0];
-                let Some(q) = self.placed(setting) else {
-                    return vec![f64::INFINITY; own.len()];
-                };
-                let energies: Vec<f64> = match &sum {
-                    Sum::Apart(problems) => problems.iter().map(|it| it.energy(&q)).collect(),
-                    Sum::Together(together) => together.energies(&q),
-                };
-                for (energy, best) in energies.iter().zip(&mut best) {
-                    if *energy < best.0 {
-                        *best = (*energy, setting);
-                    }
-                }
-                own.iter().map(|number| energies[*number]).collect()
-            };
-            let own = slides.iter().map(|slide| (*slide, at(*slide))).collect();
-            AtTilt { tilt, best, own }
-        })
+        let energies = |q: Configuration| -> Vec<f64> {
+            match &sum {
+                Sum::Apart(problems) => problems.iter().map(|it| it.energy(&q)).collect(),
+                Sum::Together(together) => together.energies(&q),
+            }
+        };
+        let row = |tilt: f64, slides: &[f64], lowest: Vec<f64>| {
+            let mut walk = Walk::new(couples, lowest);
+            for slide in slides {
+                let pose = self.placed([tilt, *slide, 0.0]);
+                let apart = || vec![f64::INFINITY; couples.len()];
+                walk.step(*slide, pose.map_or_else(apart, energies).into_iter());
+            }
+            walk.end(tilt)
+        };
+        let step = self.slide_step();
+        let even = even(self.pair.target_face().length(), step);
+        let mut flush = [even.clone(), self.facing_slides()].concat();
+        flush.order_by(f64::total_cmp);
+        // Most couples attract most when flush, so that few minima are kept of other tilts.
+        let (flush, lowest) = row(0.0, &flush, vec![f64::INFINITY; couples.len()]);
+        let mut rows = parallel::map(&tilts(), |tilt| row(*tilt, &even, lowest.clone()).0);
+        rows.push(flush);
+        Grid::new(rows, step)
     }
 
-    /// Slides (m) of the grid, along the whole face in both directions.
-    fn slides(&self) -> Vec<f64> {
-        let step = self.slide_step();
-        let count = (self.pair.target_face().length() / step).round() as i64;
-        (-count..=count)
-            .map(|number| number as f64 * step)
-            .collect()
+    /// Slides (m) at which a magnet of each of two flush faces face each other.
+    fn facing_slides(&self) -> Vec<f64> {
+        let (pair, step) = (&self.pair, self.slide_step());
+        let moving = &pair.moving.faces[pair.target.1];
+        let along = |face: &Face, magnets: &[Magnet]| -> Vec<f64> {
+            let at = |it: &Magnet| (it.position - face.middle()).dot(&face.tangent());
+            magnets.iter().map(at).collect()
+        };
+        let first = along(pair.target_face(), &pair.fixed.magnets);
+        let second = along(moving, &pair.moving.magnets);
+        let mut slides: Vec<f64> = Vec::with_capacity(first.len() * second.len());
+        for at in first {
+            slides.extend(second.iter().map(|other| at + other));
+        }
+        slides.order_by(f64::total_cmp);
+        slides.dedup_by(|next, kept| *next - *kept < THINNED * step);
+        slides
     }
 
     /// The step (m) of slides.
     pub(super) fn slide_step(&self) -> f64 {
-        let width = self.pair.fixed.magnets[0].size[1];
-        slide_step(self.pair.target_face().length(), self.places, width)
+        let pair = &self.pair;
+        let [first, second] = [
+            &pair.fixed.magnets[0],
+            &pair.moving.magnets[self.places - 1],
+        ];
+        let apart = (pair.bound.transform(second.position) - first.position).norm();
+        slide_step(self.interaction.model, first.size[1], apart)
     }
 
-    /// The pose of a setting; `None` if the tiles do not touch.
+    /// The pose of a setting; `None` if the tiles do not touch. Tilts turn the tile about the corner
+    /// that touches the other face, so that the magnets beside it stay opposite each other.
     pub(super) fn placed(&self, [tilt, slide, back]: Setting) -> Option<Configuration> {
         let pair = &self.pair;
-        let moving = &pair.moving.faces[pair.target.1];
-        let flush = face_to_face(pair.target_face(), moving, slide, tilt);
-        let normal = pair.target_face().normal();
+        let (fixed, moving) = (pair.target_face(), &pair.moving.faces[pair.target.1]);
+        let (side, cos) = (tilt.signum(), libm::cos(tilt));
+        // A corner of the second face lies on the first face, or one of the first on the second, if
+        // the angle between them is less than a right one.
+        let along = match side * slide > 0.0 {
+            true if cos < RIGHT => return None,
+            true => slide * cos,
+            false => slide,
+        };
+        let middle = along + side * (1.0 - cos) * fixed.length() / 2.0;
+        let flush = face_to_face(fixed, moving, middle, tilt);
+        let normal = fixed.normal();
         let out = self.contact.landing(&flush, normal)? + back;
         let at = flush.position() + normal * out;
         Some(Configuration::new(at.x, at.y, flush.theta))
     }
 }
 
-/// The step (m) of slides along a face (m) with so many places for magnets of a width (m): energies
-/// change little over a fraction of the width.
-pub(super) fn slide_step(face: f64, places: usize, width: f64) -> f64 {
-    (face / places as f64 / SLIDES_A_PLACE).max(width / SLIDES_A_WIDTH)
+/// The step (m) of slides. The well of two magnets is about as wide as their width (m) for blocks,
+/// and as the distance (m) of the dipoles that face each other for dipoles.
+pub(super) fn slide_step(model: MagnetModel, width: f64, apart: f64) -> f64 {
+    let well = match model {
+        MagnetModel::Dipole => apart,
+        MagnetModel::Cuboid => width,
+    };
+    well / SLIDES_A_WELL
+}
+
+/// Slides (m) along a whole face (m), in both directions.
+fn even(face: f64, step: f64) -> Vec<f64> {
+    let count = (face / step).round() as i64;
+    let slide = |number| number as f64 * step;
+    (-count..=count).map(slide).collect()
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Fine and coarse tilts, in both directions.
+/// Fine and coarse tilts (rad) in both directions, without 0.
 pub(super) fn tilts() -> Vec<f64> {
     let steps = |(step, end): (f64, f64)| {
         let count = (end / step).round() as i32;
         (1..=count).map(move |k| f64::from(k) * step)
     };
     let coarse = steps(COARSE).filter(|tilt| *tilt > FINE.1);
-    let one_way: Vec<f64> = steps(FINE).chain(coarse).collect();
-    let other = one_way.iter().map(|tilt| -tilt);
-    std::iter::once(0.0)
-        .chain(one_way.iter().copied())
-        .chain(other)
-        .collect()
+    let one_way = steps(FINE).chain(coarse);
+    one_way.flat_map(|tilt| [tilt, -tilt]).collect()
 }

@@ -4,8 +4,8 @@
 //! One tile carries the first word on its target face, the other the second on its own; their other
 //! faces are empty. The energy is bilinear in the two words, so the energies of all pairs of
 //! magnets in a pose, or their bounds in a cell of poses, give those of all pairs of words:
-//! `grid` evaluates all pairs on one grid of poses, `sampled` finds the strongest attraction from
-//! it, and `certified` bounds it from one subdivision.
+//! `grid` evaluates all pairs on one grid of poses, `minima` keeps the local minima there, `sampled`
+//! finds the strongest attraction from them, and `certified` bounds it from one subdivision.
 //!
 //! Around the bond of a word and its own mate everything lies on the bond's slope; the wrong
 //! contacts of these two are their `traps`, other stable contacts.
@@ -15,6 +15,7 @@
 
 mod certified;
 mod grid;
+mod minima;
 mod sampled;
 mod traps;
 
@@ -27,7 +28,7 @@ use crate::potential::interaction::{PairWork, pair_work};
 use crate::potential::{Energy, Interaction, Unbounded};
 use crate::problem::Problem;
 use crate::tile::{Pair, Tile};
-use grid::{slide_step, tilts};
+use grid::{THINNED, slide_step, tilts};
 
 /// Units of work of an energy besides its pairs of magnets: contact, sines, coefficients.
 const AN_ENERGY: f64 = 250.0;
@@ -35,6 +36,8 @@ const AN_ENERGY: f64 = 250.0;
 const FACING: f64 = 0.3;
 /// Energies for the refinement of a pose.
 const REFINED: f64 = 120.0;
+/// Minima of the grid that are refined, of two faces, and of a word and its mate for their traps.
+const STARTS: [usize; 2] = [3, 8];
 
 /// The default width of bounds, as a fraction of two magnets' energy.
 pub const TOLERANCE: f64 = 0.25;
@@ -105,6 +108,11 @@ struct Couple {
 }
 
 impl Couple {
+    /// Whether it is a word and its own mate.
+    fn is_bond(&self) -> bool {
+        self.second == self.first.mate()
+    }
+
     /// The number of its pairs of magnets.
     fn pairs(&self) -> usize {
         (self.first.magnets() * self.second.magnets()) as usize
@@ -183,14 +191,14 @@ impl Stage {
             .filter(|(_, (i, j, mate))| i == j && *mate)
             .map(|(number, _)| number)
             .collect();
-        let grid = self.grid(&couples, &own);
+        let grid = self.grid(&couples);
         let found = self.sampled(&couples, &grid);
         let bounds =
             certify.map(|(tolerance, cells)| self.certified(&couples, &found, tolerance, cells));
         let mut crosstalk = Crosstalk {
             words: words.to_vec(),
             strongest: vec![vec![0.0; 2 * m]; 2 * m],
-            traps: self.traps(words, &grid),
+            traps: self.traps(&couples, &own, &grid),
             poses: vec![vec![Configuration::new(0.0, 0.0, 0.0); 2 * m]; 2 * m],
             lower: bounds.as_ref().map(|_| vec![vec![0.0; 2 * m]; 2 * m]),
             settled: bounds.as_ref().is_none_or(|bounds| bounds.settled),
@@ -242,8 +250,11 @@ impl Stage {
 /// Units of work to sample words with so many magnets each anywhere along a face (m), mostly for the
 /// energies of all couples at all poses of the grid, and for the refinement of their lowest poses.
 pub fn sampling_work(bar: &Bar, face: f64, words: usize, magnets: usize) -> u64 {
-    let step = slide_step(face, 2 * words * magnets, bar.size[1]);
-    let poses = tilts().len() as f64 * (2.0 * face / step + 1.0);
+    let step = slide_step(bar.model, bar.size[1], bar.size[0] + 2.0 * bar.inset);
+    let even = 2.0 * face / step + 1.0;
+    let places = (2 * words * magnets) as f64;
+    let facing = (places * places).min(even / THINNED);
+    let poses = (tilts().len() as f64 + 1.0) * even + facing;
     let PairWork { far, near, reach } = pair_work(bar.model, bar.form, bar.size);
     // Of a magnet's others, those within reach.
     let beside = (1.0 + 2.0 * reach * magnets as f64 / face).min(magnets as f64);
@@ -251,7 +262,8 @@ pub fn sampling_work(bar: &Bar, face: f64, words: usize, magnets: usize) -> u64 
     let couples = (words * (words + 1)) as f64;
     let on_grid = AN_ENERGY + all * far + FACING * close * near;
     let refined = AN_ENERGY + all * far + close * near;
-    let starts = couples * sampled::POLISHED as f64 + (words * traps::POLISHED) as f64;
+    let [of_two, of_one] = STARTS;
+    let starts = couples * of_two as f64 + (words * of_one) as f64;
     (couples * poses * on_grid + starts * REFINED * refined) as u64
 }
 

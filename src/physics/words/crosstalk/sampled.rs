@@ -1,53 +1,55 @@
-//! The strongest attraction of all pairs of faces: the lowest poses of the grid, refined.
+//! The strongest attraction of all pairs of faces: the local minima of the grid, refined.
 //!
-//! Every couple keeps its lowest poses of the grid with different tilts; compass search, which may
-//! also separate the tiles, moves these to their minima. This is a sample: poses between those of
-//! the grid may be lower.
+//! Compass search, which may also separate the tiles, moves a couple's minima of the grid to those
+//! of the energy, from the lowest up, until the next could not become the lowest. This is a sample:
+//! a well so narrow that the grid misses it may be deeper.
 
 use ordered_float::OrderedFloat;
 
-use super::grid::{AtTilt, FINE, Setting};
+use super::minima::{Grid, Setting, reach};
 use super::{Couple, Stage};
 use crate::configuration::Configuration;
 use crate::parallel;
 use crate::problem::Problem;
 
-/// Number of poses of a couple that are refined.
-pub(super) const POLISHED: usize = 4;
 /// Final step of compass search (m).
 const FINEST: f64 = 1e-6;
 
 impl Stage {
     /// The lowest energy (J) found for each couple, and its pose.
-    pub(super) fn sampled(&self, couples: &[Couple], grid: &[AtTilt]) -> Vec<(f64, Configuration)> {
+    pub(super) fn sampled(&self, couples: &[Couple], grid: &Grid) -> Vec<(f64, Configuration)> {
         parallel::map(0..couples.len(), |number| {
-            let couple = &couples[number];
-            let mut starts: Vec<(f64, Setting)> =
-                grid.iter().map(|tilt| tilt.best[number]).collect();
-            // The best of every few neighbouring tilts, so that one deep place does not take all.
-            let mut chosen = Vec::new();
-            while chosen.len() < POLISHED && !starts.is_empty() {
-                let lowest = (0..starts.len()).min_by_key(|i| OrderedFloat(starts[*i].0));
-                let at = lowest.unwrap_or(0);
-                chosen.push(starts[at]);
-                let tilt = starts[at].1[0];
-                starts.retain(|(_, setting)| (setting[0] - tilt).abs() > 2.5 * FINE.0);
-            }
-            let problem = self.problem_of(couple.first, couple.second);
-            chosen
-                .into_iter()
-                .filter_map(|(_, setting)| self.polished(&problem, setting))
-                .min_by_key(|(energy, _)| OrderedFloat(*energy))
-                .unwrap_or((0.0, self.pair.bound))
+            let found = self.lowest(&couples[number], grid.minima(number), |_| true);
+            found.unwrap_or((0.0, self.pair.bound))
         })
     }
 
-    /// Compass search from a setting.
-    pub(super) fn polished(
+    /// The lowest energy (J) of an accepted pose from minima of the grid, given from the lowest up,
+    /// and the pose.
+    pub(super) fn lowest(
         &self,
-        problem: &Problem,
-        start: Setting,
+        couple: &Couple,
+        minima: Vec<(f64, Setting)>,
+        accepted: impl Fn(&Configuration) -> bool,
     ) -> Option<(f64, Configuration)> {
+        let problem = self.problem_of(couple.first, couple.second);
+        let mut lowest: Option<(f64, Configuration)> = None;
+        for (energy, setting) in minima {
+            if lowest.is_some_and(|(lowest, _)| energy > reach(lowest)) {
+                break;
+            }
+            let found = self.polished(&problem, setting);
+            let found = found.filter(|(_, pose)| accepted(pose));
+            lowest = lowest
+                .into_iter()
+                .chain(found)
+                .min_by_key(|it| OrderedFloat(it.0));
+        }
+        lowest
+    }
+
+    /// Compass search from a setting.
+    fn polished(&self, problem: &Problem, start: Setting) -> Option<(f64, Configuration)> {
         let value = |setting: Setting| {
             let q = self.placed(setting)?;
             Some((problem.energy(&q), q))
