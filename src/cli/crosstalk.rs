@@ -47,7 +47,7 @@ impl Crosstalk {
         let output = self.results.output(&FILES, vec![self.set.clone()])?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        let found = self.request.crosstalk(&set)?;
+        let found = self.request.crosstalk(&set, &progress)?;
         if !found.settled {
             tell(
                 "note: the cell limit was reached before all bounds were as narrow as requested; the \

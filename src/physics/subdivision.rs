@@ -29,6 +29,11 @@ impl<R: Ord, C: Sync> Waiting<R, C> {
         self.came += 1;
     }
 
+    /// The lowest rank.
+    pub fn first(&self) -> Option<&R> {
+        self.cells.keys().next().map(|(rank, _)| rank)
+    }
+
     /// The number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()

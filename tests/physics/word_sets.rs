@@ -1,10 +1,13 @@
 //! Words and their crosstalk against plain definitions.
 
+use std::cell::RefCell;
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::design::WordSet;
 use tilebind::words::constraint::Constraints;
+use tilebind::words::crosstalk::Proof;
 use tilebind::words::lag::{Correlations, Lags};
 use tilebind::words::{Bar, Rules, Word};
 
@@ -157,8 +160,14 @@ fn proved_crosstalk_lies_below_every_pose() {
     let stage = set.carriers();
     let words = &set.words[..];
     let tolerance = 0.4 * stage.contact_energy().abs();
-    let found = stage.crosstalk(words, Some((tolerance, 2_000_000)));
+    let proofs = RefCell::new(Vec::new());
+    let proving = |proof| proofs.borrow_mut().push(proof);
+    let found = stage.crosstalk(words, Some((tolerance, 2_000_000)), &proving);
     assert!(found.settled && found.cells > 100);
+    let proofs: Vec<Proof> = proofs.into_inner();
+    assert!(proofs.is_sorted_by(|a, b| a.cells < b.cells && a.within >= b.within));
+    assert_eq!(proofs.last().unwrap().cells, found.cells);
+    assert_eq!(proofs.last().unwrap().within, tolerance);
     let lower = found.lower.as_ref().unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(6);
     let all: Vec<Word> = words
@@ -240,7 +249,7 @@ fn no_slide_of_flush_faces_attracts_more_than_crosstalk_says() {
     for text in sets {
         let set = WordSet::parse(&text, "words.toml", None).unwrap();
         let stage = set.carriers();
-        let found = stage.crosstalk(&set.words, None);
+        let found = stage.crosstalk(&set.words, None, &|_| ());
         let faces: Vec<Word> = found.faces().collect();
         let side = set.stage.pair.target_face().length();
         for (i, first) in faces.iter().enumerate() {

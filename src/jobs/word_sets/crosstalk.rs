@@ -5,7 +5,9 @@ use clap::Args;
 use crate::Refused;
 use crate::design::{MagnetModel, WordSet};
 use crate::request;
-use physics::words::crosstalk::{Crosstalk, TOLERANCE};
+use physics::observer::Observer;
+use physics::units::si;
+use physics::words::crosstalk::{Crosstalk, Proof, TOLERANCE};
 
 /// The options of the attraction of every two words over all poses.
 #[derive(Clone, Debug, Args)]
@@ -30,7 +32,7 @@ impl CrosstalkRequest {
     ///
     /// # Errors
     /// If bounds are requested and its magnets have none.
-    pub fn crosstalk(&self, set: &WordSet) -> Result<Crosstalk, Refused> {
+    pub fn crosstalk(&self, set: &WordSet, observer: &dyn Observer) -> Result<Crosstalk, Refused> {
         let stage = set.carriers();
         if self.certify.is_some()
             && let Err(why) = stage.certifiable()
@@ -41,6 +43,16 @@ impl CrosstalkRequest {
             let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * stage.contact_energy());
             (tolerance, self.certify_cells)
         });
-        Ok(stage.crosstalk(&set.words, certify))
+        observer.stage("poses", 0.0);
+        let proving = |proof: Proof| {
+            observer.stage("proof", proof.cells as f64 / self.certify_cells as f64);
+            if proof.within.is_finite() {
+                let within = si(proof.within, "J", 3);
+                observer.known(&format!(
+                    "proved so far: no attraction is stronger than found by more than {within}"
+                ));
+            }
+        };
+        Ok(stage.crosstalk(&set.words, certify, &proving))
     }
 }

@@ -166,6 +166,6 @@ fn judged(wanted: &Wanted, words: &[SpacedWord]) -> Result<Judged, DesignError> 
     }
     let text = file::of_spaced("", words, &wanted.bar, wanted.face);
     let set = WordSet::parse(&text, "words.toml", None)?;
-    let found = set.carriers().crosstalk(&set.words, None);
+    let found = set.carriers().crosstalk(&set.words, None, &|_| ());
     Ok(Some((set, found)))
 }

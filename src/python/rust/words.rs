@@ -123,10 +123,7 @@ pub fn crosstalk<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked: CrosstalkRequest = request(asked)?;
     let (set, _) = word_set(py, words, asked.model)?;
-    let found = job::run(py, progress, |told| {
-        told.tell(0.0, "crosstalk".to_owned());
-        asked.crosstalk(&set)
-    })?;
+    let found = job::run(py, progress, |told| asked.crosstalk(&set, told))?;
     let found = found.map_err(|why| fault::refused(py, &why))?;
     convert::json(py, &crosstalk_report::document(&set, &found).report())
 }

@@ -28,6 +28,15 @@ pub(super) struct Bounds {
     pub cells: usize,
 }
 
+/// How far a proof has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Proof {
+    /// Cells evaluated.
+    pub cells: usize,
+    /// No faces attract more strongly than found by more than this (J); infinite at first.
+    pub within: f64,
+}
+
 /// Number of cells evaluated in parallel.
 const BATCH: usize = 64;
 
@@ -44,13 +53,13 @@ struct Open {
 }
 
 impl Stage {
-    /// Bounds within `tolerance` (J) of the sampled minima, as far as this many cells achieve it.
+    /// Bounds within the tolerance (J) of the sampled minima, as far as this many cells achieve it.
     pub(super) fn certified(
         &self,
         couples: &[Couple],
         found: &[(f64, Configuration)],
-        tolerance: f64,
-        most_cells: usize,
+        (tolerance, most_cells): (f64, usize),
+        proving: &dyn Fn(Proof),
     ) -> Bounds {
         // Far apart no energy lies below zero by more than the tolerance.
         let wanted: Vec<f64> = found
@@ -77,6 +86,11 @@ impl Stage {
             for half in found.into_iter().flat_map(|(_, halves)| halves) {
                 waiting.push(half.lack, half);
             }
+            let lack = waiting.first().map_or(0.0, |lack| lack.into_inner());
+            proving(Proof {
+                cells,
+                within: tolerance - lack,
+            });
         }
         let settled = waiting.is_empty();
         let mut lower = wanted;

@@ -19,6 +19,8 @@ mod minima;
 mod sampled;
 mod traps;
 
+pub use certified::Proof;
+
 use std::sync::OnceLock;
 
 use super::{Bar, Word};
@@ -176,9 +178,14 @@ impl Stage {
     }
 
     /// The crosstalk of words; with bounds closer than the given `tolerance` (J), if any, from at
-    /// most this many `cells`. Without [bounds over cells](Self::certifiable) nothing is proved, after
-    /// all these cells.
-    pub fn crosstalk(&self, words: &[Word], certify: Option<(f64, usize)>) -> Crosstalk {
+    /// most this many `cells`, whose proof is followed by `proving`. Without [bounds over
+    /// cells](Self::certifiable) nothing is proved, after all these cells.
+    pub fn crosstalk(
+        &self,
+        words: &[Word],
+        certify: Option<(f64, usize)>,
+        proving: &dyn Fn(Proof),
+    ) -> Crosstalk {
         let m = words.len();
         let couples: Vec<Couple> = couples_of(m)
             .map(|(i, j, mate)| Couple {
@@ -193,8 +200,7 @@ impl Stage {
             .collect();
         let grid = self.grid(&couples);
         let found = self.sampled(&couples, &grid);
-        let bounds =
-            certify.map(|(tolerance, cells)| self.certified(&couples, &found, tolerance, cells));
+        let bounds = certify.map(|limits| self.certified(&couples, &found, limits, proving));
         let mut crosstalk = Crosstalk {
             words: words.to_vec(),
             strongest: vec![vec![0.0; 2 * m]; 2 * m],
