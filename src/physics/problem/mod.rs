@@ -1,5 +1,6 @@
 //! A problem: a space of configurations, the energy on it, and the contact that blocks part of it.
 
+mod room;
 mod symmetry;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,6 +19,7 @@ use crate::potential::{
 use crate::scale::Scale;
 use crate::tile::{Face, Pair, face_to_face};
 
+pub use room::{NoRoom, Room};
 pub use symmetry::Symmetry;
 
 /// Counters for energy evaluations are spread over this many cache lines, so that threads do not

@@ -24,11 +24,11 @@ const STEPS_BETWEEN_LOOKS: usize = 5;
 
 /// The data shared by all trajectories of a docking experiment.
 pub(super) struct Experiment<'a> {
-    problem: &'a Problem,
+    pub problem: &'a Problem,
     pub pair: &'a Pair,
-    settings: &'a DockingSettings,
+    pub settings: &'a DockingSettings,
     pub simulation: Simulation<'a>,
-    rule: MatchRule,
+    pub rule: MatchRule,
 }
 
 /// A trajectory and, if it ended trapped, the minimum below its end.

@@ -1,5 +1,6 @@
 //! Docking experiments: tiles launched towards each other, and how they end.
 
+mod arrival;
 mod experiment;
 mod map;
 mod matching;
@@ -8,6 +9,7 @@ mod release;
 mod results;
 mod starts;
 
+pub use arrival::{Arrival, Arrivals, Caught, arrivals};
 use experiment::Experiment;
 pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell};

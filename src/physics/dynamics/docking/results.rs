@@ -4,6 +4,8 @@ use super::starts::{Start, Starts};
 use crate::configuration::Configuration;
 use crate::dynamics::{MotionSettings, SettingsError, Snapshot};
 use crate::landscape::Proportion;
+use crate::problem::NoRoom;
+use crate::units::si;
 
 /// The settings of a docking experiment.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -44,6 +46,15 @@ pub enum DockingError {
     /// A target face has no magnets to match by.
     #[error("a match needs magnets on both target faces, but one of them has none")]
     NoMagnets,
+    /// The table has no room for the moving tile.
+    #[error(transparent)]
+    Room(#[from] NoRoom),
+    /// Nowhere on the table is |U| less than this kT (J).
+    #[error(
+        "at kT = {} the tiles are nowhere apart: everywhere on the table their energy is more than kT; \
+         enlarge `size` in [table], or choose a larger kT", si(*.0, "J", 4)
+    )]
+    NeverApart(f64),
 }
 
 /// The outcome of one start.
