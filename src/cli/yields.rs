@@ -29,8 +29,12 @@ const NOTES: &str = "\
 Half of the tiles are of the fixed tile's kind, half of the moving tile's kind. Each tile binds at most
 one partner.
 
-Attachment rates are counted in docking runs of shaken tiles. With --rates overdamped they are
-solved for overdamped motion, as in `tilebind rates`. Detachment rates follow by detailed balance from
+Attachment rates are counted in docking runs of shaken tiles. These start in equilibrium anywhere on
+the design's table where the tiles are apart (|U| below kT), and end once the tiles are bound: matched,
+with so little kinetic and potential energy that 3 kT are missing to become free, so that a tile that
+only flies by does not count. The rate is the number of attachments over the time apart, times the area
+in which a pair is apart, and depends neither on --duration nor on the size of the table. With
+--rates overdamped rates are solved for overdamped motion, as in `tilebind rates`. Detachment rates follow by detailed balance from
 the partition functions of the states (`tilebind bond`). This is valid only if collisions lose no energy:
 otherwise the table has no temperature.
 

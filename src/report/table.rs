@@ -166,7 +166,8 @@ fn of_yield(question: &Question, yields: &Yields) -> Entries {
             .fact(
                 "bond_lifetime_s",
                 "bond lifetime (yield)",
-                bond.map(|bond| 1.0 / bond.off),
+                bond.filter(|bond| bond.off > 0.0)
+                    .map(|bond| 1.0 / bond.off),
             )
             .noted("by detailed balance")
             .fact(

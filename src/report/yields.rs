@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::columns::{Unit, told};
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look, Point};
@@ -41,6 +42,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
     let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
     let without = found.without.iter().map(|(_, why)| why.to_string());
     let means = found.outcomes.iter().filter(|it| !it.exact).map(of_means);
+    let uncounted = found.outcomes.iter().filter_map(uncounted);
     Document {
         title: format!("Yield of {}", design.name),
         answer: answer(design, question, found),
@@ -54,6 +56,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         entries: found_entries(design, question, found),
         pictures: pictures(question, found),
         notes: without
+            .chain(uncounted)
             .chain(means)
             .chain(schedule)
             .chain([
@@ -171,15 +174,28 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
         .column("yield_equilibrium", "in equilibrium", "fraction in the bond in equilibrium", known(|it| it.equilibrium)).share()
         .column("yield_simulated", "simulated", "by simulation, with two standard errors", move |row| json!(simulated(row).map(entry)))
             .viewed(move |row| simulated(row).map_or("-".to_owned(), told)).without_csv()
-        .column("mean_time_to_bond_s", "to bond", "mean time until a free tile binds", of(|it| it.mean_times[0])).digits(2)
-        .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond breaks", of(|it| it.mean_times[1])).digits(2)
+        .column("mean_time_to_bond_s", "to bond", "mean time until a free tile binds", of(|it| it.mean_times[0])).viewed(mean_time(0))
+        .column("mean_time_to_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[0]))).in_json()
+        .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond breaks", of(|it| it.mean_times[1])).viewed(mean_time(1))
+        .column("mean_time_out_of_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[1]))).in_json()
         .column("states", "", "", inner(states)).in_json()
         .column("attachments_elsewhere", "", "", |(_, at)| at.ok().map(|it| it.attached.elsewhere)).in_json()
         .column("docked_s", "", "total duration of the docking runs", of(|it| it.attached.time)).in_json()
+        .column("apart_s", "", "... for which the tiles were apart", of(|it| it.attached.apart)).in_json()
+        .column("free_area_m2", "", "area of a pair that is apart, by which rates are multiplied", of(|it| it.attached.area)).in_json()
         .column("over_time", "", "", inner(course)).in_json()
         .column("table", "", "", inner(crowds)).in_json()
         .table("settings")
         .in_file("settings")
+}
+
+/// A mean time of an outcome: to the bond (0) or out of it (1).
+fn mean_time(which: usize) -> impl Fn(&AtKt) -> String {
+    move |(_, at)| match at.map(|it| (it.mean_times[which], it.least_times)) {
+        Ok((_, Some(least))) => format!("longer than {}", duration(least[which], 2)),
+        Ok((time, None)) => told(time, Unit::Of("s"), 2),
+        Err(_) => "-".to_owned(),
+    }
 }
 
 #[rustfmt::skip]
@@ -188,13 +204,22 @@ fn states(outcome: &Outcome) -> Table {
         Some(_) => "-".to_owned(),
         None => format!("{} of {}", it.attachments, outcome.attached.runs),
     };
+    // Of a state to which no attachment was counted only the upper ends of rates are known.
+    let limited = |it: &StateRates, rate: f64, ends: [f64; 2], text: &dyn Fn(f64) -> String| {
+        match outcome.attached.counts_none(it.kind) {
+            true => format!("below {}", text(ends[1])),
+            false => text(rate),
+        }
+    };
     rows(&outcome.states)
         .column("state", "state", "kind of state", |it| it.name.clone())
-        .column("attachments", "attached", "docking runs that ended in it", |it| it.attachments).viewed(|it| attached(it))
-        .column("on_m2_per_s", "on", "rate of capture of a pair, times the table's area", |it| it.on)
-            .viewed(|it| format!("{:.1e} m²/s", it.on))
+        .column("attachments", "attached", "docking runs that attached to it", |it| it.attachments).viewed(|it| attached(it))
+        .column("on_m2_per_s", "on", "rate of capture of a pair, times its free area", |it| it.on)
+            .viewed(move |it| limited(it, it.on, it.on_interval, &|rate| format!("{rate:.1e} m²/s")))
         .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
-        .column("off_per_s", "off", "escape rate", |it| it.off).digits(2)
+        .column("off_per_s", "off", "escape rate", |it| it.off)
+            .viewed(move |it| limited(it, it.off, it.off_interval, &|rate| told(rate, Unit::Of("/s"), 2)))
+        .column("off_interval_per_s", "", "", |it| it.off_interval).in_json()
         .column("depth_kT", "depth", "energy in kT", |it| it.depth)
         .column("ln_K", "ln K", "logarithm of binding constant / concentration", |it| it.ln_k)
             .viewed(|it| format!("{:.1}", it.ln_k))
@@ -333,6 +358,17 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
         );
     }
     all.into_iter().map(Into::into).collect()
+}
+
+/// The note on a bond to which no attachment was counted.
+fn uncounted(outcome: &Outcome) -> Option<String> {
+    outcome.least_times?;
+    Some(format!(
+        "at kT = {} none of {} docking runs attached to the bond: its rates are upper limits and its \
+         times lower ones (95 %); more or longer runs (--runs, --duration) can count some",
+        si(outcome.kt, "J", 3),
+        outcome.attached.runs
+    ))
 }
 
 /// The note on a share from mean numbers.

@@ -1,6 +1,13 @@
-//! How often shaken tiles attach, counted in docking runs.
+//! How often shaken tiles attach, counted in docking runs or solved on a mesh.
+//!
+//! The rate kappa (m^2/s) of a pair, for one partner per square metre, is the rate (1/s) at which a
+//! pair that is apart attaches, times the area a (m^2) that it then has: the Boltzmann factor of the
+//! configurations that count as apart, integrated over x, y and theta, over 2 pi. Both refer to what
+//! was simulated ([`docking::arrivals`]) or solved ([`MeshRates`](physics::kinetics::rates::MeshRates)),
+//! so kappa does not depend on the design's table, and kappa over the rate of detachment is the
+//! bond's partition sum over 2 pi (detailed balance).
 
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
@@ -8,8 +15,9 @@ use nalgebra::DMatrix;
 use super::{Question, YieldError};
 use crate::pipeline::Analysis;
 use crate::request::{self, ContactOptions};
+use physics::configuration::Configuration;
 use physics::dynamics::MotionSettings;
-use physics::dynamics::docking::{self, Docking, DockingError, DockingSettings, End, Starts};
+use physics::dynamics::docking::{self, Arrivals, Caught, DockingError, DockingSettings, Starts};
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::bond::Hold;
 use physics::kinetics::rates::{Basin, RateSettings, rates};
@@ -19,8 +27,6 @@ use physics::problem::Problem;
 
 /// Two configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 5e-3;
-/// Tiles start between the distance of free tiles and this multiple of it.
-const FARTHEST: f64 = 1.6;
 
 /// The method for attachment rates, and the motion of tiles.
 #[derive(Clone, Debug, PartialEq, Args)]
@@ -111,9 +117,11 @@ pub struct Attachments {
     pub counts: Vec<usize>,
     /// Number of runs that ended at rest elsewhere.
     pub elsewhere: usize,
-    /// Total time of all runs until attachment or their end (s).
+    /// Total time (s) of all runs until attachment or their end.
     pub time: f64,
-    /// The table's area (m^2).
+    /// ... for which their tiles were apart.
+    pub apart: f64,
+    /// Area (m^2) of a pair that is apart.
     pub area: f64,
     /// Runs.
     pub runs: usize,
@@ -134,11 +142,11 @@ pub struct Solved {
 }
 
 impl Attachments {
-    /// kappa (m^2/s) of a kind of state: the rate times the table's area.
+    /// kappa (m^2/s) of a kind of state: the rate times the area.
     pub fn rate(&self, kind: usize) -> f64 {
         match &self.solved {
             Some(solved) => solved.on[kind][0] * self.area,
-            None if self.time > 0.0 => self.counts[kind] as f64 * self.area / self.time,
+            None if self.apart > 0.0 => self.counts[kind] as f64 * self.area / self.apart,
             None => 0.0,
         }
     }
@@ -156,6 +164,11 @@ impl Attachments {
         })
     }
 
+    /// Whether docking runs were to count attachments to a kind of state, and counted none.
+    pub fn counts_none(&self, kind: usize) -> bool {
+        self.solved.is_none() && self.counts[kind] == 0
+    }
+
     /// Its 95 % interval, that of a Poisson count; for solved rates, from the difference of meshes.
     pub fn interval(&self, kind: usize) -> [f64; 2] {
         match &self.solved {
@@ -164,7 +177,7 @@ impl Attachments {
                 [1.0 - spread, 1.0 + spread].map(|part| part.max(0.0) * rate * self.area)
             }
             None => docking::poisson_interval(self.counts[kind])
-                .map(|ends| ends * self.area / self.time),
+                .map(|ends| ends * self.area / self.apart),
         }
     }
 }
@@ -212,6 +225,12 @@ pub fn solve(
     let found = rates(problem, &settings)?;
     let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
     let free = settings.basins.len();
+    let energies = settings
+        .basins
+        .iter()
+        .map(|basin| problem.energy(&basin.at));
+    let ground = energies.fold(f64::INFINITY, f64::min);
+    let volume = found.finest().volumes[free] * libm::exp(-ground / kt);
     if !found.is_known(free, 0) {
         return Err(YieldError::Lost);
     }
@@ -247,25 +266,19 @@ pub fn solve(
         counts: vec![0; basins.len()],
         elsewhere: 0,
         time: 0.0,
-        area: table(problem),
+        apart: 0.0,
+        area: volume / TAU,
         runs: 0,
         solved: Some(solved),
     })
 }
 
-/// The table's area (m^2).
-fn table(problem: &Problem) -> f64 {
-    let sides = problem.space.half_size.iter().map(|half| 2.0 * half);
-    sides.product()
-}
-
-/// Counts attachments in docking runs: the moving tile starts anywhere around the fixed one, in any
-/// orientation, at any speed up to twice the thermal one, and is shaken at `kt` (J) until it is
-/// matched or the run ends. Traps are counted at the end of runs, so a trap that releases tiles
-/// within a run is underestimated; but such a trap holds few tiles.
+/// Counts attachments in docking runs of tiles that start apart, in equilibrium at `kt` (J), and are
+/// shaken until they are bound or the run ends. Traps are counted at the end of runs, so a trap that
+/// releases tiles within a run is underestimated; but such a trap holds few tiles.
 ///
 /// # Errors
-/// As [`docking::dock`].
+/// As [`docking::arrivals`].
 pub fn count(
     problem: &Problem,
     catalogue: &Catalogue,
@@ -273,40 +286,27 @@ pub fn count(
     effort: &Effort,
     seed: u64,
 ) -> Result<Attachments, DockingError> {
-    let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
-    let thermal = (2.0 * kt / mass).sqrt();
-    let near = 1.02 * problem.space.free_distance;
-    let [x, y] = problem.space.half_size;
-    let starts = Starts {
-        distance: [near, (FARTHEST * near).min(x.min(y)).max(near)],
-        direction: PI,
-        orientation: PI,
-        speed: [0.0, 2.0 * thermal],
-        aim: PI,
-        spin: 0.0,
-    };
     let settings = DockingSettings {
         runs: effort.runs,
         seed,
         duration: effort.duration,
-        starts,
+        starts: Starts::default(),
         motion: MotionSettings {
             shaking: Some(kt),
             ..effort.motion()
         },
         threshold: None,
     };
-    let docking = docking::dock(problem, &settings, &|| ())?;
-    Ok(tally(problem, catalogue, &docking))
+    let arrivals = docking::arrivals(problem, &settings, &|| ())?;
+    Ok(tally(problem, catalogue, &arrivals))
 }
 
-fn tally(problem: &Problem, catalogue: &Catalogue, docking: &Docking) -> Attachments {
+fn tally(problem: &Problem, catalogue: &Catalogue, arrivals: &Arrivals) -> Attachments {
     let kinds: Vec<_> = catalogue.kinds().collect();
     // The bond first, then the traps, in the order of their holds.
     let mut order: Vec<usize> = (0..kinds.len()).collect();
     order.order_by_key(|&k| !kinds[k].is_bond());
-    let kind_of = |trap: usize| {
-        let q = docking.traps[trap].configuration;
+    let kind_of = |q: Configuration| {
         let distance = |k: usize| {
             let states = kinds[k].states.iter();
             let distances = states.map(|s| problem.space.distance(&s.configuration, &q));
@@ -317,23 +317,20 @@ fn tally(problem: &Problem, catalogue: &Catalogue, docking: &Docking) -> Attachm
     let mut found = Attachments {
         counts: vec![0; kinds.len()],
         elsewhere: 0,
-        time: 0.0,
-        area: table(problem),
-        runs: docking.runs.len(),
+        time: arrivals.runs.iter().map(|run| run.time).sum(),
+        apart: arrivals.runs.iter().map(|run| run.apart).sum(),
+        area: arrivals.area,
+        runs: arrivals.runs.len(),
         solved: None,
     };
-    for run in &docking.runs {
-        found.time += match run.end {
-            End::Bound { since } => since,
-            _ => run.last.time,
+    for caught in arrivals.runs.iter().filter_map(|run| run.caught) {
+        let kind = match caught {
+            Caught::Bond => Some(0),
+            Caught::Minimum(minimum) => minimum.and_then(kind_of),
         };
-        match run.end {
-            End::Bound { .. } => found.counts[0] += 1,
-            End::Trapped { trap } => match trap.and_then(kind_of) {
-                Some(kind) => found.counts[kind] += 1,
-                None => found.elsewhere += 1,
-            },
-            End::Free => {}
+        match kind {
+            Some(kind) => found.counts[kind] += 1,
+            None => found.elsewhere += 1,
         }
     }
     found

@@ -145,6 +145,7 @@ impl YieldError {
         match self {
             Self::Hot(..) | Self::Cold(_) => true,
             Self::Rates(error) => matches!(error, RatesError::Joined(_) | RatesError::Cold(..)),
+            Self::Docking(error) => matches!(error, DockingError::NeverApart(_)),
             _ => false,
         }
     }

@@ -35,6 +35,8 @@ pub struct StateRates {
     pub on_interval: [f64; 2],
     /// Detachments per second: by detailed balance, or solved.
     pub off: f64,
+    /// Its 95 % interval, in proportion to that of kappa.
+    pub off_interval: [f64; 2],
     /// The constant of association (m^2).
     pub constant: f64,
     /// Depth over kT.
@@ -75,6 +77,8 @@ pub struct Outcome {
     pub simulated: Option<[f64; 2]>,
     /// Mean times (s) of a pair on this table: from free to the bond, and out of the bond.
     pub mean_times: [f64; 2],
+    /// What they are at least (95 %), if no attachment to the bond was counted.
+    pub least_times: Option<[f64; 2]>,
     /// Time (s), share in the bond, share in traps.
     pub course: Vec<[f64; 3]>,
     /// Tiles, coverage, share in the bond at the end, and whether all probabilities were computed.
@@ -100,13 +104,19 @@ pub(super) fn state(
     }
     // K for one partner per square metre: all copies count, and the coverage does not.
     let constant = hold.association(&docking);
+    let on_interval = attached.interval(kind);
+    let off = attached.off(kind).unwrap_or(on / constant);
     Some(StateRates {
         name: hold.name.clone(),
         kind,
         attachments: count,
         on,
-        on_interval: attached.interval(kind),
-        off: attached.off(kind).unwrap_or(on / constant),
+        on_interval,
+        off,
+        off_interval: on_interval.map(|end| match on > 0.0 {
+            true => off * end / on,
+            false => end / constant,
+        }),
         constant,
         depth: docking.depth,
         ln_k: docking.ln_k(1.0),
@@ -134,23 +144,20 @@ pub(super) fn outcome(
     let times: Vec<f64> = (0..TIMES)
         .map(|k| time * libm::pow(10f64, power(k)))
         .collect();
-    // Even without attachments the rate may be above 0.
-    let with_bond = |on: f64| {
+    // Even without attachments the rate may be above 0. By detailed balance, a higher attachment rate
+    // implies a higher detachment rate.
+    let with_end = |end: usize| {
         let mut other = rates.clone();
-        // By detailed balance, a higher attachment rate implies a higher detachment rate.
-        let more = on / bond.on;
-        other.on[0] = on;
-        other.off[0] = match bond.on > 0.0 {
-            true => bond.off * more,
-            false => on / bond.constant,
-        };
+        other.on[0] = bond.on_interval[end];
+        other.off[0] = bond.off_interval[end];
         for other_kind in (1..other.on.len()).filter(|_| bond.on > 0.0) {
+            let more = other.on[0] / bond.on;
             other.turns[(0, other_kind)] *= more;
             other.turns[(other_kind, 0)] *= more;
         }
         other
     };
-    let [low, high] = bond.on_interval.map(with_bond);
+    let [low, high] = [0, 1].map(with_end);
     let asked = [
         (&rates, &times[..]),
         (&low, &[time][..]),
@@ -172,7 +179,10 @@ pub(super) fn outcome(
         ends[0].min(bound - wider).max(0.0),
         ends[1].max(bound + wider).min(1.0),
     ];
-    let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
+    let mean_times = |rates: &PairRates| {
+        let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
+        [chain.mean_times(&[1])[0], chain.mean_times(&[0])[1]]
+    };
     let course = times.iter().zip(&found[0].bound).zip(&found[0].trapped);
     let course = course.map(|((time, bound), trapped)| [*time, *bound, *trapped]);
     let rows = with(&TILES, question.tiles).into_iter();
@@ -190,6 +200,8 @@ pub(super) fn outcome(
         (tiles, coverage, found.bound[0], found.exact)
     });
     let smooth = rates.mean_numbers(crowd, &[time]);
+    // Known without attachments too, since it does not depend on their rate.
+    let equilibrium = rates.equilibrium(crowd).or_else(|| high.equilibrium(crowd));
     Outcome {
         kt,
         bound,
@@ -198,9 +210,10 @@ pub(super) fn outcome(
         exact,
         off,
         smooth: smooth.map(|course| course.values[0][0] / pairs),
-        equilibrium: rates.equilibrium(crowd),
+        equilibrium,
         simulated,
-        mean_times: [chain.mean_times(&[1])[0], chain.mean_times(&[0])[1]],
+        mean_times: mean_times(&rates),
+        least_times: attached.counts_none(0).then(|| mean_times(&high)),
         course: course.collect(),
         table,
         rates,
