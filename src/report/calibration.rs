@@ -10,7 +10,7 @@ use jobs::calibration::{Calibration, Fitted, QUANTITIES, Residuals};
 use jobs::design::Design;
 use jobs::output::Command;
 use physics::dynamics::docking::OnRate;
-use physics::units::si;
+use physics::units::{plain, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -201,11 +201,12 @@ fn intervals(design: &Design, found: &TimesFit) -> Document<'static> {
         remarks: vec![
             format!(
                 "measured: bound for {} on average over {} intervals, apart for {} on average \
-                 over {}; table area per pair {area} m²",
+                 over {}; area per pair {} m²",
                 si(bound.mean(), "s", 3),
                 bound.whole.len(),
                 si(apart.mean(), "s", 3),
                 apart.whole.len(),
+                plain(*area, 4),
             ),
             "the interval includes the scatter of these times but no error of the energies"
                 .to_owned(),

@@ -2,7 +2,9 @@
 //!
 //! In equilibrium the time that a pair is bound is K / S times the time that it is apart, where K
 //! is the bond's association constant at kT (see [`physics::kinetics::bond::Hold::association`])
-//! and S the area available to the pair.
+//! and S the area available to the pair: of one pair alone on a table the area that the rim and the
+//! fixed tile leave to the moving tile's reference point, averaged over theta
+//! ([`physics::problem::Room`]).
 //!
 //! Intervals of a Markov process are exponentially distributed with some mean t. If n intervals
 //! were observed to their ends and some were cut off by the end of the observation, the total time

@@ -32,13 +32,14 @@ use physics::kinetics::bond::BondError;
 use physics::observer::Observer;
 use physics::potential::shielding::{Shield, ShieldRule, Shields};
 use physics::potential::{MagnetModel, Potential, ShieldedPotential};
+use physics::problem::{NoRoom, Room};
 use physics::tile::Tile;
 pub use rows::{COLUMNS, Row, read_rows};
 
 /// The options of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
-    /// Table area per pair (m^2) [default: the design's table]
+    /// Area per pair (m^2) [default: what the rim and the fixed tile leave of the design's table]
     #[arg(long, value_name = "M2", value_parser = request::positive)]
     pub area: Option<f64>,
 
@@ -75,6 +76,9 @@ pub enum FitError {
     /// There is no bond.
     #[error(transparent)]
     Bond(#[from] BondError),
+    /// The table has no room for the moving tile.
+    #[error(transparent)]
+    Room(#[from] NoRoom),
 }
 
 impl From<String> for FitError {
@@ -122,7 +126,10 @@ impl Request {
         let settings = Settings::without_proofs(Settings::default().seed);
         let analysis = pipeline::analyse(design, &settings, observer);
         let bond = Hold::bond(&analysis.problem, &analysis.catalogue)?;
-        let area = self.area.unwrap_or(design.table[0] * design.table[1]);
+        let area = match self.area {
+            Some(area) => area,
+            None => Room::new(&analysis.problem)?.area,
+        };
         let (odds, [low, high]) = times.log_odds();
         // The longer tiles are bound, the lower kT.
         let [kt, least, most] = [odds, high, low].map(|odds| bond.kt_of_odds(odds, area));

@@ -270,7 +270,8 @@ impl Design {
     ///     a pair was bound and apart, with unfinished intervals prefixed by `>`; or
     ///     `distance_m`, independent distances (m) between the reference points of a pair.
     /// area : float, optional
-    ///     Table area per pair (m^2); the design's table by default. For intervals only.
+    ///     Area per pair (m^2); by default what the rim and the fixed tile leave of the design's
+    ///     table. For intervals only.
     /// within : float, optional
     ///     Largest distance (m) of a pair that counts; where tiles are free by default.
     ///
