@@ -1,5 +1,8 @@
 //! `tilebind bond` and `tilebind yield`.
 
+use std::f64::consts::PI;
+use std::path::Path;
+
 use serde_json::Value;
 
 use super::{json, numbers, tilebind};
@@ -261,7 +264,7 @@ fn yield_and_rates_have_one_answer_for_one_drag() {
     let asked = "--rates overdamped --tiles 2 --time 60 --simulations 0";
     let asked: Vec<&str> = asked.split(' ').collect();
     let yields = json(&[&["yield", &file][..], &asked, &common].concat());
-    let area = 4.0;
+    let area = yields["settings"][0]["free_area_m2"].as_f64().unwrap();
     let states = yields["settings"][0]["states"].as_array().unwrap();
     assert!(states.len() > 1);
     for state in states {
@@ -299,6 +302,110 @@ fn yield_and_rates_have_one_answer_for_one_drag() {
         let text = stdout(&tilebind(&words));
         assert!(text.replace('\n', " ").contains(other), "{text}");
     }
+}
+
+/// Small squares that come to equilibrium within a second, on a square table of this size (m).
+fn small(folder: &Path, table: f64) -> String {
+    let tile = "side = 0.04\nthickness = 0.005\nmass = 0.002\n";
+    let text = format!(
+        "name = \"small\"\n[table]\nsize = [{table}, {table}]\n\
+         [magnet]\nsize = [0.004, 0.004, 0.002]\nremanence = 1.2\npitch = 0.012\n\
+         [fixed]\n{tile}[fixed.faces]\nall = {{ code = \"NN\" }}\n\
+         [moving]\n{tile}[moving.faces]\nall = {{ code = \"SS\" }}\n\
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n"
+    );
+    let file = folder.join(format!("small-{table}.toml"));
+    std::fs::write(&file, text).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+/// The bond's K (m^2) of such squares, with all its 16 copies, of which `bond` counts 4.
+fn association(file: &str, kt: &str) -> f64 {
+    let found = json(&["bond", file, "--kt", kt, "--coverage", "0.3", "--json"]);
+    let density = 0.3 / (0.04 * 0.04);
+    4.0 / density * found["ln_K"].as_f64().unwrap().exp()
+}
+
+/// The bond's entry among the states of a yield of small squares.
+fn bond_of(file: &str, kt: &str, asked: &str) -> Value {
+    let common = "--tiles=2 --time=60 --simulations=0 --json";
+    let words = ["yield", file, "--kt", kt].into_iter();
+    let words: Vec<&str> = words
+        .chain(asked.split(' '))
+        .chain(common.split(' '))
+        .collect();
+    json(&words)["settings"][0]["states"][0].clone()
+}
+
+/// The number of pairs per area at given rates depends on neither the design's table nor, in docking
+/// runs, on how long they take; and attachment over detachment is the bond's partition sum.
+#[test]
+fn rates_of_attachment_are_those_of_the_bond_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let [narrow, wide] = [0.16, 0.3].map(|table| small(folder.path(), table));
+    let rate = |state: &Value, key: &str| state[key].as_f64().unwrap();
+    let solved = [&narrow, &wide].map(|file| bond_of(file, "4e-4", "--rates=overdamped"));
+    let [on, off] = ["on_m2_per_s", "off_per_s"].map(|key| rate(&solved[0], key));
+    assert!((on / rate(&solved[1], "on_m2_per_s") - 1.0).abs() < 1e-9);
+    let constant = association(&narrow, "4e-4");
+    assert!(
+        (on / off / constant - 1.0).abs() < 0.03,
+        "{on} {off} {constant}"
+    );
+
+    let motion = "--drag=5 --restitution=1 --friction=0";
+    let counted = |file: &String, runs: &str| bond_of(file, "6e-4", &format!("{motion} {runs}"));
+    let counted = [
+        counted(&narrow, "--runs=500 --duration=1"),
+        counted(&narrow, "--runs=30 --duration=20"),
+        counted(&wide, "--runs=60 --duration=20"),
+    ];
+    let constant = association(&narrow, "6e-4");
+    for state in &counted {
+        let found = rate(state, "on_m2_per_s") / rate(state, "off_per_s");
+        assert!((found / constant - 1.0).abs() < 0.01, "{state} {constant}");
+    }
+    // Bound tiles come loose as often.
+    let asked = format!("dock {wide} --from-bond --shaking 6e-4 {motion} --duration 5 --runs 40");
+    let words = asked.split(' ').chain(["--json"]).collect::<Vec<_>>();
+    let loose = json(&words)["off_rate"]["interval_per_s"].clone();
+    let counted = counted
+        .iter()
+        .map(|state| state["off_interval_per_s"].clone());
+    let all: Vec<Vec<f64>> = counted.chain([loose]).map(|it| numbers(&it)).collect();
+    for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
+        assert!(a[0] < b[1], "{all:?}");
+    }
+}
+
+/// Without attachments in docking runs only limits are known.
+#[test]
+fn no_attachment_is_not_told_as_never() {
+    let file = design(PAPER);
+    let asked = "--kt 3e-3 --tiles 4 --time 60 --runs 4 --duration 0.1 --simulations 0";
+    let asked: Vec<&str> = ["yield", &file]
+        .into_iter()
+        .chain(asked.split(' '))
+        .collect();
+    let text = stdout(&tilebind(&asked)).replace('\n', " ");
+    for told in ["longer than", "below", "none of 4 docking runs"] {
+        assert!(
+            text.contains(told) && !text.contains("never"),
+            "{told}: {text}"
+        );
+    }
+    let found = json(&[&asked[..], &["--json"]].concat());
+    let setting = &found["settings"][0];
+    assert!(setting["mean_time_to_bond_s"].is_null());
+    let least = setting["mean_time_to_bond_at_least_s"].as_f64().unwrap();
+    // 3.689 attachments are the upper limit of none; each of two tiles has half of the table.
+    let [apart, area] = ["apart_s", "free_area_m2"].map(|key| setting[key].as_f64().unwrap());
+    let table = found["table_area_m2"].as_f64().unwrap() / 2.0;
+    assert!(
+        (least * 3.689 * area / apart / table - 1.0).abs() < 1e-3,
+        "{setting}"
+    );
+    assert!(setting["yield_equilibrium"].as_f64().unwrap() > 0.0);
 }
 
 #[test]
@@ -344,6 +451,38 @@ fn pairs_that_bind_and_part_tell_kt() {
     let output = tilebind(&["calibrate", &design, "--bonds", table]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("line 2"), "{}", stderr(&output));
+}
+
+/// Without `--area` a pair has what the rim and the fixed tile leave: of squares of side a on a table
+/// of width w the mean over all angles of (w - a (|cos| + |sin|))^2, less 2 a^2 + (4 a)^2 / 2 pi.
+#[test]
+fn a_pair_has_the_area_that_the_rim_and_the_other_tile_leave() {
+    let folder = tempfile::tempdir().unwrap();
+    let (w, a) = (0.16, 0.04);
+    let file = small(folder.path(), w);
+    let inside = w * w - 8.0 * w * a / PI + a * a * (1.0 + 2.0 / PI);
+    let area = inside - 2.0 * a * a - (4.0 * a).powi(2) / (2.0 * PI);
+    let odds = association(&file, "4e-4") / area;
+    let rows: String = (1..40)
+        .map(|k| format!("{},{k}\n", odds * f64::from(k)))
+        .collect();
+    let table = folder.path().join("intervals.csv");
+    std::fs::write(&table, format!("bound_s,apart_s\n{rows}")).unwrap();
+    let found = json(&[
+        "calibrate",
+        &file,
+        "--bonds",
+        table.to_str().unwrap(),
+        "--json",
+    ]);
+    assert!(
+        (found["area_m2"].as_f64().unwrap() / area - 1.0).abs() < 0.01,
+        "{found}"
+    );
+    assert!(
+        (found["kT_J"].as_f64().unwrap() / 4e-4 - 1.0).abs() < 0.005,
+        "{found}"
+    );
 }
 
 #[test]
