@@ -143,7 +143,7 @@ fn wrong_docking_options_are_refused_with_their_mend() {
         (["--speed", "1,0"], "a range is LOW,HIGH"),
         (["--trajectory", "9"], "ask for more --runs"),
         (["--restitution", "1.5"], "from 0 to 1"),
-        (["--drag", "-1"], "0 or more"),
+        (["--drag", "-1"], "from 0 to 10000"),
     ] {
         let arguments = [
             &["dock", "shapes/paper-tile.toml", "--runs", "2"],
