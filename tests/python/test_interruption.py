@@ -16,7 +16,7 @@ JOBS = {
     "roadmap": lambda d: d.analyse(milestones=400_000),
     "certificate": lambda d: d.barrier(d.bound, tolerance=1e-12, certify_work=3600, milestones=4000),
     "states": lambda d: d.analyse(milestones=2000, complete_work=3600, complete_below=1e-4),
-    "docking": lambda d: d.dock(runs=MANY),
+    "docking": lambda d: d.dock(runs=400_000),
     "sweep": lambda d: tilebind.sweep(d, {"magnet.pitch": np.linspace(0.03, 0.05, 1000)}),
     "energies": lambda d: d.energy(np.full((MANY, 3), 0.5), model="cuboid"),
     "words": lambda d: tilebind.words(14, gap=0.6, seconds=3600),

@@ -20,7 +20,7 @@ pub struct Interval {
 
 impl Interval {
     /// Computed from counts, one a run, by Student's t or, if that is wider, from how rarely the
-    /// counts differ from their median (see [`rare`]): runs that agree do not prove that all do.
+    /// counts differ from their median: runs that agree do not prove that all do.
     pub fn of(counts: &[usize]) -> Self {
         let n = counts.len() as f64;
         let mean = counts.iter().sum::<usize>() as f64 / n;
