@@ -34,9 +34,9 @@ the design's table where the tiles are apart (|U| below kT), and end once the ti
 with so little kinetic and potential energy that 3 kT are missing to become free, so that a tile that
 only flies by does not count. The rate is the number of attachments over the time apart, times the area
 in which a pair is apart, and depends neither on --duration nor on the size of the table. With
---rates overdamped rates are solved for overdamped motion, as in `tilebind rates`. Detachment rates follow by detailed balance from
-the partition functions of the states (`tilebind bond`). This is valid only if collisions lose no energy:
-otherwise the table has no temperature.
+--rates overdamped rates are solved for overdamped motion, as in `tilebind rates`. Detachment rates
+follow by detailed balance from the partition functions of the states (`tilebind bond`). This is valid
+only if collisions lose no energy: otherwise the table has no temperature.
 
 If several kT are given, those at which the bond does not hold, or at which bound tiles
 move by less than the contact tolerance, are omitted, with the reason.";

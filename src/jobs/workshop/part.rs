@@ -5,10 +5,10 @@ use nalgebra::Vector2;
 use super::Making;
 use super::rim::{Corner, rim};
 use crate::request::Unanswered;
-use physics::contact::{Placement, separation};
+use physics::configuration::Configuration;
+use physics::contact::Contact;
 use physics::tile::assembly::{FaceLine, assemble};
 use physics::tile::barcode::Pole;
-use physics::tile::outline::ConvexPart;
 use physics::tile::{Face, Magnet, Outline, Tile};
 
 /// Thinnest stable wall (m) between a pocket and the rim or another pocket.
@@ -190,7 +190,9 @@ fn walls(holes: &[Magnet]) -> Vec<Option<f64>> {
             if is_known(&walls[i]) && is_known(&walls[j]) {
                 continue;
             }
-            let wall = between(&one.outline(), &other.outline());
+            let Some(wall) = between([&one.outline(), &other.outline()]) else {
+                continue;
+            };
             for k in [i, j] {
                 walls[k] = Some(walls[k].map_or(wall, |known: f64| known.min(wall)));
             }
@@ -199,32 +201,10 @@ fn walls(holes: &[Magnet]) -> Vec<Option<f64>> {
     walls
 }
 
-/// The distance (m) of two convex holes, negative if they overlap.
-fn between(one: &[Vector2<f64>], other: &[Vector2<f64>]) -> f64 {
-    let [a, b] = [one, other].map(|hole| ConvexPart::new(hole.to_vec()));
-    let apart = separation(&a, &b, &Placement::none());
-    if apart < 0.0 {
-        return apart;
-    }
-    let edges = |hole: &[Vector2<f64>]| -> Vec<[Vector2<f64>; 2]> {
-        let ends = hole.iter().zip(hole.iter().cycle().skip(1));
-        ends.map(|(start, end)| [*start, *end]).collect()
-    };
-    let nearest = |corners: &[Vector2<f64>], hole: &[Vector2<f64>]| {
-        let edges = edges(hole);
-        let pairs = corners
-            .iter()
-            .flat_map(|p| edges.iter().map(|edge| to_edge(p, edge)));
-        pairs.fold(f64::INFINITY, f64::min)
-    };
-    nearest(one, other).min(nearest(other, one))
-}
-
-/// The distance (m) of a point from an edge.
-fn to_edge(point: &Vector2<f64>, [start, end]: &[Vector2<f64>; 2]) -> f64 {
-    let edge = end - start;
-    let share = (point - start).dot(&edge) / edge.norm_squared();
-    (point - start - edge * share.clamp(0.0, 1.0)).norm()
+/// The distance (m) of two holes, negative if they overlap; `None` for a hole without an area.
+fn between(holes: [&[Vector2<f64>]; 2]) -> Option<f64> {
+    let [one, other] = holes.map(|hole| Outline::new(hole.to_vec()).ok());
+    Some(Contact::new(&one?, &other?).clearance(&Configuration::new(0.0, 0.0, 0.0)))
 }
 
 /// How far (m) a hole extends beyond the rim, negative if it leaves a wall.
@@ -265,7 +245,7 @@ mod tests {
             corners.map(|[dx, dy]| Vector2::new(x + dx, y + dy))
         };
         for (x, y, wall) in [(1.5, 0.2, 0.5), (1.3, -1.4, 0.5), (0.8, 0.1, -0.2)] {
-            let found = between(&square(0.0, 0.0), &square(x, y));
+            let found = between([&square(0.0, 0.0), &square(x, y)]).unwrap();
             assert!((found - wall).abs() < 1e-12, "{x} {y}: {found}");
         }
     }

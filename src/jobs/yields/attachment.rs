@@ -225,11 +225,7 @@ pub fn solve(
     let found = rates(problem, &settings)?;
     let mass = problem.pair.as_ref().map_or(1.0, |pair| pair.moving.mass);
     let free = settings.basins.len();
-    let energies = settings
-        .basins
-        .iter()
-        .map(|basin| problem.energy(&basin.at));
-    let ground = energies.fold(f64::INFINITY, f64::min);
+    let ground = settings.ground(problem);
     let volume = found.finest().volumes[free] * libm::exp(-ground / kt);
     if !found.is_known(free, 0) {
         return Err(YieldError::Lost);

@@ -126,9 +126,10 @@ impl<'a> Simulation<'a> {
         if bound > 0.0 {
             return bound;
         }
-        self.corners(q)
-            .map(|p| (x - p.x.abs()).min(y - p.y.abs()))
-            .fold(f64::INFINITY, f64::min)
+        let contact = self.problem.contact.as_ref();
+        contact.map_or(f64::INFINITY, |contact| {
+            -contact.moving().beyond_rim(q, [x, y])
+        })
     }
 
     /// The moving tile's corners on the table (m).

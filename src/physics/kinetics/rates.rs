@@ -39,8 +39,7 @@ pub fn rates_on(
         return Err(RatesError::NoFree(free_at));
     }
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
-    let energies = seeds.iter().map(|q| problem.energy(q));
-    let ground = energies.fold(f64::INFINITY, f64::min);
+    let ground = settings.ground(problem);
     if -ground > DEEPEST * kt {
         return Err(RatesError::Cold(kt, -ground / kt));
     }

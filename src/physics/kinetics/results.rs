@@ -108,6 +108,12 @@ impl RateSettings {
             map: None,
         }
     }
+
+    /// The lowest energy (J) of the basins' configurations, to which occupations refer.
+    pub fn ground(&self, problem: &Problem) -> f64 {
+        let energies = self.basins.iter().map(|basin| problem.energy(&basin.at));
+        energies.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Rates between places: the basins in their order, and last `free`.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::Problem;
 use crate::configuration::Configuration;
 use crate::parallel;
+use crate::tile::Outline;
 
 /// Number of examined configurations. Evenly spread, they measure a volume to about its surface
 /// times their distance: within a few thousandths.
@@ -54,13 +55,9 @@ impl Room {
 
 /// Whether the rim is around all of the moving tile.
 fn is_inside_the_rim(problem: &Problem, q: &Configuration) -> bool {
-    let [x, y] = problem.space.half_size;
-    let corners = problem.contact.iter();
-    let mut corners = corners.flat_map(|contact| contact.moving().vertices());
-    corners.all(|corner| {
-        let p = q.transform(*corner);
-        p.x.abs() <= x && p.y.abs() <= y
-    })
+    let is_inside = |tile: &Outline| tile.beyond_rim(q, problem.space.half_size) <= 0.0;
+    let contact = problem.contact.as_ref();
+    contact.is_none_or(|contact| is_inside(contact.moving()))
 }
 
 /// The radical inverse: the digits of a whole number after the point, in reverse order.

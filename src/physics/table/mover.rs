@@ -59,12 +59,6 @@ impl Mover {
     pub(super) fn beyond(&self, crowd: &Crowd) -> f64 {
         let kind = &crowd.kinds[self.kind];
         let q = kind.body.configuration(&self.place);
-        let (rotation, position) = (q.rotation(), q.position());
-        let corners = kind.tile.outline.vertices().iter();
-        let beyond = corners.map(|corner| {
-            let p = position + rotation * corner;
-            (p.x.abs() - crowd.half_size[0]).max(p.y.abs() - crowd.half_size[1])
-        });
-        beyond.fold(f64::NEG_INFINITY, f64::max)
+        kind.tile.outline.beyond_rim(&q, crowd.half_size)
     }
 }

@@ -184,10 +184,10 @@ impl Start {
     /// Why the magnets do not fit, and similar requests for which they do.
     fn no_room(&self, fault: Option<DesignError>) -> StartError {
         let fits = |other: &Self| other.check().is_ok() && other.fitted("").is_ok();
-        let fewer = (1..self.magnets)
+        let mut fewer = (1..self.magnets)
             .rev()
             .map(|magnets| Self { magnets, ..*self });
-        let longer = (1..=LENGTHENED).map(|k| Self {
+        let mut longer = (1..=LENGTHENED).map(|k| Self {
             side: (self.side * libm::pow(LONGER, f64::from(k)) * 1e3).ceil() / 1e3,
             ..*self
         });
@@ -197,11 +197,9 @@ impl Start {
         };
         let advice = [
             fewer
-                .into_iter()
                 .find(fits)
                 .map(|it| format!("--magnets {} or fewer", it.magnets)),
             longer
-                .into_iter()
                 .find(fits)
                 .map(|it| format!("--side {} or longer", it.side)),
             fits(&flat).then(|| "--shape flat".to_owned()),

@@ -13,6 +13,7 @@ pub use validity::OutlineError;
 use super::edge_grid::EdgeGrid;
 use super::plane::outward_normal;
 pub use super::plane::{centroid, contains, cross, distance_to_segment, signed_area};
+use crate::configuration::Configuration;
 
 /// A simple closed polygon, counter-clockwise, in the tile's frame (m).
 #[derive(Clone, Debug)]
@@ -159,6 +160,17 @@ impl Outline {
     /// Whether a point lies inside (either answer is possible on the boundary).
     pub fn contains(&self, p: Vector2<f64>) -> bool {
         contains(&self.vertices, &p)
+    }
+
+    /// How far (m) it extends beyond the rim of a table of this half size (m) when it is placed there;
+    /// negative if it does not.
+    pub fn beyond_rim(&self, at: &Configuration, half_size: [f64; 2]) -> f64 {
+        let (rotation, position) = (at.rotation(), at.position());
+        let beyond = self.vertices.iter().map(|corner| {
+            let p = position + rotation * corner;
+            (p.x.abs() - half_size[0]).max(p.y.abs() - half_size[1])
+        });
+        beyond.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Distance of a point to the boundary, positive outside, negative inside (m).
