@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use tilebind::calibration::{Request, check_magnets};
+use tilebind::calibration::{Fitted, Request};
 use tilebind::observer::Silent;
 use tilebind::report::calibration::{FILES, document};
 
@@ -11,7 +11,7 @@ use super::options::DesignOptions;
 use super::results::ResultOptions;
 use super::{Failure, input};
 
-/// Fit the constants of soft-iron shields to measured forces, or kT to observed pairs
+/// Fit the magnets' strength or soft-iron shields to measured forces, or kT to observed pairs
 #[derive(Args)]
 #[command(
     mut_arg("area", |area| area.requires("bonds")),
@@ -24,8 +24,12 @@ pub struct Calibrate {
     design: DesignOptions,
 
     /// Measured energies, forces or torques (CSV)
-    #[arg(required_unless_present = "bonds", conflicts_with = "bonds")]
+    #[arg(required_unless_present_any = ["bonds", "gaps"], conflicts_with_all = ["bonds", "gaps"])]
     table: Option<PathBuf>,
+
+    /// Fit the remanence to forces over the gap (CSV: gap_mm,force_g)
+    #[arg(long, value_name = "FILE", conflicts_with = "bonds")]
+    gaps: Option<PathBuf>,
 
     /// Fit kT instead, from observed pairs (CSV: bound_s,apart_s or distance_m)
     #[arg(long, value_name = "FILE")]
@@ -47,9 +51,16 @@ TABLE is a CSV file. Its first line names the columns, in any order:
                          the moving tile's reference point; cells may be empty
 Lines that begin with # are skipped.
 
-Rows without iron determine the strength of the magnets, rows with iron the constants of the shields.
+Rows without iron determine the strength of the magnets, rows with iron the constants of the shields;
+without any rows with iron only the strength is fitted.
 Shields are on the faces that have one in the design, or on all faces if none has one. The held-out
 rows measure how well the model predicts other poses.
+
+FILE of --gaps has the force that pulls the target faces straight apart, or pushes them together, over
+the gap between them, as a kitchen scale shows it. Its first line names two columns with their units:
+  gap_mm, force_g        also cm, in, N, kg, lb; or gap,force with values such as 1.5 mm and 120 g
+Attraction and repulsion are both written as positive numbers. The remanence and the zero of the gap
+are fitted (the zero from four readings on). If no remanence fits, the command says so.
 
 FILE of --bonds has one of two forms:
   bound_s, apart_s       intervals (s) during which a pair was bound, and apart. Prefix unfinished
@@ -62,6 +73,7 @@ Do not infer kT from tile speeds (tenfold error in published experiments).";
 
 const EXAMPLES: &str = "\
 Examples:
+  tilebind calibrate my.toml --gaps scale.csv --out target/scale
   tilebind calibrate my.toml measured.csv
   tilebind calibrate my.toml --bonds distances.csv --within 0.75
   tilebind calibrate my.toml --bonds intervals.csv --area 0.6";
@@ -69,18 +81,17 @@ Examples:
 impl Calibrate {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
-        if self.bonds.is_none() {
-            check_magnets(&design)?;
-        }
-        let file = self.bonds.as_ref().or(self.table.as_ref());
+        let file = self.bonds.as_ref().or(self.gaps.as_ref());
+        let file = file.or(self.table.as_ref());
         let file = file.cloned().unwrap_or_default();
         let mut inputs = self.design.inputs(&design);
         inputs.push(file.clone());
         let output = self.results.output(&FILES, inputs)?;
         let progress = self.results.progress();
-        let found = input::table(&file, |text| match self.bonds {
-            None => self.request.of_forces(&design, text),
-            Some(_) => self.request.of_pairs(&design, text, &Silent),
+        let found = input::table(&file, |text| match (&self.bonds, &self.gaps) {
+            (Some(_), _) => self.request.of_pairs(&design, text, &Silent),
+            (_, Some(_)) => Fitted::of_gaps(&design, text),
+            _ => self.request.of_forces(&design, text),
         })?;
         self.results
             .deliver(&document(&design, &found), output, &progress)

@@ -109,7 +109,7 @@ pub fn rivals(count: usize) -> Option<String> {
 }
 
 /// The moving tile drawn out of the bond by `gap` (m) along the target face's normal.
-fn pulled(design: &Design, gap: f64) -> Configuration {
+pub(crate) fn pulled(design: &Design, gap: f64) -> Configuration {
     let bound = design.pair.bound;
     let out = bound.position() + design.pair.target_face().normal() * gap;
     Configuration::new(out.x, out.y, bound.theta)

@@ -2,21 +2,24 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Document, Entries, Table, entries, rows};
+use crate::document::{Document, Drawing, Entries, Entry, Table, Unit, entries, rows, told};
 use crate::files::{PAGE, REPORT};
+use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::calibration::bonds::{Times, TimesFit};
 use jobs::calibration::distances::DistanceFit;
+use jobs::calibration::strength::{Compared, StrengthFit};
 use jobs::calibration::{Calibration, Fitted, QUANTITIES, Residuals};
 use jobs::design::Design;
 use jobs::output::Command;
 use physics::dynamics::docking::OnRate;
+use physics::potential::MagnetModel;
 use physics::units::{plain, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
     name: "calibrate",
-    files: &[REPORT, PAGE],
-    pictures: &[],
+    files: &[REPORT, PAGE, "readings.csv"],
+    pictures: &["force", "misfit"],
 };
 
 /// The constants of a shield: key in reports, name in a design file, unit.
@@ -33,6 +36,7 @@ const KEYS: [&str; 4] = ["energy_J", "force_x_N", "force_y_N", "torque_Nm"];
 pub fn document(design: &Design, found: &Fitted) -> Document<'static> {
     match found {
         Fitted::Shields(found) => shields(design, found),
+        Fitted::Strength(found) => strength_of_magnets(design, found),
         Fitted::Distances(found) => distances(design, found),
         Fitted::Times(found) => intervals(design, found),
     }
@@ -81,6 +85,184 @@ fn shields(design: &Design, found: &Calibration) -> Document<'static> {
         origin: "shields of soft iron".to_owned(),
         ..Document::default()
     }
+}
+
+/// The document of the magnets' strength.
+// One line an entry.
+#[rustfmt::skip]
+fn strength_of_magnets(design: &Design, found: &StrengthFit) -> Document<'static> {
+    let readings = readings(found);
+    Document {
+        title: format!("{}: the magnets' strength from measured forces", design.name),
+        answer: strength_answer(design, found),
+        remarks: strength_lines(design, found),
+        entries: entries(design)
+            .fact("remanence_T", "remanence", found.remanence).digits(4)
+            .data("interval_T", json!(found.interval))
+            .fact("interval_shown_T", "95 % interval", found.interval.map(|it| it.map(Some))).in_view()
+            .fact("nominal_T", "remanence in the design", found.nominal).digits(4)
+            .fact("gap_offset_m", "offset of the gap", found.offset).noted("how much further apart the poles are than the design and the gaps say")
+            .data("gap_offset_interval_m", json!(found.offset_interval))
+            .fact("misfit_rms", "misfit", found.misfit).share().noted("root mean square, of the readings")
+            .fact("fits", "", found.fits)
+            .more((!found.readings.is_empty()).then_some(Entry::Table(readings))),
+        pictures: match found.readings.is_empty() {
+            true => Vec::new(),
+            false => vec![Drawing::from(forces(found)), Drawing::from(misfits(found))],
+        },
+        notes: strength_notes(design, found),
+        origin: format!("uniformly magnetised {}", design.interaction.model.plural(&design.pair)),
+        ..Document::default()
+    }
+}
+
+fn strength_answer(design: &Design, found: &StrengthFit) -> String {
+    let (name, misfit) = (&design.name, told(found.misfit, Unit::Share, 2));
+    if !found.fits {
+        let needed = found
+            .readings
+            .iter()
+            .map(|it| (it.reading.gap, it.remanence));
+        let needed: Vec<_> = needed.collect();
+        let ends = needed.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        let ends = ends.zip(needed.iter().max_by(|a, b| a.1.total_cmp(&b.1)));
+        let ends = ends.map_or(String::new(), |(low, high)| {
+            let told =
+                |(gap, remanence): &(f64, f64)| format!("{remanence:.2} T at {}", si(*gap, "m", 2));
+            format!(": the readings need {} and {}", told(low), told(high))
+        });
+        let best = format!(
+            "{:.2} T with the poles {} further apart than the design says, misfit {misfit}",
+            found.remanence,
+            si(found.offset, "m", 2)
+        );
+        return format!("{name}: no remanence fits these forces{ends} (closest: {best})");
+    }
+    let interval = found
+        .interval
+        .map_or("one reading, so no interval".to_owned(), |[low, high]| {
+            format!("95 % interval: {low:.3} to {high:.3} T")
+        });
+    format!(
+        "{name}: the magnets have a remanence of {:.3} T ({interval}); the design says {:.3} T",
+        found.remanence, found.nominal
+    )
+}
+
+/// The lines for a design file.
+fn strength_lines(design: &Design, found: &StrengthFit) -> Vec<String> {
+    if !found.fits {
+        return Vec::new();
+    }
+    if !found.is_common {
+        return vec![format!(
+            "the design's magnets differ: multiply the remanence of each by {:.4}",
+            found.remanence / found.nominal
+        )];
+    }
+    let interval = found.interval.map_or(String::new(), |[low, high]| {
+        format!("  # {low:.3} to {high:.3} T")
+    });
+    let line = format!("remanence = {:.4}", found.remanence);
+    let mut lines = vec![format!("\n[magnet]\n{line:<20}{interval}")];
+    let is_certain = found
+        .offset_interval
+        .is_some_and(|[low, high]| low > 0.0 || high < 0.0);
+    if is_certain && found.offset.abs() > LEAST_OFFSET {
+        lines.push(format!(
+            "the poles are {} {} apart than the design and the gaps say: change `inset` by {} on both \
+             tiles, unless it is the zero of the gaps",
+            si(found.offset.abs(), "m", 2),
+            if found.offset > 0.0 { "further" } else { "less far" },
+            si(0.5 * found.offset, "m", 2),
+        ));
+    }
+    if design.interaction.model == MagnetModel::Dipole {
+        lines.push(
+            "point dipoles are wrong near contact: --model cuboid fits magnets as they are"
+                .to_owned(),
+        );
+    }
+    lines
+}
+
+fn strength_notes(design: &Design, found: &StrengthFit) -> Vec<String> {
+    let mut notes = Vec::new();
+    if found.is_reversed {
+        notes.push(
+            "the measured values have the opposite sign of the design's and were reversed: an \
+             attracted moving tile is pulled towards the fixed one"
+                .to_owned(),
+        );
+    }
+    if found.offset_interval.is_none() {
+        notes.push(
+            "the zero of the gaps is taken as exact: measure at four gaps or more to fit it"
+                .to_owned(),
+        );
+    }
+    if !found.fits {
+        notes.push(format!(
+            "check the size and number of the magnets and their inset in {}, whether the tiles stayed \
+             parallel, the zero of the gaps and what lay between the faces, and steel nearby",
+            design.name
+        ));
+    }
+    notes
+}
+
+/// Smaller offsets (m) are below what a gauge of paper or card resolves.
+const LEAST_OFFSET: f64 = 2e-5;
+
+// One line per column: key, name, meaning, value.
+#[rustfmt::skip]
+fn readings(found: &StrengthFit) -> Table {
+    let off = |it: &Compared| (it.fitted > 0.0).then(|| it.reading.force / it.fitted - 1.0);
+    rows(found.readings.clone())
+        .column("gap_m", "gap", "between the target faces", |it| it.reading.gap)
+        .column("force_N", "measured", "force straight apart or together", |it| it.reading.force)
+        .column("fitted_N", "fitted", "by the fitted remanence and offset", |it| it.fitted)
+        .column("misfit", "misfit", "measured over fitted, less 1", move |it| off(it)).share()
+        .column("nominal_N", "nominal", "by the design's remanence, without an offset", |it| it.nominal)
+        .column("remanence_T", "remanence", "that gives the reading without an offset", |it| it.remanence).digits(4)
+        .table("readings")
+        .titled("forces over the gap", "")
+        .in_file("readings")
+}
+
+fn forces(found: &StrengthFit) -> Chart {
+    let measured = found.readings.iter().filter(|it| it.reading.force > 0.0);
+    let curve = |k: usize| found.curve.iter().map(move |point| [point[0], point[k]]);
+    Chart {
+        name: "force",
+        title: "measured and fitted force over the gap".to_owned(),
+        x: Dimension::new("gap_m", "gap between the faces"),
+        y: Dimension::new("force_N", "force").logarithmic(),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with("fitted", Look::Steps, curve(1))
+    .with("the design's remanence", Look::Dashed, curve(2))
+    .with(
+        "measured",
+        Look::Dots,
+        measured.map(|it| [it.reading.gap, it.reading.force]),
+    )
+}
+
+fn misfits(found: &StrengthFit) -> Chart {
+    let point = |it: &Compared| [it.reading.gap, it.reading.force / it.fitted - 1.0];
+    let largest = found.readings.iter().map(|it| point(it)[1].abs());
+    let largest = 1.1 * largest.fold(0.01, f64::max);
+    Chart {
+        name: "misfit",
+        title: "measured over fitted force, less 1".to_owned(),
+        x: Dimension::new("gap_m", "gap between the faces"),
+        y: Dimension::share("misfit", "misfit").within([-largest, largest]),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with("measured", Look::Dots, found.readings.iter().map(point))
 }
 
 fn counted(part: &Residuals) -> String {

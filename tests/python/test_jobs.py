@@ -207,6 +207,16 @@ def test_releases_are_those_of_the_program(program, root):
         paper.releases()
 
 
+def test_forces_over_the_gap_give_the_remanence():
+    design = tilebind.Design.load("tests/designs/good/flat.toml").replace("potential.model", "cuboid")
+    gaps = np.array([0.0, 1.0, 2.0, 4.0, 8.0])
+    poses = [design.bound + [1e-3 * gap, 0.0, 0.0] for gap in gaps]
+    force = 0.9**2 * np.abs(design.wrench(poses)[:, 0])
+    found = design.calibrate_gaps(pandas.DataFrame({"gap_mm": gaps, "force_N": force}))
+    assert found["fits"] and abs(found["remanence_T"] / (0.9 * 1.2) - 1.0) < 1e-4
+
+
+
 def test_kt_of_pairs_that_bind_and_part(design):
     rng = np.random.default_rng(1)
     frames = [

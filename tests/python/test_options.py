@@ -22,7 +22,7 @@ CALLS = {
     "assemble": "assemble",
     "barrier": "Design.barrier",
     "bond": "Analysis.bond",
-    "calibrate": "Design.calibrate Design.calibrate_bonds",
+    "calibrate": "Design.calibrate Design.calibrate_bonds Design.calibrate_gaps",
     "compare": "compare",
     "crosstalk": "crosstalk",
     "dock": "dock Design.releases",
@@ -38,7 +38,7 @@ CALLS = {
 # Parts of a sweep on many machines; what has a method of its own; the seed of an analysis that is there.
 ELSEWHERE = {
     "bond": {"seed"},
-    "calibrate": {"bonds"},
+    "calibrate": {"bonds", "gaps"},
     "dock": {"from_bond", "trajectory"},
     "table": {"lattice", "merge", "hoomd"},
     "sweep": {"run", "merge", "status", "shard", "plan"},

@@ -1,4 +1,5 @@
-//! Fits the constants of a shield to measured forces and energies.
+//! Fits the constants of a shield to measured forces and energies; also the magnets' strength to
+//! forces over the gap ([`strength`]) and kT to observed pairs.
 //!
 //! Rows of poses, with and without iron, are compared with a shielded pair of tiles (see
 //! [`physics::potential::shielding`]). The constants A, l, delta and the front gain G of one
@@ -15,8 +16,10 @@
 pub mod bonds;
 pub mod distances;
 mod fit;
+pub mod gaps;
 mod lines;
 mod rows;
+pub mod strength;
 
 use clap::Args;
 
@@ -35,6 +38,7 @@ use physics::potential::{MagnetModel, Potential, ShieldedPotential};
 use physics::problem::{NoRoom, Room};
 use physics::tile::Tile;
 pub use rows::{COLUMNS, Row, read_rows};
+use strength::StrengthFit;
 
 /// The options of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
@@ -58,10 +62,23 @@ pub struct Request {
 pub enum Fitted {
     /// The constants of shields.
     Shields(Box<Calibration>),
+    /// The magnets' strength.
+    Strength(Box<StrengthFit>),
     /// kT fitted to the distances of pairs.
     Distances(DistanceFit),
     /// kT fitted to the intervals for which pairs were bound and apart.
     Times(TimesFit),
+}
+
+impl Fitted {
+    /// The strength of a design's magnets, from a table of forces over the gap.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn of_gaps(design: &Design, table: &str) -> Result<Self, FitError> {
+        let found = strength::fit(design, &gaps::read(table)?)?;
+        Ok(Self::Strength(Box::new(found)))
+    }
 }
 
 /// Why a calibration failed.
@@ -94,13 +111,20 @@ impl Unanswered for FitError {
 }
 
 impl Request {
-    /// Fits the constants of shields to a table of forces and energies.
+    /// Fits the constants of shields to a table of forces and energies; if no row has iron, the
+    /// strength of the magnets.
     ///
     /// # Errors
     /// See [`FitError`].
     pub fn of_forces(&self, design: &Design, table: &str) -> Result<Fitted, FitError> {
-        check_magnets(design)?;
         let rows = read_rows(table)?;
+        if !rows.iter().any(|row| row.iron) {
+            check_poses([&design.pair.fixed, &design.pair.moving], &rows)?;
+            return Ok(Fitted::Strength(Box::new(strength::fit_rows(
+                design, &rows,
+            )?)));
+        }
+        check_magnets(design)?;
         let (specimen, settings) = Specimen::of(design, self.hold_out.into());
         let found = calibrate(&specimen, &rows, &settings)?;
         Ok(Fitted::Shields(Box::new(found)))
@@ -288,22 +312,7 @@ pub fn calibrate(
     settings: &CalibrationSettings,
 ) -> Result<Calibration, String> {
     let (fixed, moving) = (specimen.fixed, specimen.moving);
-    let contact = Contact::new(&fixed.outline, &moving.outline);
-    for Row {
-        line,
-        configuration,
-        ..
-    } in rows
-    {
-        let depth = -contact.clearance(configuration);
-        if depth > MEASURED_OVERLAP {
-            return Err(format!(
-                "line {line}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in \
-                 rad, in the fixed tile's frame",
-                1e3 * depth
-            ));
-        }
-    }
+    check_poses([fixed, moving], rows)?;
     let bare = ShieldedPotential::new(specimen.model, fixed, moving, &Shields::default());
     let (used, held_out) = hold_out(rows, settings.hold_out_every.max(2));
     let data = Data {
@@ -349,6 +358,23 @@ pub fn calibrate(
         steps: fit.steps,
         settled: fit.settled,
     })
+}
+
+/// Checks that tiles do not overlap at the poses of measurements.
+fn check_poses([fixed, moving]: [&Tile; 2], rows: &[Row]) -> Result<(), String> {
+    let contact = Contact::new(&fixed.outline, &moving.outline);
+    for row in rows {
+        let depth = -contact.clearance(&row.configuration);
+        if depth > MEASURED_OVERLAP {
+            return Err(format!(
+                "line {}: the tiles overlap by {:.2} mm at this pose; x and y are in m, theta in \
+                 rad, in the fixed tile's frame",
+                row.line,
+                1e3 * depth
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The fit starts with these multiples of the given length l, because from a poor start it can end

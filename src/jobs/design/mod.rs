@@ -60,7 +60,7 @@ mod syntax;
 mod target;
 mod tile;
 mod tolerance;
-mod units;
+pub(crate) mod units;
 mod word_places;
 mod word_set;
 mod word_stage;

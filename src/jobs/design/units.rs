@@ -1,11 +1,11 @@
 //! Numbers with a unit, as `"12 cm"`, `"0.3 T"` or `"30 deg"`.
 
 /// Units of one kind of quantity: the name, and how many of them make one of the file's own unit.
-pub(super) type Units = &'static [(&'static str, f64)];
+pub(crate) type Units = &'static [(&'static str, f64)];
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-pub(super) const LENGTH: Units = &[
+pub(crate) const LENGTH: Units = &[
     ("m", 1.0),
     ("cm", 1e2),
     ("mm", 1e3),
@@ -47,7 +47,7 @@ pub(super) const MASS: Units = &[
 /// Kilograms that weigh a newton, by the standard gravity of 9.80665 m/s^2.
 const WEIGHT: f64 = 1.0 / 9.806_65;
 /// Units of force, including weights: shops state pulls in kilograms and pounds.
-pub(super) const FORCE: Units = &[
+pub(crate) const FORCE: Units = &[
     ("N", 1.0),
     ("kN", 1e-3),
     ("mN", 1e3),
@@ -98,9 +98,14 @@ pub(super) const SHARE: Units = &[("%", 1e2)];
 /// Reads a finite number followed by one of `units`, with or without a space; returns it in the
 /// file's own unit.
 pub(super) fn read(text: &str, units: Units) -> Option<f64> {
+    read_with_unit(text, units).map(|(value, _)| value)
+}
+
+/// The same, with one of the text's unit in the file's own unit.
+pub(crate) fn read_with_unit(text: &str, units: Units) -> Option<(f64, f64)> {
     units.iter().find_map(|(name, factor)| {
         let value = number(text.trim().strip_suffix(name)?.trim_end())?;
-        Some(value / factor)
+        Some((value / factor, 1.0 / factor))
     })
 }
 

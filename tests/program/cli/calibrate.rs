@@ -174,3 +174,101 @@ fn a_wrong_table_is_answered_with_file_line_and_mend() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("nowhere.csv"));
 }
+
+/// Forces (N) straight apart of tiles with blocks of this remanence (T), whose poles are `further` (m)
+/// apart than the design says.
+fn forces(folder: &Path, remanence: f64, further: f64) -> Vec<(f64, f64)> {
+    let text = std::fs::read_to_string("tests/designs/good/flat.toml").unwrap();
+    let text = text.replace("remanence = 1.2", &format!("remanence = {remanence}"));
+    let file = folder.join("made.toml");
+    std::fs::write(&file, text).unwrap();
+    let gaps = [0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0];
+    let pose = |gap: &f64| format!("--pose={},0,0", 0.43 + 1e-3 * gap + further);
+    let poses: Vec<String> = gaps.iter().map(pose).collect();
+    let mut arguments = vec!["energy", file.to_str().unwrap(), "--model", "cuboid"];
+    arguments.extend(poses.iter().map(String::as_str));
+    let found = json(&arguments);
+    let forces = found.as_array().unwrap().iter();
+    let forces = forces.map(|entry| -numbers(&entry["force_N"])[0]);
+    gaps.into_iter().zip(forces).collect()
+}
+
+fn fitted(folder: &Path, table: &str) -> Value {
+    let file = folder.join("gaps.csv");
+    std::fs::write(&file, table).unwrap();
+    let design = "tests/designs/good/flat.toml";
+    let file = file.to_str().unwrap();
+    json(&[
+        "calibrate",
+        design,
+        "--model",
+        "cuboid",
+        "--gaps",
+        file,
+        "--json",
+    ])
+}
+
+#[test]
+fn a_kitchen_scale_gives_the_remanence_and_the_zero_of_the_gap() {
+    let folder = tempfile::tempdir().unwrap();
+    let (remanence, further) = (1.07, 1.5e-4);
+    let mut table = "gap_mm,force_g\n".to_owned();
+    for (gap, force) in forces(folder.path(), remanence, further) {
+        writeln!(table, "{gap},{:.0}", force / 9.806_65e-3).unwrap();
+    }
+    let found = fitted(folder.path(), &table);
+    let [low, high] = [0, 1].map(|k| numbers(&found["interval_T"])[k]);
+    assert!(low <= remanence && remanence <= high, "{found}");
+    assert!(high / low < 1.02, "{found}");
+    let ends = numbers(&found["gap_offset_interval_m"]);
+    assert!(ends[0] <= further && further <= ends[1], "{found}");
+    assert_eq!(found["fits"], true);
+
+    // The same forces in pounds, with a sign, and as repulsion: the same remanence.
+    let mut pounds = "force (lb);gap\n".to_owned();
+    for (gap, force) in forces(folder.path(), remanence, further) {
+        writeln!(pounds, "-{:.6};{} cm", force / 4.448_221_615, 0.1 * gap).unwrap();
+    }
+    let again = fitted(folder.path(), &pounds);
+    let off = again["remanence_T"].as_f64().unwrap() / remanence - 1.0;
+    assert!(off.abs() < 1e-4, "{again}");
+}
+
+#[test]
+fn forces_that_no_remanence_explains_are_not_given_one() {
+    let folder = tempfile::tempdir().unwrap();
+    // A force that falls with the square of the gap plus 4 mm, unlike that of any of these magnets.
+    let rows = (0..6).map(|k| format!("{},{:.0}\n", 2 * k, 9e4 / f64::from(2 * k + 4).powi(2)));
+    let table = format!("gap_mm,force_g\n{}", rows.collect::<String>());
+    let found = fitted(folder.path(), &table);
+    assert_eq!(found["fits"], false, "{found}");
+    let few = fitted(folder.path(), "gap_mm,force_g\n1,500\n");
+    assert_eq!(few["interval_T"], Value::Null);
+    assert_eq!(few["gap_offset_m"], 0.0);
+}
+
+#[test]
+fn rows_without_iron_alone_give_the_strength() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut table = "x_m,y_m,theta_rad,iron,force_x_N\n".to_owned();
+    for (gap, force) in forces(folder.path(), 1.1, 0.0) {
+        writeln!(table, "{},0,0,0,{}", 0.43 + 1e-3 * gap, -force).unwrap();
+    }
+    let file = folder.path().join("bare.csv");
+    std::fs::write(&file, table).unwrap();
+    let design = "tests/designs/good/flat.toml";
+    let arguments = [
+        "calibrate",
+        design,
+        file.to_str().unwrap(),
+        "--model",
+        "cuboid",
+        "--json",
+    ];
+    let found = json(&arguments);
+    assert!(
+        (found["remanence_T"].as_f64().unwrap() / 1.1 - 1.0).abs() < 1e-6,
+        "{found}"
+    );
+}

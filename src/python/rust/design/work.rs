@@ -261,6 +261,31 @@ impl Design {
         shown::report(py, &report::calibration::document(design, &found))
     }
 
+    /// Fit the magnets' remanence to forces over the gap of the target faces.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : pandas.DataFrame, str or os.PathLike
+    ///     The readings or a CSV file of them: the gap between the target faces and the force
+    ///     that pulls them straight apart or pushes them together, in columns named with their
+    ///     unit, such as `gap_mm` and `force_g`.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind calibrate --gaps --json``: `remanence_T`, `interval_T`, `gap_offset_m`,
+    ///     `misfit_rms`, `fits` and the readings with the fitted forces.
+    fn calibrate_gaps<'py>(
+        &self,
+        py: Python<'py>,
+        table: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (design, text) = (&self.content.design, text(table)?);
+        let found = calibration::Fitted::of_gaps(design, &text);
+        let found = job::answer(py, Some(false), |_| found)?;
+        shown::report(py, &report::calibration::document(design, &found))
+    }
+
     /// Fit the effective energy kT of the shaking to observed pairs.
     ///
     /// Parameters
