@@ -35,7 +35,7 @@ from typing import Callable
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 PROGRAM = ROOT / "target/release/tilebind"
-READMES = [HERE / "README.md", ROOT / "README.md"]
+READMES = [HERE / "README.md", HERE / "validation/README.md", ROOT / "README.md"]
 
 DESIGNS = sorted(it.stem for it in (ROOT / "shapes").glob("*.toml"))
 # The files kept of an analysis. Not every design has every picture: a caged one does not dock.
@@ -341,6 +341,23 @@ def docking(work):
     work.keep("paper-tile-docking/chances.svg", out / "pictures/chances.svg")
 
 
+# Published measurements
+
+VALIDATION = ["sets.csv", "points.csv", "forces.svg", "tables.json"]
+MEASURED = sorted(f"validation/measured/{it.name}" for it in (HERE / "validation/measured").glob("*.csv"))
+
+
+def validation(work):
+    out = work.folder / "validation"
+    work.run(sys.executable, str(HERE / "validation.py"), work.program, str(out))
+    for name in VALIDATION:
+        work.keep(f"validation/{name}", out / name)
+
+
+def validation_table(name):
+    return lambda: json.loads((HERE / "validation/tables.json").read_text())[name]
+
+
 # Many tiles on a table
 
 CROWD_COLUMNS = ["drive", "coverage", "contact", "bonds", "bonds_low", "bonds_high", "traps", "traps_low", "traps_high",
@@ -429,6 +446,8 @@ PARTS = [
     Part("rates", "rates", 0.2, ["rates.csv"], rates),
     Part("docking", "docking", 0.3,
          [f"paper-tile-docking/{file}" for file in ("report.json", "map.csv", "chances.svg")], docking),
+    Part("validation", "validation", 0.2, [f"validation/{name}" for name in VALIDATION], validation,
+         "NumPy, SciPy and Matplotlib"),
     Part("assembly-lattice", "assembly", 2, ["assembly/lattice.csv"], assembly_table("lattice")),
     Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
          f"{GROWN}; git, cc and libX11's headers for xgrow"),
@@ -438,7 +457,7 @@ PARTS = [
     Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
     Part("bench", "times", 5, ["bench.csv"], bench),
 ]
-OWN = ["README.md", "make.py", "figure6.py"]
+OWN = ["README.md", "make.py", "figure6.py", "validation.py", "validation/README.md", *MEASURED]
 
 
 # Tables of the READMEs, each made only from files of this folder.
@@ -590,7 +609,8 @@ def screen():
 
 SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
          "words-mismatches": mismatches_table, "assembly-builds": builds_table, "assembly-blocks": blocks_table,
-         "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen}
+         "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen,
+         **{f"validation-{name}": validation_table(name) for name in ("sets", "field", "pulls", "barcodes", "blocks")}}
 
 
 def write_tables():
