@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use physics::tile::Magnet;
+use physics::tile::demagnetising::MEASURED;
 use physics::tile::magnet::Shape;
 use physics::tile::strength::{PULL_SPREAD, Strength};
 use physics::units::to_digits;
@@ -26,10 +27,14 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
         Strength::Grade(grade) => {
             let [least, usual, most] = grade.remanence;
             let [low, high] = grade.energy_range().map(|factor| 100.0 * (factor - 1.0));
+            let [weakest, strongest] = MEASURED.map(|share| share * usual);
             format!(
                 "{block}, {}: remanence {usual:.2} T ({least:.2} to {most:.2} T by manufacturers' \
-                 data: energies {low:+.0} to {high:+.0} %)",
-                grade.name
+                 data: energies {low:+.0} to {high:+.0} %), {:.3} T at the working point of the \
+                 magnet by itself; measured magnets reach {weakest:.2} to {strongest:.2} T, so measure \
+                 yours: tilebind calibrate --gaps",
+                grade.name,
+                magnet.remanence(),
             )
         }
         Strength::Pull(force) => {
@@ -71,9 +76,11 @@ pub fn entry((strength, magnet): &(Strength, Magnet)) -> Value {
     let mut entry = json!({ "size_m": magnet.axis_first(), "remanence_T": found });
     match strength {
         Strength::Grade(grade) => {
-            let [least, _, most] = grade.remanence;
+            let [least, usual, most] = grade.remanence;
             entry["grade"] = json!(grade.name);
+            entry["nominal_remanence_T"] = json!(usual);
             entry["remanence_range_T"] = json!([least, most]);
+            entry["measured_range_T"] = json!(MEASURED.map(|share| share * usual));
         }
         Strength::Pull(force) => {
             entry["pull_N"] = json!(force);

@@ -1,7 +1,8 @@
 //! Grades of magnets as sold, and the remanence of each.
 //!
 //! A grade guarantees an energy product; the corresponding remanence (T) has a range. The value
-//! used is the middle of the range, rounded to 0.01 T.
+//! used is the middle of the range, rounded to 0.01 T, less the magnet's own demagnetising field
+//! ([`super::demagnetising`]).
 //!
 //! Sources: for neodymium, tables of Shanghai Magnet, Jofov and Brisingi, which agree to 0.02 T
 //! (N42: 1.28 to 1.32 T; N56 is in the first only); for ferrite, the Chinese standard SJ/T 10410 as

@@ -3,6 +3,7 @@
 pub mod assembly;
 pub mod barcode;
 mod convex;
+pub mod demagnetising;
 pub mod edge_grid;
 pub mod grade;
 pub mod magnet;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::demagnetising::working_point;
 use super::grade::Grade;
 use super::magnet::Shape;
 use crate::units::MU0;
@@ -15,7 +16,7 @@ pub enum Strength {
     Remanence(f64),
     /// Field at the centre of the block's pole face (T).
     SurfaceField(f64),
-    /// The grade.
+    /// The grade: its usual remanence, at the working point of the magnet by itself.
     Grade(Grade),
     /// Force (N) to pull the block's pole face off a thick steel plate.
     Pull(f64),
@@ -36,7 +37,7 @@ impl Strength {
             Self::Moment(moment) => moment,
             Self::Remanence(remanence) => remanence * volume / MU0,
             Self::SurfaceField(field) => field / surface_field_share(shape, size) * volume / MU0,
-            Self::Grade(grade) => grade.remanence[1] * volume / MU0,
+            Self::Grade(grade) => grade.remanence[1] * working_point(shape, size) * volume / MU0,
             Self::Pull(force) => (force / pull(shape, size, 1.0)).sqrt() * volume / MU0,
         }
     }
