@@ -189,7 +189,7 @@ fn a_pull_gives_the_remanence_that_it_was_made_of() {
 /// The demagnetising factor from the energy of both pole faces, cut into small charges: N = (W(0) - W(l))
 /// / (2 pi V), W(d) the integral of 1 / R over two faces d apart.
 fn summed_factor(shape: Shape, [l, a, b]: [f64; 3]) -> f64 {
-    let n = 40;
+    let n = 64;
     let mut charges = Vec::new();
     for i in 0..n {
         for j in 0..n {
