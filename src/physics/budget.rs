@@ -162,6 +162,18 @@ impl Budget {
         self.left.max(0) as u64
     }
 
+    /// An equal share of what is left for each of some parts that are done at the same time, by work
+    /// or, if there is a time limit, by the time left if that is less.
+    pub fn part_of(&self, parts: usize) -> u64 {
+        let left = self
+            .end
+            .map(|end| end.saturating_duration_since(Instant::now()));
+        let left = left.map_or(u64::MAX, |time| {
+            (time.as_secs_f64() * UNITS_A_SECOND) as u64
+        });
+        self.left().min(left) / parts.max(1) as u64
+    }
+
     /// Counts work done.
     #[inline]
     pub fn spend(&mut self, units: u64) {

@@ -79,7 +79,12 @@ impl<'a> Bounded<'a> {
 
     /// Approximate units of work to assess a cell.
     pub fn work(&self) -> u64 {
-        self.bounds.work() + self.work_of_contact()
+        self.work_of_bounds() + self.work_of_contact()
+    }
+
+    /// Approximate units of work to bound the energy over a cell, or to compute it.
+    pub fn work_of_bounds(&self) -> u64 {
+        self.bounds.work()
     }
 
     fn work_of_contact(&self) -> u64 {

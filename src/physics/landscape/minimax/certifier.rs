@@ -87,6 +87,11 @@ impl<'a> Certifier<'a> {
         self.budget.spend(units);
     }
 
+    /// Units of work for each of some queries that are served at the same time.
+    pub(super) fn part_of(&self, queries: usize) -> u64 {
+        self.budget.part_of(queries)
+    }
+
     /// The reason to stop here, if there is one.
     pub fn ended(&mut self) -> Option<Ended> {
         self.bounded.pay(&mut self.budget);

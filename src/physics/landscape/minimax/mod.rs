@@ -52,7 +52,7 @@ mod query;
 mod question;
 mod store;
 mod together;
-mod upper;
+pub(super) mod upper;
 mod ways;
 
 use crate::configuration::Configuration;

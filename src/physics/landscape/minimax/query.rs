@@ -7,7 +7,7 @@ use super::ends::{Held, far_end};
 use super::flood::Flood;
 use super::level::{Seeds, least_level};
 use super::proved::Proofs;
-use super::upper::ProvedPath;
+use super::upper::{ProvedPath, Sharpening};
 use super::{Bracket, Question};
 use crate::configuration::Configuration;
 use crate::interruption;
@@ -63,8 +63,8 @@ pub(super) enum Found {
 }
 
 impl<'q> Query<'q> {
-    /// Begins a query: proves its known pathway, or a straight one.
-    pub fn new(bounded: &Bounded, question: &'q Question) -> Self {
+    /// Begins a query: proves its known pathway, or a straight one, with at most these units of work.
+    pub fn new(bounded: &Bounded, question: &'q Question, work: u64) -> Self {
         let value = |q: &Configuration| bounded.value(q).0;
         let start = value(&question.from);
         let end = question.to.only().map_or(f64::NEG_INFINITY, value);
@@ -82,8 +82,12 @@ impl<'q> Query<'q> {
             is_over: false,
             from_behind: end > start,
         };
-        let sharpness = SHARPNESS * question.effort.tolerance;
-        let proved = |path: &[Configuration]| bounded.prove(path, sharpness, f64::INFINITY).ok();
+        let sharpening = Sharpening {
+            tolerance: SHARPNESS * question.effort.tolerance,
+            give_up: f64::INFINITY,
+            work,
+        };
+        let proved = |path: &[Configuration]| bounded.prove(path, &sharpening).ok();
         let known = query.joined_to_the_ends(bounded);
         query.best = known.and_then(|path| proved(&path));
         if query.best.is_none() {
@@ -148,8 +152,14 @@ impl<'q> Query<'q> {
     }
 
     /// Lets a flood rise over the leaves, of which those `known` can be passed at an energy (J);
-    /// returns the number of leaves flooded and what was found.
-    pub fn search(&mut self, certifier: &Certifier, known: &[(u32, f64)]) -> (usize, Found) {
+    /// returns the number of leaves flooded and what was found. At most these units of work are
+    /// spent on a pathway.
+    pub fn search(
+        &mut self,
+        certifier: &Certifier,
+        known: &[(u32, f64)],
+        work: u64,
+    ) -> (usize, Found) {
         interruption::check();
         let store = &certifier.store;
         let level = self.level();
@@ -164,7 +174,7 @@ impl<'q> Query<'q> {
         }
         let mut to_divide = flood.divide;
         if pass < level + (1.0 - WORTHWHILE) * self.question.effort.tolerance {
-            match self.lower_way(certifier, &chain) {
+            match self.lower_way(certifier, &chain, work) {
                 Ok(way) => return (flood.flooded, Found::Lower(way)),
                 Err(blamed) => to_divide.extend(blamed),
             }
@@ -176,12 +186,22 @@ impl<'q> Query<'q> {
 
     /// Tries to prove a lower pathway along a chain of leaves; otherwise returns the leaves that
     /// prevent it.
-    fn lower_way(&self, certifier: &Certifier, chain: &[u32]) -> Result<ProvedPath, Vec<u32>> {
+    fn lower_way(
+        &self,
+        certifier: &Certifier,
+        chain: &[u32],
+        work: u64,
+    ) -> Result<ProvedPath, Vec<u32>> {
         let (path, owners) = self.path_along(certifier, chain);
         let tolerance = self.question.effort.tolerance;
         let ceiling = self.level() + (1.0 - GAIN) * tolerance;
         let bounded = &certifier.bounded;
-        match bounded.prove(&path, SHARPNESS * tolerance, ceiling) {
+        let sharpening = Sharpening {
+            tolerance: SHARPNESS * tolerance,
+            give_up: ceiling,
+            work,
+        };
+        match bounded.prove(&path, &sharpening) {
             Ok(proved) if proved.upper <= ceiling || self.best.is_none() => Ok(proved),
             Ok(_) => Err(Vec::new()),
             Err(point) => {

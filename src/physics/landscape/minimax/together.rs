@@ -139,7 +139,8 @@ impl Certifier<'_> {
 
     /// The queries of some questions, with their known pathways proved.
     fn begun<'q>(&mut self, numbers: &[usize], questions: &'q [Question]) -> VecDeque<Open<'q>> {
-        let begin = |&number: &usize| (number, Query::new(&self.bounded, &questions[number]));
+        let work = self.part_of(numbers.len());
+        let begin = |&number: &usize| (number, Query::new(&self.bounded, &questions[number], work));
         let begun = parallel::map(numbers, begin);
         for (_, query) in &begun {
             if let Some(way) = query.best() {
@@ -164,9 +165,10 @@ impl Certifier<'_> {
     fn advance(&mut self, open: &mut [Open]) {
         self.ends.look(&self.store, &self.bounded);
         let known = self.passable();
-        let found = of_each(open, |query| query.search(self, &known));
-        let work = |(flooded, _): &(usize, Found)| *flooded as u64 * FLOODED;
-        let floods = found.iter().map(work).sum();
+        let work = self.part_of(open.len());
+        let found = of_each(open, |query| query.search(self, &known, work));
+        let flooded = |(flooded, _): &(usize, Found)| *flooded as u64 * FLOODED;
+        let floods = found.iter().map(flooded).sum();
         let mut wishes: BTreeMap<u32, Wish> = BTreeMap::new();
         let mut asked = Vec::new();
         for (by, ((_, query), (_, found))) in open.iter_mut().zip(found).enumerate() {

@@ -28,9 +28,23 @@ const DEPTH: usize = 12;
 /// A stretch is halved at most this often to bound its energy.
 const FINEST: usize = 24;
 
+/// Until it is halved this often, a stretch's bound is assumed to be wider than that of a point.
+const COARSE: usize = 6;
+
 /// Points and stretches examined before a pathway can be given up. It does not depend on the number
 /// of threads, so the results do not either.
 const AT_ONCE: usize = 64;
+
+/// How far the energy's bound of a pathway is sharpened.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::landscape) struct Sharpening {
+    /// Until it exceeds the highest energy met by no more than this (J).
+    pub tolerance: f64,
+    /// A pathway above this energy (J) is not wanted.
+    pub give_up: f64,
+    /// Units of work after which it stays as it is.
+    pub work: u64,
+}
 
 /// A pathway proved free throughout, and the proved bound of its energy.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,18 +60,18 @@ pub(in crate::landscape) struct ProvedPath {
 
 impl Bounded<'_> {
     /// Proves a pathway through the given points: straight stretches, lifted off contact and
-    /// refined where they cannot be proved as they are. The energy's bound is sharpened until it
-    /// exceeds the highest energy met by no more than `tolerance` (J).
+    /// refined where they cannot be proved as they are. The energy's bound is sharpened as far as
+    /// `sharpening` says.
     ///
     /// # Errors
     /// The index of a point before which the pathway cannot be proved free, or rises above
-    /// `give_up` (J).
+    /// [`Sharpening::give_up`].
     pub fn prove(
         &self,
         path: &[Configuration],
-        tolerance: f64,
-        give_up: f64,
+        sharpening: &Sharpening,
     ) -> Result<ProvedPath, usize> {
+        let give_up = sharpening.give_up;
         let mut points = vec![*path.first().ok_or(0usize)?];
         let mut energies: Vec<f64> = Vec::new();
         // For each point, the number of the given point before which it was inserted, or which it is.
@@ -80,7 +94,7 @@ impl Bounded<'_> {
             }
         }
         let (upper, peak) = self
-            .highest((&points, &energies), tolerance, give_up)
+            .highest((&points, &energies), sharpening)
             .map_err(|stretch| owners[stretch + 1])?;
         Ok(ProvedPath {
             upper,
@@ -219,13 +233,24 @@ impl Bounded<'_> {
 
     /// The proved highest energy on the straight stretches between the points, which have these
     /// energies (J), and the highest point met; or the number of a stretch that rises above
-    /// `give_up`. Each bound includes the ends of its stretch.
+    /// [`Sharpening::give_up`]. Each bound includes the ends of its stretch, so it is one at any
+    /// sharpness.
+    ///
+    /// A stretch is halved until its bound exceeds the highest energy met by no more than the
+    /// tolerance. Bounds of blocks near each other stay apart by more than that even at a point; so a
+    /// stretch is not halved either if its bound exceeds that at its middle by no more, which no
+    /// halving can go below. After [`Sharpening::work`] no stretch is halved.
     fn highest(
         &self,
         (points, energies): (&[Configuration], &[f64]),
-        tolerance: f64,
-        give_up: f64,
+        sharpening: &Sharpening,
     ) -> Result<(f64, Configuration), usize> {
+        let Sharpening {
+            tolerance, give_up, ..
+        } = *sharpening;
+        // Of each stretch the bound, and the energy at its middle.
+        let most = sharpening.work / (2 * self.work_of_bounds()).max(1);
+        let mut examined = 0;
         let met = points.iter().zip(energies);
         let highest = met.max_by_key(|(_, energy)| OrderedFloat(**energy));
         let (mut peak, mut level) = highest.map(|(q, energy)| (*q, *energy)).ok_or(0usize)?;
@@ -240,19 +265,29 @@ impl Bounded<'_> {
             .collect();
         while !open.is_empty() {
             let part = open.split_off(open.len().saturating_sub(AT_ONCE));
+            examined += part.len() as u64;
             let bounds = parallel::map(&part, |stretch| {
                 let highest = self.highest_on(stretch);
                 let middle = stretch.middle();
                 let is_close = highest <= level + tolerance;
-                (highest, middle, (!is_close).then(|| self.energy(&middle)))
+                let least = match stretch.halvings < COARSE {
+                    true => f64::NEG_INFINITY,
+                    false => self.value(&middle).1,
+                };
+                let value = || (self.energy(&middle), least);
+                (highest, middle, (!is_close).then(value))
             });
-            for (_, middle, energy) in &bounds {
-                if let Some(energy) = energy.filter(|energy| *energy > level) {
+            for (_, middle, value) in &bounds {
+                if let Some((energy, _)) = value.filter(|(energy, _)| *energy > level) {
                     (level, peak) = (energy, *middle);
                 }
             }
-            for (stretch, (highest, middle, _)) in part.iter().zip(bounds) {
-                let is_last = highest <= level + tolerance || stretch.halvings == FINEST;
+            for (stretch, (highest, middle, value)) in part.iter().zip(bounds) {
+                let is_sharp = value.is_some_and(|(_, upper)| highest <= upper + tolerance);
+                let is_last = highest <= level + tolerance
+                    || is_sharp
+                    || stretch.halvings == FINEST
+                    || examined > most;
                 if level > give_up || is_last && highest > give_up {
                     return Err(stretch.number);
                 }

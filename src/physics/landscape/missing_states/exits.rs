@@ -7,6 +7,7 @@ use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
 use crate::landscape::bounded::Bounded;
+use crate::landscape::minimax::upper::Sharpening;
 use crate::landscape::minimum::{Outcome, descend};
 use crate::landscape::stationary::Stationary;
 use crate::order::Order;
@@ -24,6 +25,8 @@ const TRIED: usize = 3;
 const TOGETHER: usize = 16;
 /// A pathway's bound exceeds its highest energy by at most this fraction of the allowed rise.
 pub(super) const SHARP: f64 = 0.1;
+/// Units of work after which the bound of a pathway stays as it is.
+const MOST_WORK: u64 = 1 << 24;
 
 /// A wholly free box about `at`, to which a step leads from all of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,7 +163,12 @@ impl<'a> Exits<'a> {
 
     /// The proved highest energy (J) of a pathway, if it is not above `allowed`.
     pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
-        let proved = self.bounded.prove(way, SHARP * self.rise, allowed);
+        let sharpening = Sharpening {
+            tolerance: SHARP * self.rise,
+            give_up: allowed,
+            work: MOST_WORK,
+        };
+        let proved = self.bounded.prove(way, &sharpening);
         proved.ok().map(|proved| proved.upper)
     }
 
