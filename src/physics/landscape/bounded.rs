@@ -16,6 +16,8 @@ use crate::scale::Scale;
 const A_CELL: u64 = 100;
 const AN_EDGE: u64 = 15;
 const A_CUT: u64 = 10;
+/// Units of work to find the admissible step closest to a wanted one.
+pub(super) const A_STEP: u64 = 1000;
 
 pub(super) struct Bounded<'a> {
     bounds: &'a dyn CellBounds,
@@ -87,7 +89,8 @@ impl<'a> Bounded<'a> {
         self.bounds.work()
     }
 
-    fn work_of_contact(&self) -> u64 {
+    /// Approximate units of work to find the contacts of a configuration.
+    pub fn work_of_contact(&self) -> u64 {
         let edges = self.cells.as_ref().map_or(0, ContactCells::edges) as u64;
         A_CELL + AN_EDGE * edges
     }

@@ -46,6 +46,8 @@ pub struct Descent {
     pub stretches: Vec<Stretch>,
     /// Where it ended.
     pub outcome: Outcome,
+    /// Steps tried, those around its end included; 0 for an image.
+    pub steps: usize,
 }
 
 impl Descent {
@@ -60,6 +62,7 @@ impl Descent {
             way: self.way.iter().map(|point| point.image(symmetry)).collect(),
             stretches: Vec::new(),
             outcome,
+            steps: 0,
         }
     }
 }
@@ -113,18 +116,24 @@ fn follow(
 ) -> Descent {
     let mut way = vec![Point::new(problem, *start)];
     let mut stretches = Vec::new();
-    let outcome = trace(problem, &mut way, &mut stretches, (known, aside), is_free);
+    let mut steps = 0;
+    let outcome = trace(
+        problem,
+        (&mut way, &mut stretches, &mut steps),
+        (known, aside),
+        is_free,
+    );
     Descent {
         way,
         stretches,
         outcome,
+        steps,
     }
 }
 
 fn trace(
     problem: &Problem,
-    way: &mut Vec<Point>,
-    stretches: &mut Vec<Stretch>,
+    (way, stretches, steps): (&mut Vec<Point>, &mut Vec<Stretch>, &mut usize),
     (known, aside): (&Known, f64),
     is_free: impl Fn(&Configuration) -> bool,
 ) -> Outcome {
@@ -138,6 +147,7 @@ fn trace(
         problem.scaled(LONGEST_STEP)
     };
     for _ in 0..MOST_STEPS {
+        *steps += 1;
         let here = *way.last().expect("a way has a start");
         if is_free(&here.q) {
             return Outcome::Free;
@@ -184,6 +194,7 @@ fn trace(
         if size < newton_below {
             // Increasingly fine, so that a failing attempt costs little.
             newton_below = size / 64.0;
+            *steps += PROBES as usize;
             if let Some(found) = verified_minimum(problem, way, known) {
                 return Outcome::Minimum(Box::new(found));
             }

@@ -7,7 +7,7 @@ use ordered_float::OrderedFloat;
 use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::contact::{Constraint, Contact, closest_admissible};
-use crate::landscape::bounded::Bounded;
+use crate::landscape::bounded::{A_STEP, Bounded};
 use crate::parallel;
 
 /// How far (m) inner points of a pathway are lifted off contact, so that a chord between two of
@@ -160,6 +160,7 @@ impl Bounded<'_> {
 
     /// Whether the straight path is proved free throughout.
     fn is_free(&self, from: &Configuration, to: &Configuration) -> bool {
+        self.count(self.work_of_contact());
         self.contact
             .is_none_or(|contact| contact.stays_separated(from, to, contact.touch()))
     }
@@ -195,6 +196,7 @@ impl Bounded<'_> {
         let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.space.rho.powi(2)));
         let mut at = *q;
         for _ in 0..12 {
+            self.count(self.work_of_contact() + A_STEP);
             if contact.clearance_bound(&at) >= lift {
                 return Some(at);
             }

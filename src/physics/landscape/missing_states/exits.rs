@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ordered_float::OrderedFloat;
 
 use crate::configuration::Configuration;
-use crate::landscape::bounded::Bounded;
+use crate::landscape::bounded::{A_STEP, Bounded};
 use crate::landscape::minimax::upper::Sharpening;
 use crate::landscape::minimum::{Outcome, descend};
 use crate::landscape::stationary::Stationary;
@@ -147,6 +147,8 @@ impl<'a> Exits<'a> {
     /// The minimum in which a descent ends, and the proved highest energy (J) on the path.
     fn descent(&self, place: &Opened) -> Option<(Stationary, f64)> {
         let descent = descend(self.problem, &place.at);
+        let a_step = A_STEP + self.bounded.work();
+        self.bounded.count(descent.steps as u64 * a_step);
         let mut way: Vec<Configuration> = descent.way.iter().map(|point| point.q).collect();
         let minimum = match descent.outcome {
             Outcome::Minimum(minimum) => *minimum,
