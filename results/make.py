@@ -268,6 +268,58 @@ def mismatches(work):
     work.keep_rows("words/mismatches.csv", rows)
 
 
+# Magnets (m; along their axis, along the face, through the thickness) of the same remanence.
+ELONGATED = {"the paper's": [0.01, 0.01, 0.003], "twice as long": [0.02, 0.01, 0.003],
+             "four times as long": [0.04, 0.01, 0.003], "half as wide": [0.01, 0.005, 0.003]}
+# The iron of shapes/shielded-backs.toml.
+IRON = "[shield]\nattenuation = 0.8\nlength = 0.03\nwidth = 0.3\nfront_gain = 1.1\n\n"
+
+
+def carrier(size, pitch, codes=("NNNS", "NSSS"), shield=""):
+    """Two squares of 43 cm whose east and west faces meet, with blocks."""
+    tiles = "".join(f'[{tile}]\nside = 0.43\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n{face} = {{ code = "{code}" }}\n'
+                    for tile, face, code in zip(("fixed", "moving"), ("east", "west"), codes))
+    return (f'name = "carrier"\n[table]\nsize = [2, 2]\n[magnet]\nsize = {size}\nremanence = 1.2\npitch = {pitch}\n'
+            f'{shield}{tiles}[target]\nfixed = "east"\nmoving = "west"\n[potential]\nmodel = "cuboid"\n')
+
+
+def elongated(work):
+    """The number of words of eight magnets; and the gap of five of them, also with iron behind every face, which
+    `words` does not search: energies of every two faces at every slide."""
+    design = work.folder / "carrier.toml"
+
+    def energies(size, pitch, codes, shield):
+        design.write_text(carrier(size, pitch, codes, shield))
+        slides = range(-7, 8)
+        poses = [it for k in slides for it in ("--pose", f"0.43,{k * pitch!r},0")]
+        return {k: it["energy_J"] for k, it in zip(slides, json.loads(work.run("tilebind", "energy", design.name, *poses)))}
+
+    def gap(size, pitch, codes, shield):
+        mate = {it: it[::-1].translate(str.maketrans("NS", "SN")) for it in codes}
+        faces = [*codes, *mate.values()]
+        bonds, wrong = [], []
+        for i, first in enumerate(faces):
+            for second in faces[i:]:
+                for slide, energy in energies(size, pitch, (first, second), shield).items():
+                    is_bond = slide == 0 and mate.get(first) == second
+                    (bonds if is_bond else wrong).append(-energy)
+        return 1 - max(*wrong, 0) / min(bonds)
+
+    rows = [["magnets", "pitch_m", "words_gap_0.5", "words_gap_0.45", "proved", "gap_of_5", "gap_of_5_with_iron"]]
+    for name, size in ELONGATED.items():
+        for pitch in (0.04, 0.02):
+            design.write_text(carrier(size, pitch))
+            found = [words(work, design.name, "--length", "8", *option)
+                     for option in (["--gap", "0.5"], ["--gap", "0.45"], ["--count", "5"])]
+            five = found[2]["words"]
+            plain, shielded = (gap(size, pitch, five, it) for it in ("", IRON))
+            if abs(plain - found[2]["gap"]) > 1e-6:
+                raise Failed(f"the gap of {five} is {plain} by `energy` and {found[2]['gap']} by `words`")
+            rows.append([name, pitch, found[0]["count"], found[1]["count"], all(it["proved"] for it in found),
+                         rounded(plain, 4), rounded(shielded, 4)])
+    work.keep_rows("words/elongated.csv", rows)
+
+
 # Tile sets
 
 def assembly(part):
@@ -440,6 +492,7 @@ PARTS = [
     Part("words-uniform", "words", 1.4, ["words/uniform.csv"], uniform),
     Part("words-spaced", "words", 4, ["words/spaced.csv"], spaced),
     Part("words-mismatches", "words", 0.25, ["words/mismatches.csv"], mismatches),
+    Part("words-elongated", "words", 1, ["words/elongated.csv"], elongated),
     *(Part(f"yield-{name}", "yield", minutes,
            [f"yield/{name}.csv", f"yield/{name}-bound.csv"] + (["yield/paper-tile.svg"] if name == "paper-tile" else []),
            shaken(name)) for name, minutes in YIELDS.items()),
@@ -515,6 +568,12 @@ def mismatches_table():
         words = it["words"] if it["proved"] == "True" else f"{it['words']} to {it['at_most']}"
         rows.append([it["magnets"], it["gap"], it["mismatches"], words, energies[it["magnets"], it["gap"]]])
     return markdown(["magnets", "gap", "`--min-mismatch`", "words", "by energies"], rows)
+
+
+def elongated_table():
+    rows = [[it["magnets"], f"{1e3 * float(it['pitch_m']):.0f} mm", it["words_gap_0.5"], it["words_gap_0.45"], it["gap_of_5"],
+             it["gap_of_5_with_iron"]] for it in table("words/elongated.csv")]
+    return markdown(["magnets", "pitch", "words, gap 0.5", "words, gap 0.45", "widest gap of 5 words", "of these with iron"], rows)
 
 
 def builds_table():
@@ -608,7 +667,8 @@ def screen():
 
 
 SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
-         "words-mismatches": mismatches_table, "assembly-builds": builds_table, "assembly-blocks": blocks_table,
+         "words-mismatches": mismatches_table, "words-elongated": elongated_table,
+         "assembly-builds": builds_table, "assembly-blocks": blocks_table,
          "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen,
          **{f"validation-{name}": validation_table(name) for name in ("sets", "field", "pulls", "barcodes", "blocks")}}
 
