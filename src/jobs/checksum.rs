@@ -1,19 +1,20 @@
 //! The checksums in reports.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+
+use crate::text;
 
 /// SHA-256 of bytes, in hexadecimal.
 pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
     hexadecimal(&Sha256::digest(bytes))
 }
 
-/// SHA-256 of a file, however large it is.
+/// SHA-256 of a regular file, however large it is.
 pub fn sha256_of_file(path: &Path) -> io::Result<String> {
-    let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+    let mut file = BufReader::with_capacity(1 << 16, text::open(path)?);
     let mut digest = Sha256::new();
     loop {
         let part = file.fill_buf()?;

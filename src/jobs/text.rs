@@ -11,13 +11,33 @@ use csv::StringRecord;
 /// Largest table or manifest (bytes).
 const LARGEST: u64 = 256 << 20;
 
-/// The text of a table or manifest; its file can also be a pipe.
+/// Where a process finds the streams that it was started with.
+const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
+
+/// Opens a regular file. Devices, pipes and folders are rejected: some never end, and opening
+/// others blocks forever.
+///
+/// # Errors
+/// If there is no such file, or it is not regular.
+pub fn open(path: &Path) -> io::Result<File> {
+    match path.metadata()? {
+        found if found.is_file() => File::open(path),
+        found if found.is_dir() => Err(io::Error::other("it is a folder")),
+        _ => Err(io::Error::other("it is not a regular file")),
+    }
+}
+
+/// The text of a table or manifest: a regular file, or a stream such as `/dev/stdin`.
 ///
 /// # Errors
 /// If it cannot be read, is too large or is not text.
 pub fn read(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
-    let file = File::open(path)?;
+    let name = path.to_string_lossy();
+    let file = match STREAMS.iter().any(|stream| name.starts_with(stream)) {
+        true => File::open(path)?,
+        false => open(path)?,
+    };
     file.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
         let message = format!("it is larger than {} MB", LARGEST >> 20);

@@ -1,32 +1,21 @@
 //! The files that designs and drawings are read from.
 
-use std::fs::{File, metadata};
 use std::io::{Error, Read, Result};
 use std::path::Path;
 
-use crate::text::decode;
+use crate::text::{decode, open};
 
 /// Largest size of a file (bytes).
 const LARGEST: u64 = 16 << 20;
 
-/// The bytes of a regular file. Devices, pipes and directories are rejected: some of them never
-/// end, and opening others blocks forever.
+/// The bytes of a regular file.
 ///
 /// # Errors
 /// If there is no such file, or it is not regular, too large or not readable.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
-    let found = metadata(path)?;
-    if found.is_dir() {
-        return Err(Error::other("it is a folder"));
-    }
-    if !found.is_file() {
-        return Err(Error::other("it is not a regular file"));
-    }
     // The size is limited here as well: a file may grow, and files in /proc claim to be empty.
     let mut bytes = Vec::new();
-    File::open(path)?
-        .take(LARGEST + 1)
-        .read_to_end(&mut bytes)?;
+    open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
         let message = format!("it is larger than {} MB", LARGEST >> 20);
         return Err(Error::other(message));

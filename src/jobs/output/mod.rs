@@ -8,7 +8,10 @@
 //! - All files are first written completely beside their places; then the old ones are moved out
 //!   and the new ones in. If that fails, everything is restored. If the process is killed in
 //!   between, the next process that uses the folder restores the old files, or moves in the rest of
-//!   the new ones if the first was already in place: old and new ones are never mixed.
+//!   the new ones if the first was already in place: old and new ones are never mixed. It moves and
+//!   removes only what the record lists with its checksum, or what bears this program's mark.
+//! - Links below the folder are never followed, and folders of other file systems never written to:
+//!   both are errors before the work, with `force`, too.
 //!
 //! Each folder has a record, `.tilebind.json`, with the command and the SHA-256 of every file.
 //! Several commands can share a results folder as long as their files have different names. Results
@@ -28,7 +31,6 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 pub use command::{Command, PICTURES};
-pub use folder::check as check_folder;
 use record::{Noted, Record};
 use staging::Staging;
 
@@ -73,6 +75,10 @@ enum Obstacle {
     Input,
     /// It is a folder, a pipe or a device.
     Irregular,
+    /// It is a link, where a folder of results is needed.
+    Linked,
+    /// It is a folder of another file system.
+    Elsewhere,
     /// It exists, and no record is kept.
     There,
     /// It is not in the record.
@@ -85,13 +91,18 @@ enum Obstacle {
 
 impl Obstacle {
     fn gives_way_to_force(&self) -> bool {
-        !matches!(self, Self::Input | Self::Irregular)
+        !matches!(
+            self,
+            Self::Input | Self::Irregular | Self::Linked | Self::Elsewhere
+        )
     }
 
     fn told(&self) -> String {
         match self {
             Self::Input => "is read by this command and is never replaced".to_owned(),
             Self::Irregular => "is not a regular file".to_owned(),
+            Self::Linked => "is a link, and results stay in their own folder".to_owned(),
+            Self::Elsewhere => "is on another file system than the folder it is in".to_owned(),
             Self::There => "already exists".to_owned(),
             Self::Foreign => "is not recorded as written by tilebind".to_owned(),
             Self::Changed => "was changed since tilebind wrote it".to_owned(),
@@ -182,7 +193,7 @@ impl Output {
                 "" => self.folder.clone(),
                 _ => self.folder.join(inner),
             };
-            folder::check(&folder)?;
+            check_inner(&self.folder, Path::new(inner))?;
             let found = fs::read_dir(or_here(&folder)).into_iter().flatten();
             let found = found.flatten().map(|entry| {
                 let name = entry.file_name();
@@ -221,7 +232,7 @@ impl Output {
             staging.add(&self.place(name), content)?;
         }
         let noted = self.recorded.then(|| {
-            let new = record.with(self.command.name, files);
+            let new = record.with(self.command.name, files, |name| self.path(name));
             let settled = new.settled(&self.folder, files, &stale);
             Noted::stage(&staging, &self.folder, [&new, &settled])
         });
@@ -288,17 +299,19 @@ impl Output {
         let path = self.folder.join(record::NAME);
         let read = match self.recorded {
             true => Record::read(&path),
-            false => Some(Record::default()),
+            false => Ok(Record::default()),
         };
         let mut in_the_way: Vec<(PathBuf, Obstacle)> = Vec::new();
-        if read.is_none() && (!self.force || self.is_input(&path)) {
-            in_the_way.push((path, Obstacle::Foreign));
-        }
-        let record = read.unwrap_or_default();
+        let record = read.unwrap_or_else(|obstacle| {
+            if !self.force || !obstacle.gives_way_to_force() || self.is_input(&path) {
+                in_the_way.push((path, obstacle));
+            }
+            Record::default()
+        });
         in_the_way.extend(names.filter_map(|name| {
-            let obstacle = self.obstacle(&record, name)?;
+            let (path, obstacle) = self.obstacle(&record, name)?;
             let gives_way = self.force && obstacle.gives_way_to_force();
-            (!gives_way).then(|| (self.path(name), obstacle))
+            (!gives_way).then_some((path, obstacle))
         }));
         // Obstacles that `force` cannot override come first.
         in_the_way.sort_by_key(|(_, obstacle)| obstacle.gives_way_to_force());
@@ -312,23 +325,31 @@ impl Output {
         };
         let (other, what) = match self.file {
             Some(_) => ("give another name", "it"),
-            None => ("name another folder", "what is in the way"),
+            None => (ANOTHER_FOLDER, "what is in the way"),
         };
-        let force = match obstacle.gives_way_to_force() {
-            true => format!(", or replace {what} with --force"),
-            false => String::new(),
+        let help = match obstacle.gives_way_to_force() {
+            true => format!("{other}, or replace {what} with --force"),
+            false => other.to_owned(),
         };
-        Err(OutputError::Refused(format!(
-            "{} {}{more}\n  help: {other}{force}",
-            first.display(),
-            obstacle.told()
-        )))
+        Err(refusal(first, &format!("{}{more}", obstacle.told()), &help))
     }
 
-    fn obstacle(&self, record: &Record, name: &str) -> Option<Obstacle> {
-        let path = self.path(name);
+    fn obstacle(&self, record: &Record, name: &str) -> Option<(PathBuf, Obstacle)> {
+        let place = self.place(name);
+        let outside = place
+            .parent()
+            .and_then(|inner| way_out(&self.folder, inner));
+        if outside.is_some() {
+            return outside;
+        }
+        let path = self.folder.join(place);
+        let obstacle = self.obstacle_at(record, name, &path)?;
+        Some((path, obstacle))
+    }
+
+    fn obstacle_at(&self, record: &Record, name: &str, path: &Path) -> Option<Obstacle> {
         let found = path.symlink_metadata().ok()?;
-        if self.is_input(&path) {
+        if self.is_input(path) {
             return Some(Obstacle::Input);
         }
         if !found.is_file() && !found.is_symlink() {
@@ -342,7 +363,7 @@ impl Output {
                 false => Obstacle::There,
             });
         };
-        if !record.has(name, &path) {
+        if !record.has(name, path) {
             return Some(Obstacle::Changed);
         }
         (writer != self.command.name).then(|| Obstacle::Other(writer.to_owned()))
@@ -366,6 +387,39 @@ impl Output {
     }
 }
 
+/// The advice where a folder cannot take results.
+const ANOTHER_FOLDER: &str = "name another folder";
+
+/// The error of a file or folder in the way.
+fn refusal(path: &Path, told: &str, help: &str) -> OutputError {
+    OutputError::Refused(format!("{} {told}\n  help: {help}", path.display()))
+}
+
+/// Where files of `inner`, within a folder, would not stay in it.
+fn way_out(folder: &Path, inner: &Path) -> Option<(PathBuf, Obstacle)> {
+    let inner = inner.ancestors().filter(|it| !it.as_os_str().is_empty());
+    inner.into_iter().find_map(|inner| {
+        let path = folder.join(inner);
+        let obstacle = match path.symlink_metadata().ok()? {
+            found if found.is_symlink() => Obstacle::Linked,
+            _ if device(&path) != device(or_here(folder)) => Obstacle::Elsewhere,
+            _ => return None,
+        };
+        Some((path, obstacle))
+    })
+}
+
+/// Checks that files can be written to `inner`, within a folder; see [`Output::check`].
+///
+/// # Errors
+/// If it cannot be created or written to, or leads elsewhere.
+pub fn check_inner(folder: &Path, inner: &Path) -> Result<(), OutputError> {
+    match way_out(folder, inner) {
+        Some((path, obstacle)) => Err(refusal(&path, &obstacle.told(), ANOTHER_FOLDER)),
+        None => folder::check(&folder.join(inner)),
+    }
+}
+
 /// Writes an internal file and syncs it: it is complete or absent, whatever happens. `name` is
 /// relative to the folder; its own folder is created if missing.
 ///
@@ -373,6 +427,9 @@ impl Output {
 /// See [`OutputError`].
 pub fn keep(folder: &Path, name: &str, content: &[u8]) -> Result<(), OutputError> {
     let (name, path) = (Path::new(name), folder.join(name));
+    if let Some((path, obstacle)) = name.parent().and_then(|inner| way_out(folder, inner)) {
+        return Err(refusal(&path, &obstacle.told(), ANOTHER_FOLDER));
+    }
     let staging = Staging::open(folder)?;
     let staged = staging.add(name, content)?;
     let synced = fs::File::open(staged).and_then(|staged| staged.sync_all());
@@ -412,10 +469,22 @@ fn identity(path: &Path) -> Option<(u64, u64)> {
     Some((found.dev(), found.ino()))
 }
 
+/// The file system of a file, where it can be known.
+#[cfg(unix)]
+fn device(path: &Path) -> Option<u64> {
+    Some(identity(path)?.0)
+}
+
 /// The identity of a file, independent of the path; `None` if it does not exist.
 #[cfg(not(unix))]
 fn identity(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok()
+}
+
+/// The file system of a file, where it can be known.
+#[cfg(not(unix))]
+fn device(_: &Path) -> Option<u64> {
+    None
 }
 
 /// The empty path means the current folder.

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::staging::Staging;
-use super::{Files, OutputError, is_there};
+use super::staging::{RECORDS, Staging};
+use super::{Files, Obstacle, OutputError, is_there};
 use crate::checksum::{sha256, sha256_of_file};
 
 /// The record's file.
@@ -20,6 +20,10 @@ pub(super) struct Record {
     /// The version that wrote the record.
     tilebind: String,
     files: BTreeMap<String, Entry>,
+    /// Checksums of files of others, while `--force` replaces them: they are restored if that is
+    /// interrupted.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    aside: BTreeMap<String, String>,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -35,17 +39,37 @@ impl Default for Record {
         Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
             files: BTreeMap::new(),
+            aside: BTreeMap::new(),
         }
     }
 }
 
+/// The checksum of a file's content, or of what a link says; `None` for anything else. Links are not
+/// followed.
+fn fingerprint(path: &Path) -> Option<String> {
+    match path.symlink_metadata().ok()? {
+        found if found.is_file() => sha256_of_file(path).ok(),
+        found if found.is_symlink() => {
+            let target = fs::read_link(path).ok()?;
+            Some(sha256(format!("link to {}", target.display())))
+        }
+        _ => None,
+    }
+}
+
 impl Record {
-    /// Reads a record; it is empty if there is none. `None` if the file is something else.
-    pub fn read(path: &Path) -> Option<Self> {
+    /// Reads a record; it is empty if there is none.
+    ///
+    /// # Errors
+    /// If the file is something else.
+    pub fn read(path: &Path) -> Result<Self, Obstacle> {
         match path.symlink_metadata() {
-            Ok(found) if found.is_file() => serde_json::from_slice(&fs::read(path).ok()?).ok(),
-            Err(error) if error.kind() == ErrorKind::NotFound => Some(Self::default()),
-            _ => None,
+            Ok(found) if found.is_file() => {
+                let text = fs::read(path).map_err(|_| Obstacle::Foreign)?;
+                serde_json::from_slice(&text).map_err(|_| Obstacle::Foreign)
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Self::default()),
+            _ => Err(Obstacle::Irregular),
         }
     }
 
@@ -62,9 +86,16 @@ impl Record {
 
     /// Whether the file at `path` is as it was written under this name.
     pub fn has(&self, name: &str, path: &Path) -> bool {
-        let sum = sha256_of_file(path).ok();
-        let known = self.files.get(name).zip(sum);
+        let known = self.files.get(name).zip(fingerprint(path));
         known.is_some_and(|(entry, sum)| entry.sha256.contains(&sum))
+    }
+
+    /// Whether the file at `path`, on its way from or to this name in the folder, was moved there by
+    /// this program.
+    pub fn moved(&self, name: &Path, path: &Path) -> bool {
+        let name = name.to_string_lossy().replace(MAIN_SEPARATOR, "/");
+        let aside = self.aside.get(&name);
+        self.has(&name, path) || aside.is_some() && aside == fingerprint(path).as_ref()
     }
 
     /// The names of a command's files.
@@ -76,8 +107,9 @@ impl Record {
         own.map(|(name, _)| name.as_str())
     }
 
-    /// The record while a command's files replace those in the folder: it lists both.
-    pub fn with(&self, command: &str, files: &Files) -> Self {
+    /// The record while a command's files replace those in the folder, which are found at `path`: it
+    /// lists both.
+    pub fn with(&self, command: &str, files: &Files, path: impl Fn(&str) -> PathBuf) -> Self {
         let mut new = Self {
             files: self.files.clone(),
             ..Self::default()
@@ -86,6 +118,8 @@ impl Record {
             let mut sums = vec![sha256(content)];
             let old = self.files.get(name).filter(|old| old.command == command);
             sums.extend(old.into_iter().flat_map(|old| old.sha256.clone()));
+            let found = fingerprint(&path(name)).filter(|sum| !sums.contains(sum));
+            new.aside.extend(found.map(|sum| (name.clone(), sum)));
             let entry = Entry {
                 command: command.to_owned(),
                 sha256: sums,
@@ -98,6 +132,7 @@ impl Record {
     /// The record afterwards: without replaced, stale and missing files.
     pub fn settled(&self, folder: &Path, files: &Files, stale: &[String]) -> Self {
         let mut settled = self.clone();
+        settled.aside.clear();
         settled.files.retain(|name, entry| {
             let is_new = files.contains_key(name);
             if is_new {
@@ -126,14 +161,15 @@ impl Noted {
         records: [&Record; 2],
     ) -> Result<Self, OutputError> {
         let path = folder.join(NAME);
+        let [before, during, after] = RECORDS;
         let staged = |name, text: &[u8]| staging.add_apart(name, text, &path);
-        let before = fs::read(&path).ok().map(|text| staged("before", &text));
-        let [during, after] = records.map(Record::text);
+        let old = fs::read(&path).ok().map(|text| staged(before, &text));
+        let [now, then] = records.map(Record::text);
         Ok(Self {
-            before: before.transpose()?,
+            before: old.transpose()?,
             next: [
-                staged("during", during.as_bytes())?,
-                staged("after", after.as_bytes())?,
+                staged(during, now.as_bytes())?,
+                staged(after, then.as_bytes())?,
             ],
             path,
         })

@@ -6,18 +6,24 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::record::{self, Record};
 use super::{OutputError, identity, is_there, or_here};
 
 /// The staging folder is called `.tilebind-PROCESS-NUMBER.partial`.
 const PREFIX: &str = ".tilebind-";
 const SUFFIX: &str = ".partial";
 
-/// Its contents: new files, by their final names;
+/// Its contents: a file that marks it as this program's;
+const MARK: &str = "0";
+const MARKED: &[u8] = b"tilebind";
+/// new files, by their final names;
 const NEW: &str = "new";
 /// old files that were moved out of their places, while others remain to be moved;
 const OLD: &str = "old";
-/// the same once all have been moved: from then on the new ones are moved in.
+/// the same once all have been moved: from then on the new ones are moved in;
 const GONE: &str = "gone";
+/// and the records of the folder, from before the exchange until after it.
+pub(super) const RECORDS: [&str; 3] = ["before", "during", "after"];
 
 /// How long to wait for another process that writes into the same folder.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -210,7 +216,7 @@ fn make_parent(path: &Path) -> io::Result<()> {
     path.parent().map_or(Ok(()), fs::create_dir_all)
 }
 
-/// Creates a unique staging folder.
+/// Creates a unique staging folder, with its mark.
 pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
     let process = std::process::id();
     let mut number = 0;
@@ -218,37 +224,105 @@ pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
         let place = folder.join(format!("{PREFIX}{process}-{number}{SUFFIX}"));
         match fs::create_dir(&place) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
-            made => return made.map(|()| place),
+            made => {
+                let marked = made.and_then(|()| fs::write(place.join(MARK), MARKED));
+                if marked.is_err() {
+                    let _ = fs::remove_file(place.join(MARK));
+                    let _ = fs::remove_dir(&place);
+                }
+                return marked.map(|()| place);
+            }
         }
     }
 }
 
-/// Finishes or reverts the exchanges of killed processes; requires the lock.
+/// Finishes or reverts the exchanges of killed processes; requires the lock. Only files that the
+/// record lists with their checksums are moved.
 fn settle_leftovers(folder: &Path) {
+    let record = Record::read(&folder.join(record::NAME)).unwrap_or_default();
     for place in folders(folder) {
         if is_ours(&place) {
-            move_where_free(&place.join(OLD), folder);
-            if place.join(GONE).exists() {
-                move_where_free(&place.join(NEW), folder);
+            move_where_free(&place.join(OLD), folder, &record);
+            if is_folder(&place.join(GONE)) {
+                move_where_free(&place.join(NEW), folder, &record);
             }
-            let _ = fs::remove_dir_all(place);
+            remove(&place, &record);
             continue;
         }
         // In results folders this only tests whether they are writable.
-        let probes = folders(&place).filter(|probe| is_ours(probe));
-        for probe in
-            probes.filter(|probe| ![NEW, OLD, GONE].iter().any(|it| probe.join(it).exists()))
-        {
-            let _ = fs::remove_dir_all(probe);
-        }
+        let is_probe = |place: &PathBuf| is_ours(place) && files(place) == [Path::new(MARK)];
+        let probes = folders(&place).filter(is_probe);
+        probes.for_each(|probe| remove(&probe, &Record::default()));
     }
 }
 
-/// The folders in a folder.
+/// Removes what this program left in a staging folder, and the folder if nothing else is there. The
+/// only copy of an old file is kept, as are files of others.
+fn remove(place: &Path, record: &Record) {
+    let is_marked = is_marked(place);
+    let is_committed = is_folder(&place.join(GONE));
+    let is_ours = |name: &Path| {
+        let path = place.join(name);
+        let mut parts = name.iter().map(|part| part.to_string_lossy());
+        let first = parts.next().unwrap_or_default();
+        let name = name.strip_prefix(&*first).unwrap_or(name);
+        match &*first {
+            NEW => (is_marked && !is_committed) || record.moved(name, &path),
+            GONE => record.moved(name, &path),
+            MARK => is_marked,
+            other => is_marked && RECORDS.contains(&other),
+        }
+    };
+    // The mark is the first name, and goes last.
+    for name in files(place).into_iter().rev().filter(|name| is_ours(name)) {
+        let _ = fs::remove_file(place.join(name));
+    }
+    remove_empty(place);
+}
+
+/// Whether a staging folder has its mark, or the beginning of it.
+fn is_marked(place: &Path) -> bool {
+    let mark = place.join(MARK);
+    let is_file = mark.symlink_metadata().is_ok_and(|found| found.is_file());
+    is_file && fs::read(mark).is_ok_and(|mark| MARKED.starts_with(&mark))
+}
+
+/// The folders in a folder; links are none.
 fn folders(folder: &Path) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
     folders.map(|entry| entry.path())
+}
+
+/// The names of everything but folders in a folder, relative to it and sorted. Links are not
+/// followed.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    fn add(folder: &Path, inner: &Path, files: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let name = inner.join(entry.file_name());
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() => add(&entry.path(), &name, files),
+                _ => files.push(name),
+            }
+        }
+    }
+    let mut files = Vec::new();
+    if is_folder(folder) {
+        add(folder, Path::new(""), &mut files);
+    }
+    files.sort_unstable();
+    files
+}
+
+/// Whether this is a folder, and not a link to one.
+fn is_folder(path: &Path) -> bool {
+    path.symlink_metadata().is_ok_and(|found| found.is_dir())
+}
+
+/// Removes a folder if there are no files in it.
+fn remove_empty(folder: &Path) {
+    folders(folder).for_each(|inner| remove_empty(&inner));
+    let _ = fs::remove_dir(folder);
 }
 
 /// Whether a folder has the name of a staging folder.
@@ -262,15 +336,16 @@ fn is_ours(folder: &Path) -> bool {
     numbers.is_some_and(|(process, number)| is_number(process) && is_number(number))
 }
 
-/// Moves all files of a folder into another one, without overwriting.
-fn move_where_free(from: &Path, to: &Path) {
-    for entry in fs::read_dir(from).into_iter().flatten().flatten() {
-        let (from, to) = (entry.path(), to.join(entry.file_name()));
-        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            let _ = fs::create_dir(&to);
-            move_where_free(&from, &to);
-        } else if !is_there(&to) {
-            let _ = fs::rename(from, to);
+/// Moves the files that this program moved into a folder on to another one, without overwriting and
+/// without following links.
+fn move_where_free(from: &Path, to: &Path, record: &Record) {
+    for name in files(from) {
+        let (from, place) = (from.join(&name), to.join(&name));
+        let inner = name.ancestors().skip(1);
+        let mut inner = inner.filter(|it| !it.as_os_str().is_empty());
+        let stays = inner.all(|it| is_folder(&to.join(it)) || !is_there(&to.join(it)));
+        if stays && !is_there(&place) && record.moved(&name, &from) {
+            let _ = make_parent(&place).and_then(|()| fs::rename(from, place));
         }
     }
 }

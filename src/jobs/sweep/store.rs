@@ -1,6 +1,5 @@
 //! The files of a sweep's points.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +10,7 @@ use super::point::Point;
 use crate::checksum::sha256;
 use crate::comparison::Assessment;
 use crate::output::{self, OutputError};
+use crate::text;
 
 /// Folder of the points' files within that of the sweep.
 const POINTS: &str = "points";
@@ -132,7 +132,7 @@ impl Store {
     /// The outcome of a point; `None` if there is none, or if its file is damaged or of another
     /// version.
     pub fn load(&self, point: &Point) -> Option<Outcome> {
-        let text = fs::read_to_string(self.path(point)).ok()?;
+        let text = text::read(&self.path(point)).ok()?;
         let record: Record = serde_json::from_str(&text).ok()?;
         record.outcome_of(point)
     }
@@ -156,7 +156,7 @@ impl Store {
     /// # Errors
     /// If the file system reports an error.
     pub fn check(&self) -> Result<(), OutputError> {
-        output::check_folder(&self.folder.join(POINTS))
+        output::check_inner(&self.folder, Path::new(POINTS))
     }
 }
 

@@ -166,3 +166,111 @@ fn folders_links_and_pipes_are_not_replaced() {
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     }
 }
+
+/// No link to another folder is followed, with or without `--force`, and no leftover that is one.
+#[cfg(unix)]
+#[test]
+fn nothing_beyond_the_folder_is_touched() {
+    use std::os::unix::fs::symlink;
+
+    let mine = [
+        ("U/user.txt", "mine"),
+        ("U/sheet.md", "mine"),
+        ("U/pictures/glance.svg", "mine"),
+        ("U/0", "tilebind"),
+    ];
+    for inner in ["old", "new", "gone", ""] {
+        let desk = desk();
+        let here = desk.path();
+        place(here, &mine);
+        done(here, &words(MAKE));
+        let left = here.join("R/.tilebind-1-0.partial");
+        let link = match inner {
+            "" => left.clone(),
+            inner => left.join(inner),
+        };
+        fs::create_dir_all(link.parent().unwrap()).unwrap();
+        symlink(here.join("U"), &link).unwrap();
+        if inner == "new" {
+            fs::create_dir(left.join("gone")).unwrap();
+        }
+        for line in [MAKE.to_owned(), format!("{MAKE} --force")] {
+            let output = run(here, &words(&line));
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            check(here, &mine);
+            assert!(link.is_symlink(), "{inner}");
+            assert!(!here.join("R/user.txt").exists(), "{inner}");
+        }
+    }
+    for line in [DOCK, COMPARE] {
+        let desk = desk();
+        let here = desk.path();
+        place(here, &mine);
+        fs::create_dir(here.join("R")).unwrap();
+        symlink(here.join("U"), here.join("R/pictures")).unwrap();
+        refused(here, &words(line), &["R/pictures is a link"]);
+        refused(here, &words(&format!("{line} --force")), &["R/pictures"]);
+        check(here, &mine);
+    }
+    let desk = desk();
+    let here = desk.path();
+    place(here, &mine);
+    fs::create_dir(here.join("R")).unwrap();
+    symlink(here.join("U"), here.join("R/points")).unwrap();
+    refused(here, &words(SWEEP), &["R/points is a link"]);
+}
+
+/// What `--force` was moving aside when it was killed comes back, and is not taken for a result.
+#[test]
+fn what_force_moved_aside_is_restored() {
+    let desk = desk();
+    let (here, out) = (desk.path(), desk.path().join("R"));
+    done(here, &words(MAKE));
+    let mut record: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join(RECORD)).unwrap()).unwrap();
+    record["aside"] = serde_json::json!({"sheet.md": sha256(b"mine")});
+    let record = record.to_string();
+    fs::remove_file(out.join("sheet.md")).unwrap();
+    let old = ".tilebind-1-0.partial/old/sheet.md";
+    place(&out, &[(RECORD, record.as_str()), (old, "mine")]);
+    let said = ["R/sheet.md", "was changed since"];
+    let output = run(here, &words(MAKE));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said.iter().all(|said| stderr(&output).contains(said)));
+    check(&out, &[("sheet.md", "mine")]);
+    refused(here, &words(MAKE), &said);
+    done(here, &words(&format!("{MAKE} --force")));
+    assert!(
+        !fs::read_to_string(out.join(RECORD))
+            .unwrap()
+            .contains("aside")
+    );
+}
+
+/// A record that is no file is neither read nor replaced.
+#[cfg(unix)]
+#[test]
+fn a_record_that_is_no_file_is_refused() {
+    let desk = desk();
+    let (here, record) = (desk.path(), desk.path().join("R").join(RECORD));
+    place(here, &[("mine.json", "{}")]);
+    fs::create_dir(here.join("R")).unwrap();
+    std::os::unix::fs::symlink("../mine.json", &record).unwrap();
+    let forced = format!("{MAKE} --force");
+    refused(here, &words(&forced), &[RECORD, "not a regular file"]);
+    fs::remove_file(&record).unwrap();
+    let made = Command::new("mkfifo").arg(&record).status();
+    if made.is_ok_and(|made| made.success()) {
+        // Reading the pipe would wait forever.
+        for line in [MAKE, &forced] {
+            let output = Command::new("timeout")
+                .arg("20")
+                .arg(command(&[]).get_program())
+                .args(words(line))
+                .current_dir(here)
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        }
+    }
+}

@@ -102,7 +102,8 @@ fn commands_that_clash_are_refused_and_others_stand_beside() {
     }
 }
 
-/// Leftovers of a killed process are removed; files that only look like them are kept.
+/// Leftovers of a killed process are removed; files that only look like them are kept, as are those
+/// of others beside leftovers.
 #[test]
 fn leftovers_of_killed_processes_go() {
     let desk = desk();
@@ -112,10 +113,24 @@ fn leftovers_of_killed_processes_go() {
         (".tilebind-1.partial", "mine"),
         (".tilebind-1-2-3.partial/a", "mine"),
         (".mine.partial/a", "mine"),
+        (".tilebind-5000000-0.partial/7", "mine"),
+        (".tilebind-5000000-0.partial/new/sheet.md", "mine"),
+        (".tilebind-5000000-1.partial/0", "tilebinds"),
+        (".tilebind-4000000-1.partial/old/mine", "mine"),
+        (".tilebind-4000000-1.partial/gone/sheet.md", "mine"),
+    ];
+    let left = [
+        (".tilebind-4000000-0.partial/0", "tilebind"),
+        (".tilebind-4000000-0.partial/new/pictures/a", "lef"),
+        (".tilebind-4000000-0.partial/during", "{"),
+        (".tilebind-4000000-1.partial/0", "tile"),
+        (".tilebind-4000000-2.partial/0", ""),
     ];
     place(&out, &mine);
-    place(&out, &[(".tilebind-4000000-0.partial/7", "left")]);
+    place(&out, &left);
     assert_eq!(run(here, &words(MAKE)).status.code(), Some(0));
-    assert!(!out.join(".tilebind-4000000-0.partial").exists());
     check(&out, &mine);
+    assert!(left.iter().all(|(name, _)| !out.join(name).exists()));
+    assert!(!out.join(".tilebind-4000000-0.partial").exists());
+    assert!(!out.join(".tilebind-4000000-2.partial").exists());
 }

@@ -79,7 +79,7 @@ fn killed_and_resumed_it_ends_in_the_same_bytes() {
     let content = std::fs::read(damaged).unwrap();
     std::fs::write(damaged, &content[..content.len() / 2]).unwrap();
     std::fs::create_dir(broken.join(".tilebind-99-0.partial")).unwrap();
-    std::fs::write(broken.join(".tilebind-99-0.partial/0"), "{").unwrap();
+    std::fs::write(broken.join(".tilebind-99-0.partial/0"), "tile").unwrap();
     let all = arguments(&broken);
     done(&all.iter().map(String::as_str).collect::<Vec<_>>());
     assert_same(&whole, &broken);
