@@ -358,10 +358,11 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
     }
     let way_out = |row: &states::Row| match &row.escape {
         Some(barrier) if barrier.has_way() => {
-            let certified = barrier.bounds.above(barrier.from_energy).both();
-            let certified = certified.map_or_else(String::new, |(lower, upper)| {
-                format!("; certified {}", minus(&si_range(lower, upper, "J", 4)))
-            });
+            let certified = barrier
+                .certified()
+                .map_or_else(String::new, |(lower, upper)| {
+                    format!("; certified {}", minus(&si_range(lower, upper, "J", 4)))
+                });
             let to = scene.name_of(barrier.to);
             (energy(barrier.forward()), format!("to {to}{certified}"))
         }

@@ -85,10 +85,11 @@ fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
     if let Some(why) = why_no_way(barrier) {
         return format!("{name}: no path from the first pose to {to}: {why}");
     }
-    let certified = barrier.bounds.above(barrier.from_energy).both();
-    let certified = certified.map_or_else(String::new, |(lower, upper)| {
-        format!(" (certified: {})", si_range(lower, upper, "J", 4))
-    });
+    let certified = barrier
+        .certified()
+        .map_or_else(String::new, |(lower, upper)| {
+            format!(" (certified: {})", si_range(lower, upper, "J", 4))
+        });
     format!(
         "{name}: barrier from the first pose to {to} {}{certified}, reverse {}",
         si(barrier.forward(), "J", 4),

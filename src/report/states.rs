@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Cell, Link, Table, rows};
+use crate::document::{Link, Table, rows};
 use crate::names::{face_names, kind, pathway_file};
 use crate::plots::Scene;
 use jobs::design::Design;
@@ -126,7 +126,7 @@ pub fn kinds(design: &Design, analysis: &Analysis, scene: &Scene) -> Table {
         .column("", "kind", "", |it| if it.state.kind == StateKind::Bond { "bond" } else { "trap" })
         .column("", "copies", "copies by symmetry", |it| it.copies)
         .column("_J", "energy", "of the magnets, 0 far apart", |it| it.state.energy).digits(4)
-        .column("_J", "way out", "height of the lowest barrier", |it| it.escape.as_ref().map(Barrier::forward)).digits(4)
+        .column("_J", "escape", "the lowest barrier out", |it| it.escape.as_ref().map(Barrier::forward)).digits(4)
         .column("", "leads to", "end of the lowest path", leads_to)
         .column("", "captured", "fraction of the far starts that end in any of them", |it| it.capture)
         .column("pose", "x, y (mm), \u{3b8}", "of the copy nearest to the bond", |it| it.state.configuration)
@@ -157,10 +157,10 @@ pub fn barriers<'a>(barriers: impl IntoIterator<Item = &'a Barrier>) -> Table {
         .column("saddle_energy_J", "saddle", "highest energy on the path", |it| it.saddle_energy)
         // Null if no path is known, as is the file of the pathway, relative to the report.
         .column("saddle_pose", "", "", |it| it.has_way().then_some(it.saddle)).in_json()
-        .column("lower_J", "", "", |it| it.bounds.lower)
-        .column("upper_J", "", "", |it| it.bounds.upper)
-        .column("forward_J", "climb", "from the start", |it| it.forward())
-        .column("reverse_J", "climb back", "from the end", |it| it.reverse())
+        .column("lower_J", "", "proved bound of the saddle's energy", |it| it.bounds.lower)
+        .column("upper_J", "", "proved bound of the saddle's energy", |it| it.bounds.upper)
+        .column("forward_J", "barrier", "saddle above the start", |it| it.forward())
+        .column("reverse_J", "barrier back", "saddle above the end", |it| it.reverse())
         // Lowest and highest saddle energy over repeated runs; null for a single run.
         .column("spread_bounds_J", "", "", |it| it.spread.map(|spread| [spread.0, spread.1])).in_csv()
         .column("spread_J", "", "", |it| json!(it.spread)).in_json()
@@ -187,9 +187,9 @@ pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier)
         .column("", "from", "", |it| name(it.from))
         .column("", "to", "", |it| name(it.to))
         .column("_J", "saddle", "highest energy on the best path found", |it| it.saddle_energy).digits(4)
-        .column("bounds_J", "certified", "bounds of the saddle's energy", |it| Cell::from([it.bounds.lower, it.bounds.upper])).digits(4)
-        .column("_J", "forward", "height above the start", |it| it.forward()).digits(4)
-        .column("_J", "reverse", "height above the end", |it| it.reverse()).digits(4)
+        .column("_J", "barrier", "saddle above the start", |it| it.forward()).digits(4).beside()
+        .column("bounds_J", "certified", "proved bounds of the barrier", |it| it.certified().map(|(lower, upper)| [lower, upper])).digits(4).beside()
+        .column("_J", "barrier back", "saddle above the end", |it| it.reverse()).digits(4).beside()
         .column("", "no way", "", |it| why_no_way(it))
         .column("_J", "work", "sum of all climbs", |it| it.work().map(|work| work[0])).digits(4)
         .column("_m", "length", "of the path", |it| it.length())
@@ -198,8 +198,9 @@ pub fn shown_barriers(analysis: &Analysis, scene: &Scene, way: impl Fn(&Barrier)
         .on_page()
         .titled(
             "Barriers",
-            "Saddle: highest energy on the best path found, with certified bounds; heights are \
-             above either end. Click a row to play the path.",
+            "Saddle: highest energy on the best path found. Barrier: the saddle above the start, \
+             with certified bounds; barrier back: the saddle above the end. Click a row to play \
+             the path.",
         )
         .linked(barriers.iter().map(|barrier| way(barrier).map(Link::Way)))
 }

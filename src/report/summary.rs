@@ -124,7 +124,7 @@ pub fn listed(design: &Design, analysis: &Analysis) -> Table {
         .column("", "captures", "", |kind| kind.captured())
         .column("_J", "energy", "", |kind| kind.first().energy).digits(DIGITS)
         .column("_J", "escape", "", |kind| out(kind).filter(|way| way.has_way()).map(|way| way.forward())).digits(DIGITS)
-        .column("bounds_J", "certified", "", |kind| out(kind).filter(|way| !way.bounds.caged).map(|way| certified(kind, way))).digits(DIGITS)
+        .column("bounds_J", "certified", "", |kind| certified(out(kind)?)).digits(DIGITS).beside()
         .column("", "to", "", |kind| escape(catalogue, out(kind)))
         .column("", "x, y (mm), theta, faces", "", |kind| {
             format!("{}, {}", pose(&kind.first().configuration), faces(design, kind))
@@ -151,9 +151,9 @@ fn escape(catalogue: &Catalogue, way: Option<&Barrier>) -> String {
 }
 
 /// Bounds of the climb.
-fn certified(kind: &Kind, way: &Barrier) -> [Option<f64>; 2] {
-    let bounds = way.bounds.above(kind.first().energy).both();
-    bounds.map_or([None; 2], |(lower, upper)| [Some(lower), Some(upper)])
+fn certified(way: &Barrier) -> Option<[f64; 2]> {
+    let bounds = way.certified().filter(|_| !way.bounds.caged);
+    bounds.map(|(lower, upper)| [lower, upper])
 }
 
 /// Notes of one or two lines each.

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use serde_json::Value;
+use tilebind::budget::Allowance;
 use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{self, Assessment};
 use tilebind::docking::Paths;
@@ -10,7 +11,7 @@ use tilebind::dynamics::docking::{DockingSettings, dock};
 use tilebind::observer::Silent;
 use tilebind::report::analysis::{self, Extent};
 use tilebind::report::comparison::Comparison;
-use tilebind::report::document::{Document, Drawing, Table, Unit};
+use tilebind::report::document::{Cell, Document, Drawing, Table, Unit};
 use tilebind::report::plots::{Scene, Sheet};
 use tilebind::report::{docking, yields as of_yields};
 use tilebind::request::of_keywords;
@@ -209,6 +210,53 @@ fn an_analysis_says_the_same_in_all_forms() {
         Extent::Full,
         1.0,
     ));
+}
+
+#[test]
+fn certified_are_bounds_of_the_barrier_in_its_unit() {
+    let design = design();
+    let settings = Settings {
+        certify: Allowance::UNLIMITED,
+        certify_cells: 500,
+        ..few()
+    };
+    let found = pipeline::analyse(&design, &settings, &Silent);
+    let scene = Scene::new(&design, &found.problem, &found.catalogue);
+    let document = analysis::document(&design, &found, &scene, Extent::Full, 1.0);
+    let tables = document.tables();
+    let of_page = tables
+        .iter()
+        .find(|table| table.title == "Barriers")
+        .unwrap();
+    let of_summary = tables
+        .iter()
+        .find(|table| table.is_printed && table.is_viewed)
+        .unwrap();
+    let mut proved = 0;
+    for (table, barrier) in [(of_page, "barrier"), (of_summary, "escape")] {
+        let place = |name: &str| {
+            table
+                .heads
+                .iter()
+                .position(|head| head.name == name)
+                .unwrap()
+        };
+        let [barrier, certified] = [barrier, "certified"].map(place);
+        let unit = |k: usize| table.column(k).0.split_once(" (").unwrap().1.to_owned();
+        assert_eq!(unit(barrier), unit(certified));
+        for row in &table.rows {
+            if let (Cell::Number(climb), Cell::Interval([Some(low), Some(high)])) =
+                (&row[barrier].0, &row[certified].0)
+            {
+                assert!(
+                    low <= climb && *climb <= high * (1.0 + 1e-9),
+                    "{low} {climb} {high}"
+                );
+                proved += 1;
+            }
+        }
+    }
+    assert!(proved >= 4, "{proved}");
 }
 
 #[test]

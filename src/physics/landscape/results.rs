@@ -300,6 +300,12 @@ impl Barrier {
         (self.saddle_energy - self.to_energy).max(0.0)
     }
 
+    /// Proved bounds of the climb from the start (J), never negative; `None` if one is missing. This
+    /// is what people read as "certified".
+    pub fn certified(&self) -> Option<(f64, f64)> {
+        self.bounds.above(self.from_energy).both()
+    }
+
     /// Work against the energy along the pathway (J), from start to end and back; `None` if no
     /// pathway is known.
     pub fn work(&self) -> Option<[f64; 2]> {

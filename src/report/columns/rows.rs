@@ -91,6 +91,11 @@ impl<'a, Row> Rows<'a, Row> {
         self.last(|head| head.digits = digits)
     }
 
+    /// Gives the last column the same unit for people as the column before it.
+    pub fn beside(self) -> Self {
+        self.last(|head| head.is_beside = true)
+    }
+
     /// Marks the last column as sampled shares.
     pub fn sampled(self) -> Self {
         self.last(|head| (head.unit, head.parts) = (Unit::Share, Parts::Sampled))

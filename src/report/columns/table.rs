@@ -161,6 +161,8 @@ pub struct Head {
     pub(super) parts: Parts,
     /// Number of digits for people.
     pub digits: usize,
+    /// Whether its unit for people has the prefix of the column before it.
+    pub is_beside: bool,
     /// Whether programs read it, in JSON ...
     pub is_data: bool,
     /// ... and in tables of numbers.
@@ -211,6 +213,7 @@ impl Head {
             name,
             meaning,
             digits: 3,
+            is_beside: false,
             is_data: true,
             is_csv: true,
             is_printed: true,
@@ -348,10 +351,16 @@ impl Table {
         (name, cells.collect())
     }
 
-    /// The common unit of a column, chosen by its largest value; `None` if cells have their own.
+    /// The common unit of a column, and of those beside it that share its prefix, chosen by the
+    /// largest value; `None` if cells have their own.
     fn scale(&self, column: usize) -> Option<Scale> {
+        let first = (0..=column).rev().find(|k| !self.heads[*k].is_beside);
+        let first = first.unwrap_or(0);
+        let beside = self.heads[first + 1..].iter();
+        let last = first + beside.take_while(|head| head.is_beside).count();
         let cells = || self.rows.iter().map(|row| &row[column]);
-        let sizes = cells().flat_map(|(cell, _)| match cell {
+        let shared = self.rows.iter().flat_map(|row| &row[first..=last]);
+        let sizes = shared.flat_map(|(cell, _)| match cell {
             Cell::Number(value) => [Some(*value), None],
             Cell::Interval(ends) => *ends,
             _ => [None; 2],
@@ -406,6 +415,27 @@ mod tests {
             ["bounds (mJ)", "0.0010 to 65.5", "0.0010 to 0.222"]
         );
         assert_eq!(column(2)[..2], ["part", "0.0655"]);
+    }
+
+    #[test]
+    fn columns_beside_each_other_share_a_unit() {
+        let table = crate::columns::rows([(2e-5, 0.016), (-3e-6, 0.002)])
+            .column("saddle_J", "saddle", "", |it| it.0)
+            .column("barrier_J", "barrier", "", |it| it.1)
+            .beside()
+            .column("bounds_J", "certified", "", |it| [it.1, 1.1 * it.1])
+            .beside()
+            .column("least_J", "least", "", |it| it.0)
+            .table("barriers");
+        let column = |k: usize| table.column(k);
+        let one = |name: &str, cells: [&str; 2]| (name.to_owned(), cells.map(str::to_owned).into());
+        assert_eq!(column(0), one("saddle (mJ)", ["0.0200", "-0.0030"]));
+        assert_eq!(column(1), one("barrier (mJ)", ["16.0", "2.00"]));
+        assert_eq!(
+            column(2),
+            one("certified (mJ)", ["16.0 to 17.6", "2.00 to 2.20"])
+        );
+        assert_eq!(column(3), one("least (\u{b5}J)", ["20.0", "-3.00"]));
     }
 
     #[test]

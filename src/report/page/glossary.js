@@ -12,7 +12,7 @@ const TERMS = [
   ["pose", "Position and angle of the moving tile: x and y of its reference point relative to the fixed tile, and its rotation θ."],
   ["barrier", "The energy a tile needs to get from one state to another: the saddle's energy minus the energy of the start."],
   ["saddle", "The highest point of the path with the lowest maximum energy between two states, among all collision-free paths."],
-  ["certified", "Proved to lie between the two bounds, for the stated model of the magnets."],
+  ["certified", "Of a barrier: proved to lie between the two bounds, for the stated model of the magnets."],
   ["undecided", "Bounds or intervals overlap, so the order is not known."],
   ["caged", "No path leads out, whatever the energy: the shapes block every way."],
   ["far starts, captured, captures", "Tiles start at random far away and move downhill in energy. A capture is a start that ends in a state; its share is given per state."],

@@ -22,8 +22,10 @@ pub struct Played {
     timed: bool,
     /// Ids of the states at its ends; null for tiles far apart.
     ends: [Option<usize>; 2],
-    /// Certified bounds of its highest energy (J).
+    /// Proved bounds of its highest energy (J), where they are drawn.
     bounds: Option<[f64; 2]>,
+    /// The same above its start (J), as people read them.
+    climbs: Option<[f64; 2]>,
     /// The cost by which it is the best.
     by: &'static str,
     /// The sum of all climbs on it (J), and its length (m).
@@ -53,6 +55,7 @@ impl Played {
             timed: true,
             ends: [None; 2],
             bounds: None,
+            climbs: None,
             by: "",
             work: 0.0,
             length: 0.0,
@@ -81,6 +84,7 @@ impl Played {
             timed: false,
             ends: [from, to].map(state),
             bounds: None,
+            climbs: None,
             by,
             work: rounded(climbs.filter(|climb| *climb > 0.0).sum(), 6),
             length: ends.map_or(0.0, |(first, last)| fixed(last.s - first.s)),
@@ -157,9 +161,10 @@ pub fn played(scene: &Scene) -> Vec<Played> {
             return None;
         }
         known.push(ends);
-        let bounds = barrier.bounds.both();
+        let read = |(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?]);
         Some(Played {
-            bounds: bounds.and_then(|(lower, upper)| Some([finite(lower, 6)?, finite(upper, 6)?])),
+            bounds: barrier.bounds.both().and_then(read),
+            climbs: barrier.certified().and_then(read),
             ..Played::of_pathway(between(scene, ends), ends, LOWEST, &barrier.pathway)
         })
     });

@@ -92,9 +92,9 @@ function drawProfile() {
     return;
   }
   const taken = `; work ${energyText(route.work)}, length ${si(route.length, "m", 3)}`;
-  const bounds = route.bounds ? `; certified (green) ${energyText(route.bounds[0])} to ${energyText(route.bounds[1])}` : "";
+  const bounds = route.bounds ? `; certified (green) ${energyText(route.climbs[0])} to ${energyText(route.climbs[1])}` : "";
   element("profile-readout").textContent =
-    `maximum ${energyText(highest[4])} (dashed), ${energyText(highest[4] - points[0][4])} above the start${taken}${bounds}`;
+    `maximum ${energyText(highest[4])} (dashed), ${energyText(highest[4] - points[0][4])} above the start${bounds}${taken}`;
 }
 
 /** The ticks that keep a line's height from each other, zero first. */

@@ -95,7 +95,7 @@ pub fn composed<'a>(
     let mut key = "each line is a kind of state: letter, energy, \u{d7} number of symmetric copies"
         .to_owned();
     if scene.barriers().any(|b| b.bounds.both().is_some()) {
-        key.push_str("; green: certified bounds");
+        key.push_str("; green: proved bounds of the energy at which lines join");
     }
     let data = lines(scene, &kinds, &scale);
     let graph = Composition {

@@ -158,15 +158,16 @@ impl<'a> Profile<'a> {
         self.plot.at(s - self.barrier.pathway[0].s, energy)
     }
 
-    /// The certified bounds of the saddle energy as a band with its figures.
+    /// The certified bounds of the barrier as a band at the saddle, with their figures.
     fn bounds(&self, canvas: &mut Canvas) {
-        let Some((lower, upper)) = self.barrier.bounds.both() else {
+        let (saddle, barrier) = (self.barrier.bounds.both(), self.barrier.certified());
+        let Some(((lower, upper), climbs)) = saddle.zip(barrier) else {
             return;
         };
         let [(left, top), (right, _)] = self.plot.level(upper);
         let bottom = self.plot.level(lower)[0].1.max(top + 2.0);
         canvas.block([left, top, right, bottom], GREEN.mix(0.35));
-        let [lower, upper] = [lower, upper].map(|u| self.scale.label(u, 4));
+        let [lower, upper] = [climbs.0, climbs.1].map(|u| self.scale.label(u, 4));
         let text = format!("certified {lower} to {upper}");
         let at = (left, self.plot.frame[1] - 7.0);
         canvas.write(SMALL.colour(GREEN), &text, at, Anchor::BottomLeft);

@@ -34,7 +34,7 @@ impl Analysis {
     }
 
     /// numpy.ndarray : The barriers, structured: `from`, `to` (ids of states, -1 for free),
-    /// `saddle_energy_J` with its certified bounds `lower_J` and `upper_J` (NaN where nothing is
+    /// `saddle_energy_J` with its proved bounds `lower_J` and `upper_J` (NaN where nothing is
     /// proved), `forward_J`, `reverse_J`, the saddle's pose, `caged`, work along the pathway and its
     /// length.
     #[getter]
@@ -240,7 +240,7 @@ impl Analysis {
     /// numpy.ndarray
     ///     Structured, one row per line of the graph: `states` (names of the states below it),
     ///     `energy_J` (of its lower end), `copies`, `joins_at_J` (NaN for a line that joins no
-    ///     other) with certified bounds `lower_J` and `upper_J`.
+    ///     other) with proved bounds `lower_J` and `upper_J`.
     fn disconnectivity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table::array(py, &table::of_csv(&plots::merge_lines(&self.scene())))
     }
