@@ -32,7 +32,7 @@ Points computed at the same time; results do not depend on it [default: all core
 #[command(
     mut_arg("refine", |refine| refine.conflicts_with_all(["plan", "run", "merge", "status"])),
     mut_arg("baseline", |baseline| baseline.conflicts_with_all(["run", "merge", "status"])),
-    mut_arg("seed", |seed| seed.help("Random seed from which all points' seeds are derived")),
+    mut_arg("seed", |seed| seed.help("Random seed of every point, so that all have the same far starts")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
 The command writes report.html, report.json, sweep.csv and pictures: curves for one varied number,

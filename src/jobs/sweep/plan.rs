@@ -19,8 +19,6 @@ use physics::parallel;
 
 /// Characters of a point's name: 128 bits in hexadecimal.
 const NAME: usize = 32;
-/// Characters of the name that form the seed: 48 bits, which every JSON reader reads exactly.
-const SEED: usize = 12;
 
 /// A sweep: designs, varied keys, and settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +31,8 @@ pub struct Plan {
     pub axes: Vec<Axis>,
     /// The settings of all points.
     pub settings: Request,
-    /// Part of every point's name, and so of its seed.
+    /// The seed of every point, as of `analyse` and `compare`: with the same random numbers, far
+    /// starts among them, points differ by their designs and less by chance.
     pub seed: u64,
     /// The point that all others are compared with, see [`Plan::against`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -144,7 +143,7 @@ impl Plan {
             .into_iter()
             .map(|point| {
                 json!({
-                    "index": point.index, "point": point.name, "seed": point.seed,
+                    "index": point.index, "point": point.name, "seed": self.seed,
                     "design": self.designs[point.design].name, "values": point.values,
                 })
             })
@@ -227,7 +226,6 @@ impl Plan {
         let name = self.name(settings, named, drawings);
         Point {
             index,
-            seed: u64::from_str_radix(&name[..SEED], 16).unwrap_or(0),
             name,
             design,
             values,

@@ -7,10 +7,8 @@ use super::vary::Value;
 pub struct Point {
     /// Index in the sweep, from 0.
     pub index: usize,
-    /// Hash of the design, the settings and the version.
+    /// Hash of the design, the settings, the seed and the version.
     pub name: String,
-    /// The seed of its random numbers, derived from its name.
-    pub seed: u64,
     /// The index of its design in the plan.
     pub design: usize,
     /// A value for each of the plan's axes.

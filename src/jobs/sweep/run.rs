@@ -71,7 +71,7 @@ fn outcome(plan: &Plan, point: &Point) -> Option<Outcome> {
         Ok(comparison::assess(
             &design,
             &plan.settings,
-            point.seed,
+            plan.seed,
             &Silent,
         ))
     }));

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{DEPTH, DESIGN, QUICK, done, run, text};
 use crate::folder::contents;
-use crate::program::stderr;
+use crate::program::{command, stderr};
 
 #[test]
 fn every_point_is_a_row_and_an_impossible_one_says_why() {
@@ -125,4 +125,53 @@ fn points_are_set_against_one_and_added_where_figures_bend() {
     assert!(depths.is_sorted() && depths.contains(&0.02), "{depths:?}");
     assert_eq!(run(&arguments).status.code(), Some(0));
     assert!(first == contents(&out));
+}
+
+#[test]
+fn analyse_compare_and_sweep_of_a_design_give_the_same_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = |name: &str| folder.path().join(name);
+    let report = |name: &str| -> serde_json::Value {
+        serde_json::from_slice(&std::fs::read(out(name).join("report.json")).unwrap()).unwrap()
+    };
+    let same = ["--seed", "7"];
+    let depth = format!("{DEPTH}=0.02,0.021");
+    let to = out("sweep");
+    done(
+        &[
+            &[DESIGN, "--vary", &depth, "--out", text(&to)],
+            &QUICK[..],
+            &same,
+        ]
+        .concat(),
+    );
+    let by = |words: &[&str], name: &str, effort: &[&str]| {
+        let to = out(name);
+        let all = [words, &[DESIGN, "--out", text(&to)], effort, &same].concat();
+        let output = command(&all).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    };
+    by(&["compare"], "compare", &QUICK);
+    // Its own options count work instead of cells; neither proof changes what is found.
+    let effort = [
+        &QUICK[..4],
+        &["--certify-work", "0", "--complete-work", "0"],
+    ]
+    .concat();
+    by(&["analyse"], "analyse", &effort);
+    let (swept, compared) = (report("sweep"), report("compare"));
+    assert_eq!(swept["seed"], 7);
+    let of_design = &compared["designs"][0]["quantities"];
+    assert!(of_design["captured"]["value"].is_number());
+    assert_eq!(&swept["points"][0]["quantities"], of_design);
+    let analysed = report("analyse");
+    let states = analysed["states"].as_array().unwrap().iter();
+    let bonds = states.filter(|state| state["kind"] == "bound");
+    let captured: f64 = bonds
+        .map(|bond| bond["capture"]["count"].as_f64().unwrap())
+        .sum();
+    assert_eq!(
+        captured / 20.0,
+        of_design["captured"]["value"].as_f64().unwrap()
+    );
 }
