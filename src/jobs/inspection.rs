@@ -1,7 +1,14 @@
 //! A quick inspection of a design: its bond, the forces that hold it, and the mistakes in it.
 //!
-//! There is no search: the tiles are evaluated where their target faces meet, and while they are
-//! drawn apart along the face's normal. Whether they find each other, only an analysis shows.
+//! There is no search: the tiles are evaluated where their target faces meet, while they slide along
+//! each other, and while they are drawn apart along the face's normal. Whether they find each other,
+//! only an analysis shows.
+
+mod fits;
+
+pub use fits::{Fit, NEGLIGIBLE};
+
+use nalgebra::Vector2;
 
 use crate::design::Design;
 use physics::configuration::Configuration;
@@ -24,6 +31,10 @@ pub struct Inspection {
     pub comes_straight_out: bool,
     /// Pairs of faces that bind as strongly as the target.
     pub rivals: Vec<Meeting>,
+    /// The fits of the target faces: the bond, then the deepest wrong ones.
+    pub fits: Vec<Fit>,
+    /// The largest |U| (J) while the target faces slide along each other.
+    pub strongest: f64,
 }
 
 /// The strength of the bond with one magnet model.
@@ -55,15 +66,23 @@ impl Inspection {
             MagnetModel::Dipole => MagnetModel::Cuboid,
             MagnetModel::Cuboid => MagnetModel::Dipole,
         };
-        let pulled = |gap: f64| pulled(design, gap);
+        let pulled = |gap: f64| out_of_bond(design, gap);
         let reach = design.pair.fixed.largest_magnet() * FARTHEST;
         let motion = |k: usize| pulled(reach.max(problem.scaled(1e-3)) * k as f64 / 8.0);
+        let (fits, strongest) = fits::fits(design, &problem);
         Self {
             bound: design.pair.bound,
             models: [own, other].map(|model| hold(design, model)),
             comes_straight_out: comes_out(&problem, motion),
             rivals: problem.rivals(),
+            fits,
+            strongest,
         }
+    }
+
+    /// Whether the magnets of the target faces as good as cancel where they coincide.
+    pub fn is_negligible(&self) -> bool {
+        self.models[0].energy.abs() <= NEGLIGIBLE * self.strongest
     }
 
     /// Mistakes in the design, as sentences with fixes. The reader's warnings are reported
@@ -109,10 +128,20 @@ pub fn rivals(count: usize) -> Option<String> {
 }
 
 /// The moving tile drawn out of the bond by `gap` (m) along the target face's normal.
-pub(crate) fn pulled(design: &Design, gap: f64) -> Configuration {
-    let bound = design.pair.bound;
-    let out = bound.position() + design.pair.target_face().normal() * gap;
-    Configuration::new(out.x, out.y, bound.theta)
+pub(crate) fn out_of_bond(design: &Design, gap: f64) -> Configuration {
+    pulled(&design.pair.bound, design.pair.target_face().normal(), gap)
+}
+
+/// A pose moved by `gap` (m) in a direction.
+fn pulled(pose: &Configuration, direction: Vector2<f64>, gap: f64) -> Configuration {
+    let out = pose.position() + direction * gap;
+    Configuration::new(out.x, out.y, pose.theta)
+}
+
+/// The gaps (m) at which the pull is computed.
+fn gaps(design: &Design) -> impl Iterator<Item = f64> {
+    let reach = design.pair.fixed.largest_magnet() * FARTHEST;
+    (0..SAMPLES).map(move |k| reach * k as f64 / (SAMPLES - 1) as f64)
 }
 
 /// Whether the straight motion over some configurations is free.
@@ -130,12 +159,10 @@ fn hold(design: &Design, model: MagnetModel) -> Hold {
     let face = pair.target_face();
     let (energy, gradient) = potential.energy_and_gradient(&pair.bound);
     let pull = |gap: f64| {
-        let (_, gradient) = potential.energy_and_gradient(&pulled(design, gap));
+        let (_, gradient) = potential.energy_and_gradient(&out_of_bond(design, gap));
         gradient.xy().dot(&face.normal())
     };
-    let reach = design.pair.fixed.largest_magnet() * FARTHEST;
-    let gaps = (0..SAMPLES).map(|k| reach * k as f64 / (SAMPLES - 1) as f64);
-    let pulls = gaps.map(|gap| (gap, pull(gap)));
+    let pulls = gaps(design).map(|gap| (gap, pull(gap)));
     let (pull_off_gap, pull_off) = pulls.fold((0.0, f64::NEG_INFINITY), |best, next| {
         if next.1 > best.1 { next } else { best }
     });

@@ -8,10 +8,10 @@ use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::plots::{field, glance};
 use crate::sold;
-use crate::tiles::{GRAM, force, letter, magnets, models, pull_off, wrong};
+use crate::tiles::{GRAM, fits, force, letter, magnets, models, pull, pull_off, wrong};
 use crate::values::{pose, positive_zero};
 use jobs::design::Design;
-use jobs::inspection::Inspection;
+use jobs::inspection::{Inspection, NEGLIGIBLE};
 use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::potential::MagnetModel;
@@ -22,7 +22,7 @@ use physics::units::si;
 /// The files of the command.
 pub const FILES: Command = Command {
     name: "show",
-    files: &[REPORT, PAGE, "models.csv", "faces.csv"],
+    files: &[REPORT, PAGE, "models.csv", "fits.csv", "faces.csv"],
     pictures: &["tiles", "field"],
 };
 
@@ -42,6 +42,12 @@ fn answer(design: &Design, inspection: &Inspection) -> String {
         _ => format!("(magnets as {bodies})"),
     };
     match bond.energy < 0.0 {
+        true if inspection.is_negligible() => format!(
+            "{}: faces {faces} do not bind: their magnets cancel to less than {} % of what they \
+             reach while the tiles slide",
+            design.name,
+            100.0 * NEGLIGIBLE
+        ),
         true => format!(
             "{}: faces {faces} bind with {} {magnets}; pulling straight apart takes {}",
             design.name,
@@ -85,12 +91,13 @@ fn found_entries(design: &Design, found: &Inspection) -> Entries {
     let sold = design.sold.iter().map(sold::entry);
     let shown = entries(design)
         .data("bound", json!({ "pose": pose(&found.bound), "energy_J": positive_zero(bond.energy) }))
-        .fact("pull_contact_N", "pull at contact", bond.contact).viewed(force(bond.contact))
+        .fact("pull_contact_N", "pull at contact", bond.contact).viewed(pull(found, bond.contact))
         .data("pull_contact_g", bond.contact / GRAM)
-        .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(bond)).noted("largest \
+        .fact("pull_off_N", "straight apart", bond.pull_off).viewed(pull_off(found, bond)).noted("largest \
             force on a straight path")
         .data("pull_off_g", bond.pull_off / GRAM)
-        .table(models(design, &found.models))
+        .table(models(design, found))
+        .table(fits(found))
         .fact("comes_straight_out", "not blocked on a straight path", found.comes_straight_out)
         .table(rivals(design, found))
         .table(table("fixed", fixed).in_data().in_file("faces"))

@@ -2,7 +2,7 @@
 
 use crate::columns::{Table, rows};
 use jobs::design::{Design, DesignError};
-use jobs::inspection::{Hold, Inspection};
+use jobs::inspection::{Fit, Hold, Inspection, NEGLIGIBLE};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
 use physics::units::{plain, si};
@@ -20,36 +20,106 @@ pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
 
 /// A force in newtons and grams.
 pub fn force(newtons: f64) -> String {
+    format!("{} N ({})", plain(newtons, 3), grams(newtons))
+}
+
+/// A force in grams.
+pub fn grams(newtons: f64) -> String {
     let grams = newtons / GRAM;
-    let decimals = match grams.abs() {
-        100.0.. => 0,
-        1.0.. => 1,
-        _ => 3,
-    };
-    format!("{} N ({grams:.decimals$} g)", plain(newtons, 3))
+    match grams.abs() {
+        100.0.. => format!("{grams:.0} g"),
+        1.0.. => format!("{grams:.1} g"),
+        _ => format!("{} g", plain(grams, 2)),
+    }
+}
+
+/// A force or a torque in words, none where it is negligible beside the strongest of its kind.
+pub fn or_none(value: f64, strongest: f64, told: fn(f64) -> String) -> String {
+    match value.abs() <= NEGLIGIBLE * strongest {
+        true => "none".to_owned(),
+        false => told(value),
+    }
+}
+
+/// A torque in newton metres, and in grams on an arm of a centimetre; of a contact that opens by
+/// itself, this fact.
+fn torque(newton_metres: f64) -> String {
+    if newton_metres < 0.0 {
+        return "opens by itself".to_owned();
+    }
+    let grams = newton_metres / (GRAM * 0.01);
+    let decimals = usize::from(grams.abs() < 100.0);
+    format!("{} ({grams:.decimals$} g cm)", si(newton_metres, "N m", 3))
+}
+
+/// The fits of the target faces, and what ends each: the bond, then the deepest wrong ones.
+// One line a column.
+#[rustfmt::skip]
+pub fn fits(found: &Inspection) -> Table {
+    let most = |of: fn(&Fit) -> f64| found.fits.iter().map(of).fold(0.0, |most, it| f64::max(most, it.abs()));
+    let slide = |it: &Fit| it.slide.unwrap_or(0.0);
+    let [slides, tilt] = [most(slide), most(|it| it.tilt)];
+    rows(found.fits.iter().enumerate())
+        .column("fit", "fit", "", |(k, _)| if *k == 0 { "bond" } else { "trap" }).viewed(|(k, it)| name(*k, it))
+        .column("slid_m", "", "", |(_, it)| it.slid)
+        .column("pose", "x, y (mm), angle", "of the moving tile", |(_, it)| it.pose).in_data()
+        .column("energy_J", "energy", "of the magnets, 0 far apart", |(_, it)| it.energy).digits(DIGITS)
+            .viewed(|(_, it)| energy(found, it.energy))
+        .column("pull_off_N", "straight off", "largest force on a straight path", |(_, it)| it.pull_off).viewed(|(_, it)| pull(found, it.pull_off))
+        .column("slide_N", "along the face", "largest force against a slide in the easier direction, without friction", |(_, it)| it.slide)
+            .viewed(move |(_, it)| it.slide.map_or("blocked by the shapes".to_owned(), |it| or_none(it, slides, force)))
+        .column("tilt_Nm", "tilted off", "torque about the easier end of the contact", |(_, it)| it.tilt).viewed(move |(_, it)| or_none(it.tilt, tilt, torque))
+        .table("fits")
+        .in_file("fits")
+        .titled("What ends each fit of the target faces", format!(
+            "slid along each other in contact; forces of the magnets alone; none: below {} % of the \
+             strongest in the column",
+            100.0 * NEGLIGIBLE
+        ))
+}
+
+/// The bond, or how far the tile has slid.
+fn name(number: usize, fit: &Fit) -> String {
+    match (number, fit.is_mirrored) {
+        (0, _) => "bond".to_owned(),
+        (_, true) => format!("slid by \u{b1}{}", si(fit.slid, "m", 3)),
+        _ => format!("slid by {}", si(fit.slid, "m", 3)),
+    }
+}
+
+/// An energy of the target faces, none where their magnets cancel.
+pub fn energy(found: &Inspection, energy: f64) -> String {
+    or_none(energy, found.strongest, |u| si(u, "J", DIGITS))
+}
+
+/// A pull on the target faces, none where their magnets cancel.
+pub fn pull(found: &Inspection, newtons: f64) -> String {
+    let strongest = found.fits.iter().map(|fit| fit.pull_off.abs());
+    or_none(newtons, strongest.fold(0.0, f64::max), force)
 }
 
 /// The forces that hold the tiles, one row for each magnet model.
 // One line a column.
 #[rustfmt::skip]
-pub fn models<'a>(design: &'a Design, models: &'a [Hold]) -> Table {
-    rows(models)
+pub fn models<'a>(design: &'a Design, found: &'a Inspection) -> Table {
+    rows(&found.models)
         .column("model", "magnets as", "", |it| it.model.name()).viewed(|it| it.model.plural(&design.pair).to_owned())
-        .column("energy_J", "energy", "with target faces in contact", |it| it.energy).digits(DIGITS)
-        .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| force(it.contact))
+        .column("energy_J", "energy", "with target faces in contact", |it| it.energy).viewed(|it| energy(found, it.energy))
+        .column("contact_N", "pull at contact", "along the face's normal", |it| it.contact).viewed(|it| pull(found, it.contact))
         .column("along_N", "", "", |it| it.along)
         .column("torque_Nm", "", "", |it| it.torque)
-        .column("pull_off_N", "pull-off", "largest force on a straight path", |it| it.pull_off).viewed(|it| pull_off(it))
+        .column("pull_off_N", "pull-off", "largest force on a straight path", |it| it.pull_off).viewed(|it| pull_off(found, it))
         .column("pull_off_gap_m", "", "", |it| it.pull_off_gap)
         .table("models")
         .in_file("models")
 }
 
 /// The largest pull on the way straight out, and its gap.
-pub fn pull_off(hold: &Hold) -> String {
+pub fn pull_off(found: &Inspection, hold: &Hold) -> String {
+    let told = pull(found, hold.pull_off);
     match hold.pull_off_gap {
-        0.0 => force(hold.pull_off),
-        gap => format!("{} at {}", force(hold.pull_off), si(gap, "m", 2)),
+        gap if gap > 0.0 && told != "none" => format!("{told} at {}", si(gap, "m", 2)),
+        _ => told,
     }
 }
 

@@ -8,6 +8,7 @@ mod compare;
 mod designs;
 mod documents;
 mod faults;
+mod fits;
 #[path = "../shared/folder.rs"]
 mod folder;
 mod levels;

@@ -27,7 +27,7 @@ use super::fit::{Fit, least_squares};
 use super::gaps::Reading;
 use super::{QUANTITIES, Row, root_mean_square};
 use crate::design::Design;
-use crate::inspection::pulled;
+use crate::inspection::out_of_bond;
 
 /// Readings from which on the offset of the gap is fitted, too.
 const FOR_OFFSET: usize = 4;
@@ -108,7 +108,7 @@ pub fn fit(design: &Design, readings: &[Reading]) -> Result<StrengthFit, String>
     let normal = design.pair.target_face().normal();
     let closest = -distance_of_poles(design);
     let force = |gap: f64| {
-        let (_, gradient) = problem.energy_and_gradient(&pulled(design, gap.max(closest)));
+        let (_, gradient) = problem.energy_and_gradient(&out_of_bond(design, gap.max(closest)));
         gradient.xy().dot(&normal).abs()
     };
     let force = &force;

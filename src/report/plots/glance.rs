@@ -9,12 +9,11 @@ use super::style::{
     Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
 };
 use super::{Figure, Sheet};
-use crate::tiles::{force, letter, magnets, models, wrong};
+use crate::tiles::{energy, letter, magnets, models, pull, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
 use physics::tile::{Magnet, Tile};
-use physics::units::si;
 
 const SIZE: [f64; 2] = [1000.0, 640.0];
 /// Space for the title above and the figures below the tiles (pixels).
@@ -59,7 +58,7 @@ pub fn draw(
     Ok(Figure {
         name: "tiles".to_owned(),
         pictures: vec![("tiles".to_owned(), picture)],
-        data: models(design, &inspection.models).csv(),
+        data: models(design, inspection).csv(),
     })
 }
 
@@ -151,9 +150,9 @@ fn figures(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     for hold in &inspection.models {
         let row = [
             hold.model.plural(&design.pair).to_owned(),
-            minus(&si(hold.energy, "J", 4)),
-            minus(&force(hold.contact)),
-            minus(&force(hold.pull_off)),
+            minus(&energy(inspection, hold.energy)),
+            minus(&pull(inspection, hold.contact)),
+            minus(&pull(inspection, hold.pull_off)),
         ];
         rows.push((row, LABEL));
     }
@@ -171,14 +170,14 @@ fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;
     let faults = wrong(design, inspection);
     if faults.is_empty() {
-        let sound = "no mistakes found; run `analyse` to see whether the tiles dock";
+        let sound = "no mistakes found; run analyse to see whether the tiles dock";
         return canvas.write(SMALL.colour(SOFT), sound, (MARGIN, top), Anchor::TopLeft);
     }
     let room = SIZE[0] - 2.0 * MARGIN;
     let lines = faults
         .iter()
         .take(TOLD)
-        .flat_map(|fault| SMALL.lines(fault, room));
+        .flat_map(|fault| SMALL.lines(&fault.replace('`', ""), room));
     let most = ((SIZE[1] - top) / STEP) as usize;
     for (k, line) in lines.take(most).enumerate() {
         let at = (MARGIN, top + STEP * k as f64);
