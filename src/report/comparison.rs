@@ -142,12 +142,20 @@ impl Comparison {
         if self.designs.iter().any(has_estimates) {
             notes.push(ESTIMATES.to_owned());
         }
-        notes.push(format!("unlisted: {UNLISTED}"));
+        notes.extend(self.unlisted());
         if self.designs.iter().any(misses_head_on) {
             notes.push(format!("{NOT_HEAD_ON}: {WHY_NOT_HEAD_ON}"));
         }
         notes.extend(checked(self.designs.iter()));
         notes
+    }
+
+    /// The note on the column of unlisted states, where it has any number.
+    fn unlisted(&self) -> Option<String> {
+        let column = QUANTITIES.iter().find(|it| it.key == "unlisted_depth")?;
+        let heading = column.column?.heading;
+        let is_known = self.designs.iter().any(|one| column.of(one).is_some());
+        is_known.then(|| format!("column \"{heading}\": {UNLISTED}"))
     }
 
     /// A design's name, with the model if models differ.

@@ -307,8 +307,8 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("", "verdict", verdict(statistics)).in_view()
         .fact("energy_error", "energy error", statistics.energy_error).noted("missing energy, over the largest term of the balance")
         .data("lifetimes", json!({"bonds": lifetime(&statistics.lifetimes[0]), "traps": lifetime(&statistics.lifetimes[1])}))
-        .fact("", "bond lifetime", lasting(&statistics.lifetimes[0])).in_view().noted(lasting_is(found))
-        .fact("", "trap lifetime", lasting(&statistics.lifetimes[1])).in_view().noted(lasting_is(found))
+        .fact("", "bond lifetime", lasting(&statistics.lifetimes[0], found)).in_view().noted(lasting_is(found))
+        .fact("", "trap lifetime", lasting(&statistics.lifetimes[1], found)).in_view().noted(lasting_is(found))
         .data("cut_off", cut_off(found))
         .fact("wall_s", "", found.wall_s)
         .data("threads", found.threads)
@@ -332,14 +332,19 @@ fn lasting_is(found: &Found) -> String {
     )
 }
 
-/// A lifetime for people.
-fn lasting(lifetime: &Lifetime) -> String {
+/// A lifetime for people; one that a run is too short to see is an extrapolation.
+fn lasting(lifetime: &Lifetime, found: &Found) -> String {
     let Lifetime { begun, ended, .. } = *lifetime;
     let [low, high] = lifetime.interval.map(|end| match end {
         Some(end) => duration(end, 2),
         None => "any time".to_owned(),
     });
+    let watched = found.ensemble.settings.duration;
     match lifetime.mean {
+        Some(mean) if mean > watched => format!(
+            "longer than the {} of a run ({low} to {high}; {ended} of {begun} ended)",
+            duration(watched, 2)
+        ),
         Some(mean) => format!(
             "{} ({low} to {high}; {ended} of {begun} ended)",
             duration(mean, 2)

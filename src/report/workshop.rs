@@ -13,7 +13,7 @@ use crate::document::{Document, Drawing, Table, entries, rows};
 use crate::dxf::{Dxf, Layer};
 use crate::files::{PAGE, REPORT};
 use crate::plots::glance;
-use crate::tiles::GRAM;
+use crate::tiles::grams;
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use jobs::output::Command;
@@ -127,9 +127,9 @@ fn nearest(remanence: f64) -> String {
 fn steps(name: &'static str, tile: &MadeTile) -> Table {
     let pocket = |it: &(usize, &Filled)| tile.part.pockets[it.1.pocket].clone();
     let open = |pocket: &Pocket| match (pocket.is_open(), pocket.crowded() > 0.0) {
-        (true, true) => " (*open*, *close*)",
-        (true, false) => " (*open*)",
-        (false, true) => " (*close*)",
+        (true, true) => " (open, close)",
+        (true, false) => " (open)",
+        (false, true) => " (close)",
         (false, false) => "",
     };
     let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
@@ -143,11 +143,11 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
         (most > 0.0).then(|| plain((most * 1e4 - 1e-6).ceil() / 1e4))
     };
     let thin = most(Pocket::wanting).map(|more| format!(
-        "; pockets marked *open* reach the rim or leave a wall below 0.5 mm: cut them through \
+        "; pockets marked open reach the rim or leave a wall below 0.5 mm: cut them through \
          the rim and fasten the magnets level with it, or raise `inset` by {more} mm, on slopes by more",
     ));
     let close = most(Pocket::crowded).map(|more| format!(
-        "; pockets marked *close* overlap or leave a wall below 0.5 mm between them: space the \
+        "; pockets marked close overlap or leave a wall below 0.5 mm between them: space the \
          magnets out by {more} mm (`pitch`, `at`), or use a smaller --clearance",
     ));
     let [thin, close] = [thin, close].map(Option::unwrap_or_default);
@@ -176,8 +176,8 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
 fn advice(filled: &Filled) -> String {
     match filled.is_to_be_held {
         true => format!(
-            "repelled by {:.0} g: hold it until the glue is set",
-            filled.push / GRAM
+            "repelled by {}: hold it until the glue is set",
+            grams(filled.push)
         ),
         false => "stays in place".to_owned(),
     }

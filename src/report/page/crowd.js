@@ -23,7 +23,9 @@ function drawCrowd() {
     pen.lineWidth = 3;
     for (const [i, j] of ties) line(pen, [at(poses[i]), at(poses[j])]);
   }
-  scaleBar(pen, scale, width, height);
+  // Inside the rim.
+  const [right, bottom] = at([wide / 2, -high / 2]);
+  scaleBar(pen, scale, right - 8, bottom - 8);
   element("crowd-step").value = moment.frame;
   element("crowd-here").textContent =
     `${si(frame.time, "s", 3)}: ${frame.bonds.length} bonds, ${frame.traps.length} traps`;

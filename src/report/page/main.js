@@ -10,7 +10,7 @@ const durationOf = ({ points, timed }) => timed ? SECOND * (points.at(-1)[0] - p
 function showPage() {
   document.title = page.title;
   element("title").textContent = page.title;
-  element("subtitle").textContent = page.subtitle;
+  element("subtitle").append(...make("p", page.subtitle).childNodes);
   element("origin").textContent = page.origin;
   for (const fact of page.facts) {
     const box = make("div");
@@ -36,8 +36,17 @@ function endPage() {
   listFiles(page.files);
   element("reproduce").hidden = !page.citation;
   element("command").hidden = !page.command;
-  element("command").textContent = page.command;
+  element("command").textContent = commandHere(page.command);
   element("citation").textContent = page.citation;
+}
+
+/** The command with the folder that this page is in, where its address tells; the file itself has a
+ * neutral name, so that the same command writes the same bytes into any folder. */
+function commandHere(command) {
+  const folder = location.protocol === "file:" && decodeURIComponent(location.pathname).split("/").at(-2);
+  if (!folder) return command;
+  const plain = /^[\w.,:=+-]+$/.test(folder) ? folder : `'${folder.replaceAll("'", "'\\''")}'`;
+  return command.replace(/ --out results$|(?<= --out )results(?= )/, (found) => found.replace("results", () => plain));
 }
 
 /** A picture that describes the place under the pointer. */

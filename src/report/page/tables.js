@@ -7,7 +7,9 @@ const isNumeric = (rows, k) => rows.every((row) => valueOf(row[k]) === null || t
 
 function make(name, text = "", className = "") {
   const made = document.createElement(name);
-  made.textContent = text;
+  // Names of keys and options stand between backticks.
+  const parts = `${text}`.split(/`([^`]+)`/);
+  made.append(...parts.map((part, k) => (k % 2 ? make("code", part) : part)));
   if (className) made.className = className;
   return made;
 }

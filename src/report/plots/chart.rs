@@ -394,13 +394,19 @@ pub fn plotted(
         .map(|_| 0.0);
     let up = points().flat_map(|point| [&[point.y][..], &ends(point)].concat());
     let [width, height] = [place[2] - place[0], place[3] - place[1]];
-    let axes = [
+    let mut axes = [
         x.axis(
             points().map(|point| point.x),
             if width < 420.0 { 5 } else { 7 },
         ),
         y.axis(up.chain(foot), if height < 320.0 { 5 } else { 7 }),
     ];
+    // A curve on the axis itself would hide there.
+    let has_bars = series.iter().any(|one| one.look == Look::Bars);
+    let is_hidden = !y.is_logarithmic && axes[1].ends[0] == 0.0 && points().any(|it| it.y == 0.0);
+    if is_hidden && !has_bars {
+        axes[1].ends[0] = -0.03 * axes[1].ends[1];
+    }
     let is_crossed = !y.is_logarithmic && axes[1].ends[0] < 0.0 && axes[1].ends[1] > 0.0;
     let mut plot = Plot::new(canvas, place, margin, axes, true);
     if is_crossed {

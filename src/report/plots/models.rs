@@ -9,7 +9,8 @@ use super::scene::Scene;
 use super::style::{Anchor, COLOURS, INK, LABEL, minus};
 use crate::csv::table;
 use physics::landscape::approach::ModelCurves;
-use physics::units::si;
+use physics::potential::MagnetModel;
+use physics::units::{plain, si};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 390.0;
@@ -50,10 +51,17 @@ pub fn composed<'a>(scene: &Scene<'a>, curves: &'a ModelCurves) -> Composition<'
     let error = Panel::new("error", LEAST, height, |canvas, place| {
         errors(canvas, place, curves);
     });
-    let note = curves.bond.map(|[dipoles, blocks]| {
-        let off = 100.0 * (dipoles - blocks).abs() / blocks.abs();
-        let [dipoles, blocks] = [dipoles, blocks].map(|u| minus(&si(u, "J", 4)));
-        format!("in the bond: dipoles {dipoles}, {bodies} {blocks}, {off:.1} % off")
+    let note = curves.bond.map(|bond| {
+        let [dipoles, blocks] = bond.map(|u| minus(&si(u, "J", 4)));
+        match scene.interaction.model {
+            MagnetModel::Dipole => {
+                let off = distance(bond);
+                format!("in the bond: dipoles {dipoles}, {bodies} {blocks}: {off}")
+            }
+            MagnetModel::Cuboid => {
+                format!("in the bond: {bodies} {blocks}; as point dipoles it would be {dipoles}")
+            }
+        }
     });
     Composition {
         name: "models".to_owned(),
@@ -62,6 +70,17 @@ pub fn composed<'a>(scene: &Scene<'a>, curves: &'a ModelCurves) -> Composition<'
         width: WIDTH,
         panels: vec![energy, error],
         ..Composition::default()
+    }
+}
+
+/// How far dipoles are from blocks, in words: a share, or a ratio where the two have little in
+/// common.
+fn distance([dipoles, blocks]: [f64; 2]) -> String {
+    let off = (dipoles - blocks).abs() / blocks.abs();
+    match dipoles / blocks {
+        _ if off < 1.0 => format!("{:.1} % off", 100.0 * off),
+        times if times > 0.0 && times.is_finite() => format!("{} times as much", plain(times, 2)),
+        _ => "without any likeness".to_owned(),
     }
 }
 

@@ -334,9 +334,9 @@ fn pockets_that_overlap_are_told() {
         ("0.015", &["--clearance", "6 mm"], "out by 2.5 mm"),
     ] {
         let told = sheet(pitch, cut);
-        assert!(told.contains("*close*") && told.contains(more), "{told}");
+        assert!(told.contains("close)") && told.contains(more), "{told}");
     }
-    assert!(!sheet("0.015", &[]).contains("*close*"));
+    assert!(!sheet("0.015", &[]).contains("close)"));
 }
 
 /// Squares of 10 cm whose target faces carry magnets of 5 mm at a pitch (m).
