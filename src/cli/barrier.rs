@@ -68,11 +68,11 @@ impl Barrier {
                 file.display()
             )));
         }
-        let query = self.request.query(&design);
+        let progress = Progress::new(self.quiet);
+        let query = self.request.query(&design, &progress);
         workload::tell_memory(query.settings.check_memory())?;
         self.threads.use_threads()?;
         workload::tell_of(&design, &query.settings);
-        let progress = Progress::new(self.quiet);
         let answer = query::barrier(&design, &query, &progress).map_err(Failure::of)?;
         progress.finish();
         if let Some(pathway) = pathway {

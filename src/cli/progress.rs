@@ -6,7 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tilebind::observer::Observer;
 
-use super::interrupt;
+use super::{interrupt, tell};
 
 /// Steps of the bar.
 const STEPS: u64 = 100;
@@ -52,6 +52,10 @@ impl Observer for Progress {
             self.0.set_style(style);
         }
         self.0.set_prefix(what.to_owned());
+    }
+
+    fn warn(&self, what: &str) {
+        self.0.suspend(|| tell(format!("warning: {what}")));
     }
 }
 

@@ -113,12 +113,13 @@ impl TableCommand {
         let file = file
             .as_ref()
             .map(|(name, text)| (&name[..], with_commas(text)));
+        let progress = self.results.progress();
         let start = self.request.start(
             (about.designs.len(), &crowd),
             file.as_ref().map(|(name, text)| (*name, &text[..])),
+            &progress,
         );
         let start = start.map_err(Failure::Usage)?;
-        let progress = self.results.progress();
         let parts = parts.iter().map(|path| named("part", path));
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 
-use crate::design::Design;
+use crate::design::{self, Design};
 use crate::memory;
 use crate::rates::diffusion;
 use crate::request::{self, MotionOptions};
@@ -208,12 +208,22 @@ const FASTEST_SPIN: f64 = 1e3;
 
 /// An angular velocity (rad/s) of 0 or more.
 fn spin(text: &str) -> Result<f64, String> {
-    request::up_to(FASTEST_SPIN)(text)
+    let found = design::spin(text).filter(|x| (0.0..=FASTEST_SPIN).contains(x));
+    found.ok_or_else(|| {
+        format!(
+            "a number from 0 to {FASTEST_SPIN} is needed, in rad/s or with a unit: \"90 deg/s\""
+        )
+    })
 }
 
 /// A range of speeds (m/s).
 fn speeds(text: &str) -> Result<[f64; 2], String> {
-    range_of(text, |end| request::up_to(FASTEST)(end))
+    range_of(text, |end| {
+        let found = design::speed(end).filter(|x| (0.0..=FASTEST).contains(x));
+        found.ok_or_else(|| {
+            format!("a number from 0 to {FASTEST} is needed, in m/s or with a unit: \"40 cm/s\"")
+        })
+    })
 }
 
 /// A range of lengths (m), also with units.

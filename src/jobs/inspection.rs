@@ -11,6 +11,7 @@ pub use fits::{Fit, NEGLIGIBLE};
 use nalgebra::Vector2;
 
 use crate::design::Design;
+use crate::mates;
 use physics::configuration::Configuration;
 use physics::potential::{Interaction, MagnetModel};
 use physics::problem::{Meeting, Problem};
@@ -29,6 +30,8 @@ pub struct Inspection {
     pub models: [Hold; 2],
     /// Whether the moving tile can be drawn straight out of the bond.
     pub comes_straight_out: bool,
+    /// That the codes of the target faces are not mates.
+    pub unmatched: Option<String>,
     /// Pairs of faces that bind as strongly as the target.
     pub rivals: Vec<Meeting>,
     /// The fits of the target faces: the bond, then the deepest wrong ones.
@@ -74,6 +77,7 @@ impl Inspection {
             bound: design.pair.bound,
             models: [own, other].map(|model| hold(design, model)),
             comes_straight_out: comes_out(&problem, motion),
+            unmatched: mates::fault(design, &problem),
             rivals: problem.rivals(),
             fits,
             strongest,
@@ -111,6 +115,7 @@ impl Inspection {
                     .to_owned(),
             );
         }
+        faults.extend(self.unmatched.clone());
         faults.extend(rivals(self.rivals.len()));
         faults
     }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::design::{STARTER, Shape, ShopMagnet, Start, StartError};
+use crate::design::{Material, STARTER, Shape, ShopMagnet, Start, StartError};
 use crate::request::{self, Word};
 
 /// The options of a new design; without any options, it is one that explains every key.
@@ -27,9 +27,19 @@ pub struct Request {
     /// Magnets as sold: "10 x 5 x 2 mm N42", or a disc: "10 x 3 mm N42" [default: sized to fit]
     ///
     /// Length x width x height of a block or diameter x height of a disc, and grade. The magnets are
-    /// magnetised along the last dimension.
+    /// magnetised along the last dimension. With `up` the axis stands across the tile: "6 x 3 mm N42 up".
     #[arg(long, value_name = "MAGNET", value_parser = ShopMagnet::parse)]
     pub magnet: Option<ShopMagnet>,
+
+    /// Thickness of both tiles (m), or with a unit [default: a fifth of the side, at most 13 mm]
+    #[arg(long, value_name = "M", value_parser = request::length)]
+    pub thickness: Option<f64>,
+
+    /// What the tiles are made of, for their mass: plywood, acrylic, pla ... or a density [default: plywood]
+    ///
+    /// A density is in kg/m3 or has a unit: "0.6 g/cm3".
+    #[arg(long, value_name = "MATERIAL", value_parser = Material::parse)]
+    pub material: Option<Material>,
 }
 
 fn shape() -> Word<Shape> {
@@ -44,7 +54,8 @@ impl Request {
     /// If there is no such design.
     pub fn text(&self, stem: &str) -> Result<String, StartError> {
         let asked = (self.sides, self.side, self.magnets, self.shape);
-        if asked == (None, None, None, None) && self.magnet.is_none() {
+        let made = (self.magnet, self.thickness, self.material);
+        if asked == (None, None, None, None) && made == (None, None, None) {
             return Ok(STARTER.to_owned());
         }
         let usual = Start::default();
@@ -54,6 +65,8 @@ impl Request {
             magnets: self.magnets.unwrap_or(usual.magnets),
             shape: self.shape.unwrap_or(usual.shape),
             magnet: self.magnet,
+            thickness: self.thickness,
+            material: self.material.unwrap_or(usual.material),
         };
         // A name without quotes or control characters.
         let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);

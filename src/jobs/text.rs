@@ -46,6 +46,19 @@ pub fn read(path: &Path) -> io::Result<String> {
     decode(bytes).map_err(io::Error::other)
 }
 
+/// Whether a character of a name has no form of its own: control characters, and marks that change the
+/// direction in which the letters around them are shown.
+///
+/// ```
+/// use tilebind_jobs::text::is_invisible;
+/// assert!(is_invisible('\u{7}') && is_invisible('\u{202e}') && !is_invisible('\u{e4}'));
+/// ```
+pub fn is_invisible(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{2069}' | '\u{feff}')
+}
+
 /// The error of bytes that are not text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it is not text in UTF-8 or UTF-16 (at byte {at})")]

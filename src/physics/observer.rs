@@ -10,6 +10,9 @@ pub trait Observer: Sync {
 
     /// An intermediate result, in a sentence, that remains valid if the work is interrupted.
     fn known(&self, _what: &str) {}
+
+    /// A change of what was asked for, in a sentence.
+    fn warn(&self, _what: &str) {}
 }
 
 /// An observer that ignores everything.

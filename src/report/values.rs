@@ -15,13 +15,13 @@ pub(super) fn pose(q: &Configuration) -> [f64; 3] {
     q.to_array().map(positive_zero)
 }
 
-/// A configuration for people: x and y in mm and theta in degrees, to a tenth; for small tiles,
-/// lengths to a five-hundredth of the pose's distance.
+/// A configuration for people: x and y in mm and theta in degrees, with as many digits as it takes to
+/// use it again: lengths to a five-thousandth of the pose's distance, angles to a hundredth of a degree.
 pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
     let [x, y] = [1e3 * q.x, 1e3 * q.y];
     let size = x.abs().max(y.abs());
     let finest = if size > 0.0 {
-        -libm::log10(size / 500.0)
+        -libm::log10(size / 5000.0)
     } else {
         1.0
     };
@@ -35,7 +35,7 @@ pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
     [
         told(x, decimals),
         told(y, decimals),
-        told(q.theta.to_degrees(), 1),
+        told(q.theta.to_degrees(), 2),
     ]
 }
 
@@ -57,9 +57,9 @@ mod tests {
     #[test]
     fn poses_of_small_tiles_are_told_with_more_digits() {
         let told = |x: f64, y: f64| read_pose(&Configuration::new(x, y, -1e-9)).join(" ");
-        assert_eq!(told(0.43, -0.04), "430.0 -40.0 0.0");
-        assert_eq!(told(0.08, 1e-9), "80.0 0.0 0.0");
-        assert_eq!(told(0.010_66, 0.000_14), "10.66 0.14 0.0");
-        assert_eq!(told(0.0, 0.0), "0.0 0.0 0.0");
+        assert_eq!(told(0.43, -0.04), "430.00 -40.00 0.00");
+        assert_eq!(told(0.08, 1e-9), "80.00 0.00 0.00");
+        assert_eq!(told(0.010_66, 0.000_14), "10.660 0.140 0.00");
+        assert_eq!(told(0.0, 0.0), "0.0 0.0 0.00");
     }
 }

@@ -82,3 +82,30 @@ def test_the_lock_is_released(design):
         time.sleep(0.0005)
     # With the lock held, the loop would turn once.
     assert turns > 3
+
+
+@pytest.mark.parametrize(
+    "poses",
+    [
+        "0.43,0,0",
+        b"abc",
+        bytearray(b"abc"),
+        ["0.43", "0", "0"],
+        np.array([b"0.43", b"0", b"0"]),
+        np.ma.masked_all((2, 3)),
+        np.ma.array([[0.43, 0, 0]], mask=[[False, True, False]]),
+    ],
+)
+def test_text_and_masked_entries_are_no_poses(design, poses):
+    for method in (design.energy, design.wrench, design.clearance, design.is_free, design.barrier):
+        with pytest.raises(ValueError, match="are no poses"):
+            method(poses)
+
+
+def test_arrays_that_can_be_masked_but_are_not(design):
+    assert design.energy(np.ma.array([0.43, 0, 0])) == design.energy([0.43, 0, 0])
+
+
+def test_poses_that_overlap_slightly_are_moved_out(design):
+    with pytest.warns(RuntimeWarning, match="out to contact"):
+        design.barrier([0.43, 0, 1.5708], certify_work=0, milestones=500)

@@ -44,7 +44,7 @@ use strength::StrengthFit;
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub struct Request {
     /// Area per pair (m^2) [default: what the rim and the fixed tile leave of the design's table]
-    #[arg(long, value_name = "M2", value_parser = request::positive)]
+    #[arg(long, value_name = "M2", value_parser = request::area)]
     pub area: Option<f64>,
 
     /// Largest distance (m) of a pair that counts [default: where tiles are free]

@@ -72,8 +72,8 @@ pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
 pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
-pub use starting::{Shape, ShopMagnet, Start, StartError};
-pub use units::{angle, energy, length, time};
+pub use starting::{Material, Shape, ShopMagnet, Start, StartError};
+pub use units::{angle, area, density, energy, frequency, length, rate, speed, spin, time};
 pub use word_set::WordSet;
 
 use std::collections::BTreeMap;
@@ -252,6 +252,7 @@ impl Design {
         }
         warnings.extend(doubt);
         warnings.extend(doubts::find(&root, &entries, &contents, table));
+        warnings.extend(doubts::masses(&entries, &built));
         let sold = sold(&built);
         let [fixed, moving] = built.map(|built| built.tile);
         warnings.extend(too_near);

@@ -93,6 +93,54 @@ const TIME: Units = &[
     ("d", 1.0 / 86_400.0),
     ("days", 1.0 / 86_400.0),
 ];
+const FREQUENCY: Units = &[
+    ("Hz", 1.0),
+    ("kHz", 1e-3),
+    ("mHz", 1e3),
+    ("rpm", 60.0),
+    ("/min", 60.0),
+    ("rps", 1.0),
+    ("/s", 1.0),
+];
+const RATE: Units = &[
+    ("/s", 1.0),
+    ("1/s", 1.0),
+    ("s^-1", 1.0),
+    ("Hz", 1.0),
+    ("/ms", 1e-3),
+    ("/min", 60.0),
+    ("1/min", 60.0),
+];
+const SPEED: Units = &[
+    ("m/s", 1.0),
+    ("cm/s", 1e2),
+    ("mm/s", 1e3),
+    ("um/s", 1e6),
+    ("in/s", 1.0 / 0.0254),
+];
+const SPIN: Units = &[
+    ("rad/s", 1.0),
+    ("mrad/s", 1e3),
+    ("deg/s", DEGREES),
+    ("degrees/s", DEGREES),
+    ("rpm", 60.0 / std::f64::consts::TAU),
+    ("Hz", 1.0 / std::f64::consts::TAU),
+];
+const AREA: Units = &[
+    ("m2", 1.0),
+    ("m^2", 1.0),
+    ("cm2", 1e4),
+    ("cm^2", 1e4),
+    ("mm2", 1e6),
+    ("mm^2", 1e6),
+];
+const DENSITY: Units = &[
+    ("kg/m3", 1.0),
+    ("kg/m^3", 1.0),
+    ("g/cm3", 1e-3),
+    ("g/cm^3", 1e-3),
+    ("g/cc", 1e-3),
+];
 pub(super) const SHARE: Units = &[("%", 1e2)];
 
 /// Reads a finite number followed by one of `units`, with or without a space; returns it in the
@@ -164,6 +212,36 @@ pub fn time(text: &str) -> Option<f64> {
     plain(text).or_else(|| read(text, TIME))
 }
 
+/// A frequency (Hz): a plain number, or one followed by a unit, such as rpm.
+pub fn frequency(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, FREQUENCY))
+}
+
+/// A rate (1/s): a plain number, or one followed by a unit.
+pub fn rate(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, RATE))
+}
+
+/// A speed (m/s): a plain number, or one followed by a unit.
+pub fn speed(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, SPEED))
+}
+
+/// An angular velocity (rad/s): a plain number, or one followed by a unit.
+pub fn spin(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, SPIN))
+}
+
+/// An area (m^2): a plain number, or one followed by a unit.
+pub fn area(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, AREA))
+}
+
+/// A density (kg/m^3): a plain number, or one followed by a unit.
+pub fn density(text: &str) -> Option<f64> {
+    plain(text).or_else(|| read(text, DENSITY))
+}
+
 fn plain(text: &str) -> Option<f64> {
     text.trim().parse().ok().filter(|x: &f64| x.is_finite())
 }
@@ -171,7 +249,7 @@ fn plain(text: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
     #[test]
     fn numbers_are_read_with_their_units() {
@@ -198,6 +276,13 @@ mod tests {
         ] {
             assert_eq!(read(text, units), Some(expected), "{text}");
         }
+        assert!((frequency("300 rpm").unwrap() - 5.0).abs() < 1e-15);
+        assert_eq!((rate("0.5 /s"), rate("0.5 1/s")), (Some(0.5), Some(0.5)));
+        assert_eq!((speed("40 cm/s"), spin("180 deg/s")), (Some(0.4), Some(PI)));
+        assert_eq!(
+            (area("4 cm2"), density("0.6 g/cm3")),
+            (Some(4e-4), Some(600.0))
+        );
         assert!((read("30°", ANGLE).unwrap() - FRAC_PI_6).abs() < 2e-16);
         for (text, units) in [
             ("12", LENGTH),

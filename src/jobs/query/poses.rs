@@ -3,8 +3,9 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::design::angle;
+use crate::measured::{ANGLE, Column, LENGTH, Measured};
 use crate::request::{FARTHEST, MOST_TURNED, coordinate};
-use crate::text::{column, decimal_comma, not_too_long};
+use crate::text::{decimal_comma, not_too_long};
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 
@@ -50,8 +51,8 @@ pub fn clearance(problem: &Problem, pose: &Configuration) -> f64 {
     }
 }
 
-/// Names of the columns, each with its names in other files of this program.
-const COLUMNS: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["theta", "theta_rad"]];
+/// The columns, alone or with a unit: `x_mm`, `theta_deg`.
+const COLUMNS: [(&str, Measured); 3] = [("x", LENGTH), ("y", LENGTH), ("theta", ANGLE)];
 
 /// Reads poses (m, m, rad; or with units, such as `12 mm`), one per line: the columns x, y and
 /// theta if the first line names columns (others are ignored, so that pathways can be read), or
@@ -73,7 +74,9 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
         .trim(Trim::All)
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
-    let mut columns = None;
+    let header = StringRecord::from(COLUMNS.map(|(name, _)| name).to_vec());
+    let first = named_by(&header)?;
+    let mut columns: Option<[Column; 3]> = None;
     let mut entries = 0;
     let mut poses = Vec::new();
     let mut record = StringRecord::new();
@@ -82,14 +85,14 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
         let line = record.position().map_or(0, csv::Position::line);
         if columns.is_none() {
             let names = named(&record).map_err(|wrong| format!("line {line}: {wrong}"))?;
-            columns = Some(names.unwrap_or([0, 1, 2]));
+            columns = Some(names.unwrap_or(first));
             entries = if names.is_some() { record.len() } else { 3 };
             if names.is_some() {
                 continue;
             }
         }
         let pose = not_too_long(&record, entries)
-            .and_then(|()| pose(&record, columns.unwrap_or_default()));
+            .and_then(|()| pose(&record, columns.as_ref().unwrap_or(&first)));
         poses.push(pose.map_err(|wrong| format!("line {line}: {wrong}"))?);
     }
     if poses.is_empty() {
@@ -99,34 +102,34 @@ pub fn read(text: &str) -> Result<Vec<Configuration>, String> {
 }
 
 /// The columns of x, y and theta, if the line names columns.
-fn named(record: &StringRecord) -> Result<Option<[usize; 3]>, String> {
+fn named(record: &StringRecord) -> Result<Option<[Column; 3]>, String> {
     if record
         .iter()
         .all(|entry| coordinate(entry).is_some() || angle(entry).is_some())
     {
         return Ok(None);
     }
-    let mut places = [0; 3];
-    for (place, names) in places.iter_mut().zip(COLUMNS) {
-        *place = column(record, &names)?.ok_or_else(|| {
-            format!(
-                "there is no column `{}`; name the columns x,y,theta",
-                names[0]
-            )
-        })?;
-    }
-    Ok(Some(places))
+    named_by(record).map(Some)
 }
 
-fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, String> {
+fn named_by(record: &StringRecord) -> Result<[Column; 3], String> {
+    let find = |(name, measured): (&str, Measured)| {
+        let none = || format!("there is no column `{name}`; name the columns x,y,theta");
+        measured.column(record, name)?.ok_or_else(none)
+    };
+    let [x, y, theta] = COLUMNS.map(find);
+    Ok([x?, y?, theta?])
+}
+
+fn pose(record: &StringRecord, columns: &[Column; 3]) -> Result<Configuration, String> {
     let entry = |k: usize| {
-        let [name, _] = COLUMNS[k];
+        let (name, _) = COLUMNS[k];
         record
-            .get(columns[k])
+            .get(columns[k].place)
             .ok_or_else(|| format!("there is no {name}; a pose is x,y,theta"))
     };
-    let wrong = |k: usize, text: &str, unit: &str| {
-        let [name, _] = COLUMNS[k];
+    let wrong = |k: usize, text: &str| {
+        let ((name, _), unit) = (COLUMNS[k], columns[k].unit());
         match decimal_comma(text) {
             Some(comma) => format!("{name} is `{text}`: {comma}"),
             None => format!(
@@ -137,12 +140,13 @@ fn pose(record: &StringRecord, columns: [usize; 3]) -> Result<Configuration, Str
     };
     let metres = |k: usize| {
         let text = entry(k)?;
-        coordinate(text).ok_or_else(|| wrong(k, text, "m"))
+        let found = columns[k].number(text).filter(|x| x.abs() <= FARTHEST);
+        found.ok_or_else(|| wrong(k, text))
     };
     let [x, y] = [metres(0)?, metres(1)?];
     let text = entry(2)?;
-    let theta = angle(text).filter(|angle| angle.abs() <= FARTHEST);
-    let theta = theta.ok_or_else(|| wrong(2, text, "rad"))?;
+    let theta = columns[2].number(text).filter(|x| x.abs() <= FARTHEST);
+    let theta = theta.ok_or_else(|| wrong(2, text))?;
     if theta.abs() > MOST_TURNED {
         return Err(format!(
             "theta is `{text}`, more than two full turns (in rad): for degrees write `{theta} deg`"

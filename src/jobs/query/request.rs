@@ -6,8 +6,10 @@ use super::Query;
 use crate::design::Design;
 use crate::pipeline::{Certify, Settings};
 use crate::request;
+use crate::seated::seated;
 use physics::configuration::Configuration;
 use physics::landscape::minimax::End;
+use physics::observer::Observer;
 
 const WORK: &str = "\
 Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]";
@@ -48,12 +50,17 @@ pub struct Request {
 }
 
 impl Request {
-    /// The query about a design.
-    pub fn query(&self, design: &Design) -> Query {
+    /// The query about a design. Ends at which the tiles overlap slightly are moved out to contact;
+    /// the observer is warned.
+    pub fn query(&self, design: &Design, observer: &dyn Observer) -> Query {
         let default = Settings::of([design]);
+        let problem = design.problem();
         Query {
-            from: self.from,
-            to: self.to,
+            from: seated(&problem, &self.from, observer),
+            to: match &self.to {
+                End::At(to) => End::At(seated(&problem, to, observer)),
+                End::Free => End::Free,
+            },
             settings: Settings {
                 seed: self.seed,
                 milestones: self.milestones.unwrap_or(default.milestones),

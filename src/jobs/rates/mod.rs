@@ -13,6 +13,7 @@ use crate::design::Design;
 use crate::memory;
 use crate::pipeline::Analysis;
 use crate::request::{self, Unanswered};
+use crate::seated::seated;
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
@@ -36,7 +37,7 @@ pub struct Question {
     pub kt: f64,
 
     /// Drag rate (1/s); the drag coefficient is this times the mass
-    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::positive)]
+    #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::rate)]
     pub drag: f64,
 
     /// Energy (J) below which the tile counts as bound [default: half the bond's energy]
@@ -136,6 +137,7 @@ impl Request {
         start: Configuration,
         observer: &dyn Observer,
     ) -> Result<(PoseExit, Option<ExitRuns>), RateFault> {
+        let start = seated(posed.1, &start, observer);
         let found = self.question.exit(posed, start, observer)?;
         let checked = |runs| found.checked(posed, runs, self.restitution, self.seed);
         let check = self.check.map(checked).transpose()?;

@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use super::{not_negative, numbers, share, up_to};
-use crate::design::{energy, length};
+use super::{not_negative, share};
+use crate::design::{energy, frequency, length, rate};
 use physics::dynamics::{Fan, MotionSettings};
 
 /// What collisions take from the motion.
@@ -61,7 +61,9 @@ const STRONGEST: f64 = 1e3;
 
 /// A drag rate (1/s) of 0 or more.
 fn drag(text: &str) -> Result<f64, String> {
-    up_to(MOST_DRAG)(text)
+    let found = rate(text).filter(|x| (0.0..=MOST_DRAG).contains(x));
+    found
+        .ok_or_else(|| format!("a number from 0 to {MOST_DRAG} is needed, in 1/s or as \"0.5 /s\""))
 }
 
 /// A fan as `X,Y,E_J,S` or `X,Y,E_J,S,A,F`.
@@ -75,7 +77,8 @@ pub fn fan(text: &str) -> Result<Fan, String> {
     let read = |(k, part): (usize, &str)| match k {
         0 | 1 | 3 => length(part),
         2 => energy(part),
-        _ => numbers(part).map(|one| one[0]),
+        4 => share(part).ok(),
+        _ => frequency(part),
     };
     let parts: Option<Vec<f64>> = text
         .split(',')

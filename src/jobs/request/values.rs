@@ -160,6 +160,22 @@ pub fn time_or_none(text: &str) -> Result<f64, String> {
 /// The notation of times.
 const SECONDS: &str = "in s or with a unit: 120 or \"2 min\"";
 
+/// A positive area (m^2), or with a unit.
+pub fn area(text: &str) -> Result<f64, String> {
+    let found = design::area(text).filter(|x| *x > 0.0);
+    found.ok_or_else(|| {
+        "a number greater than 0 is needed, in m^2 or with a unit: \"50 cm2\"".to_owned()
+    })
+}
+
+/// A positive rate (1/s), or with a unit.
+pub fn rate(text: &str) -> Result<f64, String> {
+    let found = design::rate(text).filter(|x| *x > 0.0);
+    found.ok_or_else(|| {
+        "a number greater than 0 is needed, in 1/s or with a unit: \"0.5 /s\"".to_owned()
+    })
+}
+
 /// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
     text.parse()

@@ -3,10 +3,14 @@
 use clap::Args;
 
 use super::start_file;
+use crate::design::{frequency, length};
 use crate::request::{self, MotionOptions, Shard};
+use physics::observer::Observer;
 use physics::table::run::Start;
 use physics::table::{Crowd, Orbital, TableSettings};
 
+/// Largest radius of the table's circle (m).
+const WIDEST_CIRCLE: f64 = 1.0;
 /// Longest step (s).
 const LONGEST_STEP: f64 = 0.01;
 /// Time between two random kicks (s) ...
@@ -28,7 +32,7 @@ pub struct Request {
     pub count: Vec<usize>,
 
     /// Duration of each run (s)
-    #[arg(long, value_name = "S", value_parser = request::positive)]
+    #[arg(long, value_name = "S", value_parser = request::time)]
     pub time: f64,
 
     /// Number of runs, each from its own start
@@ -46,10 +50,10 @@ pub struct Request {
     /// Time between random kicks of the shaking (s) [default: 0.005; less for drag above 50]
     ///
     /// It does not depend on the step.
-    #[arg(long, value_name = "S", value_parser = request::positive)]
+    #[arg(long, value_name = "S", value_parser = request::time)]
     pub correlation: Option<f64>,
 
-    /// Move the table in a circle of radius A (m) at F revolutions per second
+    /// Move the table in a circle of radius A (m) at F revolutions per second, or with units: "10 mm,300 rpm"
     #[arg(long, value_name = "A,F", value_parser = orbital)]
     pub orbital: Option<Orbital>,
 
@@ -64,7 +68,7 @@ pub struct Request {
     pub step: Option<f64>,
 
     /// Record the tiles' poses at this interval (s)
-    #[arg(long, value_name = "DT", value_parser = request::positive)]
+    #[arg(long, value_name = "DT", value_parser = request::time)]
     pub frames: Option<f64>,
 
     /// Compare with the predictions of `tilebind bond` and `tilebind yield`, or of `tilebind assemble`
@@ -131,6 +135,7 @@ impl Request {
         &self,
         (designs, crowd): (usize, &Crowd),
         file: Option<(&str, &str)>,
+        observer: &dyn Observer,
     ) -> Result<Start, String> {
         if self.compare && designs > 1 {
             return Err(
@@ -140,7 +145,7 @@ impl Request {
             );
         }
         if let Some((name, text)) = file {
-            let movers = start_file::read(text, crowd);
+            let movers = start_file::read(text, crowd, observer);
             let movers = movers.map_err(|error| format!("{name}: {error}"))?;
             return Ok(Start::Given(movers));
         }
@@ -193,18 +198,29 @@ impl Request {
 }
 
 fn orbital(text: &str) -> Result<Orbital, String> {
-    match request::numbers(text).as_deref() {
-        Some([amplitude, frequency]) if *amplitude >= 0.0 && *frequency > 0.0 => Ok(Orbital {
-            amplitude: *amplitude,
-            frequency: *frequency,
-        }),
-        _ => Err("a circle is A,F in m and Hz, such as 0.005,2".to_owned()),
+    const FORM: &str =
+        "a circle is A,F in m and Hz or with units, such as 0.005,2 or \"10 mm,300 rpm\"";
+    let (radius, turns) = text.split_once(',').ok_or(FORM)?;
+    let amplitude = length(radius).filter(|it| *it >= 0.0).ok_or(FORM)?;
+    let frequency = frequency(turns).filter(|it| *it > 0.0).ok_or(FORM)?;
+    if amplitude > WIDEST_CIRCLE {
+        let meant = match radius.trim().parse::<f64>() {
+            Ok(number) => format!(": did you mean \"{number} mm,{}\"?", turns.trim()),
+            Err(_) => String::new(),
+        };
+        return Err(format!(
+            "a circle has a radius of at most {WIDEST_CIRCLE} m, not {amplitude} m{meant}"
+        ));
     }
+    Ok(Orbital {
+        amplitude,
+        frequency,
+    })
 }
 
 fn step(text: &str) -> Result<f64, String> {
-    let found = request::positive(text)
-        .ok()
-        .filter(|it| *it <= LONGEST_STEP);
-    found.ok_or_else(|| format!("a step is greater than 0 and at most {LONGEST_STEP} s"))
+    let found = request::time(text).ok().filter(|it| *it <= LONGEST_STEP);
+    found.ok_or_else(|| {
+        format!("a step is greater than 0 and at most {LONGEST_STEP} s, or with a unit: \"1 ms\"")
+    })
 }

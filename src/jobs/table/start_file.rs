@@ -2,15 +2,20 @@
 
 use csv::{ReaderBuilder, Trim};
 
+use crate::measured::{ANGLE, LENGTH, Measured, SPEED, SPIN};
 use crate::request::FARTHEST;
 use crate::text::{column, not_too_long};
 use physics::configuration::Configuration;
 use physics::dynamics::Motion;
+use physics::observer::Observer;
+use physics::table::settle::settle;
 use physics::table::start::check;
 use physics::table::{Crowd, Mover, StartError};
 
 /// The columns.
 const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
+/// What the columns from the third on measure.
+const MEASURED: [Measured; 6] = [LENGTH, LENGTH, ANGLE, SPEED, SPEED, SPIN];
 
 /// What is wrong with the file, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -22,11 +27,17 @@ pub struct StartFileError {
     pub message: String,
 }
 
-/// Reads the starting tiles, one per line; returns them in the order of their numbers.
+/// Reads the starting tiles, one per line; returns them in the order of their numbers. Columns may
+/// carry a unit in their name (`x_mm`), and entries one of their own (`12 mm`). Tiles that overlap
+/// slightly are moved apart, and the observer is warned.
 ///
 /// # Errors
 /// If a line cannot be read, or tiles overlap or extend beyond the rim.
-pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
+pub fn read(
+    text: &str,
+    crowd: &Crowd,
+    observer: &dyn Observer,
+) -> Result<Vec<Mover>, StartFileError> {
     let mut reader = ReaderBuilder::new()
         .flexible(true)
         .trim(Trim::All)
@@ -38,8 +49,16 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         .map_err(|it| wrong(1, it.to_string()))?
         .clone();
     let mut places = [None; COLUMNS.len()];
-    for (place, name) in places.iter_mut().zip(COLUMNS) {
-        *place = column(&headers, &[name]).map_err(|it| wrong(1, it))?;
+    let mut measures = [None; MEASURED.len()];
+    for (k, (place, name)) in places.iter_mut().zip(COLUMNS).enumerate() {
+        let Some(measured) = k.checked_sub(2).map(|k| MEASURED[k]) else {
+            *place = column(&headers, &[name]).map_err(|it| wrong(1, it))?;
+            continue;
+        };
+        let found = measured.column(&headers, name);
+        let found = found.map_err(|it| wrong(1, it))?;
+        *place = found.map(|column| column.place);
+        measures[k - 2] = found;
     }
     if let Some(missing) = places.iter().position(Option::is_none) {
         let message = format!(
@@ -77,13 +96,15 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         let mut numbers = [0.0; 6];
         for (k, number) in numbers.iter_mut().enumerate() {
             let text = entry(k + 2);
-            let read: Option<f64> = text.parse().ok().filter(|it: &f64| it.abs() <= FARTHEST);
+            let read = measures[k].and_then(|column| column.number(text));
+            let read = read.filter(|it| it.abs() <= FARTHEST);
             *number = read.ok_or_else(|| {
+                let unit = measures[k].map_or("m", |column| column.unit());
+                let name = COLUMNS[k + 2];
                 wrong(
                     line,
                     format!(
-                        "`{text}` in the column `{}` is not a number",
-                        COLUMNS[k + 2]
+                        "`{text}` in the column `{name}` is not a number in {unit} or with a unit"
                     ),
                 )
             })?;
@@ -111,8 +132,15 @@ pub fn read(text: &str, crowd: &Crowd) -> Result<Vec<Mover>, StartFileError> {
         return Err(wrong(it.1, message));
     }
     let lines: Vec<u64> = found.iter().map(|it| it.1).collect();
-    let movers: Vec<Mover> = found.into_iter().map(|it| it.2).collect();
+    let mut movers: Vec<Mover> = found.into_iter().map(|it| it.2).collect();
+    let moved = settle(crowd, &mut movers, true);
     check(crowd, &movers, true).map_err(|error| misplaced(&error, &lines))?;
+    if moved > 0.0 {
+        observer.warn(&format!(
+            "tiles of the start overlap slightly: they are moved out to contact, by up to {:.3} um",
+            1e6 * moved
+        ));
+    }
     Ok(movers)
 }
 

@@ -46,7 +46,7 @@ pub struct Effort {
     pub source: Source,
 
     /// Drag rate (1/s) [default: 0.005 for docking runs, 50 for overdamped motion]
-    #[arg(long, value_name = "C", value_parser = request::positive)]
+    #[arg(long, value_name = "C", value_parser = request::rate)]
     pub drag: Option<f64>,
 
     /// Friction and restitution.

@@ -14,6 +14,7 @@ mod leaving;
 mod lift;
 pub mod matching;
 mod motion;
+mod nearest_free;
 mod points;
 mod shape;
 mod stretch;

@@ -8,9 +8,6 @@ use crate::problem::Problem;
 use crate::roadmap::Point;
 use crate::roadmap::knot::{Knot, inner_extremes};
 
-/// Overlap (m) that is left in place when a configuration is pushed out of contact.
-const RESIDUAL: f64 = 1e-12;
-
 /// Additional search distance (m) for contacts beyond what a step needs.
 const MARGIN: f64 = 1e-6;
 
@@ -273,23 +270,8 @@ pub fn reach(problem: &Problem, step: &Vector3<f64>) -> f64 {
 /// The nearest free configuration, where the tiles overlap by less than `size` (m); `None` if none
 /// is found or the table ends.
 pub fn settle(problem: &Problem, q: &Configuration, size: f64) -> Option<Configuration> {
-    if problem.is_clear(q) {
-        return Some(*q);
+    match &problem.contact {
+        Some(contact) => contact.nearest_free(q, size, |theta| problem.mass_metric(theta)),
+        None => Some(*q),
     }
-    let mut q = *q;
-    for _ in 0..12 {
-        let near = constraints(problem, &q, size + problem.scaled(MARGIN));
-        let deepest = near.iter().map(|c| c.gap).fold(0.0, f64::min);
-        if deepest >= -problem.scaled(RESIDUAL) {
-            break;
-        }
-        let metric = problem.mass_metric(q.theta);
-        let (push, _) =
-            closest_admissible((Vector3::zeros(), problem.scaled(1.0)), &metric, &near)?;
-        if length(&push, &metric) > 2.0 * size {
-            return None;
-        }
-        q = q.moved(push);
-    }
-    problem.is_clear(&q).then_some(q)
 }

@@ -50,6 +50,7 @@ mod neighbours;
 mod pair;
 pub mod run;
 pub mod settings;
+pub mod settle;
 pub mod start;
 mod stepper;
 

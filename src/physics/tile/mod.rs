@@ -75,6 +75,17 @@ pub struct Tile {
     pub thickness: f64,
 }
 
+/// Overlaps (m) below this, and below this share of the faces, come from poses with few digits.
+const ROUNDED: f64 = 50e-6;
+const ROUNDED_SHARE: f64 = 1e-3;
+
+/// Overlaps (m) of two tiles below this depth come from poses written with few digits: the tiles are
+/// meant to touch.
+pub fn rounded_overlap(tiles: [&Tile; 2]) -> f64 {
+    let faces = tiles.map(Tile::longest_face);
+    ROUNDED.min(ROUNDED_SHARE * faces[0].min(faces[1]))
+}
+
 impl Tile {
     /// Moment of inertia (kg m^2) about the centre of mass, with the mass distributed evenly over
     /// the outline's area.
@@ -87,6 +98,11 @@ impl Tile {
         let sizes = self.magnets.iter();
         let sizes = sizes.map(|magnet| magnet.size[0].max(magnet.size[1]));
         sizes.fold(0.0, f64::max)
+    }
+
+    /// Length (m) of its longest face.
+    pub fn longest_face(&self) -> f64 {
+        self.faces.iter().map(Face::length).fold(0.0, f64::max)
     }
 
     /// Radius of gyration (m) about the reference point.

@@ -21,7 +21,7 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// The progress reported by the work.
 #[derive(Default)]
-pub struct Told(Mutex<(f64, String)>);
+pub struct Told(Mutex<(f64, String)>, Mutex<Vec<String>>);
 
 impl Told {
     /// Reports the finished share (0 to 1) and the name of the next stage.
@@ -45,6 +45,11 @@ impl Observer for Told {
     fn part(&self, name: &'static str, done: usize, count: usize) {
         let mut told = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         told.1 = format!("{name}, {done} of {count}");
+    }
+
+    fn warn(&self, what: &str) {
+        let mut warnings = self.1.lock().unwrap_or_else(PoisonError::into_inner);
+        warnings.push(what.to_owned());
     }
 }
 
@@ -99,7 +104,7 @@ fn attend<T: Send>(
     check_memory(memory::check_threads(threads()))?;
     let (told, interruption) = (Told::default(), Interruption::default());
     let (told, interruption) = (&told, &interruption);
-    py.detach(|| {
+    let done = py.detach(|| {
         thread::scope(|scope| {
             let (finished, waits) = channel::<()>();
             let worker = scope.spawn(move || {
@@ -126,7 +131,12 @@ fn attend<T: Send>(
                 (None, Err(payload)) => Err(broken(payload.as_ref())),
             }
         })
-    })
+    });
+    let warnings = told.1.lock().unwrap_or_else(PoisonError::into_inner);
+    for warning in warnings.iter() {
+        fault::warn(py, warning)?;
+    }
+    done
 }
 
 /// Handles signals and shows progress.

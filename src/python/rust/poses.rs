@@ -5,6 +5,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyBytes, PyString};
 use rayon::prelude::*;
 use tilebind::potential::Potential;
 use tilebind::{Configuration, interruption, memory};
@@ -13,7 +14,56 @@ use crate::{fault, job};
 
 /// Poses from users: anything that NumPy can convert to an array (..., 3) of x (m), y (m) and theta
 /// (rad).
-pub type Poses<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+pub struct Poses<'py>(PyArrayLikeDyn<'py, f64, AllowTypeChange>);
+
+impl<'py> std::ops::Deref for Poses<'py> {
+    type Target = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Poses<'py> {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        check_numbers(&value)?;
+        Ok(Self(value.extract()?))
+    }
+}
+
+/// Refuses what NumPy would turn into numbers although it has none: text, bytes, and arrays with
+/// masked entries, whose values are not meant.
+fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let text = || {
+        Err(fault::value(
+            "text and bytes are no poses: x (m), y (m) and theta (rad) are numbers",
+        ))
+    };
+    if value.is_instance_of::<PyString>()
+        || value.is_instance_of::<PyBytes>()
+        || value.is_instance_of::<PyByteArray>()
+    {
+        return text();
+    }
+    let numpy = value.py().import("numpy")?;
+    let kind: String = numpy
+        .call_method1("asarray", (value,))?
+        .getattr("dtype")?
+        .getattr("kind")?
+        .extract()?;
+    if ["S", "U"].contains(&&kind[..]) {
+        return text();
+    }
+    let masked = numpy.getattr("ma")?.call_method1("is_masked", (value,))?;
+    match masked.is_truthy()? {
+        true => Err(fault::value(
+            "masked entries are no poses: leave them out, or fill them (numpy.ma.filled(poses, numpy.nan))",
+        )),
+        false => Ok(()),
+    }
+}
 
 /// Numbers of a pose beyond this (m, rad) count as infinite, since their powers would be.
 const FARTHEST: f64 = 1e30;
@@ -173,6 +223,7 @@ pub fn kernel_seconds(
 
 /// One pose.
 pub fn pose(value: &Bound<'_, PyAny>) -> PyResult<Configuration> {
+    check_numbers(value)?;
     let numbers: PyArrayLike1<'_, f64, AllowTypeChange> = value
         .extract()
         .map_err(|_| fault::value("a pose is three numbers: x (m), y (m) and theta (rad)"))?;

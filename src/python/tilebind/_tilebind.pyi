@@ -32,7 +32,7 @@ class _AirTable(tuple[float, float]):
         shard: str | None = None,
         shaking: float | None = None,
         correlation: float | None = None,
-        orbital: tuple[float, float] | None = None,
+        orbital: tuple[float | str, float | str] | str | None = None,
         drag: float = 0.005,
         friction: float = 0.3,
         restitution: float = 0.01,
@@ -61,6 +61,8 @@ class Design:
         magnets: int | None = None,
         shape: Literal["flat", "tab", "arc", "sine", "triangle"] | None = None,
         magnet: str | None = None,
+        thickness: float | str | None = None,
+        material: str | None = None,
     ) -> Design: ...
     def replace(self, key: str, value: _Value) -> Design: ...
     def to_dict(self) -> dict[str, Any]: ...

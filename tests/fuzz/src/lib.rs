@@ -16,6 +16,7 @@ use jobs::sweep::Plan;
 use jobs::table::{About, read_start};
 use jobs::text::with_commas;
 use physics::Configuration;
+use physics::observer::Silent;
 
 pub use check_bounds::bounds;
 
@@ -154,6 +155,6 @@ pub fn table(text: &str, pair: &Design) {
     }));
     tell(distances::PairDistances::read(text).map(|_| String::new()));
     let (_, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
-    let read = read_start(text, &crowd).map_err(|error| error.to_string());
+    let read = read_start(text, &crowd, &Silent).map_err(|error| error.to_string());
     tell(read.map(|_| String::new()));
 }

@@ -1,6 +1,7 @@
 //! New designs made to given measures, valid as written.
 
 mod code;
+mod material;
 mod shape;
 mod shop;
 
@@ -12,6 +13,7 @@ use super::{Design, DesignError};
 use physics::tile::barcode::Barcode;
 
 use code::code;
+pub use material::Material;
 pub use shape::Shape;
 pub use shop::ShopMagnet;
 
@@ -42,8 +44,8 @@ const ACROSS: f64 = 8.0;
 const LARGEST: f64 = 1.5;
 /// Share of a face that magnets may take.
 const USED: f64 = 0.85;
-/// Mass of the paper's tile over its volume (kg / m^3).
-const DENSITY: f64 = 0.1 / (0.43 * 0.43 * 0.013);
+/// Density of magnets of neodymium (kg / m^3).
+const OF_MAGNETS: f64 = 7.5e3;
 /// If magnets do not fit, sides this much longer are tried, so many times.
 const LONGER: f64 = 1.03;
 const LENGTHENED: u8 = 60;
@@ -65,6 +67,10 @@ pub struct Start {
     pub shape: Shape,
     /// The magnets; by default the best fitting ones on the market.
     pub magnet: Option<ShopMagnet>,
+    /// Thickness of both tiles (m); by default in proportion to the side.
+    pub thickness: Option<f64>,
+    /// What they are made of.
+    pub material: Material,
 }
 
 impl Default for Start {
@@ -75,6 +81,8 @@ impl Default for Start {
             magnets: 4,
             shape: Shape::Tab,
             magnet: None,
+            thickness: None,
+            material: Material::USUAL,
         }
     }
 }
@@ -125,7 +133,7 @@ impl Start {
     /// Magnets with their spacings (m), the best first.
     fn rows(&self) -> Vec<([f64; 3], f64)> {
         let inner = self.radius() * libm::cos(PI / f64::from(self.sides));
-        let own = self.magnet.map(|magnet| magnet.size);
+        let own = self.magnet.map(|magnet| magnet.in_plane());
         let blocks = own.as_ref().map_or(&BLOCKS[..], std::slice::from_ref);
         let smallest = blocks[blocks.len() - 1];
         let gaps = self.magnets.max(2) - 1;
@@ -225,26 +233,40 @@ impl Start {
             magnets,
             shape,
             magnet,
+            material,
+            ..
         } = *self;
         let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
-        let thickness = tenths((side / 5.0).min(0.013).max(block[2] + 1e-3));
-        let mass = four_digits(DENSITY * area * thickness);
+        let usual = tenths((side / 5.0).min(0.013).max(block[2] + 1e-3));
+        let thickness = self.thickness.unwrap_or(usual);
+        let shape_of_magnets = magnet.map_or(Default::default(), |own| own.shape);
+        let taken = magnets as f64 * shape_of_magnets.volume(block);
+        let density = material.density;
+        let mass = four_digits(density * (area * thickness - taken) + OF_MAGNETS * taken);
+        let made = match material.name {
+            "" => format!("{density} kg/m3"),
+            name => format!("{name}, {density} kg/m3"),
+        };
         let table = (6.5 * self.radius() * 100.0).ceil() / 100.0;
         let (from, to) = match sides {
             4 => ("east".to_owned(), "west".to_owned()),
             _ => ("0".to_owned(), (sides / 2).to_string()),
         };
-        let code = code(magnets);
+        let stands = magnet.is_some_and(|own| own.up);
+        let code = match stands {
+            true => code(magnets).replace('N', "U").replace('S', "D"),
+            false => code(magnets),
+        };
         let mate = Barcode::parse(&code).map_or(String::new(), |code| code.mate().to_string());
         let (profile, how) = match shape.profile(side) {
             Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
             None => Default::default(),
         };
-        let shape_of_magnets = magnet.map_or(Default::default(), |own| own.shape);
-        let lengths = ShopMagnet::lengths(block, shape_of_magnets);
+        let lengths = ShopMagnet::lengths(block, shape_of_magnets, stands);
         let strength = magnet.map_or_else(|| "remanence = 1.2".to_owned(), |own| own.strength());
-        let tile =
-            format!("side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}");
+        let tile = format!(
+            "side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}  # of {made}, with the magnets"
+        );
         let mut text = String::new();
         let _ = write!(
             text,

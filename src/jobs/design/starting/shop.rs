@@ -13,11 +13,13 @@ pub struct ShopMagnet {
     pub size: [f64; 3],
     pub(super) shape: Shape,
     strength: Strength,
+    /// Whether it is magnetised across the tile.
+    pub(super) up: bool,
 }
 
 const HELP: &str = "write length x width x height as sold, magnetised along the last: \"10 x 5 x \
     2 mm N42\", or diameter x height of a disc: \"10 x 3 mm N42\"; instead of the grade, a pull \
-    (\"1.8 kg\") or a remanence (\"1.2 T\")";
+    (\"1.8 kg\") or a remanence (\"1.2 T\"); and `up` for an axis across the tile";
 
 impl ShopMagnet {
     /// Reads the dimensions of a block (by the shops' convention it is magnetised through the last
@@ -35,7 +37,7 @@ impl ShopMagnet {
     /// If it is not such a description; the message says what is missing.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = |what: &str| format!("{what}; {HELP}");
-        let plain = plain(text);
+        let (plain, up) = plain(text);
         let parts: Vec<&str> = plain.splitn(3, BY).map(str::trim).collect();
         let (last, before) = parts.split_last().unwrap_or((&"", &[]));
         let (last, unit, rest) = last_length(last)
@@ -74,20 +76,46 @@ impl ShopMagnet {
             size,
             shape,
             strength,
+            up,
         })
     }
 
+    /// Its size along the face's normal, along the face and through the tile (m).
+    pub(super) fn in_plane(&self) -> [f64; 3] {
+        let [axis, long, short] = self.size;
+        match self.up {
+            true => [short, long, axis],
+            false => self.size,
+        }
+    }
+
     /// The lines of a design file for its size.
-    pub(super) fn lengths(size: [f64; 3], shape: Shape) -> String {
-        match (shape, size) {
+    /// Those of an upright one are stated with its axis first.
+    pub(super) fn lengths(size: [f64; 3], shape: Shape, up: bool) -> String {
+        let size = match (up, size) {
+            (true, [short, long, axis]) => [axis, long, short],
+            (false, size) => size,
+        };
+        let axis = match up {
+            true => {
+                "\naxis = \"up\"                  # magnetised across the tile: codes of U and D"
+            }
+            false => "",
+        };
+        let along = match up {
+            true => "its axis",
+            false => "its axis, which is the face's normal",
+        };
+        let lengths = match (shape, size) {
             (Shape::Block, [a, b, c]) => format!(
                 "size = [{a}, {b}, {c}]  # along its axis, along the face, through the thickness"
             ),
             (Shape::Disc, [height, diameter, _]) => format!(
                 "shape = \"disc\"\ndiameter = {diameter}\nheight = {height}                # along \
-                 its axis, which is the face's normal"
+                 {along}"
             ),
-        }
+        };
+        lengths + axis
     }
 
     /// The line of a design file for its strength.
@@ -108,20 +136,27 @@ impl ShopMagnet {
 const BY: char = '\u{d7}';
 
 /// Normalises the notation: one sign between lengths, `in` for inches, the grade after them, and no
-/// redundant words for the form.
-fn plain(text: &str) -> String {
+/// redundant words for the form. Also whether it is to be upright.
+fn plain(text: &str) -> (String, bool) {
     let text = text
         .replace(['"', '\u{2033}', '\u{201d}'], " in ")
         .replace([',', '\u{d8}', '\u{f8}', '\u{2300}'], " ");
     let text = with_one_sign(&text);
-    let is_shape = |word: &&str| ["disc", "disk", "block"].contains(&word.to_lowercase().as_str());
-    let mut words: Vec<&str> = text.split_whitespace().filter(|w| !is_shape(w)).collect();
+    let is_up = |word: &str| ["up", "upright", "standing"].contains(&word.to_lowercase().as_str());
+    let up = text.split_whitespace().any(is_up);
+    let is_shape = |word: &&str| {
+        ["disc", "disk", "block", "magnet", "cylinder"].contains(&word.to_lowercase().as_str())
+    };
+    let mut words: Vec<&str> = text
+        .split_whitespace()
+        .filter(|w| !is_shape(w) && !is_up(w))
+        .collect();
     // A grade has up to three words: samarium cobalt 28.
     let leads = |count: &usize| Grade::named(&words[..*count].join(" ")).is_some();
     if let Some(count) = (1..=words.len().min(3)).rev().find(leads) {
         words.rotate_left(count);
     }
-    words.join(" ")
+    (words.join(" "), up)
 }
 
 /// The text with [`BY`] for the `x` or `*` between lengths, but not for that of `YX18`.
@@ -235,11 +270,14 @@ mod tests {
                 Ok(ShopMagnet {
                     size,
                     shape,
-                    strength
+                    strength,
+                    up: false,
                 }),
                 "{text}"
             );
         }
+        let up = ShopMagnet::parse("6 x 3 mm disc N42 up").unwrap();
+        assert!(up.up && up.in_plane() == [0.006, 0.006, 0.003]);
         for text in [
             "",
             "10 mm",

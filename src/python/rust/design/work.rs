@@ -63,7 +63,8 @@ impl Design {
             None => settings.set_item("to", "free")?,
         }
         let design = &self.content.design;
-        let query = request::<query::Request>(Some(&settings))?.query(design);
+        let asked = request::<query::Request>(Some(&settings))?;
+        let query = job::run(py, Some(false), |told| asked.query(design, told))?;
         job::check_memory(query.settings.check_memory())?;
         let answer = job::answer(py, progress, |told| query::barrier(design, &query, told))?;
         let barrier = &answer.barrier;
@@ -182,7 +183,7 @@ impl Design {
     fn _on_table<'py>(
         &self,
         py: Python<'py>,
-        time: f64,
+        time: Bound<'py, PyAny>,
         start: Option<std::path::PathBuf>,
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
@@ -197,7 +198,7 @@ impl Design {
             let designs = std::slice::from_ref(design);
             let (about, crowd) = About::of_designs(designs)?;
             let text = text.as_deref().map(|text| ("start", text));
-            let start = asked.start((about.designs.len(), &crowd), text)?;
+            let start = asked.start((about.designs.len(), &crowd), text, told)?;
             asked.check()?;
             let found = put((&about, crowd), &asked, start, &[], told);
             let found = found.map_err(|error| error.to_string())?;

@@ -1,0 +1,107 @@
+//! Whether the codes of the target faces are mates.
+
+use crate::design::Design;
+use physics::configuration::Configuration;
+use physics::problem::Problem;
+use physics::tile::{Face, Magnet, Tile};
+
+/// A bond weaker than this share of the mates' is not one of mates.
+const WEAK: f64 = 0.7;
+/// A slid contact this much stronger than the bond is worth a warning.
+const STRONGER: f64 = 1.1;
+/// Steps of a slide in half widths of the smallest magnet, and the largest number of them either way.
+const MOST_STEPS: usize = 400;
+
+/// A sentence that the target faces bind far less than each would bind its own mate, or than they do
+/// slid along each other; `None` if the codes are fine.
+pub(crate) fn fault(design: &Design, problem: &Problem) -> Option<String> {
+    let pair = &design.pair;
+    let (fixed, moving) = (&pair.fixed, &pair.moving);
+    let bond = problem.potential().energy(&pair.bound);
+    if bond >= 0.0 || problem.is_inert() {
+        return None;
+    }
+    let (f, m) = pair.target;
+    let strength = |fixed: &Tile, moving: &Tile| {
+        let potential = design.interaction.between(fixed, moving).potential;
+        potential.energy(&pair.bound)
+    };
+    // Each face alone against its own mate: for mates of unlike magnets the mean is geometric.
+    let [a, b] = [only(fixed, f), only(moving, m)];
+    let own = strength(&a, &b);
+    let of_fixed = strength(&a, &mated(&b, m, &fixed.faces[f], &a.magnets));
+    let of_moving = strength(&mated(&a, f, &moving.faces[m], &b.magnets), &b);
+    let mates = -(of_fixed * of_moving).max(0.0).sqrt();
+    let help = format!(
+        "make the moving face the mate: {} = {{ mates = \"{}\" }} under [moving.faces]",
+        moving.faces[m].name, fixed.faces[f].name
+    );
+    let slid = slid(design, problem);
+    if let Some((way, energy)) = slid.filter(|(_, energy)| *energy < STRONGER * bond) {
+        return Some(format!(
+            "the codes are not mates: slid by {:.0} mm along the face they bind {} times as strongly; {help}",
+            1e3 * way,
+            physics::units::plain(energy / bond, 2)
+        ));
+    }
+    (mates < 0.0 && own > WEAK * mates).then(|| {
+        format!(
+            "the codes are not mates: they bind with {} % of the energy of mates; {help}",
+            physics::units::plain((100.0 * own / mates).max(0.0), 2)
+        )
+    })
+}
+
+/// A tile with the magnets of one face only.
+fn only(tile: &Tile, face: usize) -> Tile {
+    let mut bare = tile.clone();
+    bare.magnets.retain(|magnet| magnet.face == face);
+    bare
+}
+
+/// A tile whose face number `face` carries the mates of another face's magnets.
+fn mated(tile: &Tile, face: usize, other: &Face, magnets: &[Magnet]) -> Tile {
+    let own = &tile.faces[face];
+    let mate = |magnet: &Magnet| {
+        let from = magnet.position - other.middle();
+        let (s, h) = (from.dot(&other.tangent()), from.dot(&other.normal()));
+        let outwards = |it: &Face| {
+            let normal = it.normal();
+            libm::atan2(normal.y, normal.x)
+        };
+        let turned = Magnet {
+            position: own.point(-s, h),
+            // Mirrored in the line between the faces; the poles are exchanged below.
+            angle: outwards(own) - (magnet.angle - outwards(other)),
+            face,
+            ..magnet.clone()
+        };
+        turned.reversed()
+    };
+    let mut tile = tile.clone();
+    tile.magnets = magnets.iter().map(mate).collect();
+    tile
+}
+
+/// The strongest free contact of the target faces slid along each other: how far (m), and its energy (J).
+fn slid(design: &Design, problem: &Problem) -> Option<(f64, f64)> {
+    let pair = &design.pair;
+    let face = pair.target_face();
+    let widths = pair.fixed.magnets.iter().chain(&pair.moving.magnets);
+    let width = widths
+        .map(|it| it.size[1].min(it.size[0]))
+        .fold(f64::INFINITY, f64::min);
+    let step = (0.5 * width).max(face.length() / MOST_STEPS as f64);
+    let steps = (face.length() / step).floor() as i64;
+    let poses = (-steps..=steps).filter(|k| *k != 0).map(|k| {
+        let way = step * k as f64;
+        let place = pair.bound.position() + face.tangent() * way;
+        (
+            way.abs(),
+            Configuration::new(place.x, place.y, pair.bound.theta),
+        )
+    });
+    let free = poses.filter(|(_, q)| problem.is_free(q));
+    let all = free.map(|(way, q)| (way, problem.potential().energy(&q)));
+    all.min_by(|a, b| a.1.total_cmp(&b.1))
+}

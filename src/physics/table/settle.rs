@@ -1,0 +1,120 @@
+//! Tiles that overlap slightly, because their poses were written with few digits, moved apart.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::crowd::Crowd;
+use super::mover::Mover;
+use super::neighbours::Neighbours;
+use super::pair::{Pose, Two};
+use crate::configuration::{Configuration, wrap_angle};
+use crate::dynamics::Motion;
+use crate::tile::rounded_overlap;
+
+/// Rounds over all pairs; tiles that are put apart may meet others.
+const ROUNDS: usize = 100;
+/// Largest movement (m) of a tile; more is left to the check.
+const FARTHEST: f64 = 1e-3;
+
+/// Moves tiles that overlap by less than [`rounded_overlap`] apart, and tiles that extend as little
+/// beyond the rim onto the table; returns the largest movement of a tile (m), 0 if none is moved.
+/// Deeper overlaps are left as they are.
+pub fn settle(crowd: &Crowd, movers: &mut [Mover], walls: bool) -> f64 {
+    let given: Vec<Configuration> = movers.iter().map(|it| configuration(crowd, it)).collect();
+    let mut places = given.clone();
+    let kinds: Vec<usize> = movers.iter().map(|it| it.kind).collect();
+    let positions: Vec<Vector2<f64>> = given.iter().map(Configuration::position).collect();
+    let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
+    let widest = 2.0 * (widest.fold(0.0, f64::max) + FARTHEST);
+    let mut neighbours = Neighbours::default();
+    let pairs = neighbours.within(widest, &positions);
+    for _ in 0..ROUNDS {
+        crate::interruption::check();
+        let mut moved = false;
+        for &[i, j] in pairs {
+            if let Some(to) = apart(crowd, [kinds[i], kinds[j]], [places[i], places[j]]) {
+                places[j] = to;
+                moved = true;
+            }
+        }
+        for (kind, place) in kinds.iter().zip(&mut places).filter(|_| walls) {
+            if let Some(to) = inside(crowd, *kind, place) {
+                *place = to;
+                moved = true;
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+    let mut farthest: f64 = 0.0;
+    for ((mover, given), place) in movers.iter_mut().zip(&given).zip(&places) {
+        let by = (place.position() - given.position()).norm();
+        if place == given || by > FARTHEST {
+            continue;
+        }
+        farthest = farthest.max(by);
+        let motion = Motion {
+            configuration: *place,
+            velocity: mover.velocity,
+        };
+        *mover = Mover::new(crowd, mover.kind, &motion);
+    }
+    farthest
+}
+
+fn configuration(crowd: &Crowd, mover: &Mover) -> Configuration {
+    mover.motion(crowd).configuration
+}
+
+/// Where the second of two tiles that overlap slightly touches the first.
+fn apart(crowd: &Crowd, kinds: [usize; 2], places: [Configuration; 2]) -> Option<Configuration> {
+    let (couple, _) = crowd.couple(kinds[0], kinds[1]);
+    // The indices of the couple's fixed and moving tile.
+    let Two { first, second } = Two::of(kinds, [0, 1]);
+    let fixed = Pose::new(places[first]);
+    let q = fixed.to(&places[second]);
+    if q.position().norm() > couple.radii() || couple.contact.is_free(&q) {
+        return None;
+    }
+    let tiles = kinds.map(|kind| &crowd.kinds[kind].tile);
+    let depth = -couple.contact.clearance(&q);
+    if depth >= rounded_overlap(tiles) {
+        return None;
+    }
+    let gyration = tiles[second].radius_of_gyration();
+    let metric = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, gyration * gyration));
+    let to = couple.contact.nearest_free(&q, 2.0 * depth, |_| metric)?;
+    if second == 1 {
+        let at = fixed.transform(to.position());
+        return Some(Configuration::new(
+            at.x,
+            at.y,
+            wrap_angle(fixed.at.theta + to.theta),
+        ));
+    }
+    // The couple's fixed tile is moved, as seen from the other one.
+    let theta = places[second].theta - to.theta;
+    let turned = Configuration::new(0.0, 0.0, theta).rotation() * to.position();
+    let at = places[second].position() - turned;
+    Some(Configuration::new(at.x, at.y, wrap_angle(theta)))
+}
+
+/// Where a tile that extends slightly beyond the rim touches it.
+fn inside(crowd: &Crowd, kind: usize, q: &Configuration) -> Option<Configuration> {
+    let tile = &crowd.kinds[kind].tile;
+    let beyond = tile.outline.beyond_rim(q, crowd.half_size);
+    if beyond <= 0.0 || beyond >= rounded_overlap([tile, tile]) {
+        return None;
+    }
+    let corners = tile.outline.vertices().iter();
+    let corners: Vec<_> = corners.map(|it| q.transform(*it)).collect();
+    let [x, y] = [0, 1].map(|axis| {
+        let half = crowd.half_size[axis];
+        let over = |sign: f64| {
+            let reached = corners.iter().map(|corner| sign * corner[axis] - half);
+            reached.fold(0.0, f64::max)
+        };
+        over(-1.0) - over(1.0)
+    });
+    Some(Configuration::new(q.x + x, q.y + y, q.theta))
+}
