@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use physics::tile::Magnet;
 use physics::tile::demagnetising::MEASURED;
 use physics::tile::magnet::Shape;
-use physics::tile::strength::{PULL_SPREAD, Strength};
+use physics::tile::strength::{Strength, pull_spread};
 use physics::units::to_digits;
 
 /// The meaning and the uncertainty of a shop's grade or pull.
@@ -39,14 +39,16 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
         }
         Strength::Pull(force) => {
             let found = magnet.remanence();
-            let [low, high] = pulled_range(found);
+            let [low, high] = pulled_range(magnet);
+            let spread = pull_spread(magnet.form.shape, size);
             format!(
                 "{block}, with a pull of {} on thick steel: remanence {} T for ideal magnet and \
-                 plate; sellers' values are {} to {} of ideal, so it may be {} to {} T",
+                 plate; sellers' values for {} are {} to {} of ideal, so it may be {} to {} T",
                 crate::tiles::force(*force),
                 three(found),
-                PULL_SPREAD[0],
-                PULL_SPREAD[1],
+                spread.name,
+                spread.range[0],
+                spread.range[1],
                 three(low),
                 three(high),
             )
@@ -55,10 +57,10 @@ pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
     }
 }
 
-/// The range of a remanence (T) derived from a shop's pull, which is proportional to its square.
-fn pulled_range(remanence: f64) -> [f64; 2] {
-    let [least, most] = PULL_SPREAD;
-    [most, least].map(|share| remanence / share.sqrt())
+/// The range of a magnet's remanence (T) derived from a shop's pull, which is proportional to its square.
+fn pulled_range(magnet: &Magnet) -> [f64; 2] {
+    let [least, most] = pull_spread(magnet.form.shape, magnet.axis_first()).range;
+    [most, least].map(|share| magnet.remanence() / share.sqrt())
 }
 
 /// A number to four significant digits, without trailing zeros.
@@ -84,7 +86,7 @@ pub fn entry((strength, magnet): &(Strength, Magnet)) -> Value {
         }
         Strength::Pull(force) => {
             entry["pull_N"] = json!(force);
-            entry["remanence_range_T"] = json!(pulled_range(found));
+            entry["remanence_range_T"] = json!(pulled_range(magnet));
         }
         _ => {}
     }

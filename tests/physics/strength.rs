@@ -9,7 +9,7 @@ use tilebind::potential::{CuboidPotential, MagnetModel, Potential};
 use tilebind::tile::Magnet;
 use tilebind::tile::grade::{Grade, NEODYMIUM};
 use tilebind::tile::magnet::{Form, Shape};
-use tilebind::tile::strength::{PULL_SPREAD, Strength, pull, surface_field_share};
+use tilebind::tile::strength::{Strength, pull, pull_spread, surface_field_share};
 use tilebind::units::MU0;
 
 /// The field at a point on the axis, summed over both pole faces cut into small charges.
@@ -160,7 +160,7 @@ fn what_a_shop_states_lies_within_the_spread() {
     for ([a, b, l], stated) in SOLD {
         let size = [l, a, b].map(|x| x * 1e-3);
         let share = stated / pull(Shape::Block, size, n38.remanence[1]);
-        let [least, most] = PULL_SPREAD;
+        let [least, most] = pull_spread(Shape::Block, size).range;
         assert!((least - 0.01..most + 0.01).contains(&share), "{share}");
         // The range of remanence from the pull contains the grade's remanence.
         let told =
@@ -168,6 +168,44 @@ fn what_a_shop_states_lies_within_the_spread() {
         let known = n38.remanence[1];
         let range = [told / most.sqrt() - 0.01, told / least.sqrt() + 0.01];
         assert!(range[0] < known && known < range[1], "{range:?}");
+    }
+}
+
+#[test]
+fn the_range_of_a_pull_contains_the_remanence_of_other_shapes() {
+    const IN: f64 = 0.0254;
+    const POUND: f64 = 4.448_222;
+    // Quickfield's bar of N35 and its flat disc of N40, D82, a disc of N48 as high as wide.
+    for (shape, [l, a, b], remanence, stated) in [
+        (
+            Shape::Block,
+            [0.25 * IN, 1.5 * IN, 0.25 * IN],
+            1.26,
+            14.3 * POUND,
+        ),
+        (
+            Shape::Disc,
+            [IN / 32.0, 3.0 * IN / 16.0, 3.0 * IN / 16.0],
+            1.28,
+            2.49,
+        ),
+        (
+            Shape::Disc,
+            [IN / 8.0, IN / 2.0, IN / 2.0],
+            1.32,
+            6.44 * POUND,
+        ),
+        (Shape::Disc, [3e-3, 3e-3, 3e-3], 1.38, 0.7 * POUND),
+    ] {
+        let size = [l, a, b];
+        let told = MU0 * Strength::Pull(stated).moment(shape, size) / shape.volume(size);
+        let range = pull_spread(shape, size)
+            .range
+            .map(|share| told / share.sqrt());
+        assert!(
+            range[1] < remanence && remanence < range[0],
+            "{range:?} {remanence}"
+        );
     }
 }
 

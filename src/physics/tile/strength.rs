@@ -22,11 +22,35 @@ pub enum Strength {
     Pull(f64),
 }
 
-/// The stated pull of a block of N38 divided by the force of the ideal block on ideal steel: for
-/// seven blocks from 10 x 4 x 1.5 to 42 x 20 x 5 mm, magnetised through the last (dhit.pl), 0.95,
-/// 1.00, 1.08, 0.74, 0.82, 0.93 and 1.00. Thin plates and small blocks lose most to their coating
-/// and to rough or thin steel.
-pub const PULL_SPREAD: [f64; 2] = [0.74, 1.08];
+/// The stated pull of a magnet divided by the force of the ideal magnet on ideal steel, by its shape:
+/// what was found, with a margin for as many magnets as were not looked at.
+///
+/// - plates and blocks: seven of N38 from 10 x 4 x 1.5 to 42 x 20 x 5 mm, magnetised through the last
+///   (dhit.pl): 0.95, 1.00, 1.08, 0.74, 0.82, 0.93 and 1.00;
+/// - bars, whose pole face is more than four times as long as wide, or shorter than the magnet: 1.5 x
+///   1/4 x 1/4 in of 1.26 T (quickfield.com, block and ferromagnet): 0.65;
+/// - discs up to half as high as wide: 3/16 x 1/32 in of 1.28 T (quickfield.com, permanent magnet
+///   force): 0.93; 1/2 x 1/8 in of up to 1.32 T (D82, magpylib issue 829): 0.84;
+/// - higher discs: 3 x 3 mm of N48 (ahmagnet.com): 0.67.
+pub fn pull_spread(shape: Shape, [l, a, b]: [f64; 3]) -> PullSpread {
+    let (long, short) = (a.max(b), a.min(b));
+    let (name, range) = match shape {
+        Shape::Block if long > 4.0 * short || l > short => ("bars", [0.55, 1.1]),
+        Shape::Block => ("blocks", [0.65, 1.15]),
+        Shape::Disc if l > 0.5 * a => ("high discs", [0.55, 1.1]),
+        Shape::Disc => ("flat discs", [0.7, 1.1]),
+    };
+    PullSpread { name, range }
+}
+
+/// The range of stated pulls over ideal ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PullSpread {
+    /// The magnets, in the plural.
+    pub name: &'static str,
+    /// The least and the largest ratio.
+    pub range: [f64; 2],
+}
 
 impl Strength {
     /// The moment (A m^2) of a magnet of `size` (m; along its axis first): `m = Br V / mu0`, with
