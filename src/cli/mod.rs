@@ -12,6 +12,7 @@ mod dock;
 mod energy;
 mod failure;
 mod figures;
+mod help;
 mod init;
 mod input;
 mod interrupt;
@@ -40,6 +41,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use tilebind::text::with_point;
 
@@ -130,7 +132,7 @@ impl Command {
 pub fn parse() -> Result<Arguments, clap::Error> {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     Arguments::try_parse_from(&arguments).or_else(|error| match error.kind() {
-        clap::error::ErrorKind::UnknownArgument => Arguments::try_parse_from(joined(arguments)),
+        ErrorKind::UnknownArgument => Arguments::try_parse_from(joined(arguments)),
         _ => Err(error),
     })
 }
@@ -162,6 +164,13 @@ fn joined(arguments: Vec<OsString>) -> Vec<OsString> {
 /// Prints clap's output instead of a command's: help, the version, or an error.
 pub fn answer(mut answer: clap::Error) -> ExitCode {
     correct(&mut answer);
+    let is_help = matches!(
+        answer.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+    );
+    if is_help {
+        return tell_help(&answer);
+    }
     let is_version = answer.kind() == clap::error::ErrorKind::DisplayVersion;
     let is_verbose = || std::env::args_os().any(|it| it == "--verbose");
     let printed = answer
@@ -177,11 +186,31 @@ pub fn answer(mut answer: clap::Error) -> ExitCode {
     }
 }
 
+/// Prints help that fits the terminal.
+fn tell_help(answer: &clap::Error) -> ExitCode {
+    let help = answer.render();
+    let text = help::wrapped(&help.ansi().to_string(), style::columns());
+    let coloured =
+        style::is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|it| it.is_empty());
+    let text = match coloured {
+        true => text,
+        false => console::strip_ansi_codes(&text).into_owned(),
+    };
+    if answer.use_stderr() {
+        tell(text.trim_end());
+        return ExitCode::from(WRONG);
+    }
+    match print(&text) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(),
+    }
+}
+
 /// Improves clap's message: explains decimal commas, removes the tip to pass an unknown option as a
 /// value, and says where else the magnet model can be set.
 fn correct(answer: &mut clap::Error) {
     use clap::builder::StyledStr;
-    use clap::error::{ContextKind, ContextValue, ErrorKind};
+    use clap::error::{ContextKind, ContextValue};
     if answer.kind() == ErrorKind::ValueValidation {
         let value = match answer.get(ContextKind::InvalidValue) {
             Some(ContextValue::String(value)) => value,
