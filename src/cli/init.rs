@@ -20,6 +20,7 @@ Examples:
   tilebind init my-tile.toml
   tilebind init hexagon.toml --sides 6 --side 0.12 --magnets 3 --shape arc
   tilebind init small.toml --side \"10 cm\" --magnet \"10 x 5 x 2 mm N42\"
+  tilebind init tray.toml --side \"60 mm\" --thickness \"6 mm\" --material acrylic --magnet \"6 x 3 mm disc N42 up\"
   tilebind init - --side \"20 cm\" --shape sine | less")]
 pub struct Init {
     /// File to write; - for standard output

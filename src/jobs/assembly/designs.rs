@@ -16,6 +16,9 @@ pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
     })
 }
 
+/// Longest name of a tile in the names of files (bytes).
+const LONGEST_NAME: usize = 60;
+
 /// The tiles that meet and bind each other, with the names of their designs.
 pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
     let mut names = BTreeSet::new();
@@ -39,7 +42,12 @@ pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
 fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
     let tiles = &assembly.built.set.tiles;
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
-    let plain = |tile: usize| tiles[tile].name.replace(|c| !is_plain(c), "_");
+    // File names have at most 255 bytes.
+    let plain = |tile: usize| {
+        let name = tiles[tile].name.replace(|c| !is_plain(c), "_");
+        let end = name.floor_char_boundary(LONGEST_NAME);
+        name[..end].to_owned()
+    };
     let side = SIDES[axis.sides()[0]];
     format!("{}-{side}-{}", plain(*first), plain(*second))
 }

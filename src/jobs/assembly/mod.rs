@@ -51,6 +51,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::design::{DesignError, Place};
+use crate::text::is_invisible;
 
 pub use assembled::Assembly;
 pub use axis::{Axis, SIDES};
@@ -95,7 +96,7 @@ impl TileSet {
         let stem = Path::new(file).file_stem();
         let name = stem.map_or(file.into(), |stem| stem.to_string_lossy());
         // The name appears in comments of the written files.
-        set.name = name.replace(char::is_control, "\u{fffd}");
+        set.name = name.replace(is_invisible, "\u{fffd}");
         set.check(text, file)?;
         Ok(set)
     }
@@ -157,8 +158,8 @@ impl TileSet {
         let glues = self.glues.iter().map(|glue| &glue.name);
         let tiles = self.tiles.iter().map(|tile| &tile.name);
         let mut names = glues.clone().chain(tiles.clone());
-        if let Some(name) = names.find(|name| name.contains(char::is_control)) {
-            let message = format!("the name {name:?} is not a single line of text");
+        if let Some(name) = names.find(|name| name.contains(is_invisible)) {
+            let message = format!("the name {name:?} has characters that cannot be seen");
             return wrong("", message, "use only printable characters in it");
         }
         let mut seen = HashSet::new();
@@ -172,7 +173,7 @@ impl TileSet {
             return wrong(name, message, "give every tile its own name");
         }
         for tile in &self.tiles {
-            let ends = |c: char| c.is_control() || ")%".contains(c);
+            let ends = |c: char| is_invisible(c) || ")%".contains(c);
             if let Some(color) = tile.color.as_ref().filter(|color| color.contains(ends)) {
                 let message = format!("the tile `{}` has the colour {color:?}", tile.name);
                 return wrong(&tile.name, message, "use an X11 colour: red, or #ff0000");

@@ -74,15 +74,19 @@ fn fits_in(entry: &TileEntry, magnet: Magnet, span: Span) -> Result<Magnet> {
     if magnet.size[2] <= entry.thickness {
         return Ok(magnet);
     }
-    Err(entry.section.source.error(
-        span,
-        format!(
-            "a magnet {} m thick sticks out of a tile {} m thick",
-            magnet.size[2], entry.thickness
-        ),
-        "the third number of a magnet's size is along the tile's thickness; for an upright magnet \
-         it is the one along its axis",
-    ))
+    let [magnet, tile] = [magnet.size[2], entry.thickness].map(|it| four_digits(1e3 * it));
+    let message = format!("magnets {magnet} mm thick stick out of a tile {tile} mm thick");
+    let source = entry.section.source;
+    let help = format!(
+        "make the tiles {magnet} mm thick or more (`thickness`), or use flatter magnets: the third number of \
+         `size` is along the tile's thickness; for an upright magnet it is the one along its axis, for a disc \
+         the diameter"
+    );
+    // Once for all magnets.
+    match source.faults.named(&message) {
+        Some(told) => Err(told),
+        None => Err(source.error(span, message, help)),
+    }
 }
 
 /// Density (kg/m^3) of the densest material, osmium.

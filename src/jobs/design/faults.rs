@@ -24,6 +24,12 @@ impl Faults {
         }
     }
 
+    /// The fault with this message, if it has been found.
+    pub fn named(&self, message: &str) -> Option<DesignError> {
+        let found = self.found.borrow();
+        found.iter().find(|fault| fault.message == message).cloned()
+    }
+
     /// Notes that reading continues with a guess in place of a number.
     pub fn guess(&self) {
         self.guessed.set(true);

@@ -162,9 +162,7 @@ impl Size {
 fn size(section: &Section) -> Result<Option<Size>> {
     let [shape, size, diameter, height] =
         ["shape", "size", "diameter", "height"].map(|key| section.get(key));
-    let shape = shape
-        .map(|entry| entry.word(&[("block", Shape::Block), ("disc", Shape::Disc)]))
-        .transpose()?;
+    let shape = shape.map(|entry| body_shape(&entry)).transpose()?;
     let of_disc = diameter.as_ref().or(height.as_ref());
     match (shape, &size, of_disc) {
         (Some(Shape::Disc), Some(size), _) => {
@@ -195,6 +193,39 @@ fn size(section: &Section) -> Result<Option<Size>> {
         entry.transpose()
     };
     Ok(Some(Size::Disc(length(height)?, length(diameter)?)))
+}
+
+/// The shape of magnets; the error for one that is not modelled names the nearest substitute.
+fn body_shape(entry: &Entry) -> Result<Shape> {
+    let word = entry.string()?.to_lowercase();
+    let help = match word.as_str() {
+        "cube" | "cuboid" | "bar" | "square" | "rectangle" | "rectangular" | "prism" | "plate" => {
+            "it is a block: write \"block\" with its size, such as size = [\"5 mm\", \"5 mm\", \"5 mm\"]"
+        }
+        "disk" | "cylinder" | "rod" | "puck" | "round" | "coin" | "pin" => {
+            "it is a disc: write \"disc\" with its `diameter` and its `height`"
+        }
+        "sphere" | "ball" => {
+            "balls are not modelled. One that is fixed acts as a point dipole of its own volume, outside \
+             itself exactly: write a block of the same volume, size = 0.806 of the diameter in all three \
+             directions, and [potential] model = \"dipole\". One that turns in its pocket cannot be modelled"
+        }
+        "ring" | "tube" | "washer" | "countersunk" | "pot" | "cup" => {
+            "holes are not modelled. Nearest is a disc of the outer diameter with less remanence, in \
+             proportion to the volume: shape = \"disc\", remanence = 1.3 * (1 - (inner / outer)^2); close to \
+             its face it pulls too hard"
+        }
+        "arc" | "segment" | "sector" | "cone" | "horseshoe" | "ellipse" | "hexagon"
+        | "triangle" => {
+            "only blocks and discs are modelled: write the block or the disc of the same volume that is \
+             nearest to it"
+        }
+        "steel" | "iron" | "soft" => {
+            "steel without magnetisation is not modelled as a piece; soft iron behind magnets is: `shield`"
+        }
+        _ => return entry.word(&[("block", Shape::Block), ("disc", Shape::Disc)]),
+    };
+    Err(entry.error(format!("`shape` cannot be \"{}\"", entry.string()?), help))
 }
 
 /// Reads the strength of magnets, for which a table must use exactly one key.

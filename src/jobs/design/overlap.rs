@@ -11,6 +11,7 @@ use super::quantity::four_digits;
 use super::reader::Section;
 use super::tile::TileEntry;
 use physics::contact::{Placement, separation};
+use physics::tile::Magnet;
 use physics::tile::assembly::face_edges;
 
 /// Rejects magnets that overlap or stick out of their tile.
@@ -77,14 +78,44 @@ fn overlaps(entry: &TileEntry, built: &BuiltTile) {
                 four_digits(depth * 1e3)
             );
             let more = (depth * 1e4 - 1e-6).ceil() / 10.0;
-            let help = format!(
-                "space them out by {more} mm or more (`pitch`, `at`), or use smaller magnets \
-                 (`size`)"
-            );
+            let help = advice(built, [i, j], more);
             let span = built.placings[i].span;
             entry.section.source.error(span, message, help);
         }
     }
+}
+
+/// How to separate two magnets that overlap, by this many millimetres.
+fn advice(built: &BuiltTile, [i, j]: [usize; 2], more: f64) -> String {
+    let [first, second] = [i, j].map(|k| &built.tile.magnets[k]);
+    if first.face == second.face {
+        return format!(
+            "space them out by {more} mm or more (`pitch`, `at`), or use smaller magnets (`size`)"
+        );
+    }
+    // Magnets of two faces are apart if both are nearer to the middles of their faces.
+    let inwards = |magnet: &Magnet| {
+        let face = &built.tile.faces[magnet.face];
+        let s = (magnet.position - face.middle()).dot(&face.tangent());
+        let by = (1e-3 * more).min(s.abs());
+        let moved = Magnet {
+            position: magnet.position - face.tangent() * by.copysign(s),
+            ..magnet.clone()
+        };
+        (s.abs(), moved)
+    };
+    let [(s, a), (_, b)] = [inwards(first), inwards(second)];
+    if separation(&block(&a), &block(&b), &Placement::none()) >= -ROUNDING {
+        let percent = (more / s - 1e-6).ceil() / 10.0;
+        return format!(
+            "move them {more} mm or more away from the corner, towards the middles of their faces: a \
+             `pitch` at least {percent:.1} % smaller, or `at`; or use smaller magnets (`size`)"
+        );
+    }
+    format!(
+        "the faces are too near to each other: use magnets at least {more} mm thinner (`size`), a \
+         smaller `inset`, or a larger tile"
+    )
 }
 
 fn doubts(entry: &TileEntry, built: &[BuiltTile; 2], tile: usize) -> Vec<DesignError> {

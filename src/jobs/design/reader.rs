@@ -1,5 +1,6 @@
 //! Typed reading of a TOML tree in which every key and value knows its position in the file.
 
+use crate::text::is_invisible;
 use physics::order::Order;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -7,6 +8,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::error::{DesignError, Result, Span};
 use super::quantity::Quantity;
 use super::source::Source;
+use super::syntax::both_ways;
 
 /// A table of the file.
 #[derive(Clone, Copy)]
@@ -169,6 +171,20 @@ impl<'a> Entry<'a> {
         self.without(text, |c| !matches!(c, '\n' | '\r' | '\t'))
     }
 
+    /// The path of a file. In double quotes a backslash begins an escape, so a path of Windows would
+    /// become another one, or none.
+    pub fn path(&self) -> Result<&'a str> {
+        let written = &self.source.text[self.value.span()];
+        let inside = written.trim_matches('"').replace("\\\\", "");
+        if written.starts_with('"') && inside.replace("\\\"", "").contains('\\') {
+            return Err(self.error(
+                "a backslash in double quotes begins an escape, such as \\n for a new line",
+                both_ways(written.trim_matches('"')),
+            ));
+        }
+        self.line()
+    }
+
     /// A text of one line.
     pub fn line(&self) -> Result<&'a str> {
         self.without(self.string()?, |_| true)
@@ -176,13 +192,19 @@ impl<'a> Entry<'a> {
 
     fn without(&self, text: &'a str, refused: impl Fn(char) -> bool) -> Result<&'a str> {
         // The last two are not characters of XML either.
-        let odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        let odd = |c: char| is_invisible(c) || matches!(c, '\u{fffe}' | '\u{ffff}');
         match text.chars().find(|&c| odd(c) && refused(c)) {
             None => Ok(text),
             Some(c) => Err(self.error(
                 format!(
-                    "`{}` contains the control character U+{:04X}",
-                    self.key, c as u32
+                    "`{}` contains the {} character U+{:04X}",
+                    self.key,
+                    if c.is_control() {
+                        "control"
+                    } else {
+                        "invisible"
+                    },
+                    c as u32
                 ),
                 "delete it",
             )),

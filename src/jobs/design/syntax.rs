@@ -36,7 +36,10 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
                     None => format!("write \"{with_unit}\""),
                 },
             ),
-            None => match mistaken(source.text, span.start) {
+            None => match curly(source.text, span.start)
+                .or_else(|| escaped(source.text, span.start))
+                .or_else(|| mistaken(source.text, span.start))
+            {
                 Some((range, message, help)) => source.error(range.into(), message, help),
                 None => source.error(span.into(), error.message().trim(), HELP),
             },
@@ -46,9 +49,68 @@ pub(super) fn parse<'a>(source: Source<'a>) -> Result<DeTable<'a>> {
     Ok(root.into_inner())
 }
 
+/// Recognises quotes of word processors on the line of a position.
+fn curly(text: &str, at: usize) -> Option<Mistake> {
+    const QUOTES: [char; 8] = [
+        '\u{201c}', '\u{201d}', '\u{201e}', '\u{201f}', '\u{ab}', '\u{bb}', '\u{2018}', '\u{2019}',
+    ];
+    let line = line_of(text, at)?;
+    let found = text[line.clone()].find(QUOTES)?;
+    let from = line.start + found;
+    // Inside straight quotes they are letters like others.
+    if text[line.start..from].matches('"').count() % 2 == 1 {
+        return None;
+    }
+    let quote = text[from..].chars().next()?;
+    Some((
+        from..from + quote.len_utf8(),
+        "text goes in straight quotes, not in curly ones",
+        format!("replace {quote} by \": name = \"...\""),
+    ))
+}
+
+/// Recognises a backslash in double quotes that is not meant to begin an escape: a path of Windows.
+fn escaped(text: &str, at: usize) -> Option<Mistake> {
+    let line = line_of(text, at)?;
+    let before = text.get(line.start..at)?;
+    // The parser's position is at the backslash or a few letters after it.
+    let from = match text[at..].starts_with('\\') {
+        true => at,
+        false => line.start + before.rfind('\\')?,
+    };
+    let open = text[line.start..from].rfind('"')?;
+    let written = &text[line.start + open + 1..line.end];
+    let written = &written[..written.find('"').unwrap_or(written.len())];
+    Some((
+        from..from + 1,
+        "a backslash in double quotes begins an escape, such as \\n for a new line",
+        both_ways(written),
+    ))
+}
+
+/// The two ways to write a path with backslashes.
+pub(super) fn both_ways(path: &str) -> String {
+    format!(
+        "write the path with slashes, \"{}\", or in single quotes, '{path}'",
+        path.replace('\\', "/")
+    )
+}
+
+/// The line around a position.
+fn line_of(text: &str, at: usize) -> Option<Range<usize>> {
+    let begin = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let end = text[at..]
+        .find(['\n', '\r'])
+        .map_or(text.len(), |end| at + end);
+    Some(begin..end)
+}
+
+/// A place, what is wrong there and what to write.
+type Mistake = (Range<usize>, &'static str, String);
+
 /// Recognises common mistakes at or around a position: a decimal comma, or text without quotes.
 /// Returns the position, what is wrong and what to write.
-fn mistaken(text: &str, at: usize) -> Option<(Range<usize>, &'static str, String)> {
+fn mistaken(text: &str, at: usize) -> Option<Mistake> {
     let begin = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
     let end = text[at..]
         .find(['\n', '\r', '#'])

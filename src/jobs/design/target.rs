@@ -88,7 +88,7 @@ impl Target<'_> {
             return Ok(Bound::At(flush, None));
         }
         if overlap > self.allowance {
-            return Err(self.blocked(overlap));
+            return self.meet_in_a_point((fixed, moving), &contact, flush, overlap);
         }
         let out = fixed.faces[self.faces.0].normal();
         let drawn = |by: f64| {
@@ -114,6 +114,46 @@ impl Target<'_> {
             ),
         );
         Ok(Bound::At(drawn(outside), Some(doubt)))
+    }
+
+    /// The contact of two faces that bulge, which touch in a point instead of coinciding. Other faces
+    /// cannot meet.
+    fn meet_in_a_point(
+        &self,
+        (fixed, moving): (&Tile, &Tile),
+        contact: &Contact,
+        flush: Configuration,
+        overlap: f64,
+    ) -> Result<Bound> {
+        let faces = [
+            (fixed, &fixed.faces[self.faces.0]),
+            (moving, &moving.faces[self.faces.1]),
+        ];
+        if !faces.iter().all(|(tile, face)| bulges(tile, face)) {
+            return Err(self.blocked(overlap));
+        }
+        let out = faces[0].1.normal();
+        let Some(apart) = contact.landing(&flush, out).filter(|apart| *apart > 0.0) else {
+            return Err(self.blocked(overlap));
+        };
+        let place = flush.position() + out * apart;
+        let met = Configuration::new(clean(place.x), clean(place.y), flush.theta);
+        if !contact.is_free(&met) {
+            return Err(self.blocked(overlap));
+        }
+        let doubt = self.moving.source.doubt(
+            self.moving.span(),
+            "the target faces bulge towards each other, so they touch in a point instead of coinciding",
+            format!(
+                "the bond is where they touch, {} mm farther apart than the ends of the faces; for faces \
+                 that coincide make one the complement of the other: {} = {{ mates = \"{}\" }} under \
+                 [moving.faces]",
+                four_digits(apart * 1e3),
+                self.names[1],
+                self.names[0]
+            ),
+        );
+        Ok(Bound::At(met, Some(doubt)))
     }
 
     /// The error that the target faces cannot meet because of an overlap (m).
@@ -142,6 +182,28 @@ impl Target<'_> {
             made,
         )
     }
+}
+
+/// Bulges below this share of a face are rounding.
+const STRAIGHT: f64 = 1e-9;
+
+/// Whether the outline over a face lies outside its base line without any corner that cuts in.
+fn bulges(tile: &Tile, face: &Face) -> bool {
+    let rounding = STRAIGHT * face.length();
+    let local = |p: &Vector2<f64>| {
+        let from = p - face.middle();
+        [from.dot(&face.tangent()), from.dot(&face.normal())]
+    };
+    let half = face.length() / 2.0 - rounding;
+    let mut line: Vec<[f64; 2]> = tile.outline.vertices().iter().map(local).collect();
+    line.retain(|[s, h]| s.abs() < half && *h > -rounding);
+    line.extend([[-half, 0.0], [half, 0.0]]);
+    line.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    // The direction turns one way only: clockwise, along increasing s.
+    line.windows(3).all(|three| {
+        let [[a, b], [c, d], [e, f]] = [three[0], three[1], three[2]];
+        (c - a) * (f - d) - (e - c) * (d - b) <= rounding * face.length()
+    })
 }
 
 /// The pose of the moving tile when its face lies on the fixed tile's, in opposite direction.

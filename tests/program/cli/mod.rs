@@ -10,6 +10,7 @@ mod consistency;
 mod dynamics;
 mod energy;
 mod excess;
+mod excuses;
 mod first_hour;
 mod mistakes;
 mod rates;

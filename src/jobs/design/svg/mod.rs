@@ -70,7 +70,7 @@ const MOST_TOLD: usize = 8;
 
 /// Calls `use_it` with the drawing that `entry` names.
 fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> Result<T> {
-    let name = entry.string()?;
+    let name = entry.path()?;
     let Source {
         file,
         drawings,
