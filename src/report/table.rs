@@ -503,17 +503,19 @@ fn places(found: &Found) -> Table {
     });
     let pose = |mover: &Mover| mover.motion(&found.crowd).configuration;
     let at = |axis: usize| move |it: &(usize, f64, usize, Mover)| pose(&it.3).to_array()[axis];
-    let velocity = |axis: usize| move |it: &(usize, f64, usize, Mover)| it.3.velocity[axis];
+    let velocity = |axis: usize| {
+        move |it: &(usize, f64, usize, Mover)| it.3.reference_velocity(&found.crowd)[axis]
+    };
     rows(tiles)
         .column("run", "", "", |it| it.0)
         .column("time_s", "", "", |it| it.1)
         .column("tile", "", "", |it| it.2)
         .column("kind", "", "", |it| kinds[it.3.kind].name.clone())
-        .column("x", "", "", at(0))
-        .column("y", "", "", at(1))
+        .column("x", "", "of the reference point", at(0))
+        .column("y", "", "of the reference point", at(1))
         .column("theta", "", "", at(2))
-        .column("vx", "", "", velocity(0))
-        .column("vy", "", "", velocity(1))
+        .column("vx", "", "of the reference point", velocity(0))
+        .column("vy", "", "of the reference point", velocity(1))
         .column("omega", "", "", velocity(2))
         .table("trajectory")
         .in_csv("trajectory")

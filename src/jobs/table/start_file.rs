@@ -118,7 +118,7 @@ pub fn read(
             configuration: Configuration::from([x, y, theta]),
             velocity: [vx, vy, omega].into(),
         };
-        found.push((tile, line, Mover::new(crowd, kind, &motion)));
+        found.push((tile, line, Mover::from_reference(crowd, kind, &motion)));
     }
     if found.is_empty() {
         return Err(wrong(

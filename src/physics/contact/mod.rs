@@ -24,7 +24,7 @@ pub use admissible::closest_admissible;
 pub use constraint::{Constraint, EdgeOf, Touch};
 pub use halving::Halves;
 pub use motion::Known;
-pub use points::{ContactPoint, NearPairs};
+pub use points::{ContactPoint, NearPairs, TurnsWith};
 
 use nalgebra::{Rotation2, Vector2};
 

@@ -35,6 +35,19 @@ pub struct ContactPoint {
     /// Distance (m) to the fixed tile's point behind it along the normal; negative if the tiles
     /// overlap.
     pub gap: f64,
+    /// What the normal turns with.
+    pub turns_with: TurnsWith,
+}
+
+/// What the normal of a contact point turns with if the tiles turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnsWith {
+    /// The tile behind the normal, whose edge it belongs to: the fixed one, or the rim.
+    Behind,
+    /// The tile in front of it, whose edge it belongs to: the moving one.
+    InFront,
+    /// The line between two corners.
+    Line,
 }
 
 impl ContactPoint {
@@ -100,6 +113,7 @@ impl Contact {
                     on_moving: p,
                     normal: fixed.outline.normals()[edge],
                     gap,
+                    turns_with: TurnsWith::Behind,
                 }),
             },
         );
@@ -116,6 +130,7 @@ impl Contact {
                         on_moving: fixed.outline.vertices()[k] + normal * gap,
                         normal,
                         gap,
+                        turns_with: TurnsWith::InFront,
                     });
                 }
             },
@@ -154,6 +169,7 @@ impl Contact {
                 on_moving: p,
                 normal: away / distance,
                 gap: distance,
+                turns_with: TurnsWith::Line,
             };
         }
         // The largest separation over the four edges, the moving tile's point there, and the normal.
@@ -171,6 +187,7 @@ impl Contact {
                 on_moving,
                 normal,
                 gap,
+                turns_with: TurnsWith::Behind,
             }
         });
         let of_moving = [i, self.moving.before(i)].map(|edge| {
@@ -180,6 +197,7 @@ impl Contact {
                 on_moving: on_fixed - normal * gap,
                 normal: -normal,
                 gap,
+                turns_with: TurnsWith::InFront,
             }
         });
         let [first, rest @ ..] = [of_fixed[0], of_fixed[1], of_moving[0], of_moving[1]];

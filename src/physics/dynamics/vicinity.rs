@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::body::Phase;
 use super::simulation::Simulation;
 use crate::configuration::Configuration;
-use crate::contact::{ContactPoint, NearPairs};
+use crate::contact::{ContactPoint, NearPairs, TurnsWith};
 
 /// Smallest search distance (m) for contact points: far larger than any overlap.
 const LEAST_MARGIN: f64 = 1e-4;
@@ -94,6 +94,7 @@ fn at_rim(simulation: &Simulation, q: &Configuration, margin: f64, points: &mut 
                     on_moving: corner,
                     normal,
                     gap,
+                    turns_with: TurnsWith::Behind,
                 });
             }
         }

@@ -24,6 +24,7 @@
 use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 
+use crate::contact::TurnsWith;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
 use crate::tile::outline::cross;
@@ -32,8 +33,13 @@ use crate::tile::outline::cross;
 const SWEEPS: usize = 1000;
 /// This many sweeps at the end are plain ones, which always converge towards the solution.
 const PLAIN: usize = 500;
+/// Slowest convergence that is assumed: the share of a sweep's change that the next one makes.
+const SLOWEST: f64 = 0.99;
 /// Largest share of a sweep's change by which the impulses go on after it.
 const MOMENTUM: f64 = 0.85;
+
+/// Normals are much the same if the cosine of their angle is above this.
+const ALIKE: f64 = 0.9;
 
 /// A point of contact.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +50,10 @@ pub struct Hold {
     pub point: Vector2<f64>,
     /// Unit vector from the first to the second.
     pub axis: Vector2<f64>,
-    /// Their distance there (m).
+    /// Their distance there (m) beyond the skin.
     pub gap: f64,
+    /// What the normal turns with.
+    pub turns_with: TurnsWith,
     /// Least velocity (m/s) along the normal.
     pub least: f64,
     /// Guesses of the forces (N) along normal and tangent.
@@ -54,6 +62,8 @@ pub struct Hold {
     pub impulses: [f64; 2],
     /// The index of its pair of tiles; `None` for the rim.
     pub pair: Option<usize>,
+    /// From the centres of both tiles to the point (m).
+    arms: [Vector2<f64>; 2],
     rows: [[Vector3<f64>; 2]; 2],
 }
 
@@ -63,7 +73,7 @@ impl Hold {
     pub fn new(
         tiles: [Option<usize>; 2],
         point: Vector2<f64>,
-        axis: Vector2<f64>,
+        (axis, turns_with): (Vector2<f64>, TurnsWith),
         gap: f64,
         centres: impl Fn(usize) -> Vector2<f64>,
     ) -> Self {
@@ -72,30 +82,71 @@ impl Hold {
             point,
             axis,
             gap,
+            turns_with,
             least: 0.0,
             forces: [0.0; 2],
             impulses: [0.0; 2],
             pair: None,
+            arms: [Vector2::zeros(); 2],
             rows: [[Vector3::zeros(); 2]; 2],
         };
-        hold.place(point, centres);
-        hold
-    }
-
-    /// Moves it to another point.
-    pub fn place(&mut self, point: Vector2<f64>, centres: impl Fn(usize) -> Vector2<f64>) {
-        self.point = point;
-        let n = self.axis;
-        let axes = [n, Vector2::new(-n.y, n.x)];
+        let axes = [axis, Vector2::new(-axis.y, axis.x)];
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let Some(tile) = self.tiles[side] else {
+            let Some(tile) = tiles[side] else {
                 continue;
             };
             let arm = point - centres(tile);
-            for (row, axis) in self.rows.iter_mut().zip(axes) {
+            hold.arms[side] = arm;
+            for (row, axis) in hold.rows.iter_mut().zip(axes) {
                 row[side] = Vector3::new(axis.x, axis.y, cross(arm, axis)) * sign;
             }
         }
+        hold
+    }
+
+    /// The gap (m) after the tiles have been moved by `way` times `h`.
+    pub fn gap_after(&self, way: &[Vector3<f64>], h: f64, skin: f64) -> f64 {
+        let between = self.axis * (self.gap + skin);
+        let steps = self
+            .tiles
+            .map(|tile| tile.map_or(Vector3::zeros(), |tile| way[tile] * h));
+        // What a rotation by an angle adds to a vector.
+        let turned = |of: Vector2<f64>, angle: f64| {
+            if angle == 0.0 {
+                return Vector2::zeros();
+            }
+            let (sin, half) = (libm::sin(angle), libm::sin(0.5 * angle));
+            Vector2::new(-of.y, of.x) * sin - of * (2.0 * half * half)
+        };
+        // The point behind lies on the outline of its tile.
+        let arms = [self.arms[0] - between, self.arms[1]];
+        let [behind, front] =
+            [0, 1].map(|side| steps[side].xy() + turned(arms[side], steps[side].z));
+        let now = between + front - behind;
+        let by = |angle: f64| (self.axis + turned(self.axis, angle)).dot(&now);
+        let distance = match self.turns_with {
+            TurnsWith::Behind => by(steps[0].z),
+            TurnsWith::InFront => by(steps[1].z),
+            TurnsWith::Line => now.norm().copysign(now.dot(&self.axis)),
+        };
+        distance - skin
+    }
+
+    /// Whether another point is of the same tiles and has much the same normal.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.tiles == other.tiles && self.axis.dot(&other.axis) > ALIKE
+    }
+
+    /// The work (J) of the impulses where the velocities change from `before` to `after`: each
+    /// impulse times the mean of both rates.
+    pub fn work(&self, before: &[Vector3<f64>], after: &[Vector3<f64>]) -> f64 {
+        let row = |row: usize| {
+            let rates = self
+                .parts(row)
+                .map(|(tile, part)| part.dot(&(before[tile] + after[tile])));
+            0.5 * self.impulses[row] * rates.sum::<f64>()
+        };
+        row(0) + row(1)
     }
 
     /// Whether the tiles press on each other here.
@@ -256,17 +307,18 @@ impl Point {
     }
 }
 
-/// Changes the velocities by the impulses of all points. The impulses are stored in the holds; the
-/// solver starts from the stored ones. Sweeps end when one changes no velocity by more than `error`
-/// (m/s); the remaining error can be about ten times as large.
+/// Changes the velocities by the impulses of all points; returns whether they were found. The
+/// impulses are stored in the holds; the solver starts from the stored ones. Sweeps end when the
+/// velocities are known to `error` (m/s), judged by how fast they converge.
 pub fn hold_back(
     inverse: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
     holds: &mut [Hold],
     [friction, error]: [f64; 2],
-) {
+) -> bool {
+    let mut is_found = true;
     if holds.is_empty() {
-        return;
+        return is_found;
     }
     let mut local = vec![usize::MAX; velocities.len()];
     for cluster in clusters(velocities.len(), holds) {
@@ -297,12 +349,13 @@ pub fn hold_back(
         let own = tiles.iter().zip(&roots);
         let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
         let mut own: Vec<Four> = own.collect();
-        Level::best().run(Solution {
+        let sweeps = Level::best().run(Solution {
             roots: &roots,
             velocities: &mut own,
             points: &mut points,
             error,
         });
+        is_found &= sweeps.is_some();
         for (k, point) in cluster.iter().zip(&points) {
             holds[*k].impulses = point.impulses;
         }
@@ -310,6 +363,7 @@ pub fn hold_back(
             velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
         }
     }
+    is_found
 }
 
 /// The first, the first of the second half, the second, and so on.
@@ -348,7 +402,7 @@ fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
 }
 
 /// Solves for all points of a cluster whose masses have these inverse roots; its result is the number
-/// of sweeps.
+/// of sweeps, or `None` if they did not suffice.
 struct Solution<'a> {
     roots: &'a [Vector3<f64>],
     velocities: &'a mut [Four],
@@ -357,10 +411,10 @@ struct Solution<'a> {
 }
 
 impl Task for Solution<'_> {
-    type Output = usize;
+    type Output = Option<usize>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, _: L) -> usize {
+    fn run<L: Lanes>(self, _: L) -> Option<usize> {
         let Self {
             roots,
             velocities,
@@ -386,8 +440,11 @@ impl Task for Solution<'_> {
                 size += square;
                 fastest = f64::max(fastest, square * root.x * root.x);
             }
-            if fastest < error * error {
-                return sweep + 1;
+            // If each sweep changes them by a share of the one before, this much is still to come.
+            let share = (size / last).sqrt().min(SLOWEST);
+            let to_come = 1.0 / (1.0 - share);
+            if fastest * to_come * to_come < error * error {
+                return Some(sweep + 1);
             }
             if sweep + PLAIN < SWEEPS {
                 let share = (size / last).sqrt().min(MOMENTUM);
@@ -401,11 +458,11 @@ impl Task for Solution<'_> {
                 for point in points.iter_mut() {
                     point.go_on(share, velocities);
                 }
-                last = size;
             }
+            last = size;
             before.copy_from_slice(velocities);
         }
-        SWEEPS
+        None
     }
 }
 
@@ -465,7 +522,13 @@ mod tests {
                     let along = Vector2::new(-axis.y, axis.x) * end;
                     let point = centre(tile) + (axis * 0.5 + along) * SIDE;
                     let tiles = [Some(tile), Some(other)];
-                    holds.push(Hold::new(tiles, point, axis, 0.0, centre));
+                    holds.push(Hold::new(
+                        tiles,
+                        point,
+                        (axis, TurnsWith::Behind),
+                        0.0,
+                        centre,
+                    ));
                 }
             }
         }
@@ -507,7 +570,7 @@ mod tests {
                         error: ERROR,
                     })
                 };
-                let sweeps = solve();
+                let sweeps = solve().unwrap();
                 all += sweeps;
                 let mut now = start.clone();
                 hold_back(&inverse, &mut now, &mut holds, [friction, ERROR]);
@@ -522,7 +585,7 @@ mod tests {
                     );
                 }
                 // Starting from the impulses of the solution, the solver converges at once.
-                let again = solve();
+                let again = solve().unwrap();
                 assert!(again <= sweeps, "{again} {sweeps}");
             }
             assert!(all < 20 * 200, "{all} sweeps at {friction}");

@@ -1,195 +1,72 @@
 //! One time step of tiles that are near each other or the rim.
 //!
 //! # Steps
-//! Velocity Verlet, with constant forces of the drives and of tiles outside the island. A step is
-//! short enough that the forces of pairs in relative motion change little: `h <= 0.05 sqrt(l / a)`,
-//! with l half the shortest side of a magnet and a the acceleration of the pair by its own force.
-//! Where tiles touch and hardly bounce, contact stops most of this acceleration: there
-//! `h <= 0.2 sqrt(l / s)`, with s the acceleration along the contact that friction cannot stop, and
-//! `h <= 0.8 sqrt(l / a)`; and tiles in contact move by no more than 0.2 mm per step, or the step is
-//! repeated with a shorter time. All these limits scale with the step of the table. (Tiles that
-//! hardly move need no short steps.)
+//! Velocity Verlet with contact as in RATTLE (Andersen 1983, J. Comput. Phys. 52, 24): impulses at
+//! the start of a step keep the gaps at its end from closing, and impulses at the end stop the
+//! velocities into the contact. Both act along the rows of their own places, so that the step is
+//! symmetric in time and tiles that slide without friction keep their energy to second order. The
+//! gaps are those of the moved tiles, not of a linear forecast.
+//!
+//! A step is short enough that the forces of pairs in relative motion change little:
+//! `h <= 0.05 sqrt(l / a)`, with l half the shortest side of a magnet and a the acceleration of the
+//! pair by its own force. Where tiles touch and hardly bounce, contact stops most of this
+//! acceleration: there `h <= 0.2 sqrt(l / s)`, with s the acceleration along the contact that
+//! friction cannot stop, and `h <= 0.8 sqrt(l / a)`; and touching tiles travel by no more than a
+//! ninth of l. All these limits scale with the step of the table. A step whose impulses are not
+//! found is repeated with half the time.
 //!
 //! # Knocks
-//! The gap of a point changes as `g + u t + a t^2 / 2`. If it closes with a velocity u1 that makes
-//! the tiles bounce for longer than the shortest step, and not slowly, the step ends at that time,
-//! and the impulse acts on the velocities of that time: energy changes only by the impulse. Other
-//! contacts last for the whole step: the tiles end at contact and not beyond it, and their
-//! velocities into the contact are removed. After shorter bounces tiles return with the velocity of
-//! the parabola, so that elastic contact conserves energy there too. Where many points or friction
-//! would increase the energy (Kane and Levinson 1985), the restitution is reduced until they do
-//! not.
+//! A step ends where a gap closes. The knock is an impulse with restitution; where many points or
+//! friction would increase the energy (Kane and Levinson 1985), the restitution is reduced until
+//! they do not. Knocks so slow that tiles would bounce for less than the shortest step are without
+//! restitution, and the points then last for whole steps.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::crowd::Crowd;
 use super::drive::Rider;
 use super::hold::{Hold, hold_back, kinetic, share_within};
+use super::margins::Margins;
 use super::mover::Mover;
-use super::pair::{Pose, Pull, Two, pull};
+use super::near::{NearPair, Touch, at_rim};
+use super::pair::{Pose, Two};
 use super::settings::TableSettings;
-use crate::configuration::Configuration;
-use crate::contact::{ContactPoint, NearPairs};
-use crate::tile::outline::cross;
+use crate::contact::TurnsWith;
 
-/// The error (m) of places in contact per step at which the solver stops: over a step of h (s), an error
-/// of velocities by this over h.
-const MISPLACED: f64 = 2e-8;
-/// The same for the velocities (m/s) after a step: 1/300 of a typical kick of the shaking.
-const VELOCITY_ERROR: f64 = 3e-5;
-/// Points with gaps below this (m) are in contact: about ten times [`MISPLACED`].
-const TOUCHED: f64 = 2e-7;
-/// Outlines are kept apart by this (m). The force of two blocks changes sign where their pole faces
-/// pass through each other, so tiles must not overlap at all; this changes an energy by the force
-/// times this distance.
-pub const SKIN: f64 = 3e-7;
-/// Overlapping tiles are pushed apart by at most this per step (m).
-const PUSHED_OUT: f64 = 1e-6;
-/// Smallest distance (m) within which contact points are searched for.
-const LEAST_MARGIN: f64 = 1e-4;
-/// The same where nothing is near (m).
-const SEEN: f64 = 3e-3;
-/// Travel of a tile in contact within a usual step (m), by its velocity at the start.
-const TRAVEL: f64 = 1.6e-4;
-/// A step in which a tile in contact travels farther than this many times as much is repeated.
-const FARTHEST: f64 = 1.25;
+/// The relative error of the travel of touching tiles in a step.
+const TRAVEL_ERROR: f64 = 0.01;
 /// A usual step as a share of the time in which forces change.
 const SHARE: f64 = 0.05;
-/// Tiles slower than this (m/s) need no short steps.
-const SLOW: f64 = 2e-3;
+/// Tiles that friction holds and that travel less than this share of the travel of touching tiles
+/// in a step of the table need no short steps.
+const RESTING: f64 = 1.0 / 32.0;
 /// Steps are longer by this factor where tiles touch and hardly bounce, by what accelerates them
 /// along the contact.
 const ALONG: f64 = 4.0;
 /// The same, by the whole acceleration.
 const TOGETHER: f64 = 16.0;
-/// Ratio of the longest to the shortest step.
+/// Ratio of the longest step to the shortest bounce.
 const SHORTEST: f64 = 16.0;
-/// Bounces slower than this (m/s) are ignored.
-const LEAST_BOUNCE: f64 = 2e-4;
-/// Points of contact closer than this (m) to one of the step before are the same.
-const SAME: f64 = 1e-3;
-/// The pairs of edges and corners that may touch are searched for this much farther (m) than
-/// needed, and so less often.
-const AHEAD: f64 = 4e-3;
-
-/// Two tiles that are near each other, with the state of their contact.
-#[derive(Debug)]
-pub struct NearPair {
-    pub two: Two,
-    /// Whether the tiles may touch, or attract or repel each other too strongly for the step of the
-    /// table: they are in one island then.
-    pub is_tied: bool,
-    edges: NearPairs,
-    /// The distance (m) from `at` that `edges` cover.
-    seen: f64,
-    at: Configuration,
-    /// The tiles are apart by at least this (m) at `room_at`.
-    room: f64,
-    room_at: Configuration,
-    /// The last places of both tiles, and their pull there.
-    pulled: Option<([Vector3<f64>; 2], Pull)>,
-    /// The last contact points.
-    held: Vec<Touch>,
-}
-
-/// A contact point of the last step, in the frame of the first tile.
-#[derive(Clone, Copy, Debug)]
-struct Touch {
-    /// Its position (m).
-    at: Vector2<f64>,
-    /// The normal, from the first tile to the second.
-    normal: Vector2<f64>,
-    /// The forces (N) along normal and tangent.
-    forces: [f64; 2],
-}
-
-impl NearPair {
-    pub fn new(two: Two) -> Self {
-        Self {
-            two,
-            is_tied: true,
-            edges: NearPairs::default(),
-            seen: f64::NEG_INFINITY,
-            at: Configuration::new(0.0, 0.0, 0.0),
-            room: f64::NEG_INFINITY,
-            room_at: Configuration::new(0.0, 0.0, 0.0),
-            pulled: None,
-            held: Vec::new(),
-        }
-    }
-
-    /// The pull of the tiles on each other, which is known from the end of the last step unless one
-    /// has moved since.
-    fn pull(&mut self, crowd: &Crowd, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
-        let places = movers.map(|mover| mover.place);
-        match self.pulled {
-            Some((at, known)) if at == places => known,
-            _ => {
-                let couple = crowd.couple(movers[0].kind, movers[1].kind).0;
-                let found = pull(couple, movers, poses);
-                self.pulled = Some((places, found));
-                found
-            }
-        }
-    }
-
-    /// The last forces (N) at a point, in the first tile's frame.
-    fn force(&self, at: &Vector2<f64>) -> [f64; 2] {
-        let same = |it: &&Touch| (it.at - at).norm_squared() < SAME * SAME;
-        self.held.iter().find(same).map_or([0.0; 2], |it| it.forces)
-    }
-
-    /// The force (N) along the contact that friction cannot stop, of a force on the second tile in
-    /// the frame of the first: by the contact point where it is largest.
-    fn slide(&self, force: Vector2<f64>, friction: f64) -> f64 {
-        let along = self.held.iter().map(|touch| {
-            let press = -touch.normal.dot(&force);
-            cross(touch.normal, force).abs() - friction * press.max(0.0)
-        });
-        along.fold(0.0, f64::max)
-    }
-
-    /// The points of contact within a margin (m), if there may be any.
-    fn points(
-        &mut self,
-        crowd: &Crowd,
-        q: &Configuration,
-        kinds: [usize; 2],
-        margin: f64,
-    ) -> Vec<ContactPoint> {
-        let contact = &crowd.couple(kinds[0], kinds[1]).0.contact;
-        let radius = contact.moving().circumradius();
-        let moved = |from: &Configuration| {
-            let step = from.step_to(q);
-            step.xy().norm() + radius * step.z.abs()
-        };
-        if self.room - moved(&self.room_at) > margin {
-            return Vec::new();
-        }
-        let seen = margin.max(SEEN);
-        let needed = 1.5 * seen;
-        if self.seen - moved(&self.at) < needed {
-            self.seen = needed + AHEAD;
-            self.at = *q;
-            self.edges = contact.near(q, self.seen);
-        }
-        let mut points = contact.points(q, margin, &self.edges);
-        if points.is_empty() {
-            points = contact.points(q, seen, &self.edges);
-        }
-        self.room = points.iter().map(|point| point.gap).fold(seen, f64::min);
-        self.room_at = *q;
-        points.retain(|point| point.gap <= margin);
-        points
-    }
-}
+/// Forecasts of the places at the end of a step, each with the gaps of the one before.
+const FORECASTS: usize = 8;
+/// Searches for the time of a knock, or for the points that last.
+const SEARCHES: usize = 60;
+/// A step is halved this often at most.
+const HALVINGS: i32 = 12;
+/// The shortest step that is tried where contact cannot be solved, as a share of the first.
+pub const SHORTEST_TRIED: f64 = 1.0 / 4096.0;
+/// Overlaps beyond this share of the skin are undone.
+const KEPT: f64 = 0.9;
+/// They are undone to this share.
+const UNDONE: f64 = 0.8;
+/// The displacement by the error of the impulses in a step, relative to the rounding of gaps.
+const PRECISE: f64 = 0.1;
 
 /// A group of tiles connected by being near each other.
 pub struct Island<'a> {
     pub crowd: &'a Crowd,
     pub settings: &'a TableSettings,
-    /// Half a magnet's shortest side (m).
-    pub feature: f64,
+    pub margins: &'a Margins,
     /// The tiles.
     pub riders: Vec<Rider>,
     /// Their poses.
@@ -200,6 +77,8 @@ pub struct Island<'a> {
     pub pairs: Vec<(Two, &'a mut NearPair)>,
     /// Kinetic energy lost in contact (J).
     pub contact_loss: f64,
+    /// Whether contact was solved.
+    pub is_solved: bool,
 }
 
 /// The own force of a pair of tiles.
@@ -211,7 +90,7 @@ struct Strength {
     force: Vector2<f64>,
 }
 
-/// Accelerations and energies at one time.
+/// The motion at one time.
 struct State {
     velocities: Vec<Vector3<f64>>,
     accelerations: Vec<Vector3<f64>>,
@@ -220,6 +99,10 @@ struct State {
     potential: f64,
     /// The correction of kinetic energy that is still outstanding (J).
     debt: f64,
+    /// The longest step (s) from here.
+    longest: f64,
+    /// The points that touch or may come into contact within it.
+    holds: Vec<Hold>,
 }
 
 impl State {
@@ -229,6 +112,9 @@ impl State {
         each.map(|(v, a)| v + a * (0.5 * h)).collect()
     }
 }
+
+/// The impulses of contact were not found.
+struct Unsolved;
 
 impl Island<'_> {
     /// Advances by one step of the table.
@@ -246,8 +132,13 @@ impl Island<'_> {
             pulls,
             potential,
             debt: self.riders.iter().map(|it| it.debt).sum(),
+            longest: 0.0,
+            holds: Vec::new(),
         };
-        self.contact_loss = self.go_on(&mut state, [&masses, &inverse], self.settings.step);
+        match self.go_on(&mut state, [&masses, &inverse], self.settings.step) {
+            Ok(lost) => self.contact_loss = lost,
+            Err(Unsolved) => self.is_solved = false,
+        }
         for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
             rider.mover.velocity = *velocity;
         }
@@ -258,21 +149,45 @@ impl Island<'_> {
     }
 
     /// Advances by a time (s) with constant external forces; returns the energy lost in contact (J).
-    fn go_on(&mut self, state: &mut State, masses: [&[Vector3<f64>]; 2], duration: f64) -> f64 {
-        let mut lost = 0.0;
+    fn go_on(
+        &mut self,
+        state: &mut State,
+        masses: [&[Vector3<f64>]; 2],
+        duration: f64,
+    ) -> Result<f64, Unsolved> {
+        self.look(state, masses[1], duration);
+        let mut lost = self.set_apart(state, masses, duration)?;
         let mut time = 0.0;
+        let mut halvings = 0;
         while time < duration {
             crate::interruption::check();
+            lost += self.knock(state, masses)?;
             let left = duration - time;
-            let longest = self.longest_step(state, masses[1]).min(left);
-            let points = self.points(state, longest);
-            let longest = longest.min(self.time_to_travel(&state.velocities, &points));
-            let h = self.until_knock(state, &points, longest);
-            let (way, points, h) = self.way(state, points, masses[1], h);
-            lost += self.step(state, (way, points), masses, h);
-            time = if h == left { duration } else { time + h };
+            let longest = state.longest.min(left) * libm::ldexp(1.0, -halvings);
+            let moved = self
+                .way(state, masses[1], longest)
+                .and_then(|(way, holds, h)| {
+                    let after = if h < left {
+                        duration - (time + h)
+                    } else {
+                        self.settings.step
+                    };
+                    Ok((self.step(state, (&way, holds), masses, [h, after])?, h))
+                });
+            let (loss, h) = match moved {
+                Ok(moved) => moved,
+                Err(Unsolved) if halvings == HALVINGS => return Err(Unsolved),
+                Err(Unsolved) => {
+                    halvings += 1;
+                    continue;
+                }
+            };
+            halvings = (halvings - 1).max(0);
+            lost += loss;
+            lost += self.set_apart(state, masses, state.longest)?;
+            time = if h < left { time + h } else { duration };
         }
-        lost
+        Ok(lost)
     }
 
     /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and their energy (J).
@@ -305,7 +220,12 @@ impl Island<'_> {
     }
 
     fn travel(&self) -> f64 {
-        TRAVEL * self.settings.fineness()
+        self.margins.travel * self.fineness()
+    }
+
+    /// The factor by which steps are shorter than usual.
+    fn fineness(&self) -> f64 {
+        (self.settings.step / self.margins.usual_step).min(1.0)
     }
 
     fn fastest(&self, tile: usize, of: &Vector3<f64>) -> f64 {
@@ -324,25 +244,27 @@ impl Island<'_> {
 
     /// The longest step (s) in which the forces of pairs in relative motion change little.
     fn longest_step(&self, state: &State, inverse: &[Vector3<f64>]) -> f64 {
+        let feature = self.margins.feature;
         let limit = |(two, near): &(Two, &mut NearPair), pull: &Strength| {
-            let speed = self.relative(*two, &state.velocities);
-            if speed < SLOW {
+            let travel = self.relative(*two, &state.velocities) * self.settings.step;
+            let rests = RESTING * self.travel();
+            if travel < rests && self.settings.friction > 0.0 {
                 return f64::INFINITY;
             }
             let are_together =
-                near.room <= self.travel() && self.settings.restitution * speed < SLOW;
-            let whole = longest_step(self.feature, pull.acceleration);
+                near.room <= self.travel() && self.settings.restitution * travel < rests;
+            let whole = longest_step(feature, pull.acceleration);
             if !are_together {
                 return whole;
             }
             let lightness = [two.first, two.second].map(|tile| inverse[tile].x);
             let along =
                 near.slide(pull.force, self.settings.friction) * (lightness[0] + lightness[1]);
-            (ALONG * longest_step(self.feature, along)).min(TOGETHER * whole)
+            (ALONG * longest_step(feature, along)).min(TOGETHER * whole)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, pull));
-        self.settings.fineness() * limits.fold(f64::INFINITY, f64::min)
+        self.fineness() * limits.fold(f64::INFINITY, f64::min)
     }
 
     /// The time (s) in which touching tiles travel as far as contact allows in a step.
@@ -356,30 +278,10 @@ impl Island<'_> {
         self.travel() / fastest.max(f64::MIN_POSITIVE)
     }
 
-    /// The mean velocities in a step, the contacts with their impulses, and the length (s) of the step,
-    /// which is shorter than `h` if touching tiles would travel too far.
-    fn way(
-        &self,
-        state: &State,
-        mut holds: Vec<Hold>,
-        inverse: &[Vector3<f64>],
-        mut h: f64,
-    ) -> (Vec<Vector3<f64>>, Vec<Hold>, f64) {
-        loop {
-            for hold in &mut holds {
-                hold.least = (-hold.gap / h).min(PUSHED_OUT / h);
-                hold.impulses = hold.forces.map(|force| force * 0.5 * h);
-            }
-            let mut way = state.halfway(h);
-            let error = (MISPLACED / h).min(VELOCITY_ERROR);
-            let law = [self.settings.friction, error];
-            hold_back(inverse, &mut way, &mut holds, law);
-            let share = self.time_to_travel(&way, &holds) / h;
-            if FARTHEST * share >= 1.0 {
-                return (way, holds, h);
-            }
-            h *= share;
-        }
+    /// Finds the longest step from a state, of at most a time (s), and the points for it.
+    fn look(&mut self, state: &mut State, inverse: &[Vector3<f64>], time: f64) {
+        state.longest = self.longest_step(state, inverse).min(time);
+        state.holds = self.points(state, state.longest);
     }
 
     /// The points that may come into contact in a step of at most this length (s).
@@ -397,7 +299,8 @@ impl Island<'_> {
             way(v, a)
         });
         let own: Vec<f64> = own.collect();
-        let margin = |way: f64| LEAST_MARGIN.max(3.0 * way);
+        let margins = self.margins;
+        let margin = |way: f64| margins.least.max(3.0 * way);
         let mut holds = Vec::new();
         let (crowd, riders, poses) = (self.crowd, &self.riders, &self.poses);
         let centre = |tile: usize| riders[tile].mover.place.xy();
@@ -406,13 +309,14 @@ impl Island<'_> {
             let [a, b] = tiles.map(|tile| &poses[tile]);
             let kinds = tiles.map(|tile| riders[tile].mover.kind);
             let margin = margin(way);
-            for point in near.points(crowd, &a.to(&b.at), kinds, margin) {
+            for point in near.points(crowd, &a.to(&b.at), kinds, (margin, margins)) {
                 let at = a.transform(point.on_moving);
                 let axis = a.rotation * point.normal;
-                let gap = point.gap - SKIN;
-                let mut hold = Hold::new(tiles.map(Some), at, axis, gap, centre);
+                let gap = point.gap - margins.skin;
+                let normal = (axis, point.turns_with);
+                let mut hold = Hold::new(tiles.map(Some), at, normal, gap, centre);
                 hold.pair = Some(k);
-                hold.forces = near.force(&point.on_moving);
+                hold.forces = near.force(&point.on_moving, margins);
                 holds.push(hold);
             }
         }
@@ -423,7 +327,8 @@ impl Island<'_> {
                     (&rider.mover, &poses[tile]),
                     margin(own[tile]),
                     &mut |point, axis, gap| {
-                        holds.push(Hold::new([None, Some(tile)], point, axis, gap, centre));
+                        let normal = (axis, TurnsWith::Behind);
+                        holds.push(Hold::new([None, Some(tile)], point, normal, gap, centre));
                     },
                 );
             }
@@ -431,127 +336,304 @@ impl Island<'_> {
         holds
     }
 
-    /// The time (s) of the first collision at which the step must end, or the longest step.
-    fn until_knock(&self, state: &State, holds: &[Hold], longest: f64) -> f64 {
-        let shortest = longest / SHORTEST;
-        let mut first = longest;
-        for hold in holds {
-            let u = hold.rate(&state.velocities);
-            let a = hold.rate(&state.accelerations);
-            let Some((time, speed)) = closes(hold.gap, u, a) else {
-                continue;
-            };
-            // Slow bounces, and those that end within the shortest step, are handled by `step`.
-            let back = self.settings.restitution * speed;
-            let is_resolved = back > SLOW.max(0.5 * shortest * -a);
-            if time < first && is_resolved {
-                first = time;
-            }
-        }
-        first.max(shortest).min(longest)
+    /// The velocity (m/s) along the normal below which a point that moves apart comes back, and one
+    /// that closes stops, within the step: by bounces shorter than the shortest, or than rounding.
+    fn slow(&self, state: &State, hold: &Hold) -> f64 {
+        let press = -hold.rate(&state.accelerations);
+        let bounce = 0.5 * press * state.longest / SHORTEST;
+        bounce.max(self.margins.touched / state.longest)
     }
 
-    /// Makes a step (s) along a way; returns the energy lost in contact (J).
+    /// The law of contact: friction, and the error of velocities (m/s) for a step (s).
+    fn law(&self, h: f64) -> [f64; 2] {
+        [self.settings.friction, PRECISE * self.margins.rounding / h]
+    }
+
+    /// The mean velocities in a step, the points that last with their impulses, and the length (s) of
+    /// the step: at most `longest`, and shorter if touching tiles would travel too far or a gap closes.
+    fn way(
+        &self,
+        state: &State,
+        inverse: &[Vector3<f64>],
+        mut longest: f64,
+    ) -> Result<(Vec<Vector3<f64>>, Vec<Hold>, f64), Unsolved> {
+        let mut h = longest.min(self.time_to_travel(&state.velocities, &state.holds));
+        let Margins {
+            skin,
+            touched,
+            rounding,
+            ..
+        } = *self.margins;
+        let slow: Vec<f64> = state
+            .holds
+            .iter()
+            .map(|hold| self.slow(state, hold))
+            .collect();
+        let is_lasting = |(hold, slow): (&Hold, &f64)| {
+            hold.gap <= touched && hold.rate(&state.velocities) <= *slow
+        };
+        let mut lasts: Vec<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
+        for _ in 0..SEARCHES {
+            let mut holds = Vec::new();
+            for (hold, _) in state.holds.iter().zip(&lasts).filter(|it| *it.1) {
+                let mut hold = *hold;
+                hold.impulses = hold.forces.map(|force| force * 0.5 * h);
+                holds.push(hold);
+            }
+            let way = self.forecast(state, &mut holds, inverse, h)?;
+            // By the velocity in the middle of the step: the step is then as long as the one back from
+            // its end, and errors of energy do not add up.
+            let share = self.time_to_travel(&way, &state.holds) / h;
+            if share < 1.0 - TRAVEL_ERROR || (share > 1.0 + TRAVEL_ERROR && h < longest) {
+                h = (h * share).min(longest);
+                continue;
+            }
+            let mut first = h;
+            let mut is_new = false;
+            for (k, hold) in state.holds.iter().enumerate() {
+                let gap = hold.gap_after(&way, h, skin);
+                if lasts[k] || gap >= hold.gap.min(0.0) - rounding {
+                    continue;
+                }
+                // The parabola through both gaps.
+                let u = hold.rate(&state.velocities);
+                let a = 2.0 * (gap - hold.gap - u * h) / (h * h);
+                match closes(hold.gap - 0.5 * touched, u, a) {
+                    Some((time, speed)) if speed > slow[k] => first = first.min(time),
+                    _ => {
+                        lasts[k] = true;
+                        is_new = true;
+                    }
+                }
+            }
+            if !is_new && first == h {
+                return Ok((way, holds, h));
+            }
+            if !is_new {
+                h = first;
+                longest = first;
+            }
+        }
+        Err(Unsolved)
+    }
+
+    /// The mean velocities in a step (s) that keep the gaps of lasting points from closing.
+    fn forecast(
+        &self,
+        state: &State,
+        holds: &mut [Hold],
+        inverse: &[Vector3<f64>],
+        h: f64,
+    ) -> Result<Vec<Vector3<f64>>, Unsolved> {
+        let free = state.halfway(h);
+        // By how much the gaps at the end differ from a linear forecast (m).
+        let mut bends = vec![0.0; holds.len()];
+        for _ in 0..FORECASTS {
+            for (hold, bend) in holds.iter_mut().zip(&bends) {
+                // Overlaps within the skin stay as they are: to undo them would add energy.
+                hold.least = -(hold.gap.max(0.0) + bend) / h;
+            }
+            let mut way = free.clone();
+            if !hold_back(inverse, &mut way, holds, self.law(h)) {
+                return Err(Unsolved);
+            }
+            let mut change: f64 = 0.0;
+            for (hold, bend) in holds.iter().zip(&mut bends) {
+                let linear = hold.gap + h * hold.rate(&way);
+                let now = hold.gap_after(&way, h, self.margins.skin) - linear;
+                if hold.is_held() || linear + now < hold.gap.min(0.0) {
+                    change = change.max((now - *bend).abs());
+                    *bend = now;
+                }
+            }
+            if change <= PRECISE * self.margins.rounding {
+                return Ok(way);
+            }
+        }
+        Err(Unsolved)
+    }
+
+    /// Makes a step along a way, with the points that last in it; the time of the step and the time after
+    /// it (s). Returns the energy lost in contact (J).
     fn step(
         &mut self,
         state: &mut State,
-        (way, mut holds): (Vec<Vector3<f64>>, Vec<Hold>),
+        (way, held): (&[Vector3<f64>], Vec<Hold>),
         [masses, inverse]: [&[Vector3<f64>]; 2],
-        h: f64,
-    ) -> f64 {
-        let law = [self.settings.friction, VELOCITY_ERROR];
-        let mut free = state.halfway(h);
-        let before = state.velocities.clone();
-        let pulled = std::mem::take(&mut state.accelerations);
-        holds.retain(|hold| hold.gap + hold.rate(&way) * h <= TOUCHED);
-        // The return velocities at points where contact lasts for the whole step.
-        let back = |hold: &Hold| {
-            hold.is_held().then(|| {
-                let [u, a] = [&before, &pulled].map(|of| hold.rate(of));
-                closes(hold.gap, u, a).map_or(0.0, |(_, speed)| speed)
-            })
-        };
-        let backs: Vec<Option<f64>> = holds.iter().map(back).collect();
-        let is_held = backs.iter().any(Option::is_some);
-        let is_pushed_out = |hold: &Hold| hold.is_held() && hold.rate(&way) > LEAST_BOUNCE;
-        if holds.iter().any(is_pushed_out) {
-            // Overlapping tiles are pushed apart in the step, but must not fly apart after it.
-            let mut held = holds.clone();
-            held.retain(Hold::is_held);
-            held.iter_mut().for_each(|hold| hold.least = 0.0);
-            hold_back(inverse, &mut free, &mut held, law);
-        } else if is_held {
-            free.copy_from_slice(&way);
-        }
-        for ((rider, pose), way) in self.riders.iter_mut().zip(&mut self.poses).zip(&way) {
-            rider.mover.place += way * h;
-            *pose = Pose::of(self.crowd, &rider.mover);
+        [h, after]: [f64; 2],
+    ) -> Result<f64, Unsolved> {
+        let before: Vec<_> = self.riders.iter().map(|it| it.mover.place).collect();
+        let mut lost: f64 = -held
+            .iter()
+            .map(|it| it.work(&state.velocities, way))
+            .sum::<f64>();
+        for (tile, way) in way.iter().enumerate() {
+            self.put(tile, before[tile] + way * h);
         }
         let (accelerations, pulls, potential) = self.accelerations(masses);
-        state.pulls = pulls;
-        let mut velocities = free;
-        for (v, a) in velocities.iter_mut().zip(&accelerations) {
-            *v += a * (0.5 * h);
-        }
-        let steady = self.steady.iter().zip(masses).zip(&way);
-        let work = steady.map(|((a, mass), way)| mass.component_mul(a).dot(way) * h);
-        let energy = kinetic(masses, &before) + work.sum::<f64>() + state.potential - potential;
-        state.accelerations = accelerations;
-        state.potential = potential;
-        if !is_held {
-            put_right(state, &mut velocities, (masses, &self.steady), energy, h);
-        }
-        for (_, near) in &mut self.pairs {
-            near.held.clear();
-        }
-        if holds.is_empty() {
-            state.velocities = velocities;
-            return 0.0;
-        }
-        let energy = match is_held {
-            true => energy,
-            false => kinetic(masses, &velocities),
+        let velocities = way
+            .iter()
+            .zip(&accelerations)
+            .map(|(v, a)| v + a * (0.5 * h));
+        let mut next = State {
+            velocities: velocities.collect(),
+            accelerations,
+            pulls,
+            potential,
+            debt: state.debt,
+            longest: 0.0,
+            holds: Vec::new(),
         };
-        let riders = &self.riders;
-        let centre = |tile: usize| riders[tile].mover.place.xy();
-        let mut approaches = Vec::with_capacity(holds.len());
-        for (hold, back) in holds.iter_mut().zip(backs) {
-            // The point moves with the tile in front of it.
-            let carried = hold.tiles[1].map_or(Vector2::zeros(), |tile| {
-                let arm = hold.point - (riders[tile].mover.place.xy() - way[tile].xy() * h);
-                (way[tile].xy() + Vector2::new(-arm.y, arm.x) * way[tile].z) * h
-            });
-            hold.place(hold.point + carried, centre);
-            approaches.push(back.unwrap_or(-hold.rate(&velocities)));
+        if held.is_empty() {
+            let steady = self.steady.iter().zip(masses).zip(way);
+            let work = steady.map(|((a, mass), way)| mass.component_mul(a).dot(way) * h);
+            let energy = kinetic(masses, &state.velocities) + work.sum::<f64>();
+            let energy = energy + state.potential - potential;
+            put_right(&mut next, (masses, &self.steady), energy, h);
         }
-        let restitution = self.settings.restitution;
-        let bounces = approaches.iter().any(|u| restitution * u > LEAST_BOUNCE);
-        let mut after = |restitution: f64| {
-            for (hold, approach) in holds.iter_mut().zip(&approaches) {
-                hold.least = restitution * approach.max(0.0);
+        self.look(&mut next, inverse, after);
+        // The points that lasted, where they are now: not those that meet at the end of the step,
+        // nor those that bounced within it.
+        let lasts = |hold: &Hold| {
+            let slow = self.slow(&next, hold);
+            held.iter().any(|it| it.is_like(hold))
+                && hold.rate(way) >= -slow
+                && hold.rate(&state.velocities) <= slow
+        };
+        let mut holds: Vec<Hold> = next.holds.clone();
+        holds.retain(lasts);
+        for hold in &mut holds {
+            hold.impulses = hold.forces.map(|force| force * 0.5 * h);
+            // What is apart by less than the force moves it in half a step meets in that time.
+            hold.least = -2.0 * hold.gap.max(0.0) / h;
+        }
+        if !hold_back(inverse, &mut next.velocities, &mut holds, self.law(h)) {
+            for (tile, place) in before.into_iter().enumerate() {
+                self.put(tile, place);
             }
-            let mut after = velocities.clone();
-            hold_back(inverse, &mut after, &mut holds, law);
-            after
-        };
-        state.velocities = after(if bounces { restitution } else { 0.0 });
-        if bounces && kinetic(masses, &state.velocities) > energy {
-            let stopped = after(0.0);
-            let each = state.velocities.iter().zip(&stopped);
+            return Err(Unsolved);
+        }
+        lost -= holds
+            .iter()
+            .map(|it| it.work(way, &next.velocities))
+            .sum::<f64>();
+        self.remember(&holds, h);
+        *state = next;
+        Ok(lost)
+    }
+
+    /// Moves overlapping tiles apart, as little as possible and without friction, where they use up
+    /// nearly all of the skin. Returns the energy lost (J): negative, as they move against the forces.
+    fn set_apart(
+        &mut self,
+        state: &mut State,
+        [masses, inverse]: [&[Vector3<f64>]; 2],
+        time: f64,
+    ) -> Result<f64, Unsolved> {
+        let skin = self.margins.skin;
+        if state.holds.iter().all(|hold| hold.gap >= -KEPT * skin) {
+            return Ok(0.0);
+        }
+        let touches = |hold: &&Hold| hold.gap <= self.margins.touched;
+        let mut holds: Vec<Hold> = state.holds.iter().filter(touches).copied().collect();
+        for hold in &mut holds {
+            hold.least = (-UNDONE * skin - hold.gap).min(skin);
+            hold.impulses = [0.0; 2];
+        }
+        let mut shifts = vec![Vector3::zeros(); self.riders.len()];
+        if !hold_back(
+            inverse,
+            &mut shifts,
+            &mut holds,
+            [0.0, PRECISE * self.margins.rounding],
+        ) {
+            return Err(Unsolved);
+        }
+        let forces = state.accelerations.iter().zip(masses);
+        let work = forces
+            .zip(&shifts)
+            .map(|((a, mass), shift)| mass.component_mul(a).dot(shift));
+        let lost = work.sum();
+        for (tile, shift) in shifts.into_iter().enumerate() {
+            self.put(tile, self.riders[tile].mover.place + shift);
+        }
+        (state.accelerations, state.pulls, state.potential) = self.accelerations(masses);
+        self.look(state, inverse, time);
+        Ok(lost)
+    }
+
+    /// Puts a tile at a place.
+    fn put(&mut self, tile: usize, place: Vector3<f64>) {
+        self.riders[tile].mover.place = place;
+        self.poses[tile] = Pose::of(self.crowd, &self.riders[tile].mover);
+    }
+
+    /// Changes the velocities where touching points close; returns the energy lost (J).
+    fn knock(
+        &self,
+        state: &mut State,
+        [masses, inverse]: [&[Vector3<f64>]; 2],
+    ) -> Result<f64, Unsolved> {
+        let law = self.law(state.longest);
+        let touches = |hold: &&Hold| hold.gap <= self.margins.touched;
+        let mut holds: Vec<Hold> = state.holds.iter().filter(touches).copied().collect();
+        if holds
+            .iter()
+            .all(|hold| hold.rate(&state.velocities) >= -law[1])
+        {
+            return Ok(0.0);
+        }
+        let before = state.velocities.clone();
+        let mut bounces = false;
+        let mut backs = Vec::with_capacity(holds.len());
+        for hold in &mut holds {
+            let back = -self.settings.restitution * hold.rate(&before);
+            let back = if back > self.slow(state, hold) {
+                back
+            } else {
+                0.0
+            };
+            bounces |= back > 0.0;
+            backs.push(back);
+            hold.least = 0.0;
+            hold.impulses = [0.0; 2];
+        }
+        let mut stopped = before.clone();
+        if !hold_back(inverse, &mut stopped, &mut holds, law) {
+            return Err(Unsolved);
+        }
+        if bounces {
+            let of_stop: Vec<_> = holds.iter().map(|hold| hold.impulses).collect();
+            for (hold, back) in holds.iter_mut().zip(backs) {
+                hold.least = back;
+            }
+            let mut bounced = before.clone();
+            if !hold_back(inverse, &mut bounced, &mut holds, law) {
+                return Err(Unsolved);
+            }
+            let each = bounced.iter().zip(&stopped);
             let change: Vec<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
-            let share = share_within(masses, &stopped, &change, energy);
-            state.velocities = stopped;
-            for (v, change) in state.velocities.iter_mut().zip(&change) {
+            let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
+            for (v, change) in stopped.iter_mut().zip(&change) {
                 *v += change * share;
             }
+            for (hold, stop) in holds.iter_mut().zip(of_stop) {
+                for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
+                    *impulse = stop + (*impulse - stop) * share;
+                }
+            }
         }
-        self.remember(&holds, h);
-        energy - kinetic(masses, &state.velocities)
+        state.velocities = stopped;
+        let work = holds.iter().map(|it| it.work(&before, &state.velocities));
+        Ok(-work.sum::<f64>())
     }
 
     /// Keeps the forces at points of contact, by their impulses in half a step (s), as a guess for the
     /// next step.
     fn remember(&mut self, holds: &[Hold], h: f64) {
+        for (_, near) in &mut self.pairs {
+            near.held.clear();
+        }
         for hold in holds {
             if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
                 let pose = &self.poses[first];
@@ -582,11 +664,11 @@ pub fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
 /// carried over.
 fn put_right(
     state: &mut State,
-    velocities: &mut [Vector3<f64>],
     (masses, steady): (&[Vector3<f64>], &[Vector3<f64>]),
     energy: f64,
     h: f64,
 ) {
+    let velocities = &mut state.velocities;
     let now = kinetic(masses, velocities);
     let wanted = energy + state.debt - now;
     let pulls = state.accelerations.iter().zip(steady);
@@ -609,10 +691,10 @@ fn put_right(
     } else {
         0.0
     };
-    for (v, a) in velocities.iter_mut().zip(&pulls) {
+    for (v, a) in state.velocities.iter_mut().zip(&pulls) {
         *v += a * x;
     }
-    state.debt = energy + state.debt - kinetic(masses, velocities);
+    state.debt = energy + state.debt - kinetic(masses, &state.velocities);
 }
 
 /// The time at which a gap (m) that changes as `gap + u t + a t^2 / 2` closes, and its velocity
@@ -629,36 +711,4 @@ fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
         false => (u + speed) / -a,
     };
     Some((time, speed))
-}
-
-/// The corners of a tile within a margin (m) of the rim: position, the rim's normal, and the gap.
-pub fn at_rim(
-    crowd: &Crowd,
-    (mover, pose): (&Mover, &Pose),
-    margin: f64,
-    found: &mut dyn FnMut(Vector2<f64>, Vector2<f64>, f64),
-) {
-    let kind = &crowd.kinds[mover.kind];
-    let room = rim_room(crowd, mover);
-    if room > margin {
-        return;
-    }
-    for corner in kind.tile.outline.vertices() {
-        let p = pose.transform(*corner);
-        for axis in 0..2 {
-            let gap = crowd.half_size[axis] - p[axis].abs();
-            if gap <= margin {
-                let mut normal = Vector2::zeros();
-                normal[axis] = -p[axis].signum();
-                found(p, normal, gap);
-            }
-        }
-    }
-}
-
-/// A lower bound of a tile's distance (m) from the rim.
-pub fn rim_room(crowd: &Crowd, mover: &Mover) -> f64 {
-    let [x, y] = crowd.half_size;
-    let p = mover.place.xy();
-    (x - p.x.abs()).min(y - p.y.abs()) - crowd.kinds[mover.kind].reach
 }

@@ -47,7 +47,25 @@ impl Mover {
         }
     }
 
-    /// The configuration of the reference point, and the velocity.
+    /// A tile from the configuration of its reference point and the velocity of this point.
+    pub fn from_reference(crowd: &Crowd, kind: usize, motion: &Motion) -> Self {
+        let mut mover = Self::new(crowd, kind, motion);
+        mover.velocity += mover.carried(crowd);
+        mover
+    }
+
+    /// The velocity of its reference point, and its angular velocity (m/s, m/s, rad/s).
+    pub fn reference_velocity(&self, crowd: &Crowd) -> Vector3<f64> {
+        self.velocity - self.carried(crowd)
+    }
+
+    /// The velocity of the centre of mass relative to the reference point, by the rotation.
+    fn carried(&self, crowd: &Crowd) -> Vector3<f64> {
+        let lever = crowd.kinds[self.kind].body.lever(self.place.z);
+        Vector3::new(-lever.y, lever.x, 0.0) * self.velocity.z
+    }
+
+    /// The configuration of the reference point, and the velocity of the centre of mass.
     pub fn motion(&self, crowd: &Crowd) -> Motion {
         Motion {
             configuration: crowd.kinds[self.kind].body.configuration(&self.place),

@@ -10,7 +10,7 @@ use super::crowd::Crowd;
 use super::mover::Mover;
 use super::settings::TableSettings;
 use super::start::{StartError, at_random, check};
-use super::stepper::{Account, BlowUp, Stepper};
+use super::stepper::{Account, StepError, Stepper};
 
 /// Largest allowed share of missing energy, relative to the largest term of the balance; beyond it
 /// the step is halved.
@@ -113,9 +113,9 @@ pub enum RunError {
     /// The run could not start.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// A tile became too fast.
+    /// The run could not go on.
     #[error(transparent)]
-    BlowUp(#[from] BlowUp),
+    Step(#[from] StepError),
 }
 
 /// The random numbers of a run, independent of all others.
@@ -160,7 +160,7 @@ fn once(
     index: usize,
     (movers, rng): (&[Mover], &ChaCha8Rng),
     frames: bool,
-) -> Result<Run, BlowUp> {
+) -> Result<Run, StepError> {
     let random = |tile: usize| {
         let mut rng = rng.clone();
         rng.set_stream(rng.get_stream() + ((1 + tile as u64) << 43));

@@ -51,9 +51,4 @@ impl TableSettings {
             None => 1,
         }
     }
-
-    /// The factor by which all steps are shorter than usual.
-    pub(super) fn fineness(&self) -> f64 {
-        self.step / Self::USUAL_STEP
-    }
 }

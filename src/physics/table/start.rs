@@ -8,7 +8,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
-use super::island::SKIN;
+use super::margins::Margins;
 use super::mover::Mover;
 use super::neighbours::Neighbours;
 use super::pair::Pose;
@@ -328,9 +328,10 @@ fn shuffle(placed: &mut Placed, stride: f64, rng: &mut ChaCha8Rng) {
 /// If they are not.
 pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartError> {
     let place = |mover: &Mover| (mover.kind, mover.motion(crowd).configuration);
+    let skin = Margins::of(crowd).skin;
     for (tile, mover) in movers.iter().enumerate() {
         let beyond = mover.beyond(crowd);
-        if walls && beyond > SKIN {
+        if walls && beyond > skin {
             return Err(StartError::BeyondRim { tile, beyond });
         }
     }
@@ -338,7 +339,7 @@ pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartEr
     let positions: Vec<_> = places.iter().map(|it| it.1.position()).collect();
     let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
     let widest = 2.0 * widest.fold(0.0, f64::max);
-    let mut worst = (SKIN, None);
+    let mut worst = (skin, None);
     for &[first, second] in Neighbours::default().within(widest, &positions) {
         let depth = -clearance(crowd, [places[first], places[second]], 0.0);
         if depth > worst.0 {

@@ -6,8 +6,10 @@ use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
 use super::drive::{Drive, Rider};
-use super::island::{Island, NearPair, fastest, longest_step, rim_room};
+use super::island::{Island, SHORTEST_TRIED, fastest, longest_step};
+use super::margins::Margins;
 use super::mover::Mover;
+use super::near::{NearPair, rim_room};
 use super::neighbours::Neighbours;
 use super::pair::{Pose, Two, pull};
 use super::settings::TableSettings;
@@ -27,10 +29,34 @@ const SHARE_TIED: f64 = 0.1;
 pub struct Account {
     /// Work by shaking, fans and the table's motion.
     pub work: f64,
-    /// Lost in contact.
+    /// Lost in contact: less the work of all impulses, each times the mean of the velocities before and
+    /// after it.
     pub contact_loss: f64,
     /// Lost to drag.
     pub drag_loss: f64,
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// A tile became too fast.
+    #[error(transparent)]
+    BlowUp(#[from] BlowUp),
+    /// Impulses of contact were not found.
+    #[error(
+        "at {time:.6} s the impulses of {tiles} touching tiles (among them tile {tile}) are not found even in steps \
+         of {step:.1e} s: the run has failed; use less friction or another seed"
+    )]
+    Unsolved {
+        /// The time (s).
+        time: f64,
+        /// The first of the tiles, from 0.
+        tile: usize,
+        /// Their number.
+        tiles: usize,
+        /// The shortest step (s) tried.
+        step: f64,
+    },
 }
 
 /// A run in progress.
@@ -50,7 +76,7 @@ pub struct Stepper<'a> {
     since_kick: usize,
     neighbours: Neighbours,
     near: Vec<NearPair>,
-    feature: f64,
+    margins: Margins,
     least_near: f64,
     scratch: Scratch,
 }
@@ -111,8 +137,6 @@ impl<'a> Stepper<'a> {
         let masses = masses.collect();
         let movers = movers.into_iter();
         let riders = movers.map(|mover| Rider { mover, debt: 0.0 });
-        let magnets = crowd.kinds.iter().flat_map(|kind| &kind.tile.magnets);
-        let sides = magnets.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
         let nears = crowd.couples().iter().map(|couple| couple.near);
         let mut stepper = Self {
             crowd,
@@ -126,7 +150,7 @@ impl<'a> Stepper<'a> {
             since_kick: 0,
             neighbours: Neighbours::default(),
             near: Vec::new(),
-            feature: 0.5 * sides.fold(0.02, f64::min),
+            margins: Margins::of(crowd),
             least_near: nears.fold(f64::INFINITY, f64::min),
             scratch: Scratch::default(),
         };
@@ -137,11 +161,6 @@ impl<'a> Stepper<'a> {
     /// The tiles.
     pub fn movers(&self) -> Vec<Mover> {
         self.riders.iter().map(|it| it.mover).collect()
-    }
-
-    /// The correction of kinetic energy that is still outstanding (J).
-    pub fn debt(&self) -> f64 {
-        self.riders.iter().map(|it| it.debt).sum()
     }
 
     /// Kinetic energy (J).
@@ -174,13 +193,17 @@ impl<'a> Stepper<'a> {
     /// Makes one step.
     ///
     /// # Errors
-    /// If a tile is too fast for the step.
-    pub fn step(&mut self) -> Result<(), BlowUp> {
+    /// If a tile is too fast for the step, or contact cannot be solved.
+    pub fn step(&mut self) -> Result<(), StepError> {
         let h = self.settings.step;
         self.check_speeds()?;
+        // Half of the drag before the step and half after it: a free tile goes as far as it should.
+        if self.settings.shaking.is_none() {
+            self.damp(0.5 * h);
+        }
         let mut scratch = std::mem::take(&mut self.scratch);
         self.prepare(h, &mut scratch);
-        self.account.contact_loss += self.move_all(&scratch.poses, &scratch.steady);
+        self.account.contact_loss += self.move_all(&scratch.poses, &scratch.steady)?;
         let befores = scratch.movers.iter().zip(&scratch.driven);
         for ((rider, masses), (before, driven)) in self.riders.iter().zip(&self.masses).zip(befores)
         {
@@ -190,18 +213,25 @@ impl<'a> Stepper<'a> {
         self.scratch = scratch;
         self.time += h;
         self.since_kick += 1;
-        if self.since_kick >= self.settings.steps_between_kicks() {
+        if self.settings.shaking.is_none() {
+            self.damp(0.5 * h);
+        } else if self.since_kick >= self.settings.steps_between_kicks() {
             let since = self.since_kick as f64 * h;
             self.since_kick = 0;
-            let tiles = self.riders.iter_mut().zip(&mut self.random);
-            for ((rider, random), masses) in tiles.zip(&self.masses) {
-                let velocity = &mut rider.mover.velocity;
-                let [work, loss] = self.drive.damp(velocity, random, masses, since);
-                self.account.work += work;
-                self.account.drag_loss += loss;
-            }
+            self.damp(since);
         }
         Ok(())
+    }
+
+    /// Applies drag over a time (s), and the kicks of shaking.
+    fn damp(&mut self, time: f64) {
+        let tiles = self.riders.iter_mut().zip(&mut self.random);
+        for ((rider, random), masses) in tiles.zip(&self.masses) {
+            let velocity = &mut rider.mover.velocity;
+            let [work, loss] = self.drive.damp(velocity, random, masses, time);
+            self.account.work += work;
+            self.account.drag_loss += loss;
+        }
     }
 
     fn check_speeds(&self) -> Result<(), BlowUp> {
@@ -310,8 +340,8 @@ impl<'a> Stepper<'a> {
             let own = [0, 1].map(|side| pulls[side].component_div(&self.masses[tiles[side]]));
             if let Some(near) = near.map(|k| &mut self.near[k]) {
                 let each = [0, 1].map(|side| fastest(crowd, &halfway[tiles[side]].0, &own[side]));
-                let longest = longest_step(self.feature, each[0] + each[1]);
-                near.is_tied = longest < TableSettings::USUAL_STEP;
+                let longest = longest_step(self.margins.feature, each[0] + each[1]);
+                near.is_tied = longest < self.margins.usual_step;
                 if near.is_tied {
                     continue;
                 }
@@ -323,8 +353,9 @@ impl<'a> Stepper<'a> {
     }
 
     /// Advances every island independently; returns the energy lost in contact (J).
-    fn move_all(&mut self, poses: &[Pose], steady: &[Vector3<f64>]) -> f64 {
+    fn move_all(&mut self, poses: &[Pose], steady: &[Vector3<f64>]) -> Result<f64, StepError> {
         let n = self.riders.len();
+        let margins = self.margins;
         let mut tied = UnionFind::<usize>::new(n);
         let mut is_tied = vec![false; n];
         for near in self.near.iter().filter(|near| near.is_tied) {
@@ -348,12 +379,13 @@ impl<'a> Stepper<'a> {
                 islands.push(Island {
                     crowd: self.crowd,
                     settings: self.settings,
-                    feature: self.feature,
+                    margins: &margins,
                     riders: Vec::new(),
                     poses: Vec::new(),
                     steady: Vec::new(),
                     pairs: Vec::new(),
                     contact_loss: 0.0,
+                    is_solved: true,
                 });
             }
             let island = number[top];
@@ -376,11 +408,19 @@ impl<'a> Stepper<'a> {
         parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
         for (island, members) in islands.into_iter().zip(members) {
             lost += island.contact_loss;
+            if !island.is_solved {
+                return Err(StepError::Unsolved {
+                    time: self.time,
+                    tile: members[0],
+                    tiles: members.len(),
+                    step: self.settings.step * SHORTEST_TRIED,
+                });
+            }
             for (rider, k) in island.riders.into_iter().zip(members) {
                 self.riders[k] = rider;
             }
         }
-        lost
+        Ok(lost)
     }
 
     /// Advances a tile that meets nothing.

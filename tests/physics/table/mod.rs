@@ -1,5 +1,7 @@
 //! Many tiles on a table, by the laws of mechanics and of thermodynamics.
 
+mod contact;
+
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -16,7 +18,7 @@ use tilebind::many_bodies::contacts::Tie;
 use tilebind::many_bodies::run::{Run, RunError, Start, run};
 use tilebind::many_bodies::start::check;
 use tilebind::many_bodies::{
-    Crowd, Kind, Mover, Orbital, Sample, StartError, Stepper, TableSettings,
+    Crowd, Kind, Mover, Orbital, Sample, StartError, StepError, Stepper, TableSettings,
 };
 use tilebind::potential::{Interaction, MagnetModel};
 use tilebind::roadmap::Point;
@@ -701,7 +703,7 @@ fn what_cannot_start_is_told() {
     ));
     let fast = mover(0, [0.0; 3], [1e4, 0.0, 0.0]);
     let fast = run(&crowd, &settings, (1, 0), &Start::Given(vec![fast]), false);
-    assert!(matches!(fast, Err(RunError::BlowUp(_))));
+    assert!(matches!(fast, Err(RunError::Step(StepError::BlowUp(_)))));
 }
 
 /// Mean and standard error.

@@ -1,0 +1,186 @@
+//! Contact takes energy or none, and the energy balance can tell.
+
+use super::*;
+
+/// The paper's tile and its mate, with friction and restitution, without drives or drag.
+fn settings(duration: f64, [friction, restitution]: [f64; 2]) -> TableSettings {
+    TableSettings {
+        friction,
+        restitution,
+        sampling: 0.01,
+        ..ideal(duration)
+    }
+}
+
+/// A tab in its slot: two tiles whose outlines fit into each other, with sides leaning inwards by
+/// 0.3 rad, which friction may wedge.
+fn tab_and_slot() -> Crowd {
+    let mut tiles = [square(0.43, "NNNS", &[0]), square(0.43, "NSSS", &[2])];
+    let [half, wide, deep] = [0.215, 0.1, 0.02];
+    let narrow = wide - deep * libm::tan(0.3);
+    let outline = |side: f64, out: f64| {
+        let mut corners = vec![
+            [half * side, -half],
+            [half * side, -wide],
+            [half * side + out, -narrow],
+            [half * side + out, narrow],
+            [half * side, wide],
+            [half * side, half],
+            [-half * side, half],
+            [-half * side, -half],
+        ];
+        if side < 0.0 {
+            corners.reverse();
+        }
+        Outline::new(corners.into_iter().map(Vector2::from).collect()).unwrap()
+    };
+    tiles[0].outline = outline(1.0, deep);
+    tiles[1].outline = outline(-1.0, deep);
+    let model = MagnetModel::Cuboid;
+    crowd(&problem(tiles, model, [2.0; 2]), model)
+}
+
+/// A bound pair that turns freely about its common centre of mass keeps its kinetic energy, whatever
+/// the friction and the restitution.
+#[test]
+fn a_wedged_pair_that_spins_keeps_its_kinetic_energy() {
+    let crowd = tab_and_slot();
+    for law in [[0.3, 0.0], [0.0, 0.0], [2.0, 1.0]] {
+        let settings = settings(1.0, law);
+        let centres = [0, 1].map(|kind| {
+            let x = [-0.215, 0.215][kind];
+            let motion = Motion {
+                configuration: Configuration::new(x, 0.0, 0.0),
+                velocity: Vector3::zeros(),
+            };
+            Mover::new(&crowd, kind, &motion)
+        });
+        let masses = centres.map(|it| crowd.kinds[it.kind].body.mass);
+        let centre = (centres[0].place.x * masses[0] + centres[1].place.x * masses[1])
+            / (masses[0] + masses[1]);
+        let spinning = centres.map(|mut it| {
+            it.velocity = Vector3::new(0.0, 0.84 * (it.place.x - centre), 0.84);
+            it
+        });
+        let start = Start::Given(spinning.to_vec());
+        let found = run(&crowd, &settings, (1, 0), &start, false).unwrap();
+        let first = found.samples[0].kinetic;
+        for sample in &found.samples {
+            let change = sample.kinetic / first - 1.0;
+            assert!(change.abs() < 1e-3, "{law:?} {} {change}", sample.time);
+        }
+    }
+}
+
+/// Tiles that slide on each other without friction keep their energy: it oscillates by what the
+/// integrator errs, to second order in the step, and does not drift.
+#[test]
+fn sliding_without_friction_keeps_energy_to_second_order() {
+    let (_, crowd) = one_face(MagnetModel::Dipole);
+    let slid = || {
+        Start::Given(vec![
+            mover(0, [-0.215, 0.0, 0.0], [0.0; 3]),
+            mover(1, [0.215001, 0.004, 0.0], [0.0; 3]),
+        ])
+    };
+    let off = |duration: f64, step: f64| {
+        let settings = TableSettings {
+            step,
+            ..settings(duration, [0.0, 0.0])
+        };
+        let found = run(&crowd, &settings, (1, 0), &slid(), false).unwrap();
+        let totals = totals(&found);
+        let there = found
+            .samples
+            .iter()
+            .map(|it| it.kinetic)
+            .fold(0.0, f64::max);
+        let late = totals[totals.len() / 2..].iter().sum::<f64>() / (totals.len() / 2) as f64;
+        let worst = totals
+            .iter()
+            .map(|it| (it - totals[0]).abs())
+            .fold(0.0, f64::max);
+        [worst / there, (late - totals[0]).abs() / there]
+    };
+    let [worst, drift] = off(8.0, TableSettings::USUAL_STEP);
+    assert!(worst < 0.015 && drift < 0.01, "{worst} {drift}");
+    let [finer, _] = off(1.0, 0.25 * TableSettings::USUAL_STEP);
+    assert!(finer < worst / 4.0, "{worst} {finer}");
+}
+
+/// Ten tiles without drives: their energy never rises, and contact never gives any.
+#[test]
+fn energy_of_many_tiles_never_rises() {
+    let (problem, crowd) = one_face(MagnetModel::Dipole);
+    for (seed, law) in [(1, [0.3, 0.01]), (2, [1.0, 0.5]), (3, [0.0, 0.0])] {
+        let settings = TableSettings {
+            walls: true,
+            ..settings(6.0, law)
+        };
+        let start = Start::Random(vec![5, 5]);
+        let found = run(&crowd, &settings, (seed, 0), &start, false).unwrap();
+        let totals = totals(&found);
+        for pair in totals.windows(2) {
+            assert!(
+                pair[1] - pair[0] < 2e-3 * problem.depth(),
+                "{pair:?} {law:?}"
+            );
+        }
+        assert!(found.energy_error < 0.01, "{}", found.energy_error);
+    }
+}
+
+/// A design scaled by s, with masses and energies scaled by s^3 and times by s, moves in the same way.
+#[test]
+fn a_scaled_table_moves_alike() {
+    let ends = |s: f64| {
+        let code = |code: &str, face: usize| {
+            let mut tile = square(0.43, code, &[face]);
+            let corners = tile.outline.vertices().iter().map(|it| it * s).collect();
+            tile.outline = Outline::new(corners).unwrap();
+            for magnet in &mut tile.magnets {
+                magnet.position *= s;
+                magnet.size = magnet.size.map(|it| it * s);
+                magnet.moment *= s * s * s;
+            }
+            for face in &mut tile.faces {
+                face.start *= s;
+                face.end *= s;
+            }
+            tile.mass *= s * s * s;
+            tile.thickness *= s;
+            tile
+        };
+        let tiles = [code("NNNS", 0), code("NSSS", 2)];
+        let model = MagnetModel::Dipole;
+        let problem = problem(tiles, model, [2.0 * s; 2]);
+        let crowd = crowd(&problem, model);
+        let settings = TableSettings {
+            step: s * TableSettings::USUAL_STEP,
+            sampling: 0.01 * s,
+            ..settings(0.8 * s, [0.3, 0.5])
+        };
+        let thrown: Vec<Mover> = thrown()
+            .into_iter()
+            .map(|mut it| {
+                it.place.x *= s;
+                it.place.y *= s;
+                it.velocity.z /= s;
+                it
+            })
+            .collect();
+        let found = run(&crowd, &settings, (1, 0), &Start::Given(thrown), false).unwrap();
+        let last = found.samples.last().unwrap();
+        [last.kinetic, last.potential, last.account.contact_loss].map(|it| it / (s * s * s))
+    };
+    let whole = ends(1.0);
+    assert!(whole[2] > 0.0, "{whole:?}");
+    for s in [1.0 / 64.0, 2.0] {
+        for (a, b) in whole.iter().zip(ends(s)) {
+            assert!(
+                (a - b).abs() < 1e-6 * whole[0].abs().max(a.abs()),
+                "{s} {a} {b}"
+            );
+        }
+    }
+}
