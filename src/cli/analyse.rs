@@ -7,8 +7,8 @@ use clap::Args;
 use tilebind::dynamics::check::BarrierCheck;
 use tilebind::observer::Observer;
 use tilebind::output::Output;
-use tilebind::pipeline::{self, Request};
-use tilebind::report::analysis::{Extent, FILES, document, files};
+use tilebind::pipeline::{self, Analysis, Request};
+use tilebind::report::analysis::{self, Extent, FILES, document, files};
 use tilebind::report::plots::Scene;
 
 use super::failure::fail_if_contradicted;
@@ -35,6 +35,7 @@ contradiction is reported and the exit status is 1.";
 Examples:
   tilebind analyse shapes/paper-tile.toml --out target/paper-tile
   tilebind analyse my.toml --out my-results --milestones 20000 --repeats 5
+  tilebind analyse my.toml --out my-results --quick
   tilebind analyse my.toml --out my-results --dynamics
   tilebind analyse my.toml --out my-results --figure-width 85mm --figure-font 8
   tilebind analyse my.toml --out my-results --json | jq '.states[0].capture'"
@@ -91,7 +92,13 @@ impl Analyse {
         workload::tell_of(&design, &settings);
 
         let progress = self.print.progress();
-        let analysis = pipeline::analyse(&design, &settings, &progress);
+        let show = |first: &Analysis| {
+            progress.print(&analysis::unproved(&design, first).text(style::columns()));
+        };
+        let is_shown = progress.is_shown() && settings.has_proofs();
+        let show: Option<&dyn Fn(&Analysis)> = if is_shown { Some(&show) } else { None };
+        let problem = design.problem();
+        let analysis = pipeline::analyse_showing(&design, problem, &settings, &progress, show);
         progress.stage("pictures", 0.95);
         let scene = Scene::new(&design, &analysis.problem, &analysis.catalogue);
         let wall = start.elapsed().as_secs_f64();

@@ -30,6 +30,16 @@ impl Progress {
         self.0.set_message(name);
     }
 
+    /// Whether there is a terminal to show it on.
+    pub fn is_shown(&self) -> bool {
+        !self.0.is_hidden()
+    }
+
+    /// Prints a text above the bar.
+    pub fn print(&self, text: &str) {
+        self.0.println(text);
+    }
+
     /// Removes the bar from the terminal.
     pub fn finish(&self) {
         self.0.finish_and_clear();

@@ -40,11 +40,29 @@ pub fn analyse_problem(
     settings: &Settings,
     observer: &dyn Observer,
 ) -> Analysis {
+    analyse_showing(design, problem, settings, observer, None)
+}
+
+/// The same. `show` gets what the survey found before the proofs begin, which take most of the time.
+pub fn analyse_showing(
+    design: &Design,
+    problem: Problem,
+    settings: &Settings,
+    observer: &dyn Observer,
+    show: Option<&dyn Fn(&Analysis)>,
+) -> Analysis {
     let problem = Arc::new(problem);
     let roadmap = settings.roadmap(&problem);
     let mut clock = Clock::new(&problem, observer);
 
     let (mut survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    let mut unlisted = 0;
+    if let Some(show) = show {
+        clock.start("first answer", 0.45);
+        let before = problem.evaluations();
+        show(&unproved(design, &problem, settings, &roadmap, &survey));
+        unlisted = problem.evaluations() - before;
+    }
     clock.start("states that may be missing", 0.5);
     let search = Search::run(&problem, &survey, &settings.completeness, observer);
     let missed = search.as_ref().map_or_else(|_| Vec::new(), Search::missed);
@@ -89,12 +107,43 @@ pub fn analyse_problem(
         certificate_ended: certified.ok().and_then(|certified| certified.ended),
         dynamics,
         counts: Counts {
-            energy_evaluations: problem.evaluations(),
+            // The same whether or not a first answer is shown.
+            energy_evaluations: problem.evaluations() - unlisted,
             cells: certified.map_or(0, |certified| certified.cells),
             ..counts
         },
         stages,
         problem,
+    }
+}
+
+/// The analysis without proofs, as far as the survey alone leads: states in which only far starts or
+/// proofs end are missing.
+fn unproved(
+    design: &Design,
+    problem: &Arc<Problem>,
+    settings: &Settings,
+    roadmap: &RoadmapSettings,
+    survey: &Exploration,
+) -> Analysis {
+    let ends = capture::ends(problem, &settings.far_starts(), survey.known());
+    let mut catalogue = Catalogue::of_survey(survey, settings.least_depth);
+    catalogue.leave_out_shallow(problem, settings.least_depth);
+    weigh_blocks(design, &mut catalogue);
+    Analysis {
+        settings: settings.clone(),
+        roadmap: *roadmap,
+        bound: (design.pair.bound, problem.energy(&design.pair.bound)),
+        uncaptured: catalogue.count_captures(problem, &ends),
+        catalogue,
+        completeness: Err(Uncertified::Unasked),
+        ring: capture::ring(problem),
+        uncertified: Some(Uncertified::Unasked),
+        certificate_ended: None,
+        dynamics: None,
+        counts: Counts::default(),
+        stages: Vec::new(),
+        problem: problem.clone(),
     }
 }
 

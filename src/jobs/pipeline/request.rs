@@ -48,6 +48,12 @@ pub struct Request {
           value_parser = request::count_or_none)]
     pub certify_cells: usize,
 
+    /// States, captures and barriers without proofs: in seconds, not minutes
+    ///
+    /// The same as --certify-work 0 --complete-work 0.
+    #[arg(long, conflicts_with_all = ["certify_work", "certify_seconds", "complete_work", "complete_seconds"])]
+    pub quick: bool,
+
     /// Effort of the proof that no state is missing, in core-seconds; 0: none [default: 180]
     ///
     /// Counted in steps, not timed. The default is 0 for very many magnets.
@@ -86,23 +92,27 @@ impl Request {
     pub fn settings(&self, design: &Design) -> Settings {
         let default = Settings::of([design]);
         let complete = default.completeness;
+        let allowed = |allowed: Allowance| match self.quick {
+            true => Allowance::NONE,
+            false => allowed,
+        };
         self.survey.settings(Settings {
             seed: self.seed,
             boltzmann: self.boltzmann,
             thermal_energy: self.thermal_energy,
             repeats: self.repeats,
             tolerance: self.tolerance,
-            certify: self.certify.allowed(default.certify),
+            certify: allowed(self.certify.allowed(default.certify)),
             certify_cells: self.certify_cells,
             completeness: CompletenessSettings {
                 below: self.complete_below,
                 escape: self.complete_escape,
                 cells: self.complete_cells,
-                allowed: complete.allowed.or(
+                allowed: allowed(complete.allowed.or(
                     self.complete_work,
                     self.complete_seconds,
                     Settings::default().completeness.allowed,
-                ),
+                )),
             },
             dynamics_runs: self.check.dynamics_runs,
             ..default

@@ -205,6 +205,11 @@ impl Settings {
         }
     }
 
+    /// Whether anything is to be proved.
+    pub fn has_proofs(&self) -> bool {
+        !self.certify.is_none() || !self.completeness.allowed.is_none()
+    }
+
     pub(super) fn certification(&self) -> CertificationSettings {
         CertificationSettings {
             tolerance: self.tolerance,

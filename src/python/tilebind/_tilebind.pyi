@@ -101,6 +101,7 @@ class Design:
         kinds: int | None = None,
         repeats: int = 1,
         tolerance: float | None = None,
+        quick: bool = False,
         certify_work: float = 180.0,
         certify_seconds: float | None = None,
         certify_cells: int = 1_000_000,

@@ -48,6 +48,26 @@ fn everything_but_the_timing_is_the_same_on_one_thread_and_two() {
     assert_same(&untimed(&one), &untimed(&two), "one thread");
 }
 
+/// In place of the efforts, which cannot be asked for beside it.
+#[test]
+fn quick_is_an_analysis_without_proofs() {
+    let folder = tempfile::tempdir().unwrap();
+    let [quick, without] = ["quick", "without"].map(|name| folder.path().join(name));
+    let ask = |out: &Path, options: &[&str]| {
+        let few = ["--milestones", "500", "--far-starts", "50", "--no-pictures"];
+        let design = ["analyse", DESIGN, "--out", out.to_str().unwrap()];
+        tilebind(&[&design, &few[..], options].concat())
+    };
+    let output = ask(&quick, &["--quick"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).contains("barriers are not certified: no proof was requested"));
+    let efforts = ["--certify-work", "0", "--complete-work", "0"];
+    assert_eq!(ask(&without, &efforts).status.code(), Some(0));
+    assert_same(&untimed(&quick), &untimed(&without), "no efforts");
+    let both = ask(&quick, &["--quick", "--certify-seconds", "3"]);
+    assert_eq!(both.status.code(), Some(2), "{}", stderr(&both));
+}
+
 /// Enough magnets for far groups to be replaced, and enough slides for several paths to be searched
 /// in parallel.
 const MANY: &str = r#"

@@ -54,6 +54,8 @@ impl Design {
     ///     Number of runs with consecutive seeds; the spread is reported.
     /// tolerance : float, optional
     ///     Target width (J) of the certified bounds.
+    /// quick : bool, optional
+    ///     States, captures and barriers without proofs, in seconds.
     /// certify_work, complete_work : float, optional
     ///     Effort of the bounds of barriers, and of the proof that no state is missing, in
     ///     core-seconds, counted in steps. 0 for none.
