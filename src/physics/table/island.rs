@@ -55,6 +55,8 @@ const SEARCHES: usize = 60;
 const HALVINGS: i32 = 12;
 /// The shortest step that is tried where contact cannot be solved, as a share of the first.
 pub const SHORTEST_TRIED: f64 = 1.0 / 4096.0;
+/// Points move apart if they do so faster than this many times the error of velocities.
+const RETURNED: f64 = 10.0;
 /// Overlaps beyond this share of the skin are undone.
 const KEPT: f64 = 0.9;
 /// They are undone to this share.
@@ -517,6 +519,21 @@ impl Island<'_> {
             .iter()
             .map(|it| it.work(way, &next.velocities))
             .sum::<f64>();
+        // Where a point moves apart and comes back within the step, the forces act at rest, and the
+        // mean velocities give them work that they do not do.
+        let error = self.law(h)[1];
+        let returns =
+            |hold: &Hold| hold.is_held() && hold.rate(&state.velocities) > RETURNED * error;
+        if held.iter().any(returns) {
+            let halves = [&*state, &next].map(|at| {
+                let each = at.velocities.iter().zip(way).zip(&at.accelerations);
+                let works = each.zip(masses);
+                works
+                    .map(|(((v, way), a), mass)| mass.component_mul(a).dot(&(v - way)))
+                    .sum::<f64>()
+            });
+            lost -= 0.25 * h * (halves[0] + halves[1]);
+        }
         self.remember(&holds, h);
         *state = next;
         Ok(lost)
