@@ -9,12 +9,13 @@ use tilebind::report::files::TABLE;
 use tilebind::report::hoomd;
 use tilebind::report::table::document;
 use tilebind::request;
-use tilebind::table::{self, About, PART, Request, compared};
+use tilebind::table::{self, About, PART, Request, Workload, compared};
 use tilebind::text::{self, with_commas};
+use tilebind::units::duration;
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Failure, input, tell};
 
 /// Simulate many tiles on one table, with contact, friction and drives, and count bonds and traps
 #[derive(Args)]
@@ -120,6 +121,18 @@ impl TableCommand {
             &progress,
         );
         let start = start.map_err(Failure::Usage)?;
+        let workload = Workload::of(&self.request, &start);
+        workload.check().map_err(Failure::Usage)?;
+        let long = workload.long(self.threads.count());
+        if let Some(time) = long.filter(|_| self.merge.is_empty()) {
+            let Workload { steps, tiles, .. } = workload;
+            let runs = workload.runs();
+            tell(format!(
+                "note: {runs} of {steps} steps with {tiles} tiles: expect some {}, at about 1 us for each \
+                 tile and step",
+                duration(time, 2)
+            ));
+        }
         let parts = parts.iter().map(|path| named("part", path));
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);

@@ -28,7 +28,7 @@ pub struct Request {
 
     /// Duration of each trajectory (s)
     #[arg(long, value_name = "S", default_value_t = DockingSettings::default().duration,
-          value_parser = request::time)]
+          value_parser = duration)]
     pub duration: f64,
 
     /// How tiles move.
@@ -205,6 +205,17 @@ impl StartOptions {
 /// Largest speed (m/s) and angular velocity (rad/s): the faster a tile, the shorter its steps.
 const FASTEST: f64 = 1e2;
 const FASTEST_SPIN: f64 = 1e3;
+
+/// Longest trajectory (s): steps are at most tenths of a second.
+const LONGEST: f64 = 1e6;
+
+/// The duration (s) of a trajectory.
+fn duration(text: &str) -> Result<f64, String> {
+    match request::time(text)? {
+        long if long > LONGEST => Err(format!("a time of at most {LONGEST:e} s is needed")),
+        time => Ok(time),
+    }
+}
 
 /// An angular velocity (rad/s) of 0 or more.
 fn spin(text: &str) -> Result<f64, String> {

@@ -64,8 +64,7 @@ pub fn document<'a>(
 fn files(found: &Found, request: &Request) -> Files {
     let mut files = Files::from([("trajectory.gsd".to_owned(), trajectory(found))]);
     if request.shard.is_some() {
-        let part = serde_json::to_vec(&(&found.ensemble, &found.runs));
-        files.insert(PART.to_owned(), part.expect("a part has a form in JSON"));
+        files.insert(PART.to_owned(), found.ensemble.part(&found.runs));
     }
     files
 }

@@ -58,6 +58,9 @@ const MOST_DRAG: f64 = 1e4;
 /// Least width (m) and largest energy (J) of a fan: steps are as short as its force is steep.
 const NARROWEST: f64 = 1e-3;
 const STRONGEST: f64 = 1e3;
+/// Largest width and coordinate (m), and frequency (Hz), of a fan.
+const WIDEST: f64 = 1e3;
+const FASTEST: f64 = 1e3;
 
 /// A drag rate (1/s) of 0 or more.
 fn drag(text: &str) -> Result<f64, String> {
@@ -95,11 +98,25 @@ pub fn fan(text: &str) -> Result<Fan, String> {
         },
         _ => return Err(FORM.to_owned()),
     };
-    match fan.width >= NARROWEST && fan.energy.abs() <= STRONGEST {
-        true => Ok(fan),
-        false => Err(format!(
-            "{FORM}; S is at least {NARROWEST} m, E_J at most {STRONGEST} J"
-        )),
+    let is_near = fan.place.iter().all(|x| x.abs() <= WIDEST);
+    let wrong = [
+        (!is_near, format!("X and Y are at most {WIDEST} m")),
+        (
+            !(NARROWEST..=WIDEST).contains(&fan.width),
+            format!("S is from {NARROWEST} to {WIDEST} m"),
+        ),
+        (
+            !(0.0..=STRONGEST).contains(&fan.energy),
+            format!("E_J is from 0 to {STRONGEST} J: a fan repels"),
+        ),
+        (
+            fan.frequency.abs() > FASTEST,
+            format!("F is at most {FASTEST} Hz"),
+        ),
+    ];
+    match wrong.into_iter().find(|(is_wrong, _)| *is_wrong) {
+        Some((_, limit)) => Err(format!("{limit}; {FORM}")),
+        None => Ok(fan),
     }
 }
 
@@ -127,6 +144,11 @@ mod tests {
             "0,0,NaN,1",
             "0,0,1e300,1",
             "0,0,1,1e-300",
+            "0,0,-1e-3,0.2",
+            "1e300,0,1,1",
+            "0,0,1,1e300",
+            "0,0,1,1,2,1",
+            "0,0,1,1,0.5,1e300",
         ] {
             assert!(fan(wrong).is_err(), "{wrong}");
         }

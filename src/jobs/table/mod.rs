@@ -8,6 +8,7 @@ mod start_file;
 mod statistics;
 mod subject;
 mod target;
+mod workload;
 
 pub use comparison::{Prediction, compared};
 pub use crowds::{of_assembly, of_designs};
@@ -17,6 +18,7 @@ pub use start_file::{StartFileError, read as read_start};
 pub use statistics::{Interval, Lifetime, Moment, Statistics, Verdict};
 pub use subject::About;
 pub use target::Target;
+pub use workload::Workload;
 
 use std::time::Instant;
 
@@ -58,6 +60,9 @@ pub enum TableError {
     /// The files are not the parts of these runs.
     #[error("{0}")]
     Parts(String),
+    /// The runs do not fit into memory.
+    #[error("{0}")]
+    Memory(String),
 }
 
 /// Starts and steps are part of the request.
@@ -67,8 +72,8 @@ impl Unanswered for TableError {}
 /// texts. The same request gives the same result on any number of threads and from any parts.
 ///
 /// # Errors
-/// If tiles cannot start as requested, steps are too long, or the files are not the parts of these
-/// runs.
+/// If the runs do not fit into memory, tiles cannot start as requested, steps are too long, or the
+/// files are not the parts of these runs.
 pub fn table(
     (about, crowd): (&About, Crowd),
     request: &Request,
@@ -77,6 +82,8 @@ pub fn table(
     progress: &dyn Observer,
 ) -> Result<Found, TableError> {
     let clock = Instant::now();
+    let workload = Workload::of(request, &start);
+    workload.check().map_err(TableError::Memory)?;
     let ensemble = Ensemble {
         tilebind: env!("CARGO_PKG_VERSION").to_owned(),
         tiles: Ensemble::checksum(about, &crowd),
@@ -88,7 +95,7 @@ pub fn table(
     };
     let runs = match parts.is_empty() {
         true => simulated(&ensemble, &crowd, &request.made(), progress)?,
-        false => ensemble.merge(parts).map_err(TableError::Parts)?,
+        false => ensemble.merge(&crowd, parts).map_err(TableError::Parts)?,
     };
     Ok(Found {
         target: Target::of(about, (&crowd, &ensemble.kinds()), &runs),

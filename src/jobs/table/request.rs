@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::start_file;
+use super::{start_file, workload};
 use crate::design::{frequency, length};
 use crate::request::{self, MotionOptions, Shard};
 use physics::observer::Observer;
@@ -18,7 +18,9 @@ const KICKS: f64 = 5e-3;
 /// ... during which drag takes at most this share of the velocity.
 const DRAG_A_KICK: f64 = 0.25;
 /// Largest number of tiles.
-const MOST_TILES: usize = 100_000;
+pub(super) const MOST_TILES: usize = 100_000;
+/// Highest frequency (Hz) of the table's motion.
+const FASTEST_CIRCLE: f64 = 1e3;
 /// Number of samples if no frames are requested.
 const MOMENTS: f64 = 200.0;
 
@@ -193,7 +195,7 @@ impl Request {
         if self.compare && self.shaking.is_none() {
             return Err("--compare needs a kT: add --shaking".into());
         }
-        Ok(())
+        workload::check_steps(self)
     }
 }
 
@@ -211,6 +213,9 @@ fn orbital(text: &str) -> Result<Orbital, String> {
         return Err(format!(
             "a circle has a radius of at most {WIDEST_CIRCLE} m, not {amplitude} m{meant}"
         ));
+    }
+    if frequency > FASTEST_CIRCLE {
+        return Err(format!("a circle has at most {FASTEST_CIRCLE} Hz"));
     }
     Ok(Orbital {
         amplitude,

@@ -1,7 +1,10 @@
 //! Reads the starting positions of tiles from a CSV file.
 
+use std::collections::BTreeMap;
+
 use csv::{ReaderBuilder, Trim};
 
+use super::request::MOST_TILES;
 use crate::measured::{ANGLE, LENGTH, Measured, SPEED, SPIN};
 use crate::request::FARTHEST;
 use crate::text::{column, not_too_long};
@@ -70,7 +73,7 @@ pub fn read(
     }
     let places = places.map(Option::unwrap_or_default);
     let columns = headers.len();
-    let mut found: Vec<(usize, u64, Mover)> = Vec::new();
+    let mut found: BTreeMap<usize, (u64, Mover)> = BTreeMap::new();
     for record in reader.records() {
         let record = record.map_err(|error| {
             let line = error.position().map_or(0, csv::Position::line);
@@ -109,8 +112,12 @@ pub fn read(
                 )
             })?;
         }
-        if let Some((_, other, _)) = found.iter().find(|it| it.0 == tile) {
-            let message = format!("tile {tile} is already on line {other}");
+        if let Some((other, _)) = found.get(&tile) {
+            let message = format!("tile {tile} is already on line {other}: number it otherwise");
+            return Err(wrong(line, message));
+        }
+        if found.len() == MOST_TILES {
+            let message = format!("a table can have at most {MOST_TILES} tiles: remove the rest");
             return Err(wrong(line, message));
         }
         let [x, y, theta, vx, vy, omega] = numbers;
@@ -118,7 +125,7 @@ pub fn read(
             configuration: Configuration::from([x, y, theta]),
             velocity: [vx, vy, omega].into(),
         };
-        found.push((tile, line, Mover::from_reference(crowd, kind, &motion)));
+        found.insert(tile, (line, Mover::from_reference(crowd, kind, &motion)));
     }
     if found.is_empty() {
         return Err(wrong(
@@ -126,13 +133,11 @@ pub fn read(
             "there are no tiles: write one line per tile".to_owned(),
         ));
     }
-    found.sort_by_key(|it| it.0);
-    if let Some((k, it)) = found.iter().enumerate().find(|(k, it)| it.0 != *k) {
+    if let Some((k, (_, it))) = found.iter().enumerate().find(|(k, (tile, _))| *tile != k) {
         let message = format!("tile {k} is missing: number the tiles from 0, each once");
-        return Err(wrong(it.1, message));
+        return Err(wrong(it.0, message));
     }
-    let lines: Vec<u64> = found.iter().map(|it| it.1).collect();
-    let mut movers: Vec<Mover> = found.into_iter().map(|it| it.2).collect();
+    let (lines, mut movers): (Vec<u64>, Vec<Mover>) = found.into_values().unzip();
     let moved = settle(crowd, &mut movers, true);
     check(crowd, &movers, true).map_err(|error| misplaced(&error, &lines))?;
     if moved > 0.0 {

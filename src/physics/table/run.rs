@@ -16,7 +16,7 @@ use super::stepper::{Account, StepError, Stepper};
 /// the step is halved.
 pub const ACCOUNTED: f64 = 0.01;
 /// The step is halved at most this often.
-const HALVINGS: usize = 4;
+pub const HALVINGS: usize = 4;
 
 /// The table at one time.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
@@ -168,8 +168,7 @@ fn once(
         rng
     };
     let mut stepper = Stepper::new(crowd, settings, movers.to_vec(), &random);
-    let between = (settings.sampling / settings.step).round().max(1.0) as u64;
-    let steps = (settings.duration / settings.step).ceil().max(1.0) as u64;
+    let [steps, between] = settings.steps();
     let mut samples = vec![sample(crowd, &mut stepper, frames)];
     let mut sums = (0.0, 0u64);
     let mut lives: Vec<Life> = Vec::new();

@@ -51,4 +51,18 @@ impl TableSettings {
             None => 1,
         }
     }
+
+    /// The number of steps of a run, and of steps between two samples.
+    pub(super) fn steps(&self) -> [u64; 2] {
+        [
+            (self.duration / self.step).ceil().max(1.0) as u64,
+            (self.sampling / self.step).round().max(1.0) as u64,
+        ]
+    }
+
+    /// The number of samples of a run, including the first and the last.
+    pub fn samples(&self) -> u64 {
+        let [steps, between] = self.steps();
+        1 + steps.div_ceil(between)
+    }
 }

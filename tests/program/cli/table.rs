@@ -173,6 +173,74 @@ fn parts_of_other_runs_are_refused() {
     refused(&["--merge", &one], "has been changed by hand");
     std::fs::write(&file, &text[..text.len() / 2]).unwrap();
     refused(&["--merge", &one], "no part of a table");
+    // Not even with a checksum that fits.
+    type Edit = fn(&mut Value);
+    let edits: [(&str, Edit); 12] = [
+        ("one", |run| run["step"] = (-1.0).into()),
+        ("step", |run| run["step"] = 1e-9.into()),
+        ("mean", |run| run["kinetic"] = 1e308.into()),
+        ("error", |run| run["energy_error"] = 1e308.into()),
+        ("time", |run| run["samples"][0]["time"] = (-1e300).into()),
+        ("energy", |run| run["samples"][1]["kinetic"] = 1e308.into()),
+        ("cluster", |run| {
+            run["samples"][1]["clusters"] = vec![1_000_000].into()
+        }),
+        ("clusters", |run| {
+            run["samples"][1]["clusters"] = Value::Array(Vec::new())
+        }),
+        ("sample", |run| {
+            drop(run["samples"].as_array_mut().unwrap().pop())
+        }),
+        ("place", |run| run["movers"][0][1][0] = 1e300.into()),
+        ("speed", |run| run["movers"][0][2][0] = 1e300.into()),
+        ("life", |run| {
+            let life = serde_json::json!({"tiles": [0, 0], "tie": "Bond", "from": 0.0, "to": 0.1});
+            run["lives"] = vec![life].into();
+        }),
+    ];
+    for (what, edit) in edits {
+        let mut part: Value = serde_json::from_str(&text).unwrap();
+        edit(&mut part[1][0]);
+        std::fs::write(&file, part.to_string()).unwrap();
+        refused(&["--merge", &one], "has been changed by hand");
+        part[2] = sha256(&serde_json::json!([part[0], part[1]]).to_string()).into();
+        std::fs::write(&file, part.to_string()).unwrap();
+        let output = three_runs(&at("out"), &["--merge", &one]);
+        let told = stderr(&output);
+        assert!(told.contains("values that no run has"), "{what}: {told}");
+    }
+}
+
+fn sha256(text: &str) -> String {
+    use sha2::{Digest, Sha256};
+    let digest = Sha256::digest(text);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Neither more tiles than a table can have, nor a time that grows as their square.
+#[test]
+fn starts_have_at_most_a_hundred_thousand_tiles() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = folder.path().join("start.csv");
+    let mut text = "tile,kind,x,y,theta,vx,vy,omega\n".to_owned();
+    for tile in 0..100_002 {
+        text += &format!("{tile},fixed,0,0,0,0,0,0\n");
+    }
+    std::fs::write(&start, text).unwrap();
+    let output = tilebind(&[
+        "table",
+        TILE,
+        "--start",
+        start.to_str().unwrap(),
+        "--time",
+        "0.1",
+    ]);
+    let told = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(
+        told.contains("line 100002: a table can have at most"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -307,6 +375,17 @@ fn wrong_tables_are_refused_with_their_fix() {
             "needs 2, one for each kind of tile: fixed, moving",
         ),
         (&[TILE, "--count", "40,40"], "do not fit"),
+        (&[TILE, "--step", "1e-300"], "longer --step"),
+        (&[TILE, "--step", "1e-9"], "longer --step"),
+        (&[TILE, "--orbital", "1,1e9"], "at most 1000 Hz"),
+        (&[TILE, "--orbital", "1e300,1e300"], "at most 1 m"),
+        (&[TILE, "--frames", "1e-9"], "--frames"),
+        (&[TILE, "--fan", "0,0,1,1,1,1e300"], "F is at most 1000 Hz"),
+        (&[TILE, "--fan", "0,0,-1,1"], "a fan repels"),
+        (
+            &[TILE, "--count", "3,3", "--runs", "1e7", "--frames", "0.01"],
+            "use longer --frames",
+        ),
     ] {
         let counted = if wrong.contains(&"--count") {
             &counted[2..]
