@@ -7,6 +7,8 @@
 //! (J) with the lowest transition state between two minima; `min.coords` and `ts.coords` have x, y
 //! (m) and theta (rad) of each line, `pairlist` the connected pairs. TopSearch requires all five.
 //!
+//! TopSearch 0.0.3 cannot read a network with a single transition state, as of two minima.
+//!
 //! TopSearch 0.0.3 (`pip install topsearch`) reads `topsearch/` with `read_network` and draws the
 //! paper tile's graph: the same ten minima (nine kinds of state and free tiles), in which the
 //! shifted bonds join the bond first and all are joined at the top. It draws a linear scale with
