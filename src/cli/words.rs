@@ -30,7 +30,7 @@ pub struct Words {
 const NOTES: &str = "\
 The gap of a set of words is 1 - strongest wrong attraction / weakest bond. Energies are of flush faces
 in contact, at every slide by whole positions, between all pairs of magnets. Every meeting is wrong
-except that of a word with its own mate at slide 0. Tilted faces are not searched here; use
+except that of a word with its own mate (with --self: with its own kind) at slide 0. Tilted faces are not searched here; use
 `tilebind crosstalk`.
 
 With --gap the result is the largest set of words, with --count the widest gap, and with neither the
@@ -43,6 +43,7 @@ Examples:
   tilebind words --length 8 --count 5 --out target/words
   tilebind words --length 8                                # gap versus number of words
   tilebind words --length 12 --gap 0.8 --shape polar
+  tilebind words --self --length 4 --gap 0.4               # for one kind of tile
   tilebind words --slots 28 --magnets 4 --pitch 0.015 --gap 0.45 --seconds 60
   tilebind words --continuous --magnets 4 --pitch 0.02 --count 4
   tilebind words shapes/paper-tile.toml --length 6 --faces mates --contacts 2";

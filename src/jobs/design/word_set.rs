@@ -40,6 +40,8 @@ pub struct WordSet {
     /// Two square tiles whose target faces, east and west, have a north pole at every place; the
     /// other faces are empty.
     pub stage: Design,
+    /// The magnets.
+    bar: Bar,
 }
 
 /// The keys of a set of words.
@@ -139,6 +141,7 @@ impl WordSet {
                 names: spaced.iter().map(|(name, _)| (*name).to_owned()).collect(),
                 stage: word_stage::stage(&bar, side, &places, source.file)?,
                 places: Some(places),
+                bar,
             });
         }
         let (names, codes) = match given {
@@ -154,11 +157,8 @@ impl WordSet {
             let help = "list them: words = [\"NNSN\", \"NSSN\"]";
             return Err(DesignError::new(source.file, None, "it has no words", help));
         }
-        let (pitch, last) = (bar.pitch, count as f64 - 1.0);
-        let places: Vec<f64> = (0..count)
-            .map(|k| (k as f64 - last / 2.0) * pitch)
-            .collect();
-        let needed = pitch * last + width;
+        let pitch = bar.pitch;
+        let needed = pitch * (count as f64 - 1.0) + width;
         let side = side.unwrap_or(needed.max(pitch * count as f64));
         if needed > side * (1.0 + 1e-9) {
             let message = format!(
@@ -171,9 +171,38 @@ impl WordSet {
             words,
             names,
             places: None,
-            stage: word_stage::stage(&bar, side, &places, source.file)?,
+            stage: word_stage::stage(&bar, side, &even(count, pitch), source.file)?,
+            bar,
         })
     }
+
+    /// The same words on square tiles of another side (m).
+    ///
+    /// # Errors
+    /// If they do not fit there.
+    pub fn on_side(self, side: f64) -> Result<Self> {
+        let count = self.words.first().map_or(0, |word| word.places());
+        let even = even(count, self.bar.pitch);
+        let places = self.places.as_ref().unwrap_or(&even);
+        let reach = places.iter().fold(0.0, |most: f64, at| most.max(at.abs()));
+        let needed = 2.0 * reach + self.bar.size[1];
+        if needed > side * (1.0 + 1e-9) {
+            let message = format!(
+                "words of {count} positions need a face of {needed:.4} m, and the design's has \
+                 {side} m"
+            );
+            let help = "use shorter words, a smaller pitch or a longer side";
+            return Err(DesignError::new("words", None, message, help));
+        }
+        let stage = word_stage::stage(&self.bar, side, places, "words")?;
+        Ok(Self { stage, ..self })
+    }
+}
+
+/// Places (m) one pitch apart, with their middle in the middle of the face.
+fn even(count: usize, pitch: f64) -> Vec<f64> {
+    let middle = (count as f64 - 1.0) / 2.0;
+    (0..count).map(|k| (k as f64 - middle) * pitch).collect()
 }
 
 /// The faces of a set, including mates, by name.

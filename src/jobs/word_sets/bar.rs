@@ -1,5 +1,6 @@
 //! The magnets of words.
 
+use super::face;
 use crate::design::{Design, MagnetModel};
 use physics::words::Bar;
 
@@ -22,7 +23,7 @@ pub fn bar(
                 .ok_or("the design has no pitch; give one, such as 0.04 (m)")?;
             let bar = Bar::of_face(&pair.fixed, pair.target.0, &design.interaction, pitch)
                 .map_err(|error| format!("{error}; {why}, as in shapes/paper-tile.toml"))?;
-            (bar, Some(pair.fixed.faces[pair.target.0].length()))
+            (bar, Some(face(design)))
         }
     };
     let bar = Bar {

@@ -9,13 +9,15 @@ use physics::words::continuous::SpacedWord;
 use physics::words::set::name;
 use physics::words::{Bar, Word};
 
-/// The file of words with a pitch, on faces of length `side` (m).
-pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64) -> String {
+/// The file of words with a pitch, on faces of length `side` (m); words that bind their `own` kind
+/// have no mates.
+pub fn of_words(headline: &str, words: &[Word], bar: &Bar, side: f64, own: bool) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
     let list = format!("words = [{}]\n\n", quoted.join(", "));
+    let code = |word: Word| format!("code = \"{word}\"");
     let faces = words
         .iter()
-        .map(|word| [*word, word.mate()].map(|word| format!("code = \"{word}\"")));
+        .map(|word| (code(*word), (!own).then(|| code(word.mate()))));
     text(headline, &list, bar, side, faces)
 }
 
@@ -31,7 +33,7 @@ pub fn of_spaced(headline: &str, words: &[SpacedWord], bar: &Bar, side: f64) -> 
     };
     let faces = words
         .iter()
-        .map(|word| [magnets(word), magnets(&word.mate())]);
+        .map(|word| (magnets(word), Some(magnets(&word.mate()))));
     text(headline, "", bar, side, faces)
 }
 
@@ -41,7 +43,7 @@ fn text(
     list: &str,
     bar: &Bar,
     side: f64,
-    faces: impl Iterator<Item = [String; 2]>,
+    faces: impl Iterator<Item = (String, Option<String>)>,
 ) -> String {
     // Rounds, since rounding errors would show as spurious digits.
     let rounded = |x: f64| (x * 1e9).round() / 1e9;
@@ -59,9 +61,12 @@ fn text(
     let _ = writeln!(text, "\n[potential]\nmodel = \"{}\"", bar.model.name());
     text += "\n# Ready to paste into [fixed.faces] or [moving.faces] of a design, under the name \
         of a face\n# (east = { ... }); X* is the mate of X.\n[faces]\n";
-    for (k, [word, mate]) in faces.enumerate() {
+    for (k, (word, mate)) in faces.enumerate() {
         let name = name(k);
-        let _ = writeln!(text, "{name} = {{ {word} }}\n\"{name}*\" = {{ {mate} }}");
+        let _ = writeln!(text, "{name} = {{ {word} }}");
+        if let Some(mate) = mate {
+            let _ = writeln!(text, "\"{name}*\" = {{ {mate} }}");
+        }
     }
     text
 }

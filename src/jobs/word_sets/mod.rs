@@ -20,6 +20,7 @@ pub use request::{Request, gap, shape};
 pub use search::Found;
 pub use spaced::Spaced;
 
+use crate::design::Design;
 use physics::words::{Answer, Bar, Lags, Meeting, Question, Task, Word};
 
 /// The result of a search for words, with everything needed to reproduce it.
@@ -43,9 +44,12 @@ pub struct Sought {
 }
 
 impl Sought {
-    /// Side (m) of square tiles with room for the words' magnets.
+    /// Side (m) of square tiles with room for the words' magnets: that of the design if they fit.
     pub fn side(&self) -> f64 {
-        side(&self.bar, self.task.places)
+        match self.design.is_some() && self.pitch_that_fits().is_none() {
+            true => self.face,
+            false => side(&self.bar, self.task.places),
+        }
     }
 
     /// Distance (m) from the first to the last place of a face's magnets.
@@ -92,8 +96,16 @@ impl Sought {
     }
 }
 
-/// Length (m) of a face with a number of places.
+/// Length (m) of a design's target face.
+pub fn face(design: &Design) -> f64 {
+    let pair = &design.pair;
+    pair.fixed.faces[pair.target.0].length()
+}
+
+/// Side (m) of a square tile with a number of places on each face, whose magnets leave room for
+/// each other at the corners.
 pub fn side(bar: &Bar, places: usize) -> f64 {
     let places = places as f64;
-    (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1])
+    let depth = bar.inset + bar.size[0];
+    (places * bar.pitch).max((places - 1.0) * bar.pitch + bar.size[1] + 2.0 * depth)
 }

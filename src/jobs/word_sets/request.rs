@@ -6,7 +6,7 @@ use super::least_spacing;
 use crate::design::{self, MagnetModel};
 use crate::request::{self, Word};
 use physics::words::word::MOST_PLACES;
-use physics::words::{Bar, Constraints, Faces, Fault, Shape};
+use physics::words::{Bar, Constraints, Faces, Fault, Rules, Shape};
 
 /// The options of a search for words.
 #[derive(Clone, Debug, Args)]
@@ -27,6 +27,14 @@ pub struct Request {
     #[arg(long, value_name = "T", value_parser = request::count_or_none,
           conflicts_with_all = ["gap", "count"])]
     pub contacts: Option<usize>,
+
+    /// Words that bind their own kind and nothing else: for one kind of tile
+    ///
+    /// There are no mates: every face can meet every face, and the bond is that of a word with
+    /// itself.
+    #[arg(long = "self", conflicts_with_all = ["faces", "continuous", "word_word", "word_mate",
+          "mate_mate"])]
+    pub own: bool,
 
     /// Which faces can meet: all, or mates (words meet only mates)
     #[arg(long, value_name = "WHICH", default_value = "all", value_parser = faces(),
@@ -177,6 +185,22 @@ impl Request {
                  {magnets}; use fewer"
             )),
         }
+    }
+
+    /// Which contacts are wrong.
+    pub(super) fn rules(&self) -> Result<Rules, String> {
+        if self.own && self.shape == Shape::Polar {
+            return Err(
+                "--self: a knob does not meet its own kind; use --shape shared or leave it out"
+                    .to_owned(),
+            );
+        }
+        Ok(Rules {
+            faces: if self.own { Faces::Own } else { self.faces },
+            shape: self.shape,
+            flip: self.flip,
+            fault: self.tolerate,
+        })
     }
 
     pub(super) fn constraints(

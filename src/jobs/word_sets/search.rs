@@ -6,7 +6,7 @@ use crate::Refused;
 use crate::design::Design;
 use physics::budget::Budget;
 use physics::words::continuous::Wanted;
-use physics::words::{Effort, Faces, Lags, PAPER_FACE, Question, Rules, Task, answer};
+use physics::words::{Effort, Faces, Lags, PAPER_FACE, Question, Task, answer};
 
 /// The result of a search.
 pub enum Found {
@@ -60,12 +60,7 @@ impl Request {
             magnets,
             stands: bar.form.stands.is_some(),
             lags,
-            rules: Rules {
-                faces: self.faces,
-                shape: self.shape,
-                flip: self.flip,
-                fault: self.tolerate,
-            },
+            rules: self.rules()?,
             constraints,
         };
         Ok(Found::Even(Box::new(Sought {

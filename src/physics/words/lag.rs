@@ -271,7 +271,8 @@ impl Bar {
         let inset = if first.inset.abs() < 1e-9 {
             0.0
         } else {
-            first.inset
+            // Differences of positions have rounding errors: whole picometres.
+            (first.inset * 1e12).round() / 1e12
         };
         match inset >= 0.0 {
             true => Ok(Self { inset, ..first }),

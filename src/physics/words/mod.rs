@@ -82,7 +82,7 @@ impl Task {
     /// Whether two different words, each valid by itself, are compatible.
     fn compatible(&self, [u, v]: [Word; 2], limit: f64) -> bool {
         // Two names of the same pair of faces are not two words.
-        (!self.rules.words_meet() || u != v.mate())
+        (!self.rules.words_meet() || self.rules.own() || u != v.mate())
             && self.rules.within(&self.lags, u, v, limit)
             && self.constraints.allow_both(&self.lags, &self.rules, u, v)
     }
@@ -137,13 +137,15 @@ impl Task {
     }
 
     /// The smallest number of places in which two words differ that attract by at most `limit` (J)
-    /// when aligned, counting only facing magnets; `None` for words with empty places, and if any
-    /// two are allowed.
+    /// when aligned, counting only facing magnets; `None` for words with empty places, for words
+    /// that bind their own kind (their codes are not those of words with mates), and if any two are
+    /// allowed.
     fn distance(&self, limit: f64) -> Option<usize> {
         let contacts = (limit / self.lags.contact() + 1e-9).floor().max(-1.0);
         // Equal minus unequal poles has the parity of their number.
         let differ = (self.places as f64 - contacts) / 2.0;
-        (self.magnets == self.places && differ > 0.0).then(|| differ.ceil() as usize)
+        let has_mates = !self.rules.own();
+        (has_mates && self.magnets == self.places && differ > 0.0).then(|| differ.ceil() as usize)
     }
 
     /// Known codes whose words differ enough for a limit (J), largest first.

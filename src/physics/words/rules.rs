@@ -3,6 +3,9 @@
 //! A face carries a word u or its mate u*. Slid by s places, u meets v with the correlations of u
 //! and the reverse of v, and v* with those of u and -v. A face that is turned over has its word
 //! reversed. So all contacts of two words and their mates need at most four correlations.
+//!
+//! Words that bind their own kind ([`Faces::Own`]) have no mates: every face is a word of the set,
+//! and the bond is that of u with u.
 
 use super::fault::{Fault, Faulty};
 use super::lag::{Correlations, Lags};
@@ -16,6 +19,8 @@ pub enum Faces {
     All,
     /// Words meet only mates.
     Mates,
+    /// Every face carries a word, which is to bind its own kind: there are no mates.
+    Own,
 }
 
 impl Faces {
@@ -127,13 +132,18 @@ impl Meeting {
 impl Rules {
     /// Whether a word and its mate may be exchanged without changing which faces meet.
     pub fn exchangeable(&self) -> bool {
-        self.words_meet()
+        self.words_meet() && !self.own()
+    }
+
+    /// Whether words bind their own kind and have no mates.
+    pub fn own(&self) -> bool {
+        self.faces == Faces::Own
     }
 
     /// Whether words meet words.
     pub fn words_meet(&self) -> bool {
         match self.shape {
-            Shape::None => self.faces == Faces::All,
+            Shape::None => self.faces != Faces::Mates,
             Shape::Shared => true,
             Shape::Polar => false,
         }
@@ -155,10 +165,12 @@ impl Rules {
     }
 
     fn ways(&self) -> impl Iterator<Item = Way> {
-        let (words_meet, flip) = (self.words_meet(), self.flip);
+        let (words_meet, mates, flip) = (self.words_meet(), !self.own(), self.flip);
         let all = [(true, false), (false, false), (true, true), (false, true)];
         all.into_iter()
-            .filter(move |(mate, flipped)| (*mate || words_meet) && (!flipped || flip))
+            .filter(move |(mate, flipped)| {
+                (if *mate { mates } else { words_meet }) && (!flipped || flip)
+            })
             .map(|(mate, flipped)| Way { mate, flipped })
     }
 
@@ -168,9 +180,17 @@ impl Rules {
         (0..=last).flat_map(|s| [s, -s].into_iter().take(if s == 0 { 1 } else { 2 }))
     }
 
-    /// Whether a contact is the bond: a word and its own mate, at slide 0.
-    fn is_bond(way: Way, s: i32, same: bool) -> bool {
-        same && s == 0 && way.mate && !way.flipped
+    /// How the faces of a bond meet: a word and its mate, or two of a kind.
+    fn bond_way(&self) -> Way {
+        Way {
+            mate: !self.own(),
+            flipped: false,
+        }
+    }
+
+    /// Whether a contact is the bond, at slide 0.
+    fn is_bond(&self, way: Way, s: i32, same: bool) -> bool {
+        same && s == 0 && way == self.bond_way()
     }
 
     /// Whether no wrong attraction of two words and their mates exceeds `limit` (J).
@@ -212,7 +232,7 @@ impl Rules {
                             .get_or_insert_with(|| Correlations::new(u, facing))
                             .at(s),
                     };
-                if facing_alone <= fine || Self::is_bond(way, s, same) {
+                if facing_alone <= fine || self.is_bond(way, s, same) {
                     return true;
                 }
                 if facing_alone > most {
@@ -238,10 +258,11 @@ impl Rules {
         found.reduce(Meeting::stronger)
     }
 
-    /// The same for two faces alone, without slide 0 for a word and its mate.
+    /// The same for two faces alone, without the bond.
     pub fn strongest_of(&self, lags: &Lags, first: Word, second: Word) -> Option<Meeting> {
-        let ways = self.ways().filter(|way| way.mate);
-        let found = ways.filter_map(|way| self.strongest_way(lags, [first, second.mate()], way));
+        let ways = self.ways().filter(|way| way.mate != self.own());
+        let second = if self.own() { second } else { second.mate() };
+        let found = ways.filter_map(|way| self.strongest_way(lags, [first, second], way));
         found.reduce(Meeting::stronger)
     }
 
@@ -249,7 +270,7 @@ impl Rules {
         let facing = way.facing(v);
         let all = lags.energies(&Correlations::new(u, facing));
         let slides = self.slides_of(u.places());
-        let wrong = slides.filter(|s| !Self::is_bond(way, *s, u == v));
+        let wrong = slides.filter(|s| !self.is_bond(way, *s, u == v));
         let energies = wrong.map(|s| match self.fault {
             Some(fault) => (fault.least(lags, -way.sign(), [u, facing], s), s),
             None => ((-way.sign() * all.at(s), [None; 2]), s),
@@ -266,12 +287,13 @@ impl Rules {
         })
     }
 
-    /// The depth (J) of the bond of a word and its mate, flush; with the worst faults if faults are
-    /// allowed.
+    /// The depth (J) of the bond of a word, flush; with the worst faults if faults are allowed.
     pub fn bond(&self, lags: &Lags, word: Word) -> f64 {
+        let way = self.bond_way();
+        let facing = way.facing(word);
         match self.fault {
-            Some(fault) => fault.least(lags, 1.0, [word, word], 0).0,
-            None => lags.energy(&Correlations::new(word, word), 0),
+            Some(fault) => fault.least(lags, way.sign(), [word, facing], 0).0,
+            None => way.sign() * lags.energy(&Correlations::new(word, facing), 0),
         }
     }
 
@@ -292,7 +314,7 @@ impl Rules {
         };
         let all = lags.energies(&Correlations::new(u, way.facing(v)));
         self.slides_of(u.places())
-            .filter(|s| !Self::is_bond(way, *s, u == v))
+            .filter(|s| !self.is_bond(way, *s, u == v))
             .map(|s| -way.sign() * all.at(s))
             .collect()
     }

@@ -35,6 +35,8 @@ use crate::{convert, fault, job};
 ///     Face length (m) with `continuous`; the design's by default, or the paper's.
 /// design : Design, optional
 ///     Its target face gives magnets and pitch; the paper's tile by default.
+/// self : bool, optional
+///     Words that bind their own kind and nothing else: there are no mates.
 /// faces : {"all", "mates"}, optional
 ///     Which faces can meet.
 /// shape : {"none", "shared", "polar"}, optional

@@ -4,7 +4,7 @@ const meetings = page.meetings;
 let met = null;
 
 const shareOf = (energy) => Math.max(0, -energy / meetings.bond_J);
-const areMates = (i, j) => Math.abs(i - j) === meetings.names.length / 2;
+const areBond = (i, j) => meetings.own ? i === j : Math.abs(i - j) === meetings.names.length / 2;
 
 /** A tile with one face's magnets, in reverse order if it is turned over. */
 function faceTile(magnets, over) {
@@ -32,8 +32,8 @@ function drawMeeting() {
   drawTile(pen, faceTile(meetings.second[j], over), pose, at, theme.moving);
   scaleBar(pen, scale, width, height);
   const energy = meetings.energies_J[i][j], lower = meetings.lower_J?.[i]?.[j] ?? null;
-  const bond = areMates(i, j) ? " (its own mate: the strongest contact other than the bond)" : "";
-  const proved = lower === null || areMates(i, j) ? "" : `, proved lower bound ${si(lower, "J")}`;
+  const bond = areBond(i, j) ? ` (its own ${meetings.own ? "kind" : "mate"}: the strongest contact other than the bond)` : "";
+  const proved = lower === null || areBond(i, j) ? "" : `, proved lower bound ${si(lower, "J")}`;
   told.textContent = `${first} on ${second}${over ? ", turned over" : ""}${bond}: ${si(energy, "J")}${proved},`
     + ` ${shareOf(energy).toFixed(3)} of the weakest bond; ${poseText(pose)}. ${codes}.`;
 }

@@ -35,6 +35,8 @@ pub struct Meetings {
     poses: Vec<Vec<Option<[f64; 3]>>>,
     /// Whether the second tile is turned over; empty if none ever is.
     over: Vec<Vec<bool>>,
+    /// Whether words bind their own kind, so that there are no mates.
+    own: bool,
     /// Depth of the weakest bond (J).
     #[serde(rename = "bond_J")]
     bond: f64,
@@ -177,6 +179,7 @@ impl Meetings {
                 any(|met| met.over),
                 table(&all, |met| met.is_some_and(|met| met.over)),
             ),
+            own: !faces.iter().any(|face| face.0.ends_with('*')),
             bond,
             worst: [worst.0, worst.1],
             outline: vec![[half, -half], [half, half], [-half, half], [-half, -half]],
@@ -210,9 +213,15 @@ impl Meetings {
             names: self.names.clone(),
             numbers: numbers.table("crosstalk").csv(),
             shares,
-            is_framed: |row, column, count| 2 * row.abs_diff(column) == count,
+            is_framed: match self.own {
+                true => |row, column, _| row == column,
+                false => |row, column, count| 2 * row.abs_diff(column) == count,
+            },
             legend: "attraction relative to the weakest bond",
-            remark: "framed: a word and its own mate",
+            remark: match self.own {
+                true => "framed: a word and its own kind",
+                false => "framed: a word and its own mate",
+            },
         }
         .into()
     }

@@ -53,7 +53,13 @@ fn of_sought(sought: &Sought) -> Document<'_> {
     let is_drawn = (1..=MOST_DRAWN).contains(&words.len());
     let map = is_drawn.then(|| map(sought));
     let headline = headline(sought);
-    let set = file::of_words(&headline, words, bar, sought.side());
+    let set = file::of_words(
+        &headline,
+        words,
+        bar,
+        sought.side(),
+        sought.task.rules.own(),
+    );
     let mut pictures = Vec::new();
     if let Some(map) = &map {
         pictures.push(map.picture());
@@ -174,6 +180,7 @@ fn entries(sought: &Sought) -> Entries {
             "count": request.count,
             "contacts": request.contacts,
             "faces": if task.rules.words_meet() { "all" } else { "mates" },
+            "self": task.rules.own(),
             "shape": request.shape.name(),
             "flip": request.flip,
             "tolerate": request.tolerate.map(Fault::name),
@@ -227,12 +234,13 @@ fn points(points: &[Point]) -> Table {
 #[rustfmt::skip]
 fn list(sought: &Sought) -> Table {
     type Row<'a> = (usize, Word, Option<Meeting>);
+    let own = sought.task.rules.own();
     let all = sought.answer.words.iter().enumerate();
     let all = all.map(|(k, word)| -> Row { (k, *word, sought.worst(*word)) });
     rows(all)
         .column("name", "name", "of the word; mates are marked with *", |it| name(it.0))
         .column("word", "word", "read counter-clockwise: N or S out of the face, U or D north up or down", |it| it.1.to_string())
-        .column("mate", "mate", "the word that binds it", |it| it.1.mate().to_string())
+        .column("mate", "mate", "the word that binds it", move |it| match own { true => it.1, false => it.1.mate() }.to_string())
         .column("bond_J", "bond", "depth of its bond, flush, in contact", |it| sought.task.rules.bond(&sought.energies, it.1)).digits(4)
         .column("worst_J", "worst meeting", "energy of the strongest wrong attraction", |it| it.2.map(|it| it.energy)).digits(4)
         .column("worst_with", "with", "the face in that contact", |it| it.2.map(|it| it.second.to_string()))
@@ -309,7 +317,8 @@ fn map(sought: &Sought) -> Meetings {
     let named = words.iter().enumerate();
     let own = named.clone().map(|(k, word)| (name(k), *word));
     let mates = named.map(|(k, word)| (name(k) + "*", word.mate()));
-    let faces: Vec<_> = own.chain(mates).collect();
+    let has_mates = !task.rules.own();
+    let faces: Vec<_> = own.chain(mates.filter(|_| has_mates)).collect();
     let m = words.len();
     let met = |i: usize, j: usize| {
         // If words only meet mates, two words do not meet, nor two mates.
@@ -327,10 +336,18 @@ fn map(sought: &Sought) -> Meetings {
         })
     };
     let bond = answer.judgement.as_ref().map_or(1.0, |it| it.bond);
-    Meetings::new(&carrier, &faces, bond, met).titled(
-        "Strongest wrong attraction between every two faces",
-        "Rows and columns are words and their mates. Numbers are attractions relative to the \
-         weakest bond, for flush faces at every slide by whole positions. Framed: a word and its \
-         own mate, slid. Click a cell to see the tiles.",
-    )
+    let [faces_are, framed] = match has_mates {
+        true => ["words and their mates", "a word and its own mate"],
+        false => [
+            "words, which bind their own kind",
+            "a word and its own kind",
+        ],
+    };
+    let note = format!(
+        "Rows and columns are {faces_are}. Numbers are attractions relative to the weakest bond, \
+         for flush faces at every slide by whole positions. Framed: {framed}, slid. Click a cell \
+         to see the tiles."
+    );
+    let meetings = Meetings::new(&carrier, &faces, bond, met);
+    meetings.titled("Strongest wrong attraction between every two faces", &note)
 }

@@ -84,9 +84,10 @@ pub(super) fn told(meeting: &Meeting, sought: &Sought) -> String {
 
 /// A description of how faces can meet.
 pub(super) fn meetings(rules: &Rules) -> String {
-    let who = match rules.words_meet() {
-        true => "every face can meet every face",
-        false => "words meet only mates",
+    let who = match (rules.own(), rules.words_meet()) {
+        (true, _) => "every word is to bind its own kind",
+        (_, true) => "every face can meet every face",
+        (_, false) => "words meet only mates",
     };
     let slides = match rules.shape {
         Shape::None => "at every slide by whole positions",

@@ -8,6 +8,33 @@ use super::{json, numbers, tilebind};
 use crate::folder::contents;
 use crate::program::{stderr, stdout};
 
+/// A small square tile of shop magnets.
+pub(super) const SMALL: &str = "\
+name = \"small\"
+[table]
+size = [0.4, 0.4]
+[magnet]
+size = [0.002, 0.01, 0.005]
+grade = \"N45\"
+pitch = \"13 mm\"
+inset = \"0.6 mm\"
+[fixed]
+side = 0.06
+thickness = \"8 mm\"
+mass = \"19 g\"
+[fixed.faces]
+east = { code = \"NS\" }
+[moving]
+side = 0.06
+thickness = \"8 mm\"
+mass = \"19 g\"
+[moving.faces]
+west = { mates = \"east\" }
+[target]
+fixed = \"east\"
+moving = \"west\"
+";
+
 fn words(found: &Value) -> Vec<&str> {
     let list = found["words"].as_array().expect("a list");
     list.iter()
@@ -29,6 +56,56 @@ fn eight_magnets_carry_seven_words() {
     for key in ["first", "second", "slide", "energy_J"] {
         assert!(!found["worst"][key].is_null(), "{key}");
     }
+}
+
+/// Tiles of one kind: NNSS, NSNS and SSNN each bind themselves, and the file has no mates.
+#[test]
+fn words_that_bind_their_own_kind_have_no_mates() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let asked = ["words", "--self", "--length", "4", "--gap", "0.4"];
+    let found = json(&[&asked[..], &["--json", "--out", out]].concat());
+    assert_eq!(words(&found), ["NNSS", "NSNS", "SSNN"]);
+    assert_eq!(
+        (&found["proved"], &found["upper_bound"]),
+        (&true.into(), &3.into())
+    );
+    let text = std::fs::read_to_string(folder.path().join("words.toml")).unwrap();
+    assert!(!text.contains('*') || !text.contains("\"A*\""), "{text}");
+    // Every bond is that of two faces of one kind, as `energy` computes it.
+    let bond = found["bond_J"].as_f64().unwrap();
+    for word in words(&found) {
+        let design = format!(
+            "name = \"own\"\n[table]\nsize = [2.0, 2.0]\n[magnet]\nsize = [0.01, 0.01, 0.003]\n\
+             remanence = 1.2\npitch = 0.04\n[fixed]\nside = 0.3\nthickness = 0.013\nmass = 0.1\n\
+             [fixed.faces]\neast = {{ code = \"{word}\" }}\n[moving]\nside = 0.3\nthickness = \
+             0.013\nmass = 0.1\n[moving.faces]\nwest = {{ code = \"{word}\" }}\n[target]\nfixed = \
+             \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n"
+        );
+        let file = folder.path().join("own.toml");
+        std::fs::write(&file, design).unwrap();
+        let energy = json(&["energy", file.to_str().unwrap(), "--pose", "0.3,0,0"]);
+        let energy = -energy[0]["energy_J"].as_f64().unwrap();
+        assert!(energy >= bond * (1.0 - 1e-9), "{word}: {energy} {bond}");
+    }
+    let refused = tilebind(&[&asked[..], &["--shape", "polar"]].concat());
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+}
+
+/// Words for a design are for tiles of its side, and lengths have no rounding errors.
+#[test]
+fn words_for_a_design_keep_its_side() {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("small.toml");
+    std::fs::write(&design, SMALL).unwrap();
+    let out = folder.path().join("out");
+    let [design, shown] = [&design, &out].map(|path| path.to_str().unwrap());
+    let found = json(&[
+        "words", design, "--length", "4", "--count", "5", "--json", "--out", shown,
+    ]);
+    assert_eq!(found["settings"]["inset_m"], 0.0006);
+    let text = std::fs::read_to_string(out.join("words.toml")).unwrap();
+    assert!(text.contains("[tile]\nside = 0.06\n"), "{text}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn brute_force(places: usize, gap: f64, rules: &Rules, asked: &Constraints) -> u
         .map(|i| {
             let fits = |j: usize| {
                 let (u, v) = (&words[i].1, &words[j].1);
-                (!rules.words_meet() || *u != mate(v))
+                (!rules.words_meet() || rules.own() || *u != mate(v))
                     && allowed(u, v, asked)
                     && allowed(v, u, asked)
             };

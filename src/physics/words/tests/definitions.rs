@@ -62,7 +62,12 @@ fn with_faults(first: &[i32], second: &[i32], slide: i32, fault: Option<Fault>, 
 }
 
 pub(super) fn bond(word: &[i32], rules: &Rules) -> f64 {
-    with_faults(word, &mate(word), 0, rules.fault, -1.0)
+    let partner = if rules.own() {
+        word.to_vec()
+    } else {
+        mate(word)
+    };
+    with_faults(word, &partner, 0, rules.fault, -1.0)
 }
 
 /// The strongest wrong attraction (J) of two words and their mates.
@@ -74,7 +79,7 @@ pub(super) fn wrong(u: &[i32], v: &[i32], rules: &Rules) -> f64 {
     };
     let mut strongest = 0.0f64;
     for (mates, second) in [(true, mate(v)), (false, v.to_vec())] {
-        if !mates && !rules.words_meet() {
+        if (!mates && !rules.words_meet()) || (mates && rules.own()) {
             continue;
         }
         for over in [false, true] {
@@ -86,7 +91,7 @@ pub(super) fn wrong(u: &[i32], v: &[i32], rules: &Rules) -> f64 {
                 second.reverse();
             }
             for slide in -last..=last {
-                if !(mates && !over && slide == 0 && u == v) {
+                if !(mates != rules.own() && !over && slide == 0 && u == v) {
                     strongest = strongest.max(-with_faults(u, &second, slide, rules.fault, 1.0));
                 }
             }

@@ -69,7 +69,10 @@ fn plain_attraction(u: Word, v: Word, rules: &Rules) -> f64 {
                 if (!mate && !rules.words_meet()) || (flipped && !rules.flip) {
                     continue;
                 }
-                if mate && !flipped && slide == 0 && u == v {
+                if mate && rules.own() {
+                    continue;
+                }
+                if mate != rules.own() && !flipped && slide == 0 && u == v {
                     continue;
                 }
                 let second = if mate { v.mate() } else { v };
@@ -89,6 +92,8 @@ fn every_rule() -> Vec<Rules> {
             (Faces::Mates, Shape::None),
             (Faces::All, Shape::Shared),
             (Faces::All, Shape::Polar),
+            (Faces::Own, Shape::None),
+            (Faces::Own, Shape::Shared),
         ] {
             all.push(Rules {
                 faces,
