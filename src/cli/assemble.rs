@@ -48,9 +48,13 @@ Every glue becomes a word on each axis that uses it. A bond of half the strength
 Words come from --words or from a search. The search finds the widest gap on a face of --length
 positions, or with --gap the shortest face that carries enough words.
 
-The command writes assembly.yaml (rgrow) and assembly.tiles (xgrow) with all energies, including those
-of aligned mismatches; a design for every two tiles that can meet; the workshop sheet; and the
-slid contacts, which the engines ignore.";
+Without --kt the tiles are laid by hand: words, sheet and designs for one of each tile, or for the
+shares of the file if these are whole numbers. With --words the letters and orientations of the file
+stay, and with a DESIGN its side.
+
+With --kt growth is simulated, too, and the command writes assembly.yaml (rgrow) and assembly.tiles
+(xgrow) with all energies, including those of aligned mismatches. It always writes a design for every
+two tiles that can meet, the workshop sheet, and the slid contacts, which the engines ignore.";
 
 const EXAMPLES: &str = "\
 Examples:

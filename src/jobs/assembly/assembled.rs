@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use super::built::Verdict;
+use super::built::{Plan, Shaken, Verdict};
 use super::choice::Choice;
 use super::kinetic::{Growth, Kinetics};
+use super::matrix::Matrix;
 use super::slides::{self, Slid};
 use super::{Built, Request, TileSet, Wiring, lattice, proofread, square};
-use crate::Refused;
 use crate::design::{Design, WordSet};
+use crate::{Refused, word_sets};
 use physics::kinetics::bond::Shaking;
 use physics::observer::Observer;
 use physics::tile::Magnet;
@@ -28,12 +29,54 @@ pub struct Assembly<'a> {
     pub design: Option<&'a Design>,
     /// The attempts of the search for words; empty if the words were given.
     pub tried: Vec<Choice>,
+    /// Its growth on a shaken table; `None` for a set that is laid by hand.
+    pub growing: Option<Growing>,
+    /// The slid contacts of every two faces; empty if words have no pitch.
+    pub slides: Vec<Slid>,
+}
+
+/// The growth of a set on a shaken table.
+pub struct Growing {
+    /// Energies at the requested kT.
+    pub shaken: Shaken,
     /// Simulated growth at the requested kT, with errors.
     pub growth: Growth,
     /// The same at other kT at which something may grow, in ascending order: kT (J) and growth.
     pub others: Vec<(f64, Growth)>,
-    /// The slid contacts of every two faces; empty if words have no pitch.
-    pub slides: Vec<Slid>,
+}
+
+impl Growing {
+    /// Whether the assembly grows at this kT, and without permanent errors.
+    pub fn verdict(&self, built: &Built) -> Verdict {
+        let growth = &self.growth;
+        match built.verdict(&self.shaken) {
+            holds @ (Verdict::TauHolds | Verdict::OneHolds) => match () {
+                () if is_right(growth) => holds,
+                () if growth.wrong > 0 => Verdict::ErrorsStay,
+                () => Verdict::Slow,
+            },
+            Verdict::TooHard if is_right(growth) => Verdict::MoreHold,
+            Verdict::FewerHold if is_right(growth) => Verdict::FewerSuffice,
+            other => other,
+        }
+    }
+
+    /// The suggested kT (J): the one at which most growths are right, the middle one of several
+    /// equal ones in a row; `None` if at no kT more than half of the growths are right.
+    pub fn proposal(&self) -> Option<(f64, Growth)> {
+        let share = |growth: &Growth| growth.right as f64 / growth.runs as f64;
+        let shares = self.others.iter().map(|(_, growth)| share(growth));
+        let most = shares.fold(0.0, f64::max);
+        let is_best = |it: &&(f64, Growth)| share(&it.1) == most;
+        let best: Vec<&(f64, Growth)> = self
+            .others
+            .iter()
+            .skip_while(|it| !is_best(it))
+            .take_while(is_best)
+            .collect();
+        let middle = best.get(best.len() / 2)?;
+        (most > 0.5).then_some(**middle)
+    }
 }
 
 /// Numbers of simulated growths at the requested kT and at each other kT, for large sets.
@@ -77,12 +120,8 @@ impl Request {
         Err(wrong.into())
     }
 
-    /// Builds a tile set from words: from the given ones, with the text of their file, or else from
-    /// a search.
-    ///
-    /// # Errors
-    /// If there are no such words, or too few.
-    pub fn build<'a>(
+    /// The same as [`Request::build`], without checking the designs.
+    pub(super) fn assembled<'a>(
         &self,
         tiles: &TileSet,
         words: Option<(WordSet, String)>,
@@ -90,14 +129,18 @@ impl Request {
         observer: &dyn Observer,
     ) -> Result<Assembly<'a>, Refused> {
         let set = proofread::blocks(tiles, self.proofread.into())?;
-        let shaking = Shaking {
-            kt: self.kt,
-            coverage: self.coverage,
+        let plan = Plan {
+            laid: self.kt.is_none(),
+            given: words.is_some(),
         };
         observer.stage("words", 0.0);
         let (words, built, words_toml, tried) = match words {
             Some((words, text)) => {
-                let built = Built::new(&set, &words, shaking)?;
+                let words = match design {
+                    Some(design) => words.on_side(word_sets::face(design))?,
+                    None => words,
+                };
+                let built = Built::new(&set, &words, plan)?;
                 let text = lettered(&text, &words, &built)?;
                 (words, built, text, Vec::new())
             }
@@ -105,28 +148,18 @@ impl Request {
                 let sought = self.search(&Wiring::new(&set)?, design, observer)?;
                 let text = sought.text(sought.words());
                 let found = WordSet::parse(&text, "the words found", self.model)?;
-                let built = Built::new(&set, &found, shaking)?;
+                let mut built = Built::new(&set, &found, plan)?;
+                // Letters in the order of the bonds.
                 let text = sought.text(&built.matrix.words);
+                let found = WordSet::parse(&text, "the words found", self.model)?;
+                built.matrix = Matrix::new(&found, &built.matrix.words);
                 (found, built, text, sought.tried)
             }
         };
-        observer.stage("growth", 0.6);
-        let engine = built.engine();
-        let kinetics = |[gse, gmc]: [f64; 2]| Kinetics::new(&engine, &built.grown).at(gse, gmc);
-        let runs = match built.grown.tiles.len() {
-            ..=LARGE => RUNS,
-            _ => RUNS_OF_LARGE,
+        let growing = match self.kt {
+            Some(kt) => Some(self.grow(&built, &words, kt, observer)?),
+            None => None,
         };
-        let growth = kinetics([built.gse(), built.gmc]).growths(runs[0], self.seed);
-        let hardest = built.window().map_or(0.0, |ends| ends[1]);
-        let mut others = Vec::new();
-        for (k, share) in TRIED.iter().enumerate() {
-            observer.part("growth", k, TRIED.len());
-            let kt = share * hardest;
-            if let Some(costs) = built.at(&words, kt).filter(|_| kt > 0.0) {
-                others.push((kt, kinetics(costs).growths(runs[1], self.seed)));
-            }
-        }
         Ok(Assembly {
             slides: slides::of_all(&built, &words, &self.rules()),
             built,
@@ -135,19 +168,61 @@ impl Request {
             words_toml,
             design,
             tried,
+            growing,
+        })
+    }
+
+    /// Simulates growth on a table shaken at kT (J), and at other kT.
+    fn grow(
+        &self,
+        built: &Built,
+        words: &WordSet,
+        kt: f64,
+        observer: &dyn Observer,
+    ) -> Result<Growing, String> {
+        observer.stage("growth", 0.6);
+        let at = |kt: f64| {
+            let coverage = self.coverage;
+            built.shaken(words, Shaking { kt, coverage })
+        };
+        let shaken = at(kt)?;
+        let engine = built.engine(&shaken);
+        let grown = |it: &Shaken, runs: usize| {
+            let kinetics = Kinetics::new(&engine, &built.grown).at(it.gse, it.gmc);
+            kinetics.growths(runs, self.seed)
+        };
+        let runs = match built.grown.tiles.len() {
+            ..=LARGE => RUNS,
+            _ => RUNS_OF_LARGE,
+        };
+        let growth = grown(&shaken, runs[0]);
+        let hardest = built.window(&shaken).map_or(0.0, |ends| ends[1]);
+        let mut others = Vec::new();
+        for (k, share) in TRIED.iter().enumerate() {
+            observer.part("growth", k, TRIED.len());
+            let kt = share * hardest;
+            if kt > 0.0
+                && let Ok(other) = at(kt)
+            {
+                others.push((kt, grown(&other, runs[1])));
+            }
+        }
+        Ok(Growing {
+            shaken,
             growth,
             others,
         })
     }
 }
 
-/// The text of a set of words in the order of an assembly, so that a letter means the same word in
-/// every file.
+/// The text of a given set of words with the letters of its faces, which are the same in every file
+/// of the assembly, and with the side of the tiles that carry them.
 fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refused> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut table: toml::Table = text.parse().map_err(|error| format!("{error}"))?;
-    let matrix = &built.matrix;
+    let all = Matrix::new(words, &words.words);
     let face = |face: usize| {
-        let code = matrix.code(face).to_string();
+        let code = all.code(face).to_string();
         let entry = match &words.places {
             None => format!("code = \"{code}\""),
             Some(places) => {
@@ -159,22 +234,29 @@ fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refuse
                 )
             }
         };
-        let name = matrix.name(face);
-        match name.ends_with('*') {
-            true => format!("\"{name}\" = {{ {entry} }}\n"),
-            false => format!("{name} = {{ {entry} }}\n"),
-        }
+        let name = all.name(face);
+        let is_bare = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+        let name = match !name.is_empty() && name.chars().all(is_bare) {
+            true => name,
+            false => toml::Value::from(name).to_string(),
+        };
+        format!("{name} = {{ {entry} }}\n")
     };
-    if words.places.is_none() {
-        let codes = matrix.words.iter().map(ToString::to_string);
+    if words.places.is_none() && words.names.is_empty() {
+        let codes = all.words.iter().map(ToString::to_string);
         table.insert("words".to_owned(), codes.collect::<Vec<_>>().into());
     }
+    let side = words.stage.pair.fixed.faces[0].length();
+    let side = toml::Table::from_iter([("side".to_owned(), ((side * 1e9).round() / 1e9).into())]);
+    table.insert("tile".to_owned(), side.into());
     table.remove("faces");
-    let faces: String = (0..matrix.energies.len()).map(face).collect();
-    let unused = words.words.len() - matrix.words.len();
+    let n = all.words.len();
+    let faces: String = (0..n).flat_map(|k| [face(k), face(k + n)]).collect();
+    let unused = n - built.matrix.words.len();
     let rest = match unused {
         0 => String::new(),
-        unused => format!("; {unused} of its words are not needed"),
+        1 => "; 1 of them is not needed".to_owned(),
+        unused => format!("; {unused} of them are not needed"),
     };
     Ok(format!(
         "# The words of {}, by the letters of sheet.md and matrix.csv{rest}\n\n{table}\n[faces]\n{faces}",
@@ -183,37 +265,6 @@ fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refuse
 }
 
 impl Assembly<'_> {
-    /// Whether the assembly grows at this kT, and without permanent errors.
-    pub fn verdict(&self) -> Verdict {
-        let growth = &self.growth;
-        match self.built.verdict() {
-            holds @ (Verdict::TauHolds | Verdict::OneHolds) => match () {
-                () if is_right(growth) => holds,
-                () if growth.wrong > 0 => Verdict::ErrorsStay,
-                () => Verdict::Slow,
-            },
-            Verdict::TooHard if is_right(growth) => Verdict::MoreHold,
-            other => other,
-        }
-    }
-
-    /// The suggested kT (J): the one at which most growths are right, the middle one of several
-    /// equal ones in a row; `None` if at no kT more than half of the growths are right.
-    pub fn proposal(&self) -> Option<(f64, Growth)> {
-        let share = |growth: &Growth| growth.right as f64 / growth.runs as f64;
-        let shares = self.others.iter().map(|(_, growth)| share(growth));
-        let most = shares.fold(0.0, f64::max);
-        let is_best = |it: &&(f64, Growth)| share(&it.1) == most;
-        let best: Vec<&(f64, Growth)> = self
-            .others
-            .iter()
-            .skip_while(|it| !is_best(it))
-            .take_while(is_best)
-            .collect();
-        let middle = best.get(best.len() / 2)?;
-        (most > 0.5).then_some(**middle)
-    }
-
     /// The name of a face.
     pub fn face(&self, face: usize) -> String {
         self.built.matrix.name(face)

@@ -22,11 +22,18 @@ const ROUNDS: usize = 12;
 const MOST_STEPS: usize = 1_000_000;
 
 /// Assigns a face of [`Matrix`] to every bond, that of its east or north faces: first the deepest
-/// words of `all` to the strongest bonds, then by exchanges.
+/// words of `all` to the strongest bonds, then by exchanges. Words that are `given` keep their
+/// orientation: east and north faces carry words, not mates.
 ///
 /// # Errors
 /// If no words bind each other's mates as some bonds require.
-pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Result<Vec<Word>, String> {
+pub fn assign(
+    all: &Matrix,
+    wiring: &Wiring,
+    depths: Option<&Depths>,
+    given: bool,
+) -> Result<Vec<Word>, String> {
+    let ways = |ways: usize| if given { 0 } else { ways };
     let bonds = &wiring.bonds;
     let fixed = fixed(all, wiring)?;
     let (there, needed) = (all.words.len(), bonds.len());
@@ -45,13 +52,17 @@ pub fn assign(all: &Matrix, wiring: &Wiring, depths: Option<&Depths>) -> Result<
     }
     faces.extend(by_depth.iter().skip(by_strength.len()));
     let weights = |faces: &[usize], changed: &[usize]| weights(all, wiring, faces, changed);
-    exchange(&mut faces, all, &fixed, 1, |faces, others, changed| {
-        weights(others, changed) < weights(faces, changed) * (1.0 - 1e-9)
-    });
+    exchange(
+        &mut faces,
+        all,
+        &fixed,
+        ways(1),
+        |faces, others, changed| weights(others, changed) < weights(faces, changed) * (1.0 - 1e-9),
+    );
     if let Some(depths) = depths {
         let every: Vec<usize> = (0..needed).collect();
         let most = weights(&faces, &every) * depths.price;
-        exchange(&mut faces, all, &fixed, 4, |faces, others, _| {
+        exchange(&mut faces, all, &fixed, ways(4), |faces, others, _| {
             let deeper = depths.excess(faces);
             deeper > 0.0
                 && depths.excess(others) < deeper * (1.0 - 1e-9)
@@ -114,7 +125,7 @@ fn fixed(all: &Matrix, wiring: &Wiring) -> Result<Vec<Option<usize>>, String> {
 /// Exchanges the faces of bonds with each other and with unused words, and words with mates, as
 /// long as the result is `better`, a function of the faces before and after and of the changed
 /// bonds. There are 1 or 4 `ways` of each exchange: as it is, or also with one or both replaced by
-/// their mates.
+/// their mates; with 0, exchanges are as they are and no word is replaced by its mate.
 fn exchange(
     faces: &mut Vec<usize>,
     all: &Matrix,
@@ -137,14 +148,14 @@ fn exchange(
         for i in (0..needed).filter(|i| !is_fixed(*i)) {
             let mut turned = faces.clone();
             turned[i] = all.mate(faces[i]);
-            any |= take(faces, turned, &[i]);
+            any |= ways > 0 && take(faces, turned, &[i]);
             for k in (i + 1..there).filter(|k| !is_fixed(*k)) {
                 let [one, other] = [faces[i], faces[k]].map(|face| all.bond(face));
                 if (one / other - 1.0).abs() > ALIKE {
                     continue;
                 }
                 let changed = if k < needed { &[i, k][..] } else { &[i] };
-                for way in 0..ways {
+                for way in 0..ways.max(1) {
                     let mut swapped = faces.clone();
                     swapped.swap(i, k);
                     for (bit, at) in [i, k].into_iter().enumerate() {

@@ -13,8 +13,10 @@
 //! bond of strength 1. A tile bound by two bonds has less freedom than this; the engines ignore
 //! that, so a real corner binds a little less strongly.
 
+use std::collections::BTreeMap;
+
 use super::assignment::assign;
-use super::axis::Met;
+use super::axis::{Axis, Met};
 use super::depths::Depths;
 use super::growth::{Grown, Holds, grow, neighbours};
 use super::matrix::Matrix;
@@ -34,33 +36,55 @@ pub struct Built {
     pub wiring: Wiring,
     /// The energies of all pairs of faces.
     pub matrix: Matrix,
-    /// The shaking.
-    pub shaking: Shaking,
     /// Depth (J) of the weakest bond, over its strength.
     pub unit: f64,
     /// The index of that bond.
     pub weakest: usize,
-    /// The integral Z0 (m^2 rad) around that bond.
-    pub volume: f64,
-    /// The docking cost of a tile if all tiles were of its kind (kT).
-    pub docking_cost: f64,
-    /// Gmc (kT) of a tile with share 1 among its kinds.
-    pub gmc: f64,
     /// What grows without errors.
     pub grown: Grown,
+    /// The tiles that meet, with how often: in the grown assembly, or every two that bind.
+    pub meetings: BTreeMap<Met, usize>,
     /// The contribution of the other faces of two tiles to their bond.
     pub rests: Rests,
+}
+
+/// The energies of a built set on a shaken table.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaken {
+    /// The shaking.
+    pub shaking: Shaking,
+    /// Gse (kT): the weakest bond of strength 1.
+    pub gse: f64,
+    /// Gmc (kT) of a tile with share 1 among its kinds.
+    pub gmc: f64,
+    /// The docking cost of a tile if all tiles were of its kind (kT).
+    pub docking_cost: f64,
+    /// The integral Z0 (m^2 rad) around the weakest bond.
+    pub volume: f64,
+}
+
+/// How a set is to be put together, and whether its words were given.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Plan {
+    /// By hand, rather than by growth from a seed.
+    pub laid: bool,
+    /// Given words keep their orientation.
+    pub given: bool,
 }
 
 /// Whether a tile set grows as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
+    /// No tile attaches to the seed, whatever kT: no bond has strength tau.
+    Stuck,
     /// kT is too high: bonds of strength tau do not hold a tile.
     TooHard,
     /// kT is as high, but growths end right all the same, as tiles that more bonds hold stay.
     MoreHold,
     /// kT is too low: bonds weaker than tau also hold a tile.
     FewerHold,
+    /// kT is as low, but growths end right all the same, as nothing else fits.
+    FewerSuffice,
     /// kT is too low: a single aligned mismatch holds a tile.
     MismatchHolds,
     /// Bonds of strength tau hold a tile, weaker ones do not.
@@ -75,6 +99,8 @@ pub enum Verdict {
 
 /// Number of tiles at which an unlimited growth without errors is stopped.
 pub const MOST_GROWN: usize = 2500;
+/// Largest number of pairs of tiles of a set that is laid by hand for which there are designs.
+pub const MOST_MEETINGS: usize = 1000;
 /// Free rows and columns around the assembly.
 const MARGIN: i32 = 4;
 
@@ -83,7 +109,7 @@ impl Built {
     ///
     /// # Errors
     /// If that is impossible.
-    pub fn new(set: &TileSet, words: &WordSet, shaking: Shaking) -> Result<Self, String> {
+    pub fn new(set: &TileSet, words: &WordSet, plan: Plan) -> Result<Self, String> {
         let wiring = Wiring::new(set)?;
         let (bonds, there) = (&wiring.bonds, words.words.len());
         let needed = bonds.len();
@@ -96,15 +122,15 @@ impl Built {
         let grown = grow(set, MOST_GROWN);
         let rests = Rests::new(words);
         let all = Matrix::new(words, &words.words);
-        let depths = Depths::new(&all, &rests, (set, &wiring), &grown);
-        let chosen = assign(&all, &wiring, depths.as_ref())?;
-        let matrix = Matrix::new(words, &chosen);
-        let loose = |bond: usize| {
-            let word = chosen[bond];
-            format!("the word {word} does not hold its mate in place: use another word")
+        let meetings = match plan.laid {
+            true => all_meetings(set, &wiring),
+            false => grown.meetings(),
         };
+        let depths = Depths::new(&all, &rests, (set, &wiring), &meetings);
+        let chosen = assign(&all, &wiring, depths.as_ref(), plan.given)?;
+        let matrix = Matrix::new(words, &chosen);
         if let Some(bond) = (0..needed).find(|bond| matrix.bond(*bond) <= 0.0) {
-            return Err(loose(bond));
+            return Err(loose(chosen[bond]));
         }
         let least = wiring.least_strength();
         let depth = |bond: &usize| matrix.bond(*bond) / bonds[*bond].strength;
@@ -112,30 +138,33 @@ impl Built {
         let weakest = weakest
             .min_by(|a, b| depth(a).total_cmp(&depth(b)))
             .unwrap_or(0);
-        let volume = volume(words, chosen[weakest], shaking.kt);
-        let volume = volume.ok_or_else(|| loose(weakest))?;
-        let docking_cost = docking_cost(words, &shaking, volume);
         Ok(Self {
             set: set.clone(),
             unit: depth(&weakest),
             weakest,
-            volume,
-            docking_cost,
-            gmc: docking_cost + of_shares(set),
             grown,
+            meetings,
             rests,
             wiring,
             matrix,
-            shaking,
         })
     }
 
-    /// Gse and Gmc (kT) at another kT (J), with the same words.
-    pub fn at(&self, words: &WordSet, kt: f64) -> Option<[f64; 2]> {
-        let volume = volume(words, self.matrix.words[self.weakest], kt)?;
-        let shaking = Shaking { kt, ..self.shaking };
-        let gmc = docking_cost(words, &shaking, volume) + of_shares(&self.set);
-        Some([self.unit / kt, gmc])
+    /// The energies on a shaken table.
+    ///
+    /// # Errors
+    /// If the weakest bond does not hold its mate in place.
+    pub fn shaken(&self, words: &WordSet, shaking: Shaking) -> Result<Shaken, String> {
+        let word = self.matrix.words[self.weakest];
+        let volume = volume(words, word, shaking.kt).ok_or_else(|| loose(word))?;
+        let docking_cost = docking_cost(words, &shaking, volume);
+        Ok(Shaken {
+            shaking,
+            gse: self.unit / shaking.kt,
+            gmc: docking_cost + of_shares(&self.set),
+            docking_cost,
+            volume,
+        })
     }
 
     /// The largest relative deviation of a bond's strength from the requested one, in units of the
@@ -145,11 +174,6 @@ impl Built {
         let got = bonds.map(|(k, bond)| (k, bond.strength, self.matrix.bond(k) / self.unit));
         let off = |it: &(usize, f64, f64)| (it.2 / it.1 - 1.0).abs();
         got.reduce(|most, next| if off(&next) > off(&most) { next } else { most })
-    }
-
-    /// Gse (kT): the weakest bond of strength 1.
-    pub fn gse(&self) -> f64 {
-        self.unit / self.shaking.kt
     }
 
     /// The strongest wrong attraction of aligned faces (J, negative), and the two faces.
@@ -179,15 +203,16 @@ impl Built {
     }
 
     /// Whether the assembly grows at this kT.
-    pub fn verdict(&self) -> Verdict {
-        let (gse, tau) = (self.gse(), self.set.tau());
+    pub fn verdict(&self, shaken: &Shaken) -> Verdict {
+        let (gse, gmc, tau) = (shaken.gse, shaken.gmc, self.set.tau());
         let less = self.wiring.least_strength();
         let wrong = self.strongest_wrong();
-        let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / self.shaking.kt);
+        let mismatch = wrong.map_or(0.0, |(.., energy)| -energy / shaken.shaking.kt);
         match () {
-            () if self.gmc > tau * gse => Verdict::TooHard,
-            () if tau > less && self.gmc < (tau - less) * gse => Verdict::FewerHold,
-            () if mismatch > self.gmc => Verdict::MismatchHolds,
+            () if self.grown.is_stuck() => Verdict::Stuck,
+            () if gmc > tau * gse => Verdict::TooHard,
+            () if tau > less && gmc < (tau - less) * gse => Verdict::FewerHold,
+            () if mismatch > gmc => Verdict::MismatchHolds,
             () if tau > less => Verdict::TauHolds,
             () => Verdict::OneHolds,
         }
@@ -195,7 +220,7 @@ impl Built {
 
     /// The set as engines run it: glues are faces, strengths their energies over Gse, seed and
     /// canvas as the growth needs them.
-    pub fn engine(&self) -> TileSet {
+    pub fn engine(&self, shaken: &Shaken) -> TileSet {
         let faces = self.matrix.energies.len();
         let scale = -1.0 / self.unit;
         let strength = |i: usize, j: usize| scale * self.matrix.energies[i][j] + 0.0;
@@ -210,8 +235,8 @@ impl Built {
                 .map(|(i, j)| (i, j, strength(i, j)))
                 .filter(|link| link.2 != 0.0)
                 .collect(),
-            gse: Some(self.gse()),
-            gmc: Some(self.gmc),
+            gse: Some(shaken.gse),
+            gmc: Some(shaken.gmc),
             ..self.set.clone()
         };
         for (number, tile) in set.tiles.iter_mut().enumerate() {
@@ -262,10 +287,10 @@ impl Built {
     /// Errors per tile in the limit of slow growth, just above standstill, where every tile stays
     /// as briefly as possible: the mean, over the places of the assembly, of the weights of all
     /// wrong tiles relative to the right one, each bound by the neighbours that attached earlier.
-    pub fn errors_at_standstill(&self) -> f64 {
-        let engine = Holds::new(&self.engine());
-        let gse = self.gse();
-        let mut there = std::collections::BTreeMap::new();
+    pub fn errors_at_standstill(&self, shaken: &Shaken) -> f64 {
+        let engine = Holds::new(&self.engine(shaken));
+        let gse = shaken.gse;
+        let mut there = BTreeMap::new();
         let mut sum = 0.0;
         for place in &self.grown.order {
             let tile = self.grown.tiles[place];
@@ -286,12 +311,12 @@ impl Built {
 
     /// The range of kT (J) in which bonds of strength tau hold a tile and weaker ones do not; Z0 is
     /// assumed to grow as kT^(5/2), as at a flush edge.
-    pub fn window(&self) -> Option<[f64; 2]> {
+    pub fn window(&self, shaken: &Shaken) -> Option<[f64; 2]> {
         let tau = self.set.tau();
         let less = self.wiring.least_strength();
         // ln K of bonds of a given strength; it decreases with kT.
         let ln_k = |strength: f64, kt: f64| {
-            let gmc = self.gmc - 2.5 * libm::log(kt / self.shaking.kt);
+            let gmc = shaken.gmc - 2.5 * libm::log(kt / shaken.shaking.kt);
             strength * self.unit / kt - gmc
         };
         let end = |strength: f64| {
@@ -316,9 +341,9 @@ impl Built {
     /// How much deeper a bond is between whole tiles than between two faces, as a share of its
     /// depth: the minimum and maximum over all pairs.
     pub fn deeper(&self) -> Option<[f64; 2]> {
-        let met = self.grown.meetings().into_keys();
+        let met = self.meetings.keys();
         let shares = met.filter_map(|met| {
-            let (bond, rest) = self.whole(&met)?;
+            let (bond, rest) = self.whole(met)?;
             Some(-rest / self.matrix.bond(bond))
         });
         shares.fold(None, |range, share| {
@@ -338,6 +363,20 @@ impl Built {
         let bar = Bar::of_face(tile, face, &design.interaction, design.pitch?);
         Some(Lags::new(&bar.ok()?, words.words.first()?.places()))
     }
+}
+
+/// Every two tiles that a bond joins, at most [`MOST_MEETINGS`] of them.
+fn all_meetings(set: &TileSet, wiring: &Wiring) -> BTreeMap<Met, usize> {
+    let used = |tile: &usize| set.tiles[*tile].stoic > 0.0;
+    let tiles = || (0..set.tiles.len()).filter(used);
+    let pairs = tiles().flat_map(|a| tiles().map(move |b| (a, b)));
+    let met = pairs.flat_map(|(a, b)| Axis::ALL.map(|axis| (a, axis, b)));
+    let bound = met.filter(|met| wiring.meeting(set, met).is_some());
+    bound.take(MOST_MEETINGS).map(|met| (met, 1)).collect()
+}
+
+fn loose(word: Word) -> String {
+    format!("the word {word} does not hold its mate in place: use another word")
 }
 
 /// The integral Z0 (m^2 rad) around the bond of a word at kT (J).

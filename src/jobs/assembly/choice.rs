@@ -13,6 +13,7 @@ use physics::budget::Budget;
 use physics::observer::Observer;
 use physics::order::Order;
 use physics::words::candidates::{Candidates, number};
+use physics::words::frontier;
 use physics::words::graph::Graph;
 use physics::words::search;
 use physics::words::{Bar, Constraints, Effort, Lags, Task, Word, local};
@@ -41,6 +42,8 @@ pub struct Choice {
     pub words: Vec<Word>,
     /// The results for each strength, strongest first.
     pub classes: Vec<Class>,
+    /// Whether it is proved that no such words have a wider gap.
+    pub widest: bool,
 }
 
 /// Words of one strength.
@@ -165,8 +168,12 @@ pub fn choose(
     if let Some(gap) = request.least_gap() {
         return vec![trial(gap, 1.0)];
     }
-    // By the net number of contacts of wrong meetings: it is a whole number, so nothing lies in
-    // between.
+    if groups.is_empty()
+        && let [class] = asked.classes()[..]
+    {
+        return vec![widest(&asked, class)];
+    }
+    // Of several strengths, by the net number of contacts of wrong meetings.
     let (mut low, mut high) = (0, unit);
     let count = f64::from(usize::BITS - unit.leading_zeros());
     let mut trials: Vec<Choice> = Vec::new();
@@ -189,6 +196,34 @@ pub fn choose(
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
     });
     trials
+}
+
+/// The words of one strength with the widest gap, by energies.
+fn widest(asked: &Asked, class: Class) -> Choice {
+    let budget = Budget::seconds(asked.request.seconds);
+    let task = asked.task(class.magnets);
+    let mut effort = Effort::new(asked.request.seed, budget);
+    let found = frontier::widest(&task, class.needed, &mut effort);
+    let known = found
+        .words
+        .len()
+        .max(found.found.words.len().min(class.needed));
+    Choice {
+        places: asked.places,
+        gap: found.gap,
+        verdict: match (found.words.len() == class.needed, found.proved) {
+            (true, _) => Verdict::Found,
+            (false, true) => Verdict::Refuted,
+            (false, false) => Verdict::Open,
+        },
+        classes: vec![Class {
+            found: known,
+            upper: found.found.upper,
+            ..class
+        }],
+        widest: found.proved,
+        words: found.words,
+    }
 }
 
 /// The answers for faces of different lengths; the last is that of the shortest face on which the
@@ -277,6 +312,7 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
         verdict: Verdict::Found,
         words: Vec::new(),
         classes: asked.classes(),
+        widest: false,
     };
     let count = choice.classes.len();
     let unit = choice.classes.last().map_or(1, |last| last.magnets) as f64;

@@ -1,12 +1,12 @@
 //! How much deeper bonds are between whole tiles than between their two faces alone, updated while
 //! words are exchanged between bonds.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::DMatrix;
 
 use super::TileSet;
-use super::growth::Grown;
+use super::axis::Met;
 use super::matrix::Matrix;
 use super::rests::{Rests, eastern, others};
 use super::wiring::{Meeting, Wiring};
@@ -37,18 +37,18 @@ impl<'a> Depths<'a> {
         all: &'a Matrix,
         rests: &Rests,
         (set, wiring): (&TileSet, &Wiring),
-        grown: &Grown,
+        meetings: &BTreeMap<Met, usize>,
     ) -> Option<Self> {
         if all.words.len() > MOST_WORDS {
             return None;
         }
-        let met = grown.meetings().into_keys();
+        let met = meetings.keys();
         let every: Vec<Word> = (0..all.energies.len()).map(|face| all.code(face)).collect();
         let one_holds = wiring.least_strength() >= set.tau();
         Some(Self {
             price: PRICES[usize::from(one_holds)],
             all,
-            meetings: met.filter_map(|met| wiring.meeting(set, &met)).collect(),
+            meetings: met.filter_map(|met| wiring.meeting(set, met)).collect(),
             energies: rests.table(&every),
         })
     }

@@ -3,9 +3,45 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::Assembly;
 use super::axis::{Met, SIDES};
-use crate::design::written;
+use super::{Assembly, Request, TileSet};
+use crate::Refused;
+use crate::design::{Design, DesignError, WordSet, written};
+use physics::observer::Observer;
+
+impl Request {
+    /// Builds a tile set from words: from the given ones, with the text of their file, or else from
+    /// a search.
+    ///
+    /// # Errors
+    /// If there are no such words, or too few.
+    pub fn build<'a>(
+        &self,
+        tiles: &TileSet,
+        words: Option<(WordSet, String)>,
+        design: Option<&'a Design>,
+        observer: &dyn Observer,
+    ) -> Result<Assembly<'a>, Refused> {
+        let assembly = self.assembled(tiles, words, design, observer)?;
+        check(&assembly)?;
+        Ok(assembly)
+    }
+}
+
+/// Reads the designs as other commands will.
+fn check(assembly: &Assembly) -> Result<(), DesignError> {
+    for (name, text) in all(assembly) {
+        Design::parse(&text, &format!("designs/{name}.toml")).map_err(|error| {
+            let help = format!(
+                "use longer tiles (a DESIGN with a longer side), smaller magnets, or words with \
+                 fewer positions; {}",
+                error.help
+            );
+            DesignError { help, ..error }
+        })?;
+    }
+    Ok(())
+}
 
 /// Names and texts of the designs of every two tiles that meet in the assembly.
 pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
@@ -22,7 +58,7 @@ const LONGEST_NAME: usize = 60;
 /// The tiles that meet and bind each other, with the names of their designs.
 pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
     let mut names = BTreeSet::new();
-    let met = assembly.built.grown.meetings().into_keys();
+    let met = assembly.built.meetings.keys().copied();
     let bound = met.filter(|met| assembly.built.whole(met).is_some());
     bound
         .map(|met| {

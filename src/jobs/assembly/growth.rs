@@ -24,6 +24,8 @@ pub struct Grown {
     /// The number of places where more than one tile could have attached; the first of the set was
     /// taken.
     pub choices: usize,
+    /// The number of tiles of the seed.
+    pub seeds: usize,
 }
 
 /// The neighbour's offset on each side.
@@ -82,6 +84,7 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
     let around = order.iter().flat_map(|it| neighbours(*it).map(|it| it.1));
     let mut open: VecDeque<Place> = around.collect();
     let mut grown = Grown {
+        seeds: tiles.len(),
         tiles,
         order,
         complete: true,
@@ -110,6 +113,11 @@ pub fn grow(set: &TileSet, most: usize) -> Grown {
 }
 
 impl Grown {
+    /// Whether no tile attached to the seed.
+    pub fn is_stuck(&self) -> bool {
+        self.tiles.len() == self.seeds
+    }
+
     /// The count of each tile, for a set with the given number of tiles.
     pub fn counts(&self, tiles: usize) -> Vec<usize> {
         let mut counts = vec![0; tiles];

@@ -10,6 +10,9 @@
 //! tiles that dock beside it meanwhile lock it in. This kinetic trapping, rather than equilibrium
 //! weights, causes the errors of growth at low kT.
 //!
+//! Growth goes on for a while after the assembly is complete, since tiles that attach to it and stay
+//! are errors as well.
+//!
 //! Tiles that would leave within 1e-5 of a wait are ignored, which is about the share of errors
 //! that they could cause at each place.
 
@@ -32,6 +35,9 @@ const FOR_GOOD: f64 = 600.0;
 const MOST_TILES: usize = 400;
 /// Duration of a growth in waits: a constant, and per tile.
 const WAITS: [f64; 2] = [20.0, 4.0];
+/// Number of waits for which a finished growth goes on: a tile that attaches to it and stays is an
+/// error.
+const WAITS_AFTER: f64 = 20.0;
 /// Largest number of events of a growth.
 const MOST_EVENTS: usize = 200_000;
 
@@ -66,6 +72,8 @@ pub struct Kinetics<'a> {
     target: usize,
     /// Whether growth ends there.
     ends: bool,
+    /// Whether it has more tiles than the seed.
+    grows: bool,
     /// Whether places have one right tile.
     directed: bool,
 }
@@ -126,6 +134,7 @@ impl<'a> Kinetics<'a> {
             wanted,
             target: grown.tiles.len().min(MOST_TILES),
             ends,
+            grows: !grown.is_stuck(),
             directed: grown.choices == 0,
         }
     }
@@ -290,21 +299,26 @@ impl<'a> Kinetics<'a> {
         for (cell, tile) in &self.seeds {
             self.put(&mut state, *cell, Some(*tile));
         }
-        let limit = WAITS[0] + WAITS[1] * self.target as f64;
+        let mut limit = WAITS[0] + WAITS[1] * self.target as f64;
         let mut waits = 0.0;
-        let mut is_done = false;
+        // When the assembly was complete for the first time.
+        let mut done: Option<f64> = None;
         let mut marks = vec![false; cells];
         for event in 0..MOST_EVENTS {
             if event % 256 == 0 {
                 interruption::check();
             }
-            is_done = match (self.ends && self.directed, self.ends) {
-                (true, _) => state.there == state.right && state.right == self.target,
+            let is_done = match (self.ends && self.directed, self.ends) {
+                (true, _) => state.right == self.target,
                 (false, false) => state.there >= self.target,
                 (false, true) => false,
             };
+            if is_done && done.is_none() {
+                done = Some(waits);
+                limit = waits + if self.ends { WAITS_AFTER } else { 0.0 };
+            }
             let all = state.rates.sum();
-            if is_done || all <= 0.0 {
+            if all <= 0.0 {
                 break;
             }
             waits -= libm::log(1.0 - rng.random::<f64>()) / all;
@@ -341,14 +355,18 @@ impl<'a> Kinetics<'a> {
         let staying: Vec<(usize, usize)> = (0..cells)
             .filter_map(|cell| Some((cell, stays(&cell)?)))
             .collect();
-        let right = staying.iter();
-        let right = right.filter(|(cell, tile)| self.is_right(&state.tiles, *cell, *tile));
-        let wrong = staying.len() - right.count();
-        let whole = is_done || !self.directed && staying.len() >= self.target;
+        // What happens in its places after the assembly was complete is not an error of growth, but
+        // what attaches beside it is.
+        let wrong = staying.iter().filter(|(cell, tile)| match done {
+            Some(_) if self.ends => self.wanted[*cell].is_none(),
+            _ => !self.is_right(&state.tiles, *cell, *tile),
+        });
+        let wrong = wrong.count();
+        let there = done.is_some() || !self.directed && staying.len() >= self.target;
         End {
-            right: whole && wrong == 0,
+            right: self.grows && there && wrong == 0,
             wrong,
-            waits,
+            waits: done.unwrap_or(waits),
         }
     }
 }

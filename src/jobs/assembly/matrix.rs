@@ -9,6 +9,8 @@ use physics::words::set::name;
 pub struct Matrix {
     /// The words, without their mates.
     pub words: Vec<Word>,
+    /// Their letters: those that the set of words gives them, with `*` for a mate of the set's.
+    letters: Vec<String>,
     /// J.
     pub energies: Vec<Vec<f64>>,
 }
@@ -36,6 +38,7 @@ impl Matrix {
         }
         Self {
             words: words.to_vec(),
+            letters: words.iter().map(|word| letter(set, *word)).collect(),
             energies,
         }
     }
@@ -62,8 +65,8 @@ impl Matrix {
     /// `A` for a word, `A*` for its mate.
     pub fn name(&self, face: usize) -> String {
         match face.checked_sub(self.words.len()) {
-            None => name(face),
-            Some(word) => name(word) + "*",
+            None => self.letters[face].clone(),
+            Some(word) => turned(&self.letters[word]),
         }
     }
 
@@ -85,5 +88,22 @@ impl Matrix {
         wrong
             .min_by(|a, b| a.2.total_cmp(&b.2))
             .filter(|it| it.2 < 0.0)
+    }
+}
+
+/// The letter of a word or a mate in a set.
+fn letter(set: &WordSet, word: Word) -> String {
+    let given = |k: usize| set.names.get(k).cloned().unwrap_or_else(|| name(k));
+    let find = |word: Word| set.words.iter().position(|other| *other == word);
+    let mate = || find(word.mate()).map(|k| turned(&given(k)));
+    // Every word of a matrix is one of its set, or a mate.
+    find(word).map(given).or_else(mate).unwrap_or_default()
+}
+
+/// The letter of the mate.
+fn turned(letter: &str) -> String {
+    match letter.strip_suffix('*') {
+        Some(word) => word.to_owned(),
+        None => format!("{letter}*"),
     }
 }

@@ -53,7 +53,7 @@ use std::path::Path;
 use crate::design::{DesignError, Place};
 use crate::text::is_invisible;
 
-pub use assembled::Assembly;
+pub use assembled::{Assembly, Growing};
 pub use axis::{Axis, SIDES};
 pub use built::Built;
 pub use request::Request;
@@ -64,6 +64,17 @@ pub use wiring::Wiring;
 const STRENGTHS: RangeInclusive<f64> = -1e6..=1e6;
 const ENERGIES: RangeInclusive<f64> = 0.0..=1e6;
 const SHARES: RangeInclusive<f64> = 1e-6..=1e6;
+/// Where the tau of a set comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tau {
+    /// Its file states it.
+    Stated,
+    /// It follows from Gmc / Gse of its file.
+    OfEnergies,
+    /// The file states neither: the usual 2.
+    Assumed,
+}
+
 /// Largest number of rows and columns of a canvas.
 const MOST_CANVAS: usize = 65_536;
 
@@ -128,9 +139,32 @@ impl TileSet {
         set
     }
 
-    /// The least strength that holds a tile; the usual 2 if the set does not state it.
+    /// The least strength that holds a tile, and where it comes from.
+    pub fn tau_from(&self) -> (f64, Tau) {
+        match (self.tau, self.gse, self.gmc) {
+            (Some(tau), ..) => (tau, Tau::Stated),
+            // Bonds of strength b hold a tile if b Gse is above Gmc; a ratio just above a whole
+            // number is one that was meant to be at the limit.
+            (None, Some(gse), Some(gmc)) if gse > 0.0 => {
+                ((gmc / gse - 0.1).ceil().max(1.0), Tau::OfEnergies)
+            }
+            _ => (2.0, Tau::Assumed),
+        }
+    }
+
+    /// The least strength that holds a tile.
     pub fn tau(&self) -> f64 {
-        self.tau.unwrap_or(2.0)
+        self.tau_from().0
+    }
+
+    /// The number of each tile for a set that is laid by hand: its shares if all are whole numbers,
+    /// otherwise one of each.
+    pub fn laid(&self) -> Vec<usize> {
+        let shares = self.tiles.iter().map(|tile| tile.stoic);
+        let whole = shares.clone().all(|share| share == share.round());
+        shares
+            .map(|share| if whole { share as usize } else { 1 })
+            .collect()
     }
 
     /// The index of the glue with this name, which is added if it is new.

@@ -14,9 +14,12 @@ const GAP: f64 = 0.5;
 /// The options for building a tile set from magnets.
 #[derive(Clone, Debug, Args)]
 pub struct Request {
-    /// Effective energy kT of shaking (J)
+    /// Effective energy kT of shaking (J): also simulate growth
+    ///
+    /// Without it the tiles are laid by hand: the result is words, sheet and designs for one of each
+    /// tile, or for the shares that the file states if these are whole numbers.
     #[arg(long, value_name = "E", value_parser = request::shaking)]
-    pub kt: f64,
+    pub kt: Option<f64>,
 
     /// Fraction of the table covered by loose tiles of all kinds
     #[arg(long, value_name = "F", default_value_t = 0.3, value_parser = request::fraction)]

@@ -23,7 +23,7 @@ impl Sought {
     pub fn text(&self, words: &[Word]) -> String {
         let places = words.first().map_or(0, |word| word.places());
         let headline = format!("{} words of {places} places", words.len());
-        file::of_words(&headline, words, &self.bar, self.side)
+        file::of_words(&headline, words, &self.bar, self.side, false)
     }
 
     /// The words found.

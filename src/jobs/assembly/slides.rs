@@ -6,6 +6,7 @@
 //! a slid one.
 
 use super::Built;
+use super::built::Shaken;
 use crate::design::WordSet;
 use physics::words::{Lags, Rules, Word};
 
@@ -83,8 +84,8 @@ pub(super) fn of_all(built: &Built, words: &WordSet, rules: &Rules) -> Vec<Slid>
 pub struct Summary {
     /// The energy of the deepest (J).
     pub deepest: f64,
-    /// Number of pairs of faces that a single slid contact holds against Gmc.
-    pub holding: usize,
+    /// Number of pairs of faces that a single slid contact holds against Gmc, on a shaken table.
+    pub holding: Option<usize>,
     /// Number of all pairs of faces.
     pub pairs: usize,
     /// For a word and its mate: the mean share of slides that lead to slid contacts among those
@@ -93,15 +94,18 @@ pub struct Summary {
 }
 
 /// Summarises the slid contacts of all pairs of faces.
-pub fn summary(built: &Built, slides: &[Slid]) -> Option<Summary> {
+pub fn summary(built: &Built, shaken: Option<&Shaken>, slides: &[Slid]) -> Option<Summary> {
     let n = built.matrix.words.len();
     let deepest = slides.iter().map(Slid::energy).reduce(f64::min)?;
-    let holds = |slid: &&Slid| -slid.energy() / built.shaking.kt > built.gmc;
+    let holding = |shaken: &Shaken| {
+        let holds = |slid: &&Slid| -slid.energy() / shaken.shaking.kt > shaken.gmc;
+        slides.iter().filter(holds).count()
+    };
     let own = slides.iter().filter(|it| it.faces[1] - it.faces[0] == n);
     let shares = own.map(|it| it.captured[1] / (it.captured[0] + it.captured[1]));
     Some(Summary {
         deepest,
-        holding: slides.iter().filter(holds).count(),
+        holding: shaken.map(holding),
         pairs: slides.len(),
         share: shares.sum::<f64>() / n as f64,
     })

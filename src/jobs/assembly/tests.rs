@@ -1,5 +1,6 @@
 //! Tests of tile sets: reading returns what was written, and growth follows the definitions.
 
+use super::built::Plan;
 use super::choice::{self, Verdict};
 use super::growth::{Grown, grow};
 use physics::kinetics::bond::Shaking;
@@ -431,13 +432,15 @@ fn engines_get_the_energies_of_faces() {
         kt: 2e-3,
         coverage: 0.1,
     };
-    let built = Built::new(&set, &words(&set, 8), shaking).unwrap();
-    let engine = built.engine();
+    let words = words(&set, 8);
+    let built = Built::new(&set, &words, Plan::default()).unwrap();
+    let shaken = built.shaken(&words, shaking).unwrap();
+    let engine = built.engine(&shaken);
     let table = engine.strengths();
     for (i, row) in built.matrix.energies.iter().enumerate() {
         for (j, energy) in row.iter().enumerate() {
             let in_kt = -energy / shaking.kt;
-            assert!((table[i][j] * built.gse() - in_kt).abs() <= 1e-12 * (1.0 + in_kt.abs()));
+            assert!((table[i][j] * shaken.gse - in_kt).abs() <= 1e-12 * (1.0 + in_kt.abs()));
         }
     }
     // Bonds of strength 2 have twice the magnets, and the weakest of strength 1 is Gse.
@@ -464,7 +467,7 @@ fn engines_get_the_energies_of_faces() {
         coverage: 0.2,
         ..shaking
     };
-    let dense = Built::new(&set, &words(&set, 8), more).unwrap();
-    assert!((built.gmc - dense.gmc - libm::log(2f64)).abs() < 1e-9);
-    assert!((built.gmc - built.docking_cost - libm::log(7f64)).abs() < 1e-9);
+    let dense = built.shaken(&words, more).unwrap();
+    assert!((shaken.gmc - dense.gmc - libm::log(2f64)).abs() < 1e-9);
+    assert!((shaken.gmc - shaken.docking_cost - libm::log(7f64)).abs() < 1e-9);
 }

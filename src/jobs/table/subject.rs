@@ -97,7 +97,7 @@ impl About {
             designs: Vec::new(),
             model: stage.interaction.model,
             pattern: Some(assembly.built.grown.tiles.clone()),
-            growth: Some(assembly.growth),
+            growth: assembly.growing.as_ref().map(|growing| growing.growth),
         };
         Ok((about, of_assembly(&assembly, [side; 2])?))
     }

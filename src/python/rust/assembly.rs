@@ -27,8 +27,8 @@ use crate::{convert, fault, job};
 ///     or a whole set with the keys of its file. Searched by default.
 /// design : Design, optional
 ///     Its target face gives magnets, pitch and side; the paper's tile by default.
-/// kt : float
-///     Effective energy kT of the shaking (J).
+/// kt : float, optional
+///     Effective energy kT of the shaking (J), for growth; without it tiles are laid by hand.
 /// coverage : float, optional
 ///     Fraction of the table covered by tiles.
 /// lattice : sequence of int, optional

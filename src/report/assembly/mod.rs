@@ -10,12 +10,12 @@ use serde_json::{Map, Value, json};
 use super::document::{Document, Drawing, Entries, Table, rows};
 use super::files::{Files, PAGE, REPORT};
 use super::values::positive_zero;
-use jobs::assembly::built::Verdict as Growth;
+use jobs::assembly::built::{Shaken, Verdict as Growth};
 use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides::{self, Slid};
 use jobs::assembly::wiring::Bond;
-use jobs::assembly::{Assembly, Axis, SIDES, TileType, designs, rgrow, xgrow};
+use jobs::assembly::{Assembly, Axis, Growing, SIDES, Tau, TileType, designs, rgrow, xgrow};
 use jobs::output::Command;
 use physics::order::Order;
 use physics::units::{plain, si};
@@ -52,9 +52,11 @@ pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
         answer: text::headline(assembly),
         remarks: text::known(assembly),
         entries: entries(assembly),
-        pictures: vec![Drawing::new(title, |sheet| {
-            picture::grown(assembly, title, sheet)
-        })],
+        pictures: assembly
+            .growing
+            .iter()
+            .map(|_| Drawing::new(title, |sheet| picture::grown(assembly, title, sheet)))
+            .collect(),
         beside: beside(assembly),
         origin: format!("seed {}", assembly.request.seed),
         ..Document::default()
@@ -66,6 +68,9 @@ pub fn document<'a>(assembly: &'a Assembly) -> Document<'a> {
 fn entries(assembly: &Assembly) -> Entries {
     let (built, request) = (&assembly.built, &assembly.request);
     let (set, matrix, grown) = (&built.set, &built.matrix, &built.grown);
+    let of_each = |counts: &[usize]| -> Value {
+        set.tiles.iter().zip(counts).map(|(tile, count)| json!([tile.name, count])).collect()
+    };
     let codes = |faces: std::ops::Range<usize>| -> Value {
         faces.map(|face| matrix.code(face).to_string()).collect()
     };
@@ -75,6 +80,13 @@ fn entries(assembly: &Assembly) -> Entries {
         json!({"first": assembly.face(i), "second": assembly.face(j), "energy_J": energy})
     });
     let deeper = built.deeper();
+    let (tau, tau_from) = match set.tau_from() {
+        (tau, Tau::Stated) => (tau, "file"),
+        (tau, Tau::OfEnergies) => (tau, "Gmc / Gse"),
+        (tau, Tau::Assumed) => (tau, "assumed"),
+    };
+    let counts = text::counts(assembly);
+    let shaken = assembly.growing.as_ref().map(|it| &it.shaken);
     let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
     let mut deepest: Vec<_> = assembly.slides.iter().filter(|it| it.deepest.is_some()).collect();
     let all = slid(assembly, deepest.clone());
@@ -87,27 +99,16 @@ fn entries(assembly: &Assembly) -> Entries {
             "tiles": set.tiles.len(),
             "glues": set.glues.len(),
             "words_needed": built.wiring.bonds.len(),
-            "tau": set.tau(),
+            "tau": tau,
+            "tau_from": tau_from,
             "proofread": request.proofread,
             "lattice": request.lattice,
         }))
         .fact("tiles", "tiles", set.tiles.len()).in_view()
         .fact("words", "words", built.wiring.bonds.len()).in_view().noted("one per glue and axis")
-        .fact("kt_J", "kT", built.shaking.kt)
-        .fact("coverage", "covered", built.shaking.coverage).share().noted("of the table")
-        .fact("Gse", "Gse", built.gse()).viewed(kt(built.gse())).noted("weakest bond of strength 1")
-        .fact("Gmc", "Gmc", built.gmc).viewed(kt(built.gmc)).noted("docking cost, per kind of tile")
+        .and(assembly.growing.as_ref().map_or_else(Entries::default, |it| growing(assembly, it)))
         .data("bond_J", built.unit)
-        .data("bond_volume_m2_rad", built.volume)
-        .data("docking_cost_kT", built.docking_cost)
-        .fact("tau_effective", "Gmc / Gse", built.gmc / built.gse()).noted("grows if below tau")
-        .data("window_kt_J", built.window().map(|ends| json!(ends)))
-        .data("errors_at_standstill", built.errors_at_standstill())
-        .and(grown_with_errors(&assembly.growth))
-        .data("proposed_kt_J", assembly.proposal().map(|it| it.0))
-        .data("verdict", verdict(assembly))
         .data("passed_over", json!(set.passed_over))
-        .table(growths(assembly))
         .data("words", codes(0..n))
         .data("mates", codes(n..2 * n))
         .table(bonds(assembly))
@@ -121,28 +122,55 @@ fn entries(assembly: &Assembly) -> Entries {
             .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
         .fact("deeper_in_whole_tiles", "bonds between whole tiles", deeper.map(|ends| json!(ends)))
             .viewed(deeper.map_or(String::new(), told)).noted("deeper than between two faces")
-        .data("slides", slides::summary(built, &assembly.slides).map(|it| json!({
+        .data("slides", slides::summary(built, shaken, &assembly.slides).map(|it| json!({
             "deepest_J": it.deepest,
             "pairs_that_hold_alone": it.holding,
             "pairs": it.pairs,
             "bonds_slid_share": it.share,
         })))
-        .data("grown", json!({
+        .data("seed_tiles", text::seeds(assembly).into_iter().map(|it| it.0.as_str()).collect::<Value>())
+        .data("grown", assembly.growing.as_ref().map(|_| json!({
             "tiles": grown.tiles.len(),
             "complete": grown.complete,
             "choices": grown.choices,
-            "of_each": set.tiles.iter().zip(grown.counts(set.tiles.len()))
-                .map(|(tile, count)| json!([tile.name, count])).collect::<Value>(),
-        }))
+            "of_each": of_each(&counts),
+        })))
+        .data("laid", assembly.growing.is_none().then(|| json!({
+            "tiles": counts.iter().sum::<usize>(),
+            "of_each": of_each(&counts),
+        })))
         .table(tiles(assembly))
         .table(pairs(assembly).in_file("pairs").in_data())
         .data("faces_tried", assembly.tried.iter().map(tried).collect::<Value>())
         .data("seed", request.seed)
 }
 
+/// The figures of growth on a shaken table.
+#[rustfmt::skip]
+fn growing(assembly: &Assembly, growing: &Growing) -> Entries {
+    let built = &assembly.built;
+    let Shaken { shaking, gse, gmc, docking_cost, volume } = growing.shaken;
+    Entries::default()
+        .fact("kt_J", "kT", shaking.kt)
+        .fact("coverage", "covered", shaking.coverage).share().noted("of the table")
+        .fact("Gse", "Gse", gse).viewed(kt(gse)).noted("weakest bond of strength 1")
+        .fact("Gmc", "Gmc", gmc).viewed(kt(gmc)).noted("docking cost, per kind of tile")
+        .data("bond_volume_m2_rad", volume)
+        .data("docking_cost_kT", docking_cost)
+        .fact("tau_effective", "Gmc / Gse", gmc / gse).noted("grows if below tau")
+        .data("window_kt_J", built.window(&growing.shaken).map(|ends| json!(ends)))
+        .data("errors_at_standstill", built.errors_at_standstill(&growing.shaken))
+        .and(grown_with_errors(&growing.growth))
+        .data("proposed_kt_J", growing.proposal().map(|it| it.0))
+        .data("verdict", verdict(growing.verdict(built)))
+        .table(growths(growing))
+}
+
 /// The verdict, for programs.
-fn verdict(assembly: &Assembly) -> &'static str {
-    match assembly.verdict() {
+fn verdict(verdict: Growth) -> &'static str {
+    match verdict {
+        Growth::Stuck => "nothing attaches to the seed",
+        Growth::FewerSuffice => "fewer bonds than tau hold, growths right",
         Growth::TooHard => "nothing holds",
         Growth::MoreHold => "more bonds hold",
         Growth::FewerHold => "fewer bonds than tau hold",
@@ -165,9 +193,9 @@ pub(crate) fn grown_with_errors(growth: &Kinetic) -> Entries {
 
 /// Simulated growth at each kT, with errors.
 #[rustfmt::skip]
-fn growths(assembly: &Assembly) -> Table {
-    let asked = [(assembly.built.shaking.kt, assembly.growth)];
-    let mut all: Vec<(f64, Kinetic)> = asked.into_iter().chain(assembly.others.iter().copied()).collect();
+fn growths(growing: &Growing) -> Table {
+    let asked = [(growing.shaken.shaking.kt, growing.growth)];
+    let mut all: Vec<(f64, Kinetic)> = asked.into_iter().chain(growing.others.iter().copied()).collect();
     all.order_by(|a, b| a.0.total_cmp(&b.0));
     rows(all)
         .column("kT_J", "kT", "effective energy of shaking", |it| it.0).digits(3)
@@ -216,7 +244,11 @@ fn tried(choice: &Choice) -> Value {
 fn tiles(assembly: &Assembly) -> Table {
     type Row<'a> = (usize, &'a TileType);
     let built = &assembly.built;
-    let counts = built.grown.counts(built.set.tiles.len());
+    let counts = text::counts(assembly);
+    let count = match assembly.growing {
+        Some(_) => ["grown", "copies in the error-free growth"],
+        None => ["how many", "copies to be laid"],
+    };
     let faces = |it: &Row| -> Value {
         let face = |side: usize| built.face(it.0, side).map(|face| assembly.face(face));
         (0..4).map(|side| (SIDES[side].to_owned(), json!(face(side)))).collect::<Map<_, _>>().into()
@@ -228,7 +260,7 @@ fn tiles(assembly: &Assembly) -> Table {
     rows(built.set.tiles.iter().enumerate())
         .column("name", "tile", "", |it: &Row| it.1.name.clone())
         .column("faces", "", "", faces)
-        .column("grown", "grown", "copies in the error-free growth", move |it| counts[it.0]).in_view()
+        .column("grown", count[0], count[1], move |it| counts[it.0]).in_view()
         .column("north", "north", "the word of the face, read counter-clockwise", face(0)).in_view()
         .column("east", "east", "the word of the face, read counter-clockwise", face(1)).in_view()
         .column("south", "south", "the word of the face, read counter-clockwise", face(2)).in_view()
@@ -245,6 +277,7 @@ fn bonds(assembly: &Assembly) -> Table {
     let glues = |it: &Row| json!(it.1.glues.each_ref().map(|glues| {
         glues.iter().map(|glue| &built.set.glues[*glue].name).collect::<Vec<_>>()
     }));
+    let kt = assembly.growing.as_ref().map(|it| it.shaken.shaking.kt);
     let axis = |it: &Row| match it.1.axis {
         Axis::Horizontal => "west-east",
         Axis::Vertical => "south-north",
@@ -255,7 +288,7 @@ fn bonds(assembly: &Assembly) -> Table {
         .column("axis", "axis", "on which the tiles meet", axis)
         .column("strength", "strength", "of the glue", |it| it.1.strength)
         .column("energy_J", "bond", "flush and aligned, as used by the engines", |it| -built.matrix.bond(it.0)).digits(4)
-        .column("depth_kT", "depth", "of the bond, in kT", |it| built.matrix.bond(it.0) / built.shaking.kt)
+        .column("depth_kT", "depth", "of the bond, in kT", move |it| kt.map(|kt| built.matrix.bond(it.0) / kt))
         .column("glues", "", "", glues)
         .table("bonds")
         .titled("Bonds", "")
@@ -265,18 +298,20 @@ fn bonds(assembly: &Assembly) -> Table {
 /// The deepest slid contacts of faces.
 #[rustfmt::skip]
 fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
-    let built = &assembly.built;
     let pitch = assembly.words.stage.pitch.unwrap_or_default();
     let slide = |it: &Slid| it.deepest.map_or(0, |it| it.0);
-    let depth = |it: &Slid| it.energy() / built.shaking.kt;
+    let shaken = assembly.growing.as_ref().map(|it| it.shaken);
+    let depth = move |it: &Slid| Some(it.energy() / shaken?.shaking.kt);
+    let view = move |it: &Slid| depth(it).map_or("-".to_owned(), |depth| format!("{:.1} kT", -depth));
+    let holds = move |it: &Slid| Some(-depth(it)? > shaken?.gmc);
     rows(all)
         .column("first", "first", "a face", |it| assembly.face(it.faces[0]))
         .column("second", "second", "the face that it meets", |it| assembly.face(it.faces[1]))
         .column("slide", "slid by", "places", move |it| slide(it))
         .column("slide_m", "", "", move |it| positive_zero(f64::from(slide(it)) * pitch))
         .column("energy_J", "energy", "of the deepest slid contact that holds", |it| it.energy()).digits(4)
-        .column("energy_kT", "depth", "in kT", move |it| depth(it)).viewed(move |it| format!("{:.1} kT", -depth(it)))
-        .column("holds_alone", "holds alone", "whether it holds a tile alone: depth above Gmc", move |it| -depth(it) > built.gmc)
+        .column("energy_kT", "depth", "in kT", move |it| depth(it)).viewed(move |it| view(it))
+        .column("holds_alone", "holds alone", "whether it holds a tile alone: depth above Gmc", move |it| holds(it))
         .column("slides_to_aligned", "", "", |it| it.captured[0])
         .column("slides_to_slid", "", "", |it| it.captured[1])
         .table("slid")
@@ -288,6 +323,7 @@ fn slid<'a>(assembly: &'a Assembly, all: Vec<&'a Slid>) -> Table {
 #[rustfmt::skip]
 fn pairs(assembly: &Assembly) -> Table {
     let built = &assembly.built;
+    let kt = assembly.growing.as_ref().map(|it| it.shaken.shaking.kt);
     let met = designs::named(assembly).into_iter().filter_map(|(name, met)| {
         let (bond, rest) = built.whole(&met)?;
         Some((name, bond, -built.matrix.bond(bond), rest))
@@ -298,28 +334,33 @@ fn pairs(assembly: &Assembly) -> Table {
         .column("faces_J", "", "", |it| it.2)
         .column("other_faces_J", "", "", |it| it.3)
         .column("tiles_J", "", "", |it| it.2 + it.3)
-        .column("tiles_kT", "", "", |it| (it.2 + it.3) / built.shaking.kt)
+        .column("tiles_kT", "", "", move |it| kt.map(|kt| (it.2 + it.3) / kt))
         .table("pairs")
 }
 
 /// Files for engines and other commands.
 fn beside(assembly: &Assembly) -> Files {
-    let engine = assembly.built.engine();
-    let remarks = text::for_engines(assembly);
+    let engines = assembly.growing.as_ref().map(|growing| {
+        let engine = assembly.built.engine(&growing.shaken);
+        let remarks = text::for_engines(assembly, &growing.shaken);
+        [
+            ("assembly.yaml", rgrow::write(&engine, &remarks)),
+            (
+                "assembly.tiles",
+                xgrow::write(&engine.without_repulsion(), &remarks),
+            ),
+        ]
+    });
     let files = [
-        ("assembly.yaml", rgrow::write(&engine, &remarks)),
-        (
-            "assembly.tiles",
-            xgrow::write(&engine.without_repulsion(), &remarks),
-        ),
         ("tileset.yaml", rgrow::write(&assembly.built.set, &[])),
         ("words.toml", assembly.words_toml.clone()),
         ("sheet.md", sheet::sheet(assembly)),
     ];
+    let files = engines.into_iter().flatten().chain(files);
     let files = files.map(|(name, text)| (name.to_owned(), text));
     let designs = designs::all(assembly);
     let designs = designs.map(|(name, text)| (format!("designs/{name}.toml"), text));
-    let all = files.into_iter().chain(designs);
+    let all = files.chain(designs);
     all.map(|(name, text)| (name, text.into_bytes())).collect()
 }
 

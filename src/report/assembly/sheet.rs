@@ -1,5 +1,6 @@
 //! The workshop sheet.
 
+use super::text::counts;
 use crate::document::rows;
 use crate::markdown::markdown_table;
 use jobs::assembly::{Assembly, Axis, TileType};
@@ -9,8 +10,8 @@ use physics::units::si;
 /// The sheet: which magnets on which face of which tile, and how many of each.
 pub(super) fn sheet(assembly: &Assembly) -> String {
     let built = &assembly.built;
-    let (set, grown) = (&built.set, &built.grown);
-    let counts = grown.counts(set.tiles.len());
+    let set = &built.set;
+    let counts = counts(assembly);
     let magnet = assembly.magnet();
     let [length, width, thickness] = magnet.axis_first().map(|x| (1e5 * x).round() / 100.0);
     let bought = match magnet.form.shape {
@@ -39,7 +40,7 @@ pub(super) fn sheet(assembly: &Assembly) -> String {
          for a laser cutter.\n\n## Tiles\n\n",
         set.name,
         si(magnet.moment, "A m2", 4),
-        match grown.complete {
+        match assembly.growing.is_none() || built.grown.complete {
             true => "",
             false => ", of which the assembly can need more; these are the first",
         },

@@ -1,18 +1,41 @@
 //! The text of an assembly's summary.
 
-use jobs::assembly::built::Verdict as Growth;
+use jobs::assembly::built::{MOST_MEETINGS, Shaken, Verdict as Growth};
 use jobs::assembly::choice::{Choice, Verdict};
 use jobs::assembly::kinetic::Growth as Kinetic;
 use jobs::assembly::slides;
-use jobs::assembly::{Assembly, lattice};
+use jobs::assembly::{Assembly, Growing, SIDES, Tau, TileSet, TileType, lattice};
 use physics::units::{plain, si, si_range};
+
+/// Largest number of reasons given why nothing attaches to the seed.
+const MOST_REASONS: usize = 6;
 
 /// One sentence that says whether the set can be built.
 pub(super) fn headline(assembly: &Assembly) -> String {
     let built = &assembly.built;
-    let (set, gse) = (&built.set, built.gse());
+    let set = &built.set;
+    let what = format!(
+        "{}: {} with {} words of {} positions",
+        set.name,
+        match set.tiles.len() {
+            1 => "1 tile".to_owned(),
+            count => format!("{count} tiles"),
+        },
+        built.wiring.bonds.len(),
+        built.matrix.words.first().map_or(0, |word| word.places()),
+    );
+    let Some(growing) = &assembly.growing else {
+        let tiles: usize = counts(assembly).iter().sum();
+        return format!(
+            "{what}, for {tiles} tiles laid by hand (--kt also simulates growth); the weakest bond \
+             is {}",
+            si(built.unit, "J", 4)
+        );
+    };
+    let shaken = &growing.shaken;
     let told;
-    let verdict = match assembly.verdict() {
+    let verdict = match growing.verdict(built) {
+        Growth::Stuck => "beside the point: nothing attaches to the seed",
         Growth::TooHard => {
             "too hard: bonds of strength tau do not hold a tile, and growth does not end right"
         }
@@ -20,6 +43,9 @@ pub(super) fn headline(assembly: &Assembly) -> String {
             "hard: bonds of strength tau do not hold a tile, but stronger ones do, and growths end right"
         }
         Growth::FewerHold => "too soft: fewer bonds than tau also hold, so anything grows",
+        Growth::FewerSuffice => {
+            "soft: fewer bonds than tau also hold, but nothing else fits, and growths end right"
+        }
         Growth::MismatchHolds => {
             "too soft: a single aligned mismatch also holds a tile, so errors grow"
         }
@@ -28,41 +54,144 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         Growth::ErrorsStay => {
             told = format!(
                 "too soft: {} of {} simulated growths end with errors that remain",
-                assembly.growth.wrong, assembly.growth.runs
+                growing.growth.wrong, growing.growth.runs
             );
             &told
         }
         Growth::Slow => "too hard: growth does not finish",
     };
     format!(
-        "{}: {} with {} words of {} positions; at kT = {} and {:.1} % coverage Gse (a bond) is {} kT \
-         and Gmc (docking) {:.2} kT; shaking is {verdict}",
-        set.name,
-        match set.tiles.len() {
-            1 => "1 tile".to_owned(),
-            count => format!("{count} tiles"),
+        "{what}; at kT = {} and {:.1} % coverage Gse (a bond) is {} kT and Gmc (docking) {:.2} kT; \
+         shaking is {verdict}",
+        si(shaken.shaking.kt, "J", 3),
+        100.0 * shaken.shaking.coverage,
+        match shaken.gse {
+            ..1e4 => format!("{:.2}", shaken.gse),
+            _ => plain(shaken.gse, 3),
         },
-        built.wiring.bonds.len(),
-        built.matrix.words.first().map_or(0, |word| word.places()),
-        si(built.shaking.kt, "J", 3),
-        100.0 * built.shaking.coverage,
-        match gse {
-            ..1e4 => format!("{gse:.2}"),
-            _ => plain(gse, 3),
-        },
-        built.gmc,
+        shaken.gmc,
     )
 }
 
-/// The comments above the set in files for engines.
-pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
+/// The number of each tile: in the growth without errors, or to be laid by hand.
+pub(super) fn counts(assembly: &Assembly) -> Vec<usize> {
+    let set = &assembly.built.set;
+    match assembly.growing {
+        Some(_) => assembly.built.grown.counts(set.tiles.len()),
+        None => set.laid(),
+    }
+}
+
+/// The tiles from which growth starts; the first of the set if its file names none.
+pub(super) fn seeds<'a>(assembly: &'a Assembly) -> Vec<(&'a String, &'a TileType)> {
+    let set = &assembly.built.set;
+    let named = |tile: usize| (&set.tiles[tile].name, &set.tiles[tile]);
+    match set.seed.is_empty() {
+        true => vec![named(0)],
+        false => set.seed.iter().map(|(.., tile)| named(*tile)).collect(),
+    }
+}
+
+/// A note on the seed and on tau, and why nothing attaches to the seed if that is so.
+fn start(assembly: &Assembly) -> Vec<String> {
+    let set = &assembly.built.set;
+    let seeds = seeds(assembly);
+    let first = seeds[0].0;
+    let seed = match (set.seed.len(), seeds.len()) {
+        (0, _) => format!(
+            "the file names no seed: growth starts from its first tile, `{first}`; choose another \
+             with seed: [row, column, tile]"
+        ),
+        (_, 1) => format!("growth starts from the seed of the file, `{first}`"),
+        (_, count) => format!("growth starts from the {count} seed tiles of the file"),
+    };
+    let (tau, from) = set.tau_from();
+    let tau_told = match from {
+        Tau::Stated => None,
+        Tau::OfEnergies => Some(format!(
+            "tau is {tau}, which follows from Gmc / Gse of the file"
+        )),
+        Tau::Assumed => Some(format!(
+            "the file states neither tau nor Gmc and Gse: {tau} is assumed; write tau: 1 if one \
+             bond is to hold a tile"
+        )),
+    };
+    let stuck = assembly.built.grown.is_stuck().then(|| {
+        let mut reasons = Vec::new();
+        for (name, tile) in &seeds {
+            for (side, glue) in tile.glues.iter().enumerate() {
+                let Some(glue) = *glue else { continue };
+                reasons.push(partner(set, name, side, glue));
+            }
+        }
+        reasons.truncate(MOST_REASONS);
+        if reasons.is_empty() {
+            reasons.push("its faces have no glues".to_owned());
+        }
+        format!(
+            "nothing attaches to the seed with strength tau = {tau}: {}",
+            reasons.join("; ")
+        )
+    });
+    [Some(seed), tau_told, stuck]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// How strongly a glue of a seed's face binds any tile that is on the table.
+fn partner(set: &TileSet, seed: &str, side: usize, glue: usize) -> String {
+    let strengths = set.strengths();
+    let across = (side + 2) % 4;
+    let on_table = set.tiles.iter().filter(|tile| tile.stoic > 0.0);
+    let held = on_table.filter_map(|tile| Some((tile, strengths[glue][tile.glues[across]?])));
+    let most = held.reduce(|most, it| if it.1 > most.1 { it } else { most });
+    let face = format!(
+        "glue `{}` on the {} face of `{seed}`",
+        set.glues[glue].name, SIDES[side]
+    );
+    match most.filter(|it| it.1 > 0.0) {
+        None => format!(
+            "{face} has no partner: no loose tile has a glue on its {} face that binds it",
+            SIDES[across]
+        ),
+        Some((tile, strength)) => {
+            format!("{face} binds `{}` with only {strength}", tile.name)
+        }
+    }
+}
+
+/// The number of every tile, and what follows for the designs, if tiles are laid by hand.
+fn laid(assembly: &Assembly) -> Vec<String> {
     let built = &assembly.built;
-    let (name, version) = (&built.set.name, env!("CARGO_PKG_VERSION"));
-    let (kt, coverage) = (built.shaking.kt, built.shaking.coverage);
+    let shares = built.set.tiles.iter().map(|tile| tile.stoic);
+    let counted = match shares.clone().all(|share| share == 1.0) {
+        true => "one of each tile, as the file states no other number (stoic)",
+        false if shares.clone().all(|share| share == share.round()) => {
+            "as many of each tile as its share (stoic) in the file"
+        }
+        false => "one of each tile: the shares (stoic) of the file are not whole numbers",
+    };
+    let clipped = (built.meetings.len() >= MOST_MEETINGS).then(|| {
+        format!("there are designs for the first {MOST_MEETINGS} pairs of tiles that bind only")
+    });
+    let mut notes = vec![
+        counted.to_owned(),
+        "without --kt there are no files for xgrow and rgrow, whose energies are in kT".to_owned(),
+    ];
+    notes.extend(clipped);
+    notes
+}
+
+/// The comments above the set in files for engines.
+pub(super) fn for_engines(assembly: &Assembly, shaken: &Shaken) -> [String; 8] {
+    let (name, version) = (&assembly.built.set.name, env!("CARGO_PKG_VERSION"));
+    let (kt, coverage) = (shaken.shaking.kt, shaken.shaking.coverage);
     [
         format!("{name} as magnets build it, by tilebind {version}"),
         format!("kT {kt:e} J, coverage {coverage}; energies are Gse times a strength, in kT"),
-        "X is a word on east or north faces, X* its mate on west or south faces;".to_owned(),
+        "X is a word, X* its mate; one is on east or north faces, the other on west or south ones;"
+            .to_owned(),
         "wrong contacts have their own energies; repulsive ones are negative (0 in the xgrow file)"
             .to_owned(),
         "letters as in words.toml, matrix.csv and sheet.md".to_owned(),
@@ -77,17 +206,6 @@ pub(super) fn for_engines(assembly: &Assembly) -> [String; 8] {
 /// Further notes.
 pub(super) fn known(assembly: &Assembly) -> Vec<String> {
     let built = &assembly.built;
-    let grown = &built.grown;
-    let window = built.window().map(|[low, high]| match low > 0.0 {
-        true => format!(
-            "bonds of strength tau hold a tile, and weaker ones do not, at kT from {} at this coverage",
-            si_range(low, high, "J", 3)
-        ),
-        false => format!(
-            "bonds of strength tau hold a tile at kT below {} at this coverage",
-            si(high, "J", 3)
-        ),
-    });
     let lattice = assembly.request.lattice.map(|[rows, columns]| {
         let needed = lattice::words(rows, columns);
         format!("a lattice of {rows} x {columns} distinct tiles needs {needed} words")
@@ -102,19 +220,42 @@ pub(super) fn known(assembly: &Assembly) -> Vec<String> {
         ),
         None => "no aligned mismatch attracts".to_owned(),
     };
-    let slid = slides::summary(built, &assembly.slides).map(|slid| {
-        format!(
-            "not in the engines' model: faces slid by whole positions bind with up to {} ({:.1} \
-             kT, Gmc {:.1}); {} of {} pairs of faces hold a tile alone in this way; {:.0} % of \
-             the tiles that bind from a slid start remain slid",
-            si(slid.deepest, "J", 4),
-            -slid.deepest / built.shaking.kt,
-            built.gmc,
-            slid.holding,
-            slid.pairs,
-            100.0 * slid.share
-        )
+    let shaking = match &assembly.growing {
+        Some(growing) => self::growing(assembly, growing),
+        None => laid(assembly),
+    };
+    let words = [
+        lattice,
+        found(assembly),
+        Some(mismatch),
+        built.deeper().map(whole),
+    ];
+    let after = [
+        strengths(assembly),
+        repelled(assembly),
+        passed_over(assembly),
+        slid(assembly),
+    ];
+    let words = words.into_iter().flatten();
+    words
+        .chain(shaking)
+        .chain(after.into_iter().flatten())
+        .collect()
+}
+
+/// Notes on growth.
+fn growing(assembly: &Assembly, growing: &Growing) -> Vec<String> {
+    let window = assembly.built.window(&growing.shaken).map(|[low, high]| match low > 0.0 {
+        true => format!(
+            "bonds of strength tau hold a tile, and weaker ones do not, at kT from {} at this coverage",
+            si_range(low, high, "J", 3)
+        ),
+        false => format!(
+            "bonds of strength tau hold a tile at kT below {} at this coverage",
+            si(high, "J", 3)
+        ),
     });
+    let grown = &assembly.built.grown;
     let tiles = grown.tiles.len();
     let ends = match grown.complete {
         true => format!("without errors growth ends with {tiles} tiles"),
@@ -129,20 +270,38 @@ pub(super) fn known(assembly: &Assembly) -> Vec<String> {
             grown.choices
         )
     });
-    let before = [window, lattice, found(assembly), Some(mismatch)];
-    let after = [
-        built.deeper().map(whole),
-        Some(grown_at(built.shaking.kt, &assembly.growth)),
-        Some(proposal(assembly)),
-        strengths(assembly),
-        repelled(assembly),
-        passed_over(assembly),
-        canvas(assembly),
-        slid,
-        Some(ends),
-        choices,
-    ];
-    before.into_iter().chain(after).flatten().collect()
+    let mut notes = start(assembly);
+    let kt = growing.shaken.shaking.kt;
+    let stuck = grown.is_stuck();
+    let simulated = (!stuck).then(|| grown_at(kt, &growing.growth));
+    let proposed = (!stuck).then(|| proposal(growing));
+    let canvas = canvas(assembly, &growing.shaken);
+    let more = [window, simulated, proposed, canvas, Some(ends), choices];
+    notes.extend(more.into_iter().flatten());
+    notes
+}
+
+/// A note on slid contacts.
+fn slid(assembly: &Assembly) -> Option<String> {
+    let shaken = assembly.growing.as_ref().map(|it| &it.shaken);
+    let slid = slides::summary(&assembly.built, shaken, &assembly.slides)?;
+    let deepest = si(slid.deepest, "J", 4);
+    let whose = match shaken {
+        Some(_) => "not in the engines' model: faces slid by whole positions bind with up to",
+        None => "faces slid by whole positions bind with up to",
+    };
+    let held = shaken.zip(slid.holding).map_or(String::new(), |(shaken, holding)| {
+        format!(
+            " ({:.1} kT, Gmc {:.1}); {holding} of {} pairs of faces hold a tile alone in this way",
+            -slid.deepest / shaken.shaking.kt,
+            shaken.gmc,
+            slid.pairs
+        )
+    });
+    Some(format!(
+        "{whose} {deepest}{held}; {:.0} % of the tiles that bind from a slid start remain slid",
+        100.0 * slid.share
+    ))
 }
 
 /// The result of growth runs at a kT (J).
@@ -163,11 +322,11 @@ fn grown_at(kt: f64, growth: &Kinetic) -> String {
 }
 
 /// The suggested kT.
-fn proposal(assembly: &Assembly) -> String {
-    match assembly.proposal() {
+fn proposal(growing: &Growing) -> String {
+    match growing.proposal() {
         Some((kt, growth)) => format!("suggested: --kt {kt:.2e}; {}", grown_at(kt, &growth)),
         None => {
-            let others = assembly.others.iter();
+            let others = growing.others.iter();
             let kts: Vec<String> = others.map(|it| si(it.0, "J", 2)).collect();
             format!(
                 "most runs do not grow correctly at any kT tried ({}): widen the gap (--length) or lower \
@@ -223,10 +382,10 @@ fn passed_over(assembly: &Assembly) -> Option<String> {
 }
 
 /// A note that the canvas differs from the file's.
-fn canvas(assembly: &Assembly) -> Option<String> {
+fn canvas(assembly: &Assembly, shaken: &Shaken) -> Option<String> {
     let built = &assembly.built;
     let [rows, columns] = built.set.size?;
-    let engine = built.engine().size?;
+    let engine = built.engine(shaken).size?;
     (engine != [rows, columns]).then(|| {
         format!(
             "the file's canvas is {rows} x {columns}, but a real table has no such limit; the engine \
@@ -256,8 +415,12 @@ fn found(assembly: &Assembly) -> Option<String> {
         Verdict::Refuted => format!("; with {:.3} there are none, proved", it.gap),
         _ => format!("; with {:.3} none were found", it.gap),
     });
+    let wider = match last.widest {
+        true => ", proved widest".to_owned(),
+        false => wider,
+    };
     Some(format!(
-        "words found with a gap of {:.3} on {} positions{shorter}{wider}",
+        "words found with a gap of {:.3} on {} positions{wider}{shorter}",
         last.gap, last.places
     ))
 }

@@ -240,6 +240,12 @@ fn a_letter_is_the_same_word_in_every_file() {
         &["--lattice", "3x3", "--words", set.to_str().unwrap()],
         &given,
     );
+    // Given letters stay.
+    let kept = text(&given, "words.toml");
+    for (k, code) in codes.iter().enumerate() {
+        let entry = format!("\n{} = {{ code = \"{code}\" }}", (b'A' + k as u8) as char);
+        assert!(kept.contains(&entry), "{entry}");
+    }
     for out in [&searched, &given] {
         let all = lettering(out);
         let files: std::collections::BTreeSet<&str> = all.iter().map(|it| &it.0[..]).collect();
@@ -251,8 +257,115 @@ fn a_letter_is_the_same_word_in_every_file() {
         // And the set is one that is read.
         let words = out.join("words.toml");
         let read = json(&["crosstalk", words.to_str().unwrap(), "--json"]);
-        assert_eq!(read["words"].as_array().unwrap().len(), 12);
+        let all = if *out == given { 13 } else { 12 };
+        assert_eq!(read["words"].as_array().unwrap().len(), all);
     }
+}
+
+/// A puzzle of four tiles that is laid by hand: no growth, one of each tile, as many as it states;
+/// the widest gap by energies; the design's side; designs that can be made.
+#[test]
+fn a_puzzle_is_laid_by_hand() {
+    let folder = tempfile::tempdir().unwrap();
+    let [set, design, out] = ["set.yaml", "small.toml", "out"].map(|name| folder.path().join(name));
+    let tiles = "tiles:\n- {name: a, edges: [0, x, d, 0]}\n- {name: b, edges: [0, 0, d, x]}\n\
+                 - {name: c, edges: [d, y, 0, 0]}\n- {name: d, edges: [d, 0, 0, y], stoic: 2}\n";
+    std::fs::write(&set, tiles).unwrap();
+    std::fs::write(&design, super::words::SMALL).unwrap();
+    let [set, design, shown] = [&set, &design, &out].map(|path| path.to_str().unwrap());
+    let asked = [
+        "assemble", set, design, "--length", "4", "--json", "--out", shown,
+    ];
+    let found = json(&asked);
+    assert_eq!(found["laid"]["tiles"], 5);
+    assert_eq!(found["laid"]["of_each"][3], serde_json::json!(["d", 2]));
+    assert!(found["grown"].is_null() && found["kt_J"].is_null());
+    assert!(!out.join("assembly.yaml").exists() && out.join("sheet.md").exists());
+    assert!(text(&out, "sheet.md").contains("5 tiles with"));
+    let widest = json(&["words", design, "--length", "4", "--count", "3", "--json"]);
+    let gap = number(&found["faces_tried"][0]["gap"]);
+    assert!((gap - number(&widest["gap"])).abs() < 1e-9, "{gap}");
+    let made = contents(&out.join("designs"));
+    assert_eq!(made.len(), 6, "{:?}", made.keys());
+    for name in made.keys() {
+        let file = out.join("designs").join(name);
+        assert!(text(&out.join("designs"), name).contains("side = 0.06\n"));
+        let made = tilebind(&[
+            "make",
+            file.to_str().unwrap(),
+            "--out",
+            folder.path().join("made").join(name).to_str().unwrap(),
+        ]);
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    }
+    // Without a side, tiles are as long as their corners need.
+    let free = json(&[
+        "assemble",
+        set,
+        "--length",
+        "4",
+        "--pitch",
+        "0.013",
+        "--seconds",
+        "2",
+        "--json",
+    ]);
+    assert_eq!(free["laid"]["tiles"], 5);
+}
+
+/// What is judged of growth: tau follows from the energies, the seed is named, and a seed that
+/// nothing binds is no right growth.
+#[test]
+fn growth_says_where_it_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |tiles: &str| {
+        let set = folder.path().join("set.yaml");
+        std::fs::write(&set, tiles).unwrap();
+        json(&[
+            "assemble",
+            set.to_str().unwrap(),
+            "--length",
+            "4",
+            "--kt",
+            "5e-3",
+            "--json",
+        ])
+    };
+    let ribbon = "tiles:\n  - {edges: [0, 1, 0, 1]}\n  - {edges: [0, 1, 0, 0]}\noptions:\n";
+    let found = run(&format!(
+        "{ribbon}  Gse: 10.1\n  Gmc: 10.0\n  seed: [4, 2, 2]\n  size: [8, 64]\n"
+    ));
+    assert_eq!(found["tile_set"]["tau"], 1.0);
+    assert_eq!(found["tile_set"]["tau_from"], "Gmc / Gse");
+    assert!(number(&found["grown"]["tiles"]) > 50.0);
+    // At tau 2 no tile attaches.
+    let stuck = run(&format!("{ribbon}  seed: [4, 2, 2]\n  tau: 2\n"));
+    assert_eq!(stuck["verdict"], "nothing attaches to the seed");
+    for growth in stuck["growths"].as_array().unwrap() {
+        assert_eq!(growth["right"], 0);
+    }
+    // A chain that grows from both ends of nothing: the seed's glue has no partner.
+    let set = folder.path().join("lone.yaml");
+    std::fs::write(
+        &set,
+        "tau: 1\ntiles:\n- {name: a, edges: [0, lone, 0, 0]}\n- {name: b, edges: [0, y, 0, 0]}\n\
+         - {name: c, edges: [0, 0, 0, y]}\n",
+    )
+    .unwrap();
+    let told = stdout(&tilebind(&[
+        "assemble",
+        set.to_str().unwrap(),
+        "--length",
+        "3",
+        "--kt",
+        "5e-3",
+    ]));
+    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        told.contains("glue `lone` on the east face of `a` has no partner"),
+        "{told}"
+    );
+    assert!(told.contains("the file names no seed"), "{told}");
 }
 
 #[test]
