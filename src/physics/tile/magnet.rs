@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use super::barcode::Pole;
+use super::outline::Outline;
 use crate::configuration::wrap_angle;
 use crate::units::MU0;
 
@@ -132,6 +133,26 @@ impl Magnet {
         self.form.shape == other.form.shape
             && self.axis_first() == other.axis_first()
             && (self.moment - other.moment).abs() <= 1e-12 * self.moment
+    }
+
+    /// A magnet that is larger by this much (m) on every side in the tile's plane: its pocket.
+    pub fn grown(&self, extra: f64) -> Self {
+        let [a, b, thickness] = self.size;
+        Self {
+            size: [a + 2.0 * extra, b + 2.0 * extra, thickness],
+            ..self.clone()
+        }
+    }
+
+    /// The thinnest wall (m) between it and a tile's rim, negative if it breaks through.
+    pub fn wall(&self, rim: &Outline) -> f64 {
+        match self.is_round() {
+            true => -rim.signed_distance(self.position) - self.size[0] / 2.0,
+            false => {
+                let corners = self.corners().map(|p| -rim.signed_distance(p));
+                corners.into_iter().fold(f64::INFINITY, f64::min)
+            }
+        }
     }
 
     /// Whether it covers a circle of the tiles' plane: an upright disc.

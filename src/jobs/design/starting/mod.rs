@@ -46,6 +46,12 @@ const LARGEST: f64 = 1.5;
 const USED: f64 = 0.85;
 /// Density of magnets of neodymium (kg / m^3).
 const OF_MAGNETS: f64 = 7.5e3;
+/// Least inset (m), and least wall (m) on all sides of a magnet: a pocket 0.1 mm larger than its
+/// magnet, a wall of 0.5 mm and a cut of 0.2 mm.
+const INSET: f64 = 8e-4;
+const WALL: f64 = 6e-4;
+/// Factors by which profiles are widened until their magnets have walls.
+const WIDER: [f64; 4] = [1.0, 1.2, 1.4, 1.7];
 /// If magnets do not fit, sides this much longer are tried, so many times.
 const LONGER: f64 = 1.03;
 const LENGTHENED: u8 = 60;
@@ -118,12 +124,22 @@ impl Start {
         let mut last = None;
         for (block, pitch) in self.rows() {
             // As far behind the surface as curved lines need, and no farther.
-            for inset in (0..=8).map(|k| tenths(block[0] * f64::from(k) / 10.0)) {
-                let text = self.text(name, block, pitch, inset);
+            let insets = (0..=8).map(|k| tenths(INSET + block[0] * f64::from(k) / 10.0));
+            for (wider, inset) in WIDER
+                .into_iter()
+                .flat_map(|w| insets.clone().map(move |i| (w, i)))
+            {
+                let text = self.text(name, (block, pitch), inset, wider);
                 match Design::parse(&text, name) {
-                    Ok(design) if design.warnings.is_empty() => return Ok(text),
-                    Ok(design) => last = design.warnings.into_iter().next(),
+                    Ok(design) if !design.warnings.is_empty() => {
+                        last = design.warnings.into_iter().next();
+                    }
+                    Ok(design) if has_walls(&design) => return Ok(text),
+                    Ok(_) => {}
                     Err(fault) => last = Some(fault),
+                }
+                if self.shape == Shape::Flat {
+                    break;
                 }
             }
         }
@@ -226,7 +242,8 @@ impl Start {
         }
     }
 
-    fn text(&self, name: &str, block: [f64; 3], pitch: f64, inset: f64) -> String {
+    fn text(&self, name: &str, row: ([f64; 3], f64), inset: f64, wider: f64) -> String {
+        let (block, pitch) = row;
         let Self {
             sides,
             side,
@@ -258,7 +275,7 @@ impl Start {
             false => code(magnets),
         };
         let mate = Barcode::parse(&code).map_or(String::new(), |code| code.mate().to_string());
-        let (profile, how) = match shape.profile(side) {
+        let (profile, how) = match shape.profile(side, wider) {
             Some((profile, how)) => (format!(", profile = {profile}"), format!(" by {how}")),
             None => Default::default(),
         };
@@ -284,7 +301,7 @@ size = [{table}, {table}]
 {lengths}
 {strength}
 pitch = {pitch}                  # centre to centre along the face
-inset = {inset}                  # from the face's surface to the magnet
+inset = {inset}                  # from the face's surface to the magnet: a wall that can be cut
 
 [fixed]
 {tile}
@@ -310,6 +327,15 @@ model = \"cuboid\"                # blocks, as magnets are; \"dipole\": the pape
         );
         text
     }
+}
+
+/// Whether every magnet has a wall to its tile's rim that can be cut.
+fn has_walls(design: &Design) -> bool {
+    let tiles = [&design.pair.fixed, &design.pair.moving];
+    tiles.into_iter().all(|tile| {
+        let mut magnets = tile.magnets.iter();
+        magnets.all(|magnet| magnet.wall(&tile.outline) > WALL - 1e-9)
+    })
 }
 
 /// The least spacing (m) of magnets of this width (m), in tenths of a millimetre.

@@ -2,6 +2,9 @@
 
 use crate::design::quantity::rounded_down;
 
+/// Largest share of a face that a profile takes.
+const WIDEST: f64 = 0.9;
+
 /// The profile of the target faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -28,9 +31,10 @@ impl Shape {
     ];
 
     /// The profile for a face of the given length (m), in the notation of design files, with its
-    /// description.
-    pub(super) fn profile(self, side: f64) -> Option<(String, &'static str)> {
+    /// description; `wider` times as wide as usual, if it has a width.
+    pub(super) fn profile(self, side: f64, wider: f64) -> Option<(String, &'static str)> {
         let part = |share: f64| rounded_down(side * share);
+        let width = |share: f64| part((share * wider).min(WIDEST));
         let teeth = |form: &str| {
             let depth = part(0.03);
             format!("{{ shape = \"teeth\", form = \"{form}\", count = 2, depth = {depth} }}")
@@ -40,7 +44,7 @@ impl Shape {
             Self::Tab => Some((
                 format!(
                     "{{ shape = \"tab\", width = {}, depth = {}, draft = 0.3 }}",
-                    part(0.47),
+                    width(0.47),
                     part(0.047)
                 ),
                 "a tab in its slot",
@@ -48,7 +52,7 @@ impl Shape {
             Self::Arc => Some((
                 format!(
                     "{{ shape = \"arc\", width = {}, depth = {} }}",
-                    part(0.6),
+                    width(0.6),
                     part(0.047)
                 ),
                 "an arc in its hollow",
