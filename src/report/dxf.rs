@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use jobs::workshop::Corner;
+use jobs::workshop::{Corner, extent};
 use nalgebra::Vector2;
 
 /// A layer: its name, and its colour by AutoCAD's index.
@@ -139,25 +139,61 @@ impl Dxf {
                 pairs.push(42, &format!("{:.12}", corner.bulge));
             }
         }
-        let ring = corners.iter().zip(corners.iter().cycle().skip(1));
-        let turns = ring.flat_map(|(corner, next)| corner.turning_points(next));
-        for point in turns.chain(corners.iter().map(|corner| corner.point)) {
-            for k in 0..2 {
-                self.low[k] = self.low[k].min(1e3 * point[k]);
-                self.high[k] = self.high[k].max(1e3 * point[k]);
-            }
+        let [low, high] = extent(corners);
+        self.reach(low, high);
+    }
+
+    /// A circle, lengths in m.
+    pub fn circle(&mut self, layer: &str, middle: Vector2<f64>, radius: f64) {
+        let pairs = &mut self.entities;
+        pairs.entry("CIRCLE", MODEL, &["AcDbEntity"]);
+        pairs.all(&[(8, layer), (100, "AcDbCircle")]);
+        pairs.numbers(&[(10, 1e3 * middle.x), (20, 1e3 * middle.y), (30, 0.0)]);
+        pairs.numbers(&[(40, 1e3 * radius)]);
+        let at = |side: f64| [middle.x + side * radius, middle.y + side * radius];
+        self.reach(at(-1.0), at(1.0));
+    }
+
+    /// A straight line, its ends in m.
+    pub fn line(&mut self, layer: &str, ends: [Vector2<f64>; 2]) {
+        let pairs = &mut self.entities;
+        pairs.entry("LINE", MODEL, &["AcDbEntity"]);
+        pairs.all(&[(8, layer), (100, "AcDbLine")]);
+        for (k, end) in (0..).zip(&ends) {
+            pairs.numbers(&[(10 + k, 1e3 * end.x), (20 + k, 1e3 * end.y), (30 + k, 0.0)]);
+        }
+        for end in ends {
+            self.reach(end.into(), end.into());
         }
     }
 
-    /// A text centred at a position; position and height in m.
-    pub fn text(&mut self, layer: &str, middle: Vector2<f64>, height: f64, text: &str) {
+    /// Extends the drawing's limits to a rectangle (m).
+    fn reach(&mut self, low: [f64; 2], high: [f64; 2]) {
+        for k in 0..2 {
+            self.low[k] = self.low[k].min(1e3 * low[k]);
+            self.high[k] = self.high[k].max(1e3 * high[k]);
+        }
+    }
+
+    /// A text centred at a position; position and height in m, the direction in rad.
+    pub fn text(
+        &mut self,
+        layer: &str,
+        middle: Vector2<f64>,
+        (height, turn): (f64, f64),
+        text: &str,
+    ) {
         let [x, y, height] = [middle.x, middle.y, height].map(|length| 1e3 * length);
         let pairs = &mut self.entities;
         pairs.entry("TEXT", MODEL, &["AcDbEntity"]);
         pairs.all(&[(8, layer), (100, "AcDbText")]);
         pairs.numbers(&[(10, x), (20, y), (30, 0.0), (40, height)]);
         // Aligned by its centre, horizontally and vertically.
-        pairs.all(&[(1, text), (72, "1")]);
+        pairs.push(1, text);
+        if turn != 0.0 {
+            pairs.numbers(&[(50, turn.to_degrees())]);
+        }
+        pairs.push(72, "1");
         pairs.numbers(&[(11, x), (21, y), (31, 0.0)]);
         pairs.all(&[(100, "AcDbText"), (73, "2")]);
     }
@@ -309,7 +345,7 @@ mod tests {
                 corner(0.0, -0.05, 0.0),
             ],
         );
-        dxf.text("B", Vector2::new(-1e-12, 0.02), 0.005, "N");
+        dxf.text("B", Vector2::new(-1e-12, 0.02), (0.005, 0.0), "N");
         let text = dxf.finish();
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         assert_eq!(lines.len() % 2, 0);

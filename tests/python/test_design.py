@@ -93,8 +93,9 @@ def test_the_version_is_told():
 
 def test_files_for_the_workshop(design):
     files = design.make(kerf=0.0002)
-    assert set(files) == {"fixed.dxf", "fixed.svg", "moving.dxf", "moving.svg", "sheet.md"}
-    assert b"OUTLINE" in files["fixed.dxf"] and b"mm" in files["sheet.md"]
+    drawings = {"fixed.dxf", "fixed.svg", "moving.dxf", "moving.svg", "check.svg"}
+    assert set(files) == drawings | {"sheet.md"}
+    assert b"CUT_OUTSIDE" in files["fixed.dxf"] and b"mm" in files["sheet.md"]
     with pytest.raises(ValueError, match="kerf"):
         design.make(kerf=0.15)
 
@@ -121,11 +122,62 @@ def test_cad_programs_read_the_workshop_files():
         drawing = ezdxf.read(io.StringIO(files[name].decode()))
         assert not drawing.audit().errors and not drawing.audit().fixes
         assert drawing.units == ezdxf.units.MM and drawing.header["$MEASUREMENT"] == 1
-        assert {"OUTLINE", "POCKETS", "POLES"} <= {layer.dxf.name for layer in drawing.layers}
-        [outline] = drawing.modelspace().query("LWPOLYLINE[layer=='OUTLINE']")
+        assert {"CUT_OUTSIDE", "CUT_INSIDE", "ENGRAVE"} <= {layer.dxf.name for layer in drawing.layers}
+        [outline] = drawing.modelspace().query("LWPOLYLINE[layer=='CUT_OUTSIDE']")
         bulges = [bulge for *_, bulge in outline.get_points("xyb") if bulge]
         # A segment 5 high over 60 wide: the tangent of a quarter of its angle is 2 * 5 / 60.
         assert bulges == pytest.approx([sign / 6], abs=1e-9)
+
+
+def test_parts_on_sheets_are_apart():
+    """Read by ezdxf, measured by shapely: outlines with their arcs, layer by layer."""
+    ezdxf = pytest.importorskip("ezdxf")
+    geometry = pytest.importorskip("shapely.geometry")
+    from ezdxf import path
+    text = """
+        table = { size = [2.0, 2.0] }
+        target = { fixed = "0", moving = "SIDE" }
+        magnet = { size = [0.002, 0.006, 0.004], remanence = 1.2, pitch = 0.012, inset = INSET }
+        [fixed]
+        side = 0.05
+        sides = SIDES
+        thickness = "6 mm"
+        mass = "30 g"
+        faces.0 = { code = "NS", profile = { shape = "arc", width = 0.04, depth = 0.004 } }
+        [moving]
+        side = 0.05
+        sides = SIDES
+        thickness = "6 mm"
+        mass = "30 g"
+        faces.SIDE.mates = "0"
+    """
+    for sides, inset, layers in [(3, 0.001, None), (5, 0.0, "2 mm,4 mm"), (6, 0.002, "3 mm,3 mm")]:
+        filled = text.replace("SIDES", str(sides)).replace("SIDE", str(sides // 2)).replace("INSET", str(inset))
+        files = Design.loads(filled).make(
+            kerf=2e-4, count="5,4", sheet="300x250 mm", spacing=1.5e-3, **({"layers": layers} if layers else {})
+        )
+        parts = 0
+        for name in (name for name in files if name.startswith("nested") and name.endswith(".dxf")):
+            drawing = ezdxf.read(io.StringIO(files[name].decode()))
+            assert not drawing.audit().errors and not drawing.audit().fixes
+            assert drawing.units == ezdxf.units.MM
+            lines = list(drawing.modelspace())
+            order = [line.dxf.layer for line in lines]
+            work = ["ENGRAVE", "CUT_INSIDE", "CUT_OUTSIDE"]
+            assert order == sorted(order, key=work.index)
+            flat = [
+                geometry.Polygon([(p.x, p.y) for p in path.make_path(line).flattening(0.001)])
+                for line in lines
+                if line.dxf.layer == "CUT_OUTSIDE"
+            ]
+            parts += len(flat)
+            frame = geometry.box(0, 0, 300, 250).exterior
+            for k, part in enumerate(flat):
+                assert part.is_valid and part.distance(frame) > 1.49
+                assert all(part.distance(other) > 1.49 for other in flat[:k])
+            texts = [line for line in lines if line.dxftype() == "TEXT"]
+            assert texts and all(line.dxf.height >= 2 for line in texts)
+        assert parts == 9 * (1 if layers is None else 2)
 
 
 def test_shields_are_fitted_to_measurements(root):

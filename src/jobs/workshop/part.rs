@@ -3,7 +3,9 @@
 use nalgebra::Vector2;
 
 use super::Making;
-use super::rim::{Corner, rim};
+use super::marks::{Marks, marks};
+use super::notch;
+use super::rim::{Corner, length, rim};
 use crate::request::Unanswered;
 use physics::configuration::Configuration;
 use physics::contact::Contact;
@@ -13,9 +15,15 @@ use physics::tile::{Face, Magnet, Outline, Tile};
 
 /// Thinnest stable wall (m) between a pocket and the rim or another pocket.
 const THINNEST: f64 = 5e-4;
+/// Walls that miss it by less than this (m) are as thick: the last bits of two symmetric pockets
+/// differ.
+const TIE: f64 = 1e-6;
+/// Insets are raised in steps of this (m), and by at most this many of them.
+const STEP: f64 = 1e-4;
+const STEPS: u32 = 300;
 
 /// Why a part cannot be cut.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PartError {
     /// The cutter is wider than details of the outline.
     #[error("a cut {0} m wide is wider than details of the outline: use a narrower --kerf")]
@@ -23,6 +31,12 @@ pub enum PartError {
     /// A pocket vanishes.
     #[error("a cut {0} m wide leaves no pocket for the magnets: use a narrower --kerf")]
     Pocket(f64),
+    /// The layers do not make up the tile.
+    #[error("{0}")]
+    Layers(String),
+    /// A part does not fit on a sheet.
+    #[error("{0}")]
+    Sheet(String),
 }
 
 impl Unanswered for PartError {}
@@ -35,6 +49,11 @@ pub struct Part {
     pub outline: Vec<Corner>,
     /// A pocket for each magnet, in order.
     pub pockets: Vec<Pocket>,
+    /// Texts to engrave.
+    pub marks: Marks,
+    /// How much `inset` must be raised (m) until every pocket has a wall; 0 if all have one, `None`
+    /// if that does not help.
+    pub deeper: Option<f64>,
     /// The thickness of the tile (m).
     pub thickness: f64,
 }
@@ -57,51 +76,42 @@ pub struct Pocket {
     pub depth: f64,
     /// The thinnest wall between the pocket and the tile's rim (m), negative if it breaks through.
     pub wall: f64,
+    /// Whether it is part of the outline: a notch, for want of a wall.
+    pub is_notch: bool,
     /// The thinnest wall between the pocket and another one (m), negative if they overlap; `None`
     /// for a single pocket.
     pub between: Option<f64>,
 }
 
 impl Pocket {
-    /// The letters engraved in it, with position (m) and height (m): both poles, or the one that is
-    /// up.
-    pub fn letters(&self) -> Vec<(char, Vector2<f64>, f64)> {
-        let reach = (self.corners[0].point - self.middle).norm();
-        match self.pole.stands() {
-            true => vec![(self.pole.letter(), self.middle, 0.6 * reach)],
-            false => [('N', 0.5), ('S', -0.5)]
-                .map(|(letter, side)| {
-                    let at = self.middle + self.north * side;
-                    (letter, at, 0.6 * self.north.norm())
-                })
-                .to_vec(),
-        }
+    /// The centre and the radius (m) of a round pocket.
+    pub fn circle(&self) -> Option<(Vector2<f64>, f64)> {
+        let is_round = self.corners.len() == 2;
+        is_round.then(|| (self.middle, (self.corners[0].point - self.middle).norm()))
     }
 
     /// Whether the pocket opens through the tile's rim, or leaves too thin a wall.
     pub fn is_open(&self) -> bool {
-        self.wall < THINNEST
-    }
-
-    /// How much its wall to the rim is too thin (m).
-    pub fn wanting(&self) -> f64 {
-        (THINNEST - self.wall).max(0.0)
+        self.wall < THINNEST - TIE
     }
 
     /// How much its wall to another pocket is too thin (m).
     pub fn crowded(&self) -> f64 {
-        self.between.map_or(0.0, |wall| (THINNEST - wall).max(0.0))
+        self.between
+            .map(|wall| THINNEST - wall)
+            .filter(|more| *more > TIE)
+            .unwrap_or(0.0)
     }
 }
 
 impl Part {
-    /// Computes the lines of a tile.
+    /// Computes the lines of a tile, which is called `name` in its marks.
     ///
     /// # Errors
     /// If the kerf is too wide for the tile's details.
-    pub fn new(tile: &Tile, making: &Making) -> Result<Self, PartError> {
+    pub fn new(tile: &Tile, making: &Making, name: &str) -> Result<Self, PartError> {
         let holes = tile.magnets.iter();
-        let holes: Vec<Magnet> = holes.map(|it| grown(it, making.clearance)).collect();
+        let holes: Vec<Magnet> = holes.map(|it| it.grown(making.clearance)).collect();
         let mut pockets = Vec::new();
         for (i, magnet) in tile.magnets.iter().enumerate() {
             let before = tile.magnets[..=i].iter();
@@ -111,12 +121,86 @@ impl Part {
         for (pocket, wall) in pockets.iter_mut().zip(walls(&holes)) {
             pocket.between = wall;
         }
+        let mut outline = outline(tile, making.kerf)?;
+        for (pocket, hole) in pockets.iter_mut().zip(&holes).filter(|it| it.0.is_open()) {
+            let (bottom, out) = pocket.bottom(hole, tile.faces[hole.face].normal());
+            if let Some(notched) = notch::cut(&outline, &bottom, out) {
+                (outline, pocket.is_notch) = (notched, true);
+            }
+        }
+        let names: Vec<[String; 3]> = pockets.iter().map(Pocket::texts).collect();
         Ok(Self {
-            outline: outline(tile, making.kerf)?,
+            outline,
+            deeper: deeper(tile, &holes),
+            marks: marks(tile, &holes, &names, name),
             pockets,
             thickness: tile.thickness,
         })
     }
+
+    /// Length of all cuts (m), or only of the outline.
+    pub fn cut_length(&self, with_pockets: bool) -> f64 {
+        let pockets = self
+            .pockets
+            .iter()
+            .filter(|pocket| !pocket.is_notch && with_pockets);
+        let pockets = pockets.map(|pocket| length(&pocket.corners));
+        length(&self.outline) + pockets.sum::<f64>()
+    }
+}
+
+impl Pocket {
+    /// Its marks, the best first.
+    fn texts(&self) -> [String; 3] {
+        let pole = self.pole.letter();
+        let number = self.name.rsplit(' ').next().unwrap_or_default();
+        [
+            format!("{} {pole}", self.name),
+            format!("{number}{pole}"),
+            pole.to_string(),
+        ]
+    }
+
+    /// The cutter's line along the pocket's inner side, counter-clockwise around the tile, and the
+    /// direction of the sides of a notch from there, which is outwards.
+    fn bottom(&self, hole: &Magnet, normal: Vector2<f64>) -> (Vec<Corner>, Vector2<f64>) {
+        let corner = |point, bulge| Corner { point, bulge };
+        if let Some((middle, radius)) = self.circle() {
+            let along = Vector2::new(-normal.y, normal.x) * radius;
+            return (
+                vec![corner(middle - along, -1.0), corner(middle + along, 0.0)],
+                normal,
+            );
+        }
+        let (sin, cos) = libm::sincos(hole.angle);
+        let axes = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]].map(Vector2::from);
+        let nearer = |a: &Vector2<f64>, b: &Vector2<f64>| a.dot(&normal).total_cmp(&b.dot(&normal));
+        let out = axes.into_iter().max_by(nearer).unwrap_or(normal);
+        let along = Vector2::new(-out.y, out.x);
+        let inner = self.corners.iter().map(|corner| corner.point);
+        let mut inner: Vec<Vector2<f64>> = inner
+            .filter(|p| (p - self.middle).dot(&out) < 0.0)
+            .collect();
+        inner.sort_by(|a, b| a.dot(&along).total_cmp(&b.dot(&along)));
+        (
+            inner.into_iter().map(|point| corner(point, 0.0)).collect(),
+            out,
+        )
+    }
+}
+
+/// See [`Part::deeper`]: tried, since on slopes a wall grows by less than the inset.
+fn deeper(tile: &Tile, holes: &[Magnet]) -> Option<f64> {
+    let moved = |hole: &Magnet, by: f64| Magnet {
+        position: hole.position - tile.faces[hole.face].normal() * by,
+        ..hole.clone()
+    };
+    let wall = |by: f64| {
+        let walls = holes.iter().map(|hole| moved(hole, by).wall(&tile.outline));
+        walls.fold(f64::INFINITY, f64::min)
+    };
+    let tried = (0..=STEPS).map(|k| STEP * f64::from(k));
+    tried.into_iter().find(|&by| wall(by) >= THINNEST - TIE)
 }
 
 /// The outline offset outwards by half the kerf.
@@ -147,15 +231,6 @@ fn check_details(tile: &Tile, kerf: f64) -> Result<(), PartError> {
     ring.map(|_| ()).map_err(|_| PartError::Kerf(kerf))
 }
 
-/// A magnet that is larger by this much (m) on every side.
-fn grown(magnet: &Magnet, extra: f64) -> Magnet {
-    let [a, b, thickness] = magnet.size;
-    Magnet {
-        size: [a + 2.0 * extra, b + 2.0 * extra, thickness],
-        ..magnet.clone()
-    }
-}
-
 fn pocket(
     tile: &Tile,
     (magnet, hole): (&Magnet, &Magnet),
@@ -163,7 +238,7 @@ fn pocket(
     making: &Making,
 ) -> Result<Pocket, PartError> {
     let face = &tile.faces[magnet.face];
-    let cut = grown(magnet, making.clearance - making.kerf / 2.0);
+    let cut = magnet.grown(making.clearance - making.kerf / 2.0);
     if cut.size[0] <= 0.0 || cut.size[1] <= 0.0 {
         return Err(PartError::Pocket(making.kerf));
     }
@@ -174,7 +249,8 @@ fn pocket(
         north: magnet.moment_vector() / magnet.moment * (magnet.size[0] / 2.0),
         middle: magnet.position,
         depth: (tile.thickness + magnet.size[2]) / 2.0,
-        wall: -reach(&tile.outline, hole),
+        wall: hole.wall(&tile.outline),
+        is_notch: false,
         between: None,
     })
 }
@@ -205,17 +281,6 @@ fn walls(holes: &[Magnet]) -> Vec<Option<f64>> {
 fn between(holes: [&[Vector2<f64>]; 2]) -> Option<f64> {
     let [one, other] = holes.map(|hole| Outline::new(hole.to_vec()).ok());
     Some(Contact::new(&one?, &other?).clearance(&Configuration::new(0.0, 0.0, 0.0)))
-}
-
-/// How far (m) a hole extends beyond the rim, negative if it leaves a wall.
-fn reach(rim: &Outline, hole: &Magnet) -> f64 {
-    match hole.is_round() {
-        true => rim.signed_distance(hole.position) + hole.size[0] / 2.0,
-        false => {
-            let corners = hole.corners().map(|p| rim.signed_distance(p));
-            corners.into_iter().fold(f64::NEG_INFINITY, f64::max)
-        }
-    }
 }
 
 /// The outline of a magnet.
@@ -268,6 +333,6 @@ mod tests {
             },
             face: 0,
         };
-        assert!((reach(&rim, &disc) + 0.5).abs() < 1e-12);
+        assert!((disc.wall(&rim) - 0.5).abs() < 1e-12);
     }
 }

@@ -30,21 +30,79 @@ impl Corner {
         (bulge > 0.0).then(|| (chord * (1.0 + bulge * bulge) / (4.0 * bulge), bulge > 1.0))
     }
 
+    /// The centre (m) of the arc to the given next point.
+    pub fn centre(&self, next: Vector2<f64>) -> Vector2<f64> {
+        // It lies to the left of the chord by this share of it.
+        let share = (1.0 - self.bulge * self.bulge) / (4.0 * self.bulge);
+        (self.point + next) / 2.0 - right_of(next - self.point) * share
+    }
+
+    /// The points at which the piece to the given next point meets a straight line.
+    pub(super) fn crossings(
+        &self,
+        next: Vector2<f64>,
+        point: Vector2<f64>,
+        along: Vector2<f64>,
+    ) -> Vec<Vector2<f64>> {
+        let chord = next - self.point;
+        if self.bulge == 0.0 {
+            let sine = cross(chord, along);
+            let share = cross(point - self.point, along) / sine;
+            let on_it = sine != 0.0 && (0.0..=1.0).contains(&share);
+            return on_it
+                .then(|| self.point + chord * share)
+                .into_iter()
+                .collect();
+        }
+        let centre = self.centre(next);
+        let circle = Circle {
+            centre,
+            radius: (self.point - centre).norm(),
+            left: self.bulge > 0.0,
+        };
+        let found = on_line(circle, point, along).into_iter().flatten();
+        let on_it = |p: &Vector2<f64>| cross(chord, p - self.point) * self.bulge <= 0.0;
+        found.filter(on_it).collect()
+    }
+
     /// The points at which the arc to the given next corner has an extremum in x or y.
     pub fn turning_points(&self, next: &Corner) -> Vec<Vector2<f64>> {
         let Some((radius, _)) = self.arc(next) else {
             return Vec::new();
         };
         let (bulge, chord) = (self.bulge, next.point - self.point);
-        // The centre lies to the left of the chord by this share of it.
-        let share = (1.0 - bulge * bulge) / (4.0 * bulge);
-        let centre = (self.point + next.point) / 2.0 - right_of(chord) * share;
+        let centre = self.centre(next.point);
         let axes = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let points = axes.map(|axis| centre + Vector2::from(axis) * radius);
         // Points on the arc are to the right of the chord if it runs counter-clockwise.
         let on_it = |p: &Vector2<f64>| cross(chord, p - self.point) * bulge < 0.0;
         points.into_iter().filter(on_it).collect()
     }
+}
+
+/// The length (m) of a closed line.
+pub fn length(corners: &[Corner]) -> f64 {
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let piece = |(a, b): (&Corner, &Corner)| match a.arc(b) {
+        Some((radius, _)) => radius * 4.0 * libm::atan(a.bulge.abs()),
+        None => (b.point - a.point).norm(),
+    };
+    pairs.map(piece).sum()
+}
+
+/// The smallest and the largest x and y (m) of a closed line.
+pub fn extent(corners: &[Corner]) -> [[f64; 2]; 2] {
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let points: Vec<Vector2<f64>> = pairs
+        .flat_map(|(corner, next)| {
+            let turns = corner.turning_points(next);
+            turns.into_iter().chain([corner.point])
+        })
+        .collect();
+    let of = |fold: fn(f64, f64) -> f64, start: f64| {
+        [0, 1].map(|k| points.iter().map(|p| p[k]).fold(start, fold))
+    };
+    [of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY)]
 }
 
 /// A circle that runs counter-clockwise or clockwise.
@@ -228,23 +286,23 @@ fn on_circle(one: Circle, other: Circle) -> Option<[Vector2<f64>; 2]> {
     on_line(one, one.centre + d * share, right_of(d).normalize())
 }
 
+/// The area (m^2) within a closed line.
+#[cfg(test)]
+pub(super) fn area(corners: &[Corner]) -> f64 {
+    let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+    let piece = |(a, b): (&Corner, &Corner)| {
+        let sweep = 4.0 * libm::atan(a.bulge);
+        let segment = a.arc(b);
+        let segment = segment.map_or(0.0, |(r, _)| r * r * (sweep - libm::sin(sweep)) / 2.0);
+        cross(a.point, b.point) / 2.0 + segment
+    };
+    pairs.map(piece).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::f64::consts::PI;
-
-    fn area(corners: &[Corner]) -> f64 {
-        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-        pairs
-            .map(|(a, b)| {
-                let sweep = 4.0 * libm::atan(a.bulge);
-                let segment = a
-                    .arc(b)
-                    .map_or(0.0, |(r, _)| r * r * (sweep - libm::sin(sweep)) / 2.0);
-                cross(a.point, b.point) / 2.0 + segment
-            })
-            .sum()
-    }
 
     /// A circle of four arcs with a number of chords each.
     fn disc(radius: f64, chords: usize) -> Outline {

@@ -177,7 +177,17 @@ class Design:
         seed: int = 1,
         progress: bool | None = None,
     ) -> dict[str, Any]: ...
-    def make(self, *, kerf: float = 0.0, clearance: float = 1e-4) -> dict[str, bytes]: ...
+    def make(
+        self,
+        *,
+        kerf: float = 0.0,
+        clearance: float = 1e-4,
+        copies: int | None = None,
+        count: str | int | None = None,
+        sheet: str | None = None,
+        spacing: float = 2e-3,
+        layers: str | None = None,
+    ) -> dict[str, bytes]: ...
     def calibrate(
         self, table: Any, *, hold_out: int | None = None
     ) -> dict[str, Any]: ...

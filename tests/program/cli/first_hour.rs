@@ -249,11 +249,16 @@ fn area(corners: &[[f64; 2]]) -> f64 {
 #[test]
 fn files_for_the_workshop_are_to_scale() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().to_str().unwrap();
     let cut = ["--kerf", "0.2 mm", "--clearance", "0.15 mm"];
-    let made = tilebind(&[&["make", "shapes/tab-20mm.toml", "-o", out], &cut[..]].concat());
+    let design = folder.path().join("design.toml");
+    let text = std::fs::read_to_string("shapes/tab-20mm.toml").unwrap();
+    std::fs::write(&design, text.replace("inset = 0.0", "inset = 0.002")).unwrap();
+    let out_folder = folder.path().join("out");
+    let out = out_folder.to_str().unwrap();
+    let design = design.to_str().unwrap();
+    let made = tilebind(&[&["make", design, "-o", out], &cut[..]].concat());
     assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
-    let files = contents(folder.path());
+    let files = contents(&out_folder);
     for name in [
         "fixed.dxf",
         "fixed.svg",
@@ -264,16 +269,18 @@ fn files_for_the_workshop_are_to_scale() {
         "report.html",
         "magnets.csv",
         "order.csv",
+        "check.svg",
         "pictures/tiles.svg",
     ] {
         assert!(files.contains_key(name), "{name}");
     }
     let read = |name: &str| String::from_utf8(files[name].clone()).unwrap();
     let lines = polylines(&read("fixed.dxf"));
-    let [(outline, corners), pockets @ ..] = &lines[..] else {
+    // The outline is cut last.
+    let [pockets @ .., (outline, corners)] = &lines[..] else {
         panic!("no lines");
     };
-    assert_eq!(outline, "OUTLINE");
+    assert_eq!(outline, "CUT_OUTSIDE");
     // A square of 430 mm with a tab of 200 (at its base) by 20 mm, half a kerf outside of it.
     let top = 200.0 - 2.0 * 20.0 * 0.3_f64.tan();
     let tile = 430.0 * 430.0 + (200.0 + top) / 2.0 * 20.0;
@@ -286,7 +293,7 @@ fn files_for_the_workshop_are_to_scale() {
     // Pockets: 10 by 10 mm, 0.15 larger on every side, half a kerf inside of that.
     assert!(!pockets.is_empty());
     for (layer, corners) in pockets {
-        assert_eq!(layer, "POCKETS");
+        assert_eq!(layer, "CUT_INSIDE");
         assert!((area(corners) - 10.1 * 10.1).abs() < 0.01, "{corners:?}");
     }
     assert!(
@@ -308,6 +315,208 @@ fn files_for_the_workshop_are_to_scale() {
         told.contains("at most 10 mm") && !told.contains("in millimetres write"),
         "{told}"
     );
+}
+
+/// Hexagons of 6 cm with blocks of 2 x 10 x 5 mm.
+fn hexagons(inset: &str, profile: &str) -> String {
+    let tile = "side = 0.06\nsides = 6\nthickness = 0.008\nmass = 0.048";
+    format!(
+        "table.size = [0.39, 0.39]\n[magnet]\nsize = [0.002, 0.01, 0.005]\ngrade = \"N45\"\n\
+         pitch = 0.016\ninset = {inset}\n[fixed]\n{tile}\n[fixed.faces]\n\
+         0 = {{ code = \"NS\"{profile} }}\n[moving]\n{tile}\n[moving.faces]\n\
+         3 = {{ mates = \"0\" }}\n[target]\nfixed = \"0\"\nmoving = \"3\"\n"
+    )
+}
+
+/// Runs `make` on the text of a design; its files.
+fn made(text: &str, options: &[&str]) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("design.toml");
+    std::fs::write(&design, text).unwrap();
+    let out = folder.path().join("out");
+    let files = [
+        "make",
+        design.to_str().unwrap(),
+        "-o",
+        out.to_str().unwrap(),
+    ];
+    let made = tilebind(&[&files[..], options].concat());
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    contents(&out).into_iter().collect()
+}
+
+#[test]
+fn pockets_have_walls_or_are_notches() {
+    let read = |inset: &str, name: &str| {
+        let files = made(&hexagons(inset, ""), &["--kerf", "0.15 mm"]);
+        String::from_utf8(files[name].clone()).unwrap()
+    };
+    let hexagon = 1.5 * 3f64.sqrt() * 60.0 * 60.0;
+    // Walls of exactly 0.5 mm: the last bits of two symmetric pockets differ.
+    for (inset, notched) in [("0.0006", 0.0), ("0.0005", 2.0), ("0.0", 2.0)] {
+        let lines = polylines(&read(inset, "fixed.dxf"));
+        let [pockets @ .., (layer, outline)] = &lines[..] else {
+            panic!("no lines");
+        };
+        assert_eq!(layer, "CUT_OUTSIDE");
+        assert_eq!(pockets.len(), 2 - notched as usize, "{inset}");
+        // The cutter's line around the tile, less the notches from it to the pockets' inner sides.
+        let (kerf, inset) = (0.15, 1e3 * inset.parse::<f64>().unwrap());
+        let side = 60.0 + kerf / 3f64.sqrt();
+        let grown = hexagon * (side / 60.0) * (side / 60.0);
+        let notch = (10.2 - kerf) * (kerf / 2.0 + inset + 2.1 - kerf / 2.0);
+        let expected = grown - notched * notch;
+        assert!(
+            (area(outline) - expected).abs() < 1e-3,
+            "{inset}: {} {expected}",
+            area(outline)
+        );
+    }
+    let sheet = read("0.0", "sheet.md");
+    assert!(
+        sheet.contains("(notch)") && sheet.contains("raise `inset` by 0.6 mm"),
+        "{sheet}"
+    );
+    let sheet = read("0.0006", "sheet.md");
+    assert!(
+        !sheet.contains("(notch") && !sheet.contains("(open"),
+        "{sheet}"
+    );
+}
+
+/// A new design can be cut as it is.
+#[test]
+fn new_designs_have_walls() {
+    let folder = tempfile::tempdir().unwrap();
+    for (sides, side, magnets, shape) in [
+        ("6", "6 cm", "2", "flat"),
+        ("6", "6 cm", "2", "tab"),
+        ("4", "6 cm", "2", "arc"),
+        ("3", "12 cm", "3", "sine"),
+        ("24", "5 cm", "2", "triangle"),
+        ("4", "43 cm", "4", "tab"),
+    ] {
+        let design = folder.path().join("new.toml");
+        let design = design.to_str().unwrap();
+        let options = [
+            "--sides",
+            sides,
+            "--side",
+            side,
+            "--magnets",
+            magnets,
+            "--shape",
+            shape,
+        ];
+        let started = tilebind(&[&["init", design, "--force"], &options[..]].concat());
+        assert_eq!(started.status.code(), Some(0), "{}", stderr(&started));
+        let files = made(&std::fs::read_to_string(design).unwrap(), &[]);
+        let sheet = String::from_utf8(files["sheet.md"].clone()).unwrap();
+        for mark in ["notch)", "(open", "close)"] {
+            assert!(!sheet.contains(mark), "{options:?}\n{sheet}");
+        }
+    }
+}
+
+#[test]
+fn copies_are_nested_on_sheets_and_layers_are_parts() {
+    let text = hexagons("0.002", "");
+    let files = made(
+        &text,
+        &[
+            "--copies",
+            "6",
+            "--sheet",
+            "600x400 mm",
+            "--layers",
+            "4 mm, 4mm",
+        ],
+    );
+    let read = |name: &str| String::from_utf8(files[name].clone()).unwrap();
+    for name in [
+        "fixed-layer-1.dxf",
+        "moving-layer-2.svg",
+        "glue-up.svg",
+        "nested-1.svg",
+    ] {
+        assert!(files.contains_key(name), "{name}");
+    }
+    // Two tiles of two layers, six of each; magnets of 5 mm need both layers.
+    let sheets: Vec<String> = (1..)
+        .map(|k| format!("nested-{k}.dxf"))
+        .take_while(|name| files.contains_key(name))
+        .collect();
+    let outlines = |name: &String| -> Vec<Vec<[f64; 2]>> {
+        let lines = polylines(&read(name)).into_iter();
+        lines
+            .filter(|line| line.0 == "CUT_OUTSIDE")
+            .map(|line| line.1)
+            .collect()
+    };
+    let all: usize = sheets.iter().map(|name| outlines(name).len()).sum();
+    assert_eq!(all, 24);
+    for name in &sheets {
+        let boxes: Vec<[f64; 4]> = outlines(name)
+            .iter()
+            .map(|line| {
+                let of = |k: usize, fold: fn(f64, f64) -> f64, start| {
+                    line.iter().map(|p| p[k]).fold(start, fold)
+                };
+                [
+                    of(0, f64::min, f64::MAX),
+                    of(1, f64::min, f64::MAX),
+                    of(0, f64::max, f64::MIN),
+                    of(1, f64::max, f64::MIN),
+                ]
+            })
+            .collect();
+        for (i, a) in boxes.iter().enumerate() {
+            assert!(
+                a[0] > 1.999 && a[1] > 1.999 && a[2] < 598.001 && a[3] < 398.001,
+                "{a:?}"
+            );
+            for b in &boxes[..i] {
+                assert!(
+                    (0..2).any(|k| a[k] - b[k + 2] > 1.999 || b[k] - a[k + 2] > 1.999),
+                    "{a:?} {b:?}"
+                );
+            }
+        }
+    }
+    let said = format!("{} of 600 x 400 x 4 mm", sheets.len());
+    for said in ["24 magnets", "All cuts together are", &said] {
+        assert!(read("sheet.md").contains(said), "{said}");
+    }
+    assert!(read("nested-1.svg").contains("width=\"600mm\""));
+    let folder = tempfile::tempdir().unwrap();
+    let design = folder.path().join("design.toml");
+    std::fs::write(&design, &text).unwrap();
+    for (options, said) in [
+        (
+            ["--layers", "4 mm,3 mm"],
+            "7 mm thick together, but the tile is 8 mm",
+        ),
+        (["--sheet", "90x90 mm"], "use larger sheets"),
+        (["--sheet", "600 mm"], "600x400 mm"),
+        (["--count", "3"], "--count 6,6"),
+    ] {
+        let out = folder.path().join("out");
+        let wrong = tilebind(
+            &[
+                &[
+                    "make",
+                    design.to_str().unwrap(),
+                    "-o",
+                    out.to_str().unwrap(),
+                ],
+                &options[..],
+            ]
+            .concat(),
+        );
+        assert_eq!(wrong.status.code(), Some(2), "{options:?}");
+        assert!(stderr(&wrong).contains(said), "{}", stderr(&wrong));
+        assert!(!out.exists());
+    }
 }
 
 #[test]

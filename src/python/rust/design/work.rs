@@ -218,6 +218,17 @@ impl Design {
     ///     Width of the cut (m); outlines are offset outwards by half of it.
     /// clearance : float, optional
     ///     Gap between magnet and pocket on each side (m).
+    /// copies : int, optional
+    ///     Copies of both tiles, nested on sheets.
+    /// count : str or int, optional
+    ///     Copies of the fixed tile and of the moving one, `"6,4"`; one number if both tiles are
+    ///     the same.
+    /// sheet : str, optional
+    ///     Size of a sheet of material: `"600x400 mm"`.
+    /// spacing : float, optional
+    ///     Gap between parts on a sheet, and to its edges (m).
+    /// layers : str, optional
+    ///     Thickness of the layers of which a tile is glued, lowest first: `"4 mm,4 mm"`.
     ///
     /// Returns
     /// -------
