@@ -9,7 +9,7 @@ use tilebind::report::files::TABLE;
 use tilebind::report::hoomd;
 use tilebind::report::table::document;
 use tilebind::request;
-use tilebind::table::{self, About, PART, Request, Workload, compared};
+use tilebind::table::{self, About, PART, Request, Wanted, Workload, compared};
 use tilebind::text::{self, with_commas};
 use tilebind::units::duration;
 
@@ -20,12 +20,14 @@ use super::{Failure, input, tell};
 /// Simulate many tiles on one table, with contact, friction and drives, and count bonds and traps
 #[derive(Args)]
 #[command(after_help = "\
-All tiles move, including those of the fixed kind: --count 12,12 is twelve of each kind. They start at
-random positions or at those of --start, a CSV file with the columns tile,kind,x,y,theta,vx,vy,omega
-(m, rad, m/s, rad/s).
+All tiles move, including those of the fixed kind: --count 12,12 is twelve of each kind, --count 12 twelve
+of a design of one kind. They start at random positions or at those of --start, a CSV file with the
+columns tile,kind,x,y,theta,vx,vy,omega (m, rad, m/s, rad/s), without kind if there is only one.
 
-A bond is a pair whose target magnets have met. A trap is any other pair in contact that lacks the
-energy to separate. Every run keeps an energy balance; if more than 1 % is missing, the run is repeated
+A bond is a pair that lies as the target faces do, or as faces equal to them. A trap is any other pair in
+contact that lacks the energy to separate, unless it follows from bonds to a common neighbour (the corners
+in a sheet) or has less than 0.5 % of a bond's energy: these are counted as contacts. Tiles joined by bonds
+are structures: rings, chains and sheets. Every run keeps an energy balance; if more than 1 % is missing, the run is repeated
 with half the step.
 
 Several designs share one table, the first design's. Their kinds are `NAME fixed` and `NAME moving`;
@@ -41,6 +43,7 @@ Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 600 --runs 20 --merge target/part-* --out target/all
   tilebind table shapes/paper-tile.toml --count 50,50 --time 0.1 --shaking 3e-3 --drag 0.5 --hoomd \\
     --out target/hoomd
+  tilebind table shapes/ring-of-eight.toml --count 16 --time 60 --runs 20 --shaking 4e-4 --drag 2 --target ring:8
   tilebind table my.toml --start start.csv --time 5 --friction 0 --restitution 1 --frames 0.02 --out run")]
 pub struct TableCommand {
     /// Design files, whose tiles share the first one's table, or one tile set as for `tilebind assemble`:
@@ -95,7 +98,12 @@ impl TableCommand {
             ));
         }
         let mut designs = Vec::new();
-        let mut inputs: Vec<PathBuf> = set.into_iter().chain(&self.start).cloned().collect();
+        let target = self.request.target.iter().filter_map(|it| match it {
+            Wanted::File(file) => Some(file),
+            Wanted::Known(_) => None,
+        });
+        let files = set.into_iter().chain(&self.start).chain(target);
+        let mut inputs: Vec<PathBuf> = files.cloned().collect();
         for path in self.tiles.iter().filter(|_| set.is_none()) {
             let design = input::load_as(path, self.model)?;
             inputs.extend(input::files_of(path, &design));
@@ -105,7 +113,7 @@ impl TableCommand {
         inputs.extend(parts.iter().cloned());
         let output = self.results.output(&TABLE, inputs)?;
         self.threads.use_threads()?;
-        let (about, crowd) = match set {
+        let (about, mut crowd) = match set {
             None => About::of_designs(&designs).map_err(Failure::Usage)?,
             Some(set) => About::of_set(set, &self.request, self.model, self.lattice)?,
         };
@@ -116,7 +124,7 @@ impl TableCommand {
             .map(|(name, text)| (&name[..], with_commas(text)));
         let progress = self.results.progress();
         let start = self.request.start(
-            (about.designs.len(), &crowd),
+            (&about, &crowd),
             file.as_ref().map(|(name, text)| (*name, &text[..])),
             &progress,
         );
@@ -133,6 +141,10 @@ impl TableCommand {
                 duration(time, 2)
             ));
         }
+        crowd.goal = self
+            .request
+            .goal((&about, &crowd), &progress)
+            .map_err(Failure::Usage)?;
         let parts = parts.iter().map(|path| named("part", path));
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;
         let found = table::table((&about, crowd), &self.request, start, &parts, &progress);

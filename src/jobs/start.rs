@@ -40,6 +40,10 @@ pub struct Request {
     /// A density is in kg/m3 or has a unit: "0.6 g/cm3".
     #[arg(long, value_name = "MATERIAL", value_parser = Material::parse)]
     pub material: Option<Material>,
+
+    /// Both tiles of one kind: each has both binding faces, so that many of them join
+    #[arg(long)]
+    pub one_kind: bool,
 }
 
 fn shape() -> Word<Shape> {
@@ -55,7 +59,8 @@ impl Request {
     pub fn text(&self, stem: &str) -> Result<String, StartError> {
         let asked = (self.sides, self.side, self.magnets, self.shape);
         let made = (self.magnet, self.thickness, self.material);
-        if asked == (None, None, None, None) && made == (None, None, None) {
+        let is_usual = asked == (None, None, None, None) && made == (None, None, None);
+        if is_usual && !self.one_kind {
             return Ok(STARTER.to_owned());
         }
         let usual = Start::default();
@@ -67,6 +72,7 @@ impl Request {
             magnet: self.magnet,
             thickness: self.thickness,
             material: self.material.unwrap_or(usual.material),
+            one_kind: self.one_kind,
         };
         // A name without quotes or control characters.
         let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);

@@ -49,6 +49,12 @@ impl Configuration {
         Self::new(p.x, p.y, wrap_angle(-self.theta))
     }
 
+    /// The pose of a third tile, given in the moving tile's frame, in the fixed tile's frame.
+    pub fn compose(&self, next: &Self) -> Self {
+        let p = self.transform(next.position());
+        Self::new(p.x, p.y, wrap_angle(self.theta + next.theta))
+    }
+
     /// Moved by `step` = (dx, dy, dtheta); the angle is wrapped.
     pub fn moved(&self, step: Vector3<f64>) -> Self {
         Self::new(

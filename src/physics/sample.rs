@@ -64,6 +64,7 @@ pub fn pair(sides: usize, side: f64, [fixed, moving]: [&[usize]; 2]) -> Problem 
         moving,
         target,
         bound,
+        only: false,
     });
     let space = ConfigurationSpace {
         half_size: [1.0, 1.0],

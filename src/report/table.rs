@@ -296,9 +296,12 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("bonds", interval(&statistics.bonds))
         .data("traps", interval(&statistics.traps))
         .fact("", "bonds", told(&statistics.bonds)).in_view().noted("at the end, mean over the runs with its 95 % interval")
-        .fact("", "traps", told(&statistics.traps)).in_view().noted("all other stable contacts at the end")
-        .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval)}))
-        .fact("", "target", reached(about, found)).in_view().noted(aim(about))
+        .data("contacts", interval(&statistics.contacts))
+        .data("trapped_tiles", interval(&statistics.trapped))
+        .fact("", "traps", told(&statistics.traps)).in_view().noted("other stable contacts at the end")
+        .fact("", "contacts", told(&statistics.contacts)).in_view().noted("stable contacts that follow from bonds to a common neighbour, or have less than 0.5 % of a bond's energy")
+        .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval), "outside": found.target.outside.as_ref().map(interval)}))
+        .fact("", "target", reached(about, found)).in_view().noted(aim(about, found))
         .data("clusters", json!(statistics.clusters))
         .fact("kinetic_kT", "kinetic energy", statistics.kinetic_kt).digits(3).noted("per degree of freedom, over kT; 0.5 in equilibrium")
         .data("kinetic_error", statistics.kinetic_error)
@@ -311,6 +314,7 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .data("cut_off", cut_off(found))
         .fact("wall_s", "", found.wall_s)
         .data("threads", found.threads)
+        .table(structures(found))
         .table(sizes(found))
         .table(course(found))
         .table(energy(found))
@@ -365,21 +369,27 @@ fn reached(about: &About, found: &Found) -> String {
         .defects
         .as_ref()
         .map(|it| format!(", {} defects", told(it)));
-    let what = if about.pattern.is_some() {
-        " of the pattern"
-    } else {
-        " of the pairs"
+    let what = match (&found.target.possible, &about.pattern) {
+        (Some(possible), _) => format!(" of {possible} tiles"),
+        (None, Some(_)) => " of the pattern".to_owned(),
+        (None, None) => " of the pairs".to_owned(),
     };
+    let outside = found.target.outside.as_ref();
+    let outside = outside.map(|it| format!(", {} tiles outside", told(it)));
     format!(
-        "{} %{}{what}{}",
+        "{} %{}{what}{}{}",
         percent(mean),
         within.unwrap_or_default(),
-        wrong.unwrap_or_default()
+        wrong.unwrap_or_default(),
+        outside.unwrap_or_default()
     )
 }
 
-fn aim(about: &About) -> &'static str {
+fn aim(about: &About, found: &Found) -> &'static str {
     match about.pattern {
+        _ if found.target.possible.is_some() => {
+            "tiles in structures that are the target, of the largest number that could be"
+        }
         Some(_) => {
             "tiles of the most complete cluster in their places, of all places; defects: its other tiles"
         }
@@ -412,6 +422,34 @@ fn cut_off(found: &Found) -> Value {
     couples.collect()
 }
 
+/// Rings, chains and sheets.
+fn structures(found: &Found) -> Table {
+    let structures = &found.statistics.structures;
+    rows(structures.clone())
+        .column("kind", "structure", "", |it| it.shape.name())
+        .column("size", "tiles", "", |it| it.size)
+        .column("mean", "number", "per run at the end, mean", |it| {
+            it.count.mean
+        })
+        .digits(3)
+        .column("low", "from", "95 % interval", |it| it.count.low)
+        .digits(3)
+        .column("high", "to", "95 % interval", |it| it.count.high)
+        .digits(3)
+        .column("closed", "bonds closed", "of all its tiles could have", |it| {
+            it.closed
+        })
+        .share()
+        .column("holes", "holes", "in each, mean", |it| it.holes)
+        .digits(3)
+        .table("structures")
+        .titled(
+            "Structures at the end",
+            "tiles joined by bonds: rings are closed, chains open; a target is listed again under its \
+             own kind",
+        )
+}
+
 fn sizes(found: &Found) -> Table {
     rows(found.statistics.clusters.clone())
         .column("size", "tiles", "in a cluster", |it| it.0)
@@ -434,6 +472,8 @@ fn course(found: &Found) -> Table {
         .column("bonds_interval", "", "95 %", ends(|it| it.bonds))
         .column("traps", "", "mean over the runs", |it| it.traps.mean)
         .column("traps_interval", "", "95 %", ends(|it| it.traps))
+        .column("in_target", "", "tiles in structures that are the target, mean over the runs", |it| it.in_target.mean)
+        .column("in_target_interval", "", "95 %", ends(|it| it.in_target))
         .column("largest", "", "tiles of the largest cluster, mean over the runs", |it| it.largest.mean)
         .column("largest_interval", "", "95 %", ends(|it| it.largest))
         .table("over_time")
@@ -472,7 +512,7 @@ fn bonds(found: &Found) -> Table {
         .column("second", "", "the tile in contact with it", |(_, life)| life.tiles[1])
         .column("first_kind", "", "", |(_, life)| kind(life.tiles[0]))
         .column("second_kind", "", "", |(_, life)| kind(life.tiles[1]))
-        .column("tie", "", "bond or trap", |(_, life)| life.tie.name())
+        .column("tie", "", "bond, trap or contact", |(_, life)| life.tie.name())
         .column("from_s", "", "", |(_, life)| life.from)
         .column("to_s", "", "empty if it lasts to the end", |(_, life)| life.to)
         .table("held")
@@ -584,6 +624,10 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
         Dimension::new("tiles", "tiles"),
     )
     .with("largest cluster", Look::Line, line(|it| it.largest));
+    let largest = match found.crowd.goal {
+        Some(_) => largest.with("in the target", Look::Line, line(|it| it.in_target)),
+        None => largest,
+    };
     let mean = |of: fn(&Sample) -> f64| -> Vec<[f64; 2]> {
         let runs = found.runs.len() as f64;
         (0..moments.len())

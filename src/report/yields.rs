@@ -64,6 +64,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
                 lifetimes(question),
             ])
             .chain(dissipation(question))
+            .chain(one_kind(design))
             .collect(),
         origin: format!(
             "{} magnets; {told}, detachment {}; a tile binds at most one partner",
@@ -72,6 +73,15 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         ),
         ..Document::default()
     }
+}
+
+/// A note if all tiles bind each other.
+fn one_kind(design: &Design) -> Option<String> {
+    design.problem().exchange.map(|_| {
+        "both tiles are of one kind, so that any two of them bind; here a tile binds only tiles of the \
+         other half, and one of them: `tilebind table --count N` simulates all contacts"
+            .to_owned()
+    })
 }
 
 /// A note if collisions dissipate energy.

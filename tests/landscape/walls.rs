@@ -60,6 +60,7 @@ fn a_plate_never_falls_through_another() {
         moving,
         target: (0, 0),
         bound: Configuration::new(0.0, 0.0, 0.0),
+        only: false,
     };
     let problem = Problem::without_contact(space, Box::new(Pull)).with_tiles(Arc::new(pair));
     let mut rng = ChaCha8Rng::seed_from_u64(2);

@@ -81,6 +81,7 @@ fn round(problem: Problem) -> Problem {
         moving: tile,
         target: (0, 0),
         bound: at(2.0 * RADIUS),
+        only: false,
     };
     problem.with_tiles(Arc::new(pair))
 }

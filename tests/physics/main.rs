@@ -12,6 +12,7 @@ mod design_files;
 #[path = "../shared/designs.rs"]
 mod designs;
 mod dynamics;
+mod equal;
 mod kinetics;
 mod mixtures;
 mod narrow;

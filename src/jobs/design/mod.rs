@@ -9,6 +9,11 @@
 //!
 //! The meaning of keys that leave a choice:
 //!
+//! - `[tile]` describes both tiles, as does `[fixed]` with `moving = "fixed"`: they are of one kind,
+//!   and a face that `mates` another is the complement of that face of the same tile.
+//! - The bond is every contact equal to the target: by turns of the tiles onto themselves, by
+//!   exchange of equal tiles, and of other faces that are drawn like the target faces and carry the
+//!   same magnets. `[target] only = true` makes it the stated contact alone.
 //! - A face's own entry overrides `all` key by key. `code`, `magnets` or `profile` in a face's own
 //!   entry override a `mates` of `all`.
 //! - A mate takes over its partner's line, code or magnets *and* its `magnet` keys (with another
@@ -94,6 +99,7 @@ use physics::configuration::{Configuration, ConfigurationSpace};
 use physics::potential::Interaction;
 use physics::potential::shielding::{ShieldRule, Shields};
 use physics::problem::Problem;
+use physics::tile::congruence::congruence;
 use physics::tile::magnet::Form;
 use physics::tile::strength::Strength;
 use physics::tile::{Magnet, Pair};
@@ -101,7 +107,7 @@ use reader::Section;
 use shield::ShieldKeys;
 use source::Source;
 use target::Bound;
-use tile::{TILES, TileEntry};
+use tile::{ONE_TILE, TILES, TileEntry};
 
 /// A pair of tiles and how they are meant to bind.
 ///
@@ -141,13 +147,17 @@ pub struct Design {
     pub warnings: Vec<DesignError>,
 }
 
-const ROOT_KEYS: [&str; 9] = [
+/// Largest relative difference of mass and thickness of tiles of one kind.
+const SAME_BODY: f64 = 1e-3;
+
+const ROOT_KEYS: [&str; 10] = [
     "name",
     "description",
     "table",
     "magnet",
     "fixed",
     "moving",
+    "tile",
     "target",
     "potential",
     "shield",
@@ -257,6 +267,12 @@ impl Design {
         let [fixed, moving] = built.map(|built| built.tile);
         warnings.extend(too_near);
         warnings.extend(target.doubt);
+        // What is odd about [tile] is found with both tiles.
+        let mut told: Vec<DesignError> = Vec::new();
+        warnings.retain(|it| {
+            let is_new = !told.iter().any(|known| known == it);
+            is_new.then(|| told.push(it.clone())).is_some()
+        });
         let design = Self {
             name: name?.map_or_else(|| stem(source.file), str::to_owned),
             description: description?.unwrap_or_default().to_owned(),
@@ -265,6 +281,7 @@ impl Design {
             pair: Arc::new(Pair {
                 bound,
                 target: target.faces,
+                only: target.only,
                 fixed,
                 moving,
             }),
@@ -291,6 +308,18 @@ impl Design {
             rho: self.pair.moving.radius_of_gyration(),
             free_distance: self.pair.free_distance(),
         }
+    }
+
+    /// Whether both tiles are of one kind, drawn in the same frame: congruent, with the same magnets,
+    /// shields and mass, to the tolerances of making.
+    pub fn is_of_one_kind(&self) -> bool {
+        let Pair { fixed, moving, .. } = &*self.pair;
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME_BODY * a.max(b);
+        let shields = &self.interaction.shields;
+        near(fixed.mass, moving.mass)
+            && near(fixed.thickness, moving.thickness)
+            && shields.fixed == shields.moving
+            && congruence(fixed, moving).is_some_and(|map| map.to_array() == [0.0; 3])
     }
 
     /// The problem of the design.
@@ -445,15 +474,36 @@ fn shield_span(root: &Section, entries: &[TileEntry; 2]) -> Result<Span> {
     Ok(root.span)
 }
 
+/// The entries of the fixed and of the moving tile; both are those of `[tile]` if there is one, and
+/// those of `[fixed]` if the file says `moving = "fixed"`.
 fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
-    let entry = |i: usize, name, faces_name| {
+    let read = |key, name, faces_name| {
         let help = format!("describe it under {name}: side, thickness, mass, faces");
-        let section = root.require(TILES[i], &help)?.section(name)?;
-        TileEntry::read(TILES[i], section, faces_name)
+        let section = root.require(key, &help)?.section(name)?;
+        TileEntry::read(key, section, faces_name)
     };
-    let fixed = entry(0, "[fixed]", "[fixed.faces]");
-    let moving = entry(1, "[moving]", "[moving.faces]");
-    Ok([fixed?, moving?])
+    let fixed = || read(TILES[0], "[fixed]", "[fixed.faces]");
+    if let Some(one) = root.get(ONE_TILE) {
+        if let Some(other) = TILES.iter().find_map(|key| root.get(key)) {
+            let message = format!("[tile] describes both tiles, and so does `{}`", other.key);
+            return Err(other.key_error(message, "keep [tile], or [fixed] and [moving]"));
+        }
+        let section = one.section("[tile]")?;
+        let tile = || TileEntry::read(ONE_TILE, section, "[tile.faces]");
+        return Ok([tile()?, tile()?]);
+    }
+    if let Some(same) = root.get(TILES[1]).filter(|entry| entry.text().is_some()) {
+        same.word(&[(TILES[0], ())])?;
+        return Ok([fixed()?, fixed()?]);
+    }
+    if TILES.iter().all(|key| root.get(key).is_none()) {
+        return Err(root.error(
+            "the design has no tiles",
+            "describe them under [fixed] and [moving], or under [tile] if both are equal",
+        ));
+    }
+    let moving = read(TILES[1], "[moving]", "[moving.faces]");
+    Ok([fixed()?, moving?])
 }
 
 fn stem(file: &str) -> String {

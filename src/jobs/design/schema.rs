@@ -21,8 +21,8 @@ mod tests {
     use super::super::quantity::{self, Quantity};
     use super::super::shield::CONSTANTS;
     use super::super::svg::{OUTLINE_KEYS, UNITS};
-    use super::super::tile::{TILE_KEYS, TILES};
-    use super::super::{MagnetModel, ROOT_KEYS, TABLE_KEYS, profile};
+    use super::super::tile::TILE_KEYS;
+    use super::super::{MagnetModel, ROOT_KEYS, TABLE_KEYS, profile, target};
     use super::*;
     use physics::potential::shielding::ShieldRule;
 
@@ -56,7 +56,7 @@ mod tests {
         assert_keys(of("tile"), &TILE_KEYS);
         assert_keys(of("face"), &FACE_KEYS);
         assert_keys(of("faces"), &["all", "east", "north", "west", "south"]);
-        assert_keys(of("target"), &TILES);
+        assert_keys(of("target"), &target::KEYS);
         assert_keys(of("outline"), &OUTLINE_KEYS);
         assert_keys(of("potential"), &["model"]);
         let mut constants = CONSTANTS.map(|(name, _)| name).to_vec();

@@ -18,28 +18,40 @@ use physics::tile::{Face, Tile};
 pub(super) struct Target<'a> {
     /// Face of the fixed tile, face of the moving tile.
     pub faces: (usize, usize),
+    /// Whether no equal contact counts as the bond.
+    pub only: bool,
     /// Largest allowed overlap (m).
     pub allowance: f64,
     /// A warning that they are not quite equal.
     pub doubt: Option<DesignError>,
     /// The names of the two faces.
     names: [String; 2],
+    /// The section of the second one.
+    faces_of: &'static str,
     moving: Entry<'a>,
 }
 
 const HELP: &str =
     "name the two faces that should bind: [target] fixed = \"east\", moving = \"west\"";
+const HELP_OF_ONE: &str = "name the two faces that should bind, faces = [\"0\", \"2\"], or the one \
+    that binds its own kind: faces = [\"0\"]";
+
+/// The keys of `[target]`.
+pub(super) const KEYS: [&str; 4] = ["fixed", "moving", "faces", "only"];
 
 pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Target<'a>> {
-    let section = root.require("target", HELP)?.section("[target]")?;
-    section.allow(&TILES);
-    let face = |i: usize| {
-        let entry = section.require(TILES[i], HELP)?;
-        let face = find_face(&tiles[i].base.names, &entry, TILES[i])?;
-        Ok::<_, DesignError>((entry, face))
-    };
-    let [fixed, moving] = [0, 1].map(face);
-    let ((_, fixed), (entry, moving)) = (fixed?, moving?);
+    let is_one = tiles[1].name != TILES[1];
+    let help = if is_one { HELP_OF_ONE } else { HELP };
+    let section = root.require("target", help)?.section("[target]")?;
+    section.allow(&KEYS);
+    let only = section.get("only").map(|entry| {
+        let value = entry.boolean();
+        value.ok_or_else(|| entry.error("`only` must be true or false", "write only = true"))
+    });
+    let entries = entries(&section, help)?;
+    let face = |i: usize| find_face(&tiles[i].base.names, &entries[i], tiles[i].name);
+    let (fixed, moving) = (face(0)?, face(1)?);
+    let entry = entries[1];
     let lengths = [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].length());
     section.source.faults.check_guesses()?;
     let lengths: [f64; 2] = lengths;
@@ -58,11 +70,35 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
         .then(|| nearly_equal(&entry, "the target faces measure", a, b));
     Ok(Target {
         faces: (fixed, moving),
+        only: only.transpose()?.unwrap_or(false),
         allowance: allowance(a, b),
         names: [(0, fixed), (1, moving)].map(|(i, face)| tiles[i].base.faces[face].name.clone()),
+        faces_of: match tiles[1].name {
+            "tile" => "[tile.faces]",
+            "fixed" => "[fixed.faces]",
+            _ => "[moving.faces]",
+        },
         moving: entry,
         doubt,
     })
+}
+
+/// The entries that name the face of the fixed and of the moving tile: `fixed` and `moving`, or the
+/// list `faces`.
+fn entries<'a>(section: &Section<'a>, help: &str) -> Result<[Entry<'a>; 2]> {
+    let Some(listed) = section.get("faces") else {
+        let [fixed, moving] = TILES.map(|key| section.require(key, help));
+        return Ok([fixed?, moving?]);
+    };
+    if let Some(other) = TILES.iter().find_map(|key| section.get(key)) {
+        let message = format!("`faces` and `{}` both name target faces", other.key);
+        return Err(other.key_error(message, "keep one of the two"));
+    }
+    match listed.array()?[..] {
+        [own] => Ok([own, own]),
+        [fixed, moving] => Ok([fixed, moving]),
+        _ => Err(listed.error("`faces` must name one or two faces", help)),
+    }
 }
 
 /// The contact of two tiles with their target faces.
@@ -164,8 +200,8 @@ impl Target<'_> {
                 four_digits(overlap * 1e3)
             ),
             format!(
-                "make the moving face the complement of the fixed one: {} = {{ mates = \"{}\" }} under [moving.faces]",
-                self.names[1], self.names[0]
+                "make the second face the complement of the first: {} = {{ mates = \"{}\" }} under {}",
+                self.names[1], self.names[0], self.faces_of
             ),
         )
     }

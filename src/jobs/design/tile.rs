@@ -1,4 +1,4 @@
-//! The sections `[fixed]` and `[moving]`: their faces, and which faces mate.
+//! The sections `[fixed]` and `[moving]`, or `[tile]` for both: their faces, and which faces mate.
 
 use super::DesignError;
 use super::base::{self, Base};
@@ -14,7 +14,10 @@ use physics::potential::shielding::Shield;
 /// The two tiles' names, in the order in which they are stored.
 pub(super) const TILES: [&str; 2] = ["fixed", "moving"];
 
-/// The keys of `[fixed]` and `[moving]`.
+/// The name of a tile that is both.
+pub(super) const ONE_TILE: &str = "tile";
+
+/// The keys of `[fixed]`, `[moving]` and `[tile]`.
 pub(super) const TILE_KEYS: [&str; 8] = [
     "side",
     "sides",
@@ -28,7 +31,7 @@ pub(super) const TILE_KEYS: [&str; 8] = [
 
 /// The entries of one tile.
 pub(super) struct TileEntry<'a> {
-    /// `fixed` or `moving`.
+    /// `fixed`, `moving` or `tile`.
     pub name: &'static str,
     pub section: Section<'a>,
     pub base: Base,
@@ -143,7 +146,7 @@ fn resolve_face(
         return entry.content(base.length(), drawn, keys, tiles[tile].section.span);
     };
     let other = 1 - tile;
-    let partner = find_face(&tiles[other].base.names, &mates, TILES[other])?;
+    let partner = find_face(&tiles[other].base.names, &mates, tiles[other].name)?;
     on_the_way.push((tile, face));
     if on_the_way.contains(&(other, partner)) {
         return Err(mates.error(
@@ -185,7 +188,7 @@ pub(super) fn nearly_mates(tiles: &[TileEntry; 2]) -> Vec<DesignError> {
         let other = 1 - tile;
         for (face, base) in entry.faces.iter().zip(&entry.base.faces) {
             let Some(mates) = face.mates() else { continue };
-            let Ok(partner) = find_face(&tiles[other].base.names, &mates, TILES[other]) else {
+            let Ok(partner) = find_face(&tiles[other].base.names, &mates, tiles[other].name) else {
                 continue;
             };
             let lengths = [base, &tiles[other].base.faces[partner]].map(|face| face.length());
@@ -199,5 +202,5 @@ pub(super) fn nearly_mates(tiles: &[TileEntry; 2]) -> Vec<DesignError> {
 }
 
 fn name(tiles: &[TileEntry; 2], (tile, face): (usize, usize)) -> String {
-    format!("{}.{}", TILES[tile], tiles[tile].base.faces[face].name)
+    format!("{}.{}", tiles[tile].name, tiles[tile].base.faces[face].name)
 }

@@ -15,18 +15,15 @@
 
 use super::error::DesignError;
 use super::reader::Entry;
+use physics::tile::congruence::allowed;
 use physics::units::{plain, to_digits};
 
-/// The resolution of cutters and printers (m).
-const RESOLVED: f64 = 50e-6;
-/// The share of a face's length that two faces may differ by in any case.
-const SHARE: f64 = 1e-3;
 /// Lengths that differ by less than this share are equal up to rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The allowed difference or overlap (m) of two faces of these lengths (m).
 pub(super) fn allowance(a: f64, b: f64) -> f64 {
-    RESOLVED.min(SHARE * a.min(b))
+    allowed(a.min(b))
 }
 
 /// How two lengths compare.

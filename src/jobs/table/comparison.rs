@@ -12,8 +12,12 @@ use physics::observer::Observer;
 /// restitution and friction. The scarcer kind of tile determines the number of pairs.
 fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
     let kinds = found.ensemble.kinds();
-    let counts = [0, 1].map(|kind| kinds.iter().filter(|it| **it == kind).count());
-    let pairs = counts.into_iter().min().filter(|pairs| *pairs > 0)?;
+    let count = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
+    let pairs = match found.crowd.kinds.len() {
+        1 => count(0) / 2,
+        _ => count(0).min(count(1)),
+    };
+    let pairs = Some(pairs).filter(|pairs| *pairs > 0)?;
     let area = design.pair.moving.outline.area();
     let table = found.crowd.area();
     let words = [

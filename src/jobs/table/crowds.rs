@@ -17,14 +17,33 @@ use physics::tile::{Pair, Tile};
 /// Pairs' energies are cut off below this share of the bond's depth.
 const CUT_OFF: f64 = 1e-4;
 
-/// The fixed and the moving tile of a design as the kinds `fixed` and `moving`; for several designs
-/// `NAME fixed` and `NAME moving`, on the first design's table. All tiles interact with each other,
-/// including those of one kind and of different designs. Bonds are those between a design's own two
-/// tiles.
+/// The kinds of tiles of designs, and their other names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Named {
+    /// For each design, the kind of its fixed and of its moving tile: the same if they are equal.
+    pub kinds: Vec<[usize; 2]>,
+    /// Names by which start files may call kinds.
+    pub aliases: Vec<(String, usize)>,
+}
+
+impl Named {
+    /// The kind of a tile without a name, if there is only one kind.
+    pub fn only(&self) -> Option<usize> {
+        match self.kinds[..] {
+            [[one, other]] if one == other => Some(one),
+            _ => None,
+        }
+    }
+}
+
+/// The tiles of a design as the kinds `fixed` and `moving`, or as the one kind `tile` if they are
+/// equal; for several designs `NAME fixed` and so on, on the first design's table. All tiles interact
+/// with each other, including those of one kind and of different designs. Bonds are all contacts
+/// equal to the target between a design's own tiles.
 ///
 /// # Errors
 /// If there is no design, models differ, or forces are not gradients of energies.
-pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
+pub fn of_designs(designs: &[Design]) -> Result<(Crowd, Named), String> {
     let first = designs.first().ok_or("there is no design")?;
     let (model, rule) = (first.interaction.model, first.interaction.shields.rule);
     for other in designs {
@@ -37,18 +56,40 @@ pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
         }
     }
     let problems: Vec<Problem> = designs.iter().map(Design::problem).collect();
-    let named = |design: &Design, kind: &str| match designs.len() {
-        1 => kind.to_owned(),
-        _ => format!("{} {kind}", design.name),
-    };
-    let kinds = designs.iter().flat_map(|design| {
-        let (fixed, moving) = (design.pair.fixed.clone(), design.pair.moving.clone());
-        [("fixed", fixed), ("moving", moving)]
-            .map(|(kind, tile)| Kind::new(named(design, kind), tile))
-    });
+    let mut kinds: Vec<Kind> = Vec::new();
+    // The design of each kind, and which of its tiles it is.
+    let mut origins: Vec<(usize, usize)> = Vec::new();
+    let mut named = Named::default();
+    for (number, design) in designs.iter().enumerate() {
+        let called = |kind: &str| match designs.len() {
+            1 => kind.to_owned(),
+            _ => format!("{} {kind}", design.name),
+        };
+        let before = kinds.len();
+        let is_one = design.is_of_one_kind();
+        let tiles = [&design.pair.fixed, &design.pair.moving];
+        let names = if is_one {
+            &["tile"][..]
+        } else {
+            &["fixed", "moving"]
+        };
+        for (which, name) in names.iter().enumerate() {
+            kinds.push(Kind::new(called(name), tiles[which].clone()));
+            origins.push((number, which));
+        }
+        let own = [before, before + usize::from(!is_one)];
+        let aliases = ["fixed", "moving"].into_iter().zip(own);
+        let tile = (is_one || problems[number].exchange.is_some()).then_some(("tile", before));
+        let aliases = aliases.chain(tile);
+        named
+            .aliases
+            .extend(aliases.map(|(name, kind)| (called(name), kind)));
+        named.kinds.push(own);
+    }
     let of_kind = |kind: usize| {
-        let shields = &designs[kind / 2].interaction.shields;
-        match kind % 2 {
+        let (design, which) = origins[kind];
+        let shields = &designs[design].interaction.shields;
+        match which {
             0 => shields.fixed.clone(),
             _ => shields.moving.clone(),
         }
@@ -61,17 +102,27 @@ pub fn of_designs(designs: &[Design]) -> Result<Crowd, String> {
         },
         ..first.interaction.clone()
     };
-    let bonds = |one: usize, other: usize| match one.is_multiple_of(2) && other == one + 1 {
-        true => MatchRule::new(&problems[one / 2], None)
-            .into_iter()
-            .collect(),
-        false => Vec::new(),
+    let bonds = |one: usize, other: usize| {
+        let ((design, first), (of_other, second)) = (origins[one], origins[other]);
+        let problem = &problems[design];
+        let pair = &designs[design].pair;
+        let tiles = [first, second].map(|which| [&pair.fixed, &pair.moving][which]);
+        let rule = match (first, second) {
+            _ if design != of_other => return Vec::new(),
+            _ if named.kinds[design] == [one, one] => MatchRule::of_equals(problem),
+            (0, 1) => MatchRule::new(problem, None),
+            // What binds as the target does, with the faces of one tile alone.
+            _ if pair.only => return Vec::new(),
+            _ => MatchRule::between(problem, tiles),
+        };
+        let rules = rule.into_iter();
+        rules.filter(|rule| rule.poses().next().is_some()).collect()
     };
     let depths = problems.iter().map(Problem::depth);
     let tolerance = CUT_OFF * depths.fold(f64::INFINITY, f64::min);
     let half = problems[0].space.half_size;
-    let crowd = Crowd::new(kinds.collect(), half, tolerance, &interaction, bonds);
-    crowd.map_err(|error| error.to_string())
+    let crowd = Crowd::new(kinds, half, tolerance, &interaction, bonds);
+    Ok((crowd.map_err(|error| error.to_string())?, named))
 }
 
 /// The tiles of a set as kinds with their names, on a table of the given size (m). Bonds are those
@@ -133,6 +184,7 @@ fn turned(design: &Design) -> Problem {
         moving: pair.fixed.clone(),
         target: (pair.target.1, pair.target.0),
         bound: pair.bound.inverse(),
+        only: pair.only,
     };
     let shields = &design.interaction.shields;
     let interaction = Interaction {

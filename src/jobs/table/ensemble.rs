@@ -37,7 +37,10 @@ impl Ensemble {
     /// A checksum of tiles.
     pub(super) fn checksum(about: &About, crowd: &Crowd) -> String {
         let tiles: Vec<_> = crowd.kinds.iter().map(|it| (&it.name, &it.tile)).collect();
-        sha256(format!("{about:?} {:?} {tiles:?}", crowd.half_size))
+        sha256(format!(
+            "{about:?} {:?} {:?} {tiles:?}",
+            crowd.half_size, crowd.goal
+        ))
     }
 
     /// The index of each tile's kind.

@@ -2,11 +2,12 @@
 
 use clap::Args;
 
-use super::{start_file, workload};
+use super::{About, Wanted, start_file, workload};
 use crate::design::{frequency, length};
 use crate::request::{self, MotionOptions, Shard};
 use physics::observer::Observer;
 use physics::table::run::Start;
+use physics::table::structures::Goal;
 use physics::table::{Crowd, Orbital, TableSettings};
 
 /// Largest radius of the table's circle (m).
@@ -29,7 +30,8 @@ const MOMENTS: f64 = 200.0;
 pub struct Request {
     /// Tiles of each kind: fixed and moving kind of a design, or each tile of a set
     ///
-    /// For several designs, give two numbers for all of them or two for each.
+    /// One number for a design of one kind. For several designs, give the numbers of one for all of
+    /// them, or those of each.
     #[arg(long, value_name = "N,M", value_delimiter = ',', value_parser = request::count_or_none)]
     pub count: Vec<usize>,
 
@@ -72,6 +74,12 @@ pub struct Request {
     /// Record the tiles' poses at this interval (s)
     #[arg(long, value_name = "DT", value_parser = request::time)]
     pub frames: Option<f64>,
+
+    /// What is to be built: ring:8, chain:5, sheet:3x3, or the tiles of a start file
+    ///
+    /// Its yield is the share of all tiles that are in such structures, of the largest possible share.
+    #[arg(long, value_name = "ring:N|chain:N|sheet:RxC|FILE.csv", value_parser = Wanted::parse)]
+    pub target: Option<Wanted>,
 
     /// Compare with the predictions of `tilebind bond` and `tilebind yield`, or of `tilebind assemble`
     #[arg(long)]
@@ -127,19 +135,32 @@ impl Request {
         self.frames.is_some()
     }
 
-    /// The starting positions: from a file, given by its name and text, or at random. `designs` is
-    /// the number of designs, 0 for a tile set.
+    /// What is to be built.
+    ///
+    /// # Errors
+    /// If the start file that describes it is invalid.
+    pub fn goal(
+        &self,
+        (about, crowd): (&About, &Crowd),
+        observer: &dyn Observer,
+    ) -> Result<Option<Goal>, String> {
+        let wanted = self.target.as_ref();
+        let goal = wanted.map(|it| it.goal((crowd, &about.named), observer));
+        goal.transpose()
+    }
+
+    /// The starting positions: from a file, given by its name and text, or at random.
     ///
     /// # Errors
     /// If the file is invalid, the number of counts differs from the number of kinds, or there is no
     /// single design to compare with.
     pub fn start(
         &self,
-        (designs, crowd): (usize, &Crowd),
+        (about, crowd): (&About, &Crowd),
         file: Option<(&str, &str)>,
         observer: &dyn Observer,
     ) -> Result<Start, String> {
-        if self.compare && designs > 1 {
+        if self.compare && about.designs.len() > 1 {
             return Err(
                 "--compare needs exactly one design, as `tilebind yield` counts pairs of one design, or one \
                  tile set: remove it, or give one design"
@@ -147,25 +168,19 @@ impl Request {
             );
         }
         if let Some((name, text)) = file {
-            let movers = start_file::read(text, crowd, observer);
+            let movers = start_file::read(text, (crowd, &about.named), observer);
             let movers = movers.map_err(|error| format!("{name}: {error}"))?;
             return Ok(Start::Given(movers));
         }
-        let kinds: Vec<&str> = crowd.kinds.iter().map(|kind| kind.name.as_str()).collect();
-        let mut counts = self.count.clone();
-        // Two numbers apply to every design.
-        let each = counts.len();
-        if each == 2 && designs > 0 {
-            counts = counts.repeat(kinds.len() / each);
-        }
-        if counts.len() != kinds.len() {
-            return Err(format!(
+        let counts = counts(&self.count, about, crowd).ok_or_else(|| {
+            let kinds: Vec<&str> = crowd.kinds.iter().map(|kind| kind.name.as_str()).collect();
+            format!(
                 "--count has {} numbers, but needs {}, one for each kind of tile: {}",
                 self.count.len(),
                 kinds.len(),
                 kinds.join(", ")
-            ));
-        }
+            )
+        })?;
         let all = counts.iter().copied().fold(0, usize::saturating_add);
         if !(1..=MOST_TILES).contains(&all) {
             return Err(format!("a table can have 1 to {MOST_TILES} tiles"));
@@ -197,6 +212,41 @@ impl Request {
         }
         workload::check_steps(self)
     }
+}
+
+/// The number of tiles of each kind; `None` if there are too many numbers, or too few.
+fn counts(given: &[usize], about: &About, crowd: &Crowd) -> Option<Vec<usize>> {
+    let count = crowd.kinds.len();
+    let kinds = &about.named.kinds;
+    if given.len() == count {
+        return Some(given.to_vec());
+    }
+    let of_each = |[fixed, moving]: &[usize; 2]| if fixed == moving { 1 } else { 2 };
+    let equal = kinds.iter().all(|it| of_each(it) == given.len());
+    let whole: Vec<usize> = match given.len() {
+        // The numbers of one design apply to all, or two numbers although both tiles are equal.
+        many if equal && many > 0 => given.repeat(kinds.len()),
+        2 => given.repeat(kinds.len()),
+        many if many == 2 * kinds.len() => given.to_vec(),
+        // Equal tiles in different frames: all of them are drawn as the fixed one.
+        1 if kinds.len() == 1 && about.named.aliases.iter().any(|it| it.0 == "tile") => {
+            return Some(vec![given[0], 0]);
+        }
+        _ => return None,
+    };
+    if kinds.is_empty() {
+        return None;
+    }
+    if whole.len() == count {
+        return Some(whole);
+    }
+    let mut counts = vec![0; count];
+    for (numbers, own) in whole.chunks(2).zip(kinds) {
+        for (number, kind) in numbers.iter().zip(own) {
+            counts[*kind] += number;
+        }
+    }
+    Some(counts)
 }
 
 fn orbital(text: &str) -> Result<Orbital, String> {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use csv::{ReaderBuilder, Trim};
 
 use super::request::MOST_TILES;
+use super::crowds::Named;
 use crate::measured::{ANGLE, LENGTH, Measured, SPEED, SPIN};
 use crate::request::FARTHEST;
 use crate::text::{column, not_too_long};
@@ -19,6 +20,9 @@ use physics::table::{Crowd, Mover, StartError};
 const COLUMNS: [&str; 8] = ["tile", "kind", "x", "y", "theta", "vx", "vy", "omega"];
 /// What the columns from the third on measure.
 const MEASURED: [Measured; 6] = [LENGTH, LENGTH, ANGLE, SPEED, SPEED, SPIN];
+
+/// The place of the kind among them: it may be missing if there is only one.
+const KIND: usize = 1;
 
 /// What is wrong with the file, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -38,7 +42,7 @@ pub struct StartFileError {
 /// If a line cannot be read, or tiles overlap or extend beyond the rim.
 pub fn read(
     text: &str,
-    crowd: &Crowd,
+    (crowd, named): (&Crowd, &Named),
     observer: &dyn Observer,
 ) -> Result<Vec<Mover>, StartFileError> {
     let mut reader = ReaderBuilder::new()
@@ -63,7 +67,9 @@ pub fn read(
         *place = found.map(|column| column.place);
         measures[k - 2] = found;
     }
-    if let Some(missing) = places.iter().position(Option::is_none) {
+    let is_needed = |column: &usize| *column != KIND || named.only().is_none();
+    let mut missing = (0..COLUMNS.len()).filter(|it| places[*it].is_none());
+    if let Some(missing) = missing.find(is_needed) {
         let message = format!(
             "there is no column `{}`: the first line names the columns {}",
             COLUMNS[missing],
@@ -71,7 +77,8 @@ pub fn read(
         );
         return Err(wrong(1, message));
     }
-    let places = places.map(Option::unwrap_or_default);
+    // A column that is missing is empty.
+    let places = places.map(|place| place.unwrap_or(usize::MAX));
     let columns = headers.len();
     let mut found: BTreeMap<usize, (u64, Mover)> = BTreeMap::new();
     for record in reader.records() {
@@ -86,7 +93,15 @@ pub fn read(
             let message = format!("`{}` is not a tile number: count tiles from 0", entry(0));
             wrong(line, message)
         })?;
-        let kind = crowd.kinds.iter().position(|kind| kind.name == entry(1));
+        let called = |name: &str| {
+            let own = crowd.kinds.iter().position(|kind| kind.name == name);
+            let aliases = || named.aliases.iter().find(|it| it.0 == name);
+            own.or_else(|| aliases().map(|it| it.1))
+        };
+        let kind = match entry(KIND) {
+            "" => named.only(),
+            name => called(name),
+        };
         let kind = kind.ok_or_else(|| {
             let names: Vec<&str> = crowd.kinds.iter().map(|it| it.name.as_str()).collect();
             let message = format!(

@@ -1,10 +1,14 @@
 //! Statistics over the runs of a table.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::target::in_target;
 use physics::dynamics::docking::poisson_interval;
 use physics::order::Order;
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{Life, Run};
+use physics::table::structures::{Shape, Structure};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A mean over runs with its 95 % interval.
@@ -113,6 +117,21 @@ pub struct Lifetime {
     pub interval: [Option<f64>; 2],
 }
 
+/// The structures of a kind and size at the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Built {
+    /// The kind.
+    pub shape: Shape,
+    /// The number of tiles.
+    pub size: usize,
+    /// How many there are in a run.
+    pub count: Interval,
+    /// The share of their possible bonds that are closed.
+    pub closed: f64,
+    /// Holes in each, mean.
+    pub holes: f64,
+}
+
 /// All runs at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
@@ -124,6 +143,8 @@ pub struct Moment {
     pub traps: Interval,
     /// Tiles of the largest cluster.
     pub largest: Interval,
+    /// Tiles in structures that are the goal.
+    pub in_target: Interval,
 }
 
 /// Statistics over the runs.
@@ -133,6 +154,12 @@ pub struct Statistics {
     pub bonds: Interval,
     /// Traps at the end.
     pub traps: Interval,
+    /// Held contacts at the end that are neither.
+    pub contacts: Interval,
+    /// Tiles in traps at the end.
+    pub trapped: Interval,
+    /// Structures at the end, by kind and size.
+    pub structures: Vec<Built>,
     /// Sizes of clusters at the end with their mean count per run.
     pub clusters: Vec<(usize, f64)>,
     /// Over time.
@@ -179,6 +206,9 @@ impl Statistics {
         Self {
             bonds: at_end(Tie::Bond),
             traps: at_end(Tie::Trap),
+            contacts: at_end(Tie::Contact),
+            trapped: Interval::of(&runs.iter().map(in_traps).collect::<Vec<_>>()),
+            structures: structures(runs),
             clusters: clusters(runs),
             moments: moments(runs),
             kinetic_kt,
@@ -228,6 +258,41 @@ fn clusters(runs: &[Run]) -> Vec<(usize, f64)> {
     counted
 }
 
+/// The number of tiles in traps at the end.
+fn in_traps(run: &Run) -> usize {
+    let held = run.samples.last().into_iter().flat_map(|it| &it.held);
+    let traps = held.filter(|held| held.tie == Tie::Trap);
+    traps
+        .flat_map(|held| held.tiles)
+        .collect::<BTreeSet<_>>()
+        .len()
+}
+
+fn structures(runs: &[Run]) -> Vec<Built> {
+    let mut found: BTreeMap<(Shape, usize), Vec<(usize, &Structure)>> = BTreeMap::new();
+    for (number, run) in runs.iter().enumerate() {
+        for it in run.samples.last().into_iter().flat_map(|it| &it.structures) {
+            let of_kind = found.entry((it.shape, it.tiles.len())).or_default();
+            of_kind.push((number, it));
+        }
+    }
+    let built = |((shape, size), all): ((Shape, usize), Vec<(usize, &Structure)>)| {
+        let in_run = |run: usize| all.iter().filter(|it| it.0 == run).count();
+        let counts: Vec<usize> = (0..runs.len()).map(in_run).collect();
+        let mean = |of: fn(&Structure) -> f64| {
+            all.iter().map(|it| of(it.1)).sum::<f64>() / all.len() as f64
+        };
+        Built {
+            shape,
+            size,
+            count: Interval::of(&counts),
+            closed: mean(|it| it.bonds as f64 / it.possible as f64),
+            holes: mean(|it| it.holes as f64),
+        }
+    };
+    found.into_iter().map(built).collect()
+}
+
 /// All runs at the times of the first run's samples; with halved steps the times agree to within a
 /// step.
 fn moments(runs: &[Run]) -> Vec<Moment> {
@@ -246,6 +311,7 @@ fn moments(runs: &[Run]) -> Vec<Moment> {
                 time: runs[0].samples[k].time,
                 bonds: of(&|it| it.count(Tie::Bond)),
                 traps: of(&|it| it.count(Tie::Trap)),
+                in_target: of(&in_target),
                 largest: of(&|it| it.clusters.first().copied().unwrap_or(0)),
             }
         })

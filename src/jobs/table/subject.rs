@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::crowds::Named;
 use super::{Request, of_assembly, of_designs};
 use crate::Refused;
 use crate::assembly::{self, growth::Place, kinetic::Growth};
@@ -23,6 +24,8 @@ pub struct About {
     pub name: String,
     /// The designs' names, with the checksums of their files; empty for a tile set.
     pub designs: Vec<(String, String)>,
+    /// The kinds of the designs' tiles.
+    pub named: Named,
     /// The model of the magnets.
     pub model: MagnetModel,
     /// For a tile set, the target assembly: tiles by place.
@@ -37,7 +40,7 @@ impl About {
     /// # Errors
     /// As [`of_designs`], or if two designs have the same name.
     pub fn of_designs(designs: &[Design]) -> Result<(Self, Crowd), String> {
-        let crowd = of_designs(designs)?;
+        let (crowd, named) = of_designs(designs)?;
         let names: Vec<&str> = designs.iter().map(|it| it.name.as_str()).collect();
         let twice = |name: &&&str| names.iter().filter(|it| it == name).count() > 1;
         if let Some(twice) = names.iter().find(twice) {
@@ -52,6 +55,7 @@ impl About {
                 .map(|it| (it.name.clone(), it.sha256.clone()))
                 .collect(),
             model: designs[0].interaction.model,
+            named,
             pattern: None,
             growth: None,
         };
@@ -95,6 +99,7 @@ impl About {
         let about = Self {
             name: set.name.clone(),
             designs: Vec::new(),
+            named: Named::default(),
             model: stage.interaction.model,
             pattern: Some(assembly.built.grown.tiles.clone()),
             growth: assembly.growing.as_ref().map(|growing| growing.growth),

@@ -8,65 +8,95 @@ use petgraph::algo::maximum_matching;
 use petgraph::graph::UnGraph;
 use physics::table::contacts::{Tie, cluster_of_each};
 use physics::table::run::Run;
-use physics::table::{Crowd, Mover};
+use physics::table::structures::Shape;
+use physics::table::{Crowd, Mover, Sample};
 
 /// The completeness of the target at the end of the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// For designs: the share of the scarcer kind's tiles that are bound to a partner of their own.
+    /// With a goal: the share of the largest possible number of tiles in such structures. Otherwise,
+    /// for designs: the share of the scarcer kind's tiles, or of all pairs of equal tiles, that are
+    /// bound to a partner of their own.
     /// For a tile set: the share of the pattern's tiles that are in place in the most complete
     /// cluster.
     pub share: Interval,
     /// For a tile set: tiles of that cluster that are not in a place of the pattern.
     pub defects: Option<Interval>,
+    /// With a goal: tiles outside such structures.
+    pub outside: Option<Interval>,
+    /// The largest possible number of tiles in such structures.
+    pub possible: Option<usize>,
 }
 
 impl Target {
     /// Evaluates at least one run; `kinds` are the kinds of the tiles.
     pub fn of(about: &About, (crowd, kinds): (&Crowd, &[usize]), runs: &[Run]) -> Self {
-        let Some(pattern) = &about.pattern else {
-            let found: Vec<_> = runs.iter().map(|run| bonds(crowd, kinds, run)).collect();
-            let bound: Vec<usize> = found.iter().map(|(bound, _)| *bound).collect();
-            let possible = found.first().map_or(0, |(_, possible)| *possible);
+        let alone = |share: Interval| Self {
+            share,
+            defects: None,
+            outside: None,
+            possible: None,
+        };
+        if let Some(goal) = &crowd.goal {
+            let possible = kinds.len() / goal.tiles() * goal.tiles();
+            let last = |run: &Run| run.samples.last().map_or(0, in_target);
+            let inside: Vec<usize> = runs.iter().map(last).collect();
+            let outside: Vec<usize> = inside.iter().map(|it| kinds.len() - it).collect();
             return Self {
-                share: Interval::of(&bound).of_at_most(possible),
-                defects: None,
+                outside: Some(Interval::of(&outside)),
+                possible: Some(possible),
+                ..alone(Interval::of(&inside).of_at_most(possible))
             };
+        }
+        let Some(pattern) = &about.pattern else {
+            let of_designs = &about.named.kinds;
+            let found: Vec<usize> = runs.iter().map(bonds).collect();
+            let possible = of_designs.iter().map(|own| pairs(crowd, kinds, *own)).sum();
+            return alone(Interval::of(&found).of_at_most(possible));
         };
         let grown: Vec<_> = runs.iter().map(|run| grown(crowd, pattern, run)).collect();
         let of = |pick: fn(&(usize, usize)) -> usize| {
             Interval::of(&grown.iter().map(pick).collect::<Vec<_>>())
         };
         Self {
-            share: of(|it| it.0).of_at_most(pattern.len()),
             defects: Some(of(|it| it.1)),
+            ..alone(of(|it| it.0).of_at_most(pattern.len()))
         }
     }
 }
 
-/// The number of bound pairs, and the largest possible number of simultaneously bound pairs.
-fn bonds(crowd: &Crowd, kinds: &[usize], run: &Run) -> (usize, usize) {
+/// The number of tiles in structures that are the goal.
+pub(super) fn in_target(sample: &Sample) -> usize {
+    let targets = sample.structures.iter();
+    let targets = targets.filter(|it| it.shape == Shape::Target);
+    targets.map(|it| it.tiles.len()).sum()
+}
+
+/// The number of bound pairs of which no two share a tile.
+fn bonds(run: &Run) -> usize {
     let held = run.samples.last().map_or(&[][..], |last| &last.held);
-    let [mut bound, mut possible] = [0, 0];
-    for second in 0..crowd.kinds.len() {
-        for first in 0..second {
-            if crowd.couple(first, second).0.bonds.is_empty() {
-                continue;
-            }
-            let of_kind = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
-            possible += of_kind(first).min(of_kind(second));
-            let held = held.iter().filter(|held| held.tie == Tie::Bond);
-            let pairs: Vec<[usize; 2]> = held
-                .map(|held| held.tiles)
-                .filter(|tiles| {
-                    let [a, b] = tiles.map(|tile| kinds[tile]);
-                    (a.min(b), a.max(b)) == (first, second)
-                })
-                .collect();
-            bound += matched(&pairs);
-        }
+    let bonds = held.iter().filter(|held| held.tie == Tie::Bond);
+    let pairs: Vec<[usize; 2]> = bonds.map(|held| held.tiles).collect();
+    matched(&pairs)
+}
+
+/// The largest possible number of such pairs among the tiles of a design.
+fn pairs(crowd: &Crowd, kinds: &[usize], [fixed, moving]: [usize; 2]) -> usize {
+    let of_kind = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
+    let bind_their_own = |kind: usize| !crowd.couple(kind, kind).0.bonds.is_empty();
+    let (n, m) = (of_kind(fixed), of_kind(moving));
+    if fixed == moving {
+        return n / 2;
     }
-    (bound, possible)
+    let crossed = match crowd.couple(fixed, moving).0.bonds.is_empty() {
+        true => 0,
+        false => n.min(m),
+    };
+    let left = |kind: usize, count: usize| match bind_their_own(kind) {
+        true => (count - crossed) / 2,
+        false => 0,
+    };
+    crossed + left(fixed, n) + left(moving, m)
 }
 
 /// The size of a maximum matching: pairs of which no two share a tile.

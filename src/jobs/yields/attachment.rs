@@ -21,8 +21,7 @@ use physics::dynamics::docking::{self, Arrivals, Caught, DockingError, DockingSe
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::bond::Hold;
 use physics::kinetics::rates::{Basin, RateSettings, rates};
-use physics::landscape::Catalogue;
-use physics::order::Order;
+use physics::landscape::{Catalogue, Kind};
 use physics::problem::Problem;
 
 /// Two configurations closer than this (m, metric of the space) are the same state.
@@ -299,9 +298,11 @@ pub fn count(
 
 fn tally(problem: &Problem, catalogue: &Catalogue, arrivals: &Arrivals) -> Attachments {
     let kinds: Vec<_> = catalogue.kinds().collect();
-    // The bond first, then the traps, in the order of their holds.
-    let mut order: Vec<usize> = (0..kinds.len()).collect();
-    order.order_by_key(|&k| !kinds[k].is_bond());
+    // The bond first, then the traps, in the order of their holds; other contacts that count as the
+    // bond are counted with it.
+    let bond = kinds.iter().position(Kind::is_bond);
+    let traps = (0..kinds.len()).filter(|&k| !kinds[k].is_bond());
+    let order: Vec<usize> = bond.into_iter().chain(traps).collect();
     let kind_of = |q: Configuration| {
         let distance = |k: usize| {
             let states = kinds[k].states.iter();

@@ -53,7 +53,8 @@ pub struct Hold<'a> {
     pub configuration: Configuration,
     /// U there (J).
     pub energy: f64,
-    /// The number of its symmetric copies, including those by rotations of the fixed tile.
+    /// The number of its symmetric copies, including those by rotations of the fixed tile and by the
+    /// exchange of equal tiles; for the bond, all contacts that count as it.
     pub copies: usize,
     /// The number of copies by rotations of the moving tile alone.
     pub moving_copies: usize,
@@ -91,7 +92,11 @@ impl<'a> Hold<'a> {
         let kind = catalogue.kinds().find(Kind::is_bond);
         let kind = kind.ok_or(BondError::NoBond)?;
         let name = catalogue.names()[kind.first().id].clone();
-        Ok(Self::new(problem, catalogue, &kind, name))
+        let all = catalogue.kinds().filter(Kind::is_bond);
+        Ok(Self {
+            copies: all.map(|kind| kind.copies()).sum(),
+            ..Self::new(problem, catalogue, &kind, name)
+        })
     }
 
     /// A kind of states of a catalogue; computes its basin.

@@ -12,8 +12,8 @@ use super::sets::{basin, pass, reaching};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
-/// The exit from a start to the first of two ends: the bond's basin and free tiles. Symmetric
-/// copies count as one.
+/// The exit from a start to the first of two ends: the bond's basin and free tiles. All contacts that
+/// count as the bond are one end.
 ///
 /// # Errors
 /// If the start or an end is invalid, or a linear system cannot be solved.
@@ -37,7 +37,7 @@ pub fn exit_on(
 ) -> Result<Exit, ExitError> {
     let start = settings.start;
     check(problem, bond, settings)?;
-    let seeds = [start, *bond];
+    let seeds = seeds(problem, bond, start);
     let ground = problem.energy(&start);
     let mut field = Field::new(problem, settings.kt, settings.free_at, ground, &seeds);
     let way = field.open_way(&start);
@@ -94,6 +94,27 @@ pub fn exit_on(
     }
 }
 
+/// The places that meshes resolve: the start, the bond, and the contacts that count as it but are no
+/// copies by turns.
+fn seeds(problem: &Problem, bond: &Configuration, start: Configuration) -> Vec<Configuration> {
+    let mut seeds = vec![start, *bond];
+    for equal in problem.bonds() {
+        let is_copy = |seed: &Configuration| {
+            let mut images = problem.symmetries.iter().map(|turn| turn.apply(seed));
+            images.any(|image| {
+                problem.space.distance(&image, &equal.pose) < problem.scaled(SAME_CONTACT)
+            })
+        };
+        if !seeds[1..].iter().any(is_copy) {
+            seeds.push(equal.pose);
+        }
+    }
+    seeds
+}
+
+/// Configurations closer than this (m, for the paper's tile) are the same contact.
+const SAME_CONTACT: f64 = 1e-3;
+
 /// Bounds of the mean exit time times D (m^2) on increasingly fine meshes that begin at contact.
 fn bounds(
     problem: &Problem,
@@ -101,7 +122,7 @@ fn bounds(
     settings: &ExitSettings,
 ) -> Result<Vec<[f64; 2]>, ExitError> {
     let ground = problem.energy(&settings.start);
-    let seeds = [settings.start, *bond];
+    let seeds = seeds(problem, bond, settings.start);
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
         return Ok(Vec::new());
@@ -172,7 +193,23 @@ impl Ends {
         let beside = field.mesh.neighbours();
         let around =
             |field: &Field, q: &Configuration, limit: f64| basin(&field.mesh, &beside, q, limit);
-        let inside = around(field, bond, asked.basin_energy);
+        let problem = field.problem;
+        let bound_below = |field: &Field, limit: f64| {
+            let mut inside = around(field, bond, limit);
+            for equal in problem.bonds() {
+                // Symmetric copies lie in the same cells.
+                let is_there = field.mesh.holding(&equal.pose).iter().any(|&id| inside[id]);
+                if !is_there && problem.energy(&equal.pose) < limit {
+                    let more = around(field, &equal.pose, limit);
+                    inside
+                        .iter_mut()
+                        .zip(more)
+                        .for_each(|(known, more)| *known |= more);
+                }
+            }
+            inside
+        };
+        let inside = bound_below(field, asked.basin_energy);
         let mesh = &field.mesh;
         if (0..inside.len()).any(|id| inside[id] && mesh.is_outer(id)) {
             return Err(ExitError::Open(asked.basin_energy));
@@ -189,7 +226,7 @@ impl Ends {
         let is_deep = energy < deep;
         let top = energy + NEAR * field.kt;
         let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
-        let bound = around(field, bond, limits[0]);
+        let bound = bound_below(field, limits[0]);
         // Any well gives valid bounds: the wider it is, the narrower they are.
         let near = reaching(&field.mesh, &beside, &asked.start, limits[2]);
         let is_apart = |&id: &usize| !(bound[id] || field.mesh.is_outer(id));

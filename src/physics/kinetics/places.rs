@@ -31,8 +31,20 @@ impl Places {
     pub fn new(field: &mut Field, settings: &RateSettings) -> Result<Self, RatesError> {
         let beside = field.mesh.neighbours();
         let basins = &settings.basins;
+        // Equal tiles can exchange their places.
         let around = |field: &Field, basin: &Basin, limit: f64| {
-            self::basin(&field.mesh, &beside, &basin.at, limit)
+            let mut inside = self::basin(&field.mesh, &beside, &basin.at, limit);
+            let image = field.problem.exchange.map(|map| map.apply(&basin.at));
+            if let Some(image) =
+                image.filter(|q| !field.mesh.holding(q).iter().any(|&id| inside[id]))
+            {
+                let more = self::basin(&field.mesh, &beside, &image, limit);
+                inside
+                    .iter_mut()
+                    .zip(more)
+                    .for_each(|(known, more)| *known |= more);
+            }
+            inside
         };
         let wells: Vec<Vec<bool>> = basins
             .iter()

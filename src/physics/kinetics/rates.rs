@@ -43,7 +43,7 @@ pub fn rates_on(
     if -ground > DEEPEST * kt {
         return Err(RatesError::Cold(kt, -ground / kt));
     }
-    let mut field = Field::new(problem, kt, free_at, ground, &seeds);
+    let mut field = Field::new(problem, kt, free_at, ground, &with_images(problem, &seeds));
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
     let beyond = outside * TAU * libm::exp(ground / kt);
@@ -131,6 +131,13 @@ pub fn rates_on(
     }
 }
 
+/// Configurations together with those that the exchange of equal tiles maps them onto.
+fn with_images(problem: &Problem, seeds: &[Configuration]) -> Vec<Configuration> {
+    let exchange = problem.exchange.iter();
+    let images = exchange.flat_map(|map| seeds.iter().map(|seed| map.apply(seed)));
+    seeds.iter().copied().chain(images).collect()
+}
+
 /// The results of the finest mesh that begins at contact, and its bounds, if any. Energies are
 /// relative to `ground` (J), and `beyond` is the occupation of the table outside the mesh.
 fn bounded(
@@ -139,6 +146,7 @@ fn bounded(
     [ground, beyond]: [f64; 2],
 ) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
     let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
+    let seeds = with_images(problem, &seeds);
     let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
     let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
         return Ok(None);

@@ -1,5 +1,6 @@
 //! A problem: a space of configurations, the energy on it, and the contact that blocks part of it.
 
+mod equals;
 mod room;
 mod symmetry;
 
@@ -19,6 +20,7 @@ use crate::potential::{
 use crate::scale::Scale;
 use crate::tile::{Face, Pair, face_to_face};
 
+pub use equals::{Bond, Equal, of_faces};
 pub use room::{NoRoom, Room};
 pub use symmetry::Symmetry;
 
@@ -32,9 +34,9 @@ const WORTH_A_BATCH: usize = 5;
 /// Two faces count as binding as strongly as the target from this fraction of its energy on.
 const AS_STRONG: f64 = 0.95;
 /// Configurations closer than this (m, metric of the space) are the same meeting.
-const SAME: f64 = 1e-6;
+const SAME: f64 = 1e-3;
 
-/// Two faces, set flushagainst each other.
+/// Two faces, set flush against each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// Which face of the fixed tile, which of the moving one.
@@ -59,6 +61,10 @@ pub struct Problem {
     pub contact: Option<Contact>,
     /// Maps of configurations that change neither energy nor clearance, the identity first.
     pub symmetries: Vec<Symmetry>,
+    /// The map that exchanges two equal tiles. It changes neither energy nor clearance, but is no
+    /// turn of the plane: steps and gradients are not mapped by it.
+    pub exchange: Option<Equal>,
+    bonds: OnceLock<Vec<Bond>>,
     energy: Energy,
     centre_of_mass: Vector2<f64>,
     flush_meetings: OnceLock<Vec<Configuration>>,
@@ -71,7 +77,11 @@ impl Problem {
     pub fn new(space: ConfigurationSpace, pair: Arc<Pair>, interaction: &Interaction) -> Self {
         let energy = interaction.between(&pair.fixed, &pair.moving);
         Self {
-            symmetries: Symmetry::all(&pair, &interaction.shields),
+            symmetries: match pair.only {
+                true => vec![Symmetry::IDENTITY],
+                false => Symmetry::all(&pair, &interaction.shields),
+            },
+            exchange: equals::exchange(&pair, &interaction.shields),
             ..Self::bare(space, energy).with_tiles(pair)
         }
     }
@@ -107,6 +117,8 @@ impl Problem {
             pair: None,
             contact: None,
             symmetries: vec![Symmetry::IDENTITY],
+            exchange: None,
+            bonds: OnceLock::new(),
             energy,
             centre_of_mass: Vector2::zeros(),
             flush_meetings: OnceLock::new(),
@@ -143,6 +155,22 @@ impl Problem {
             }
             all
         })
+    }
+
+    /// The contacts that count as the bond, the intended one first: those equal to it by turns of
+    /// the tiles onto themselves, by exchange of equal tiles, or because other faces are drawn alike
+    /// and carry the same magnets. None for analytic landscapes.
+    pub fn bonds(&self) -> &[Bond] {
+        self.bonds.get_or_init(|| equals::bonds(self))
+    }
+
+    /// The distance (m, metric of the space) to the nearest contact that counts as the bond.
+    pub fn distance_to_bond(&self, q: &Configuration) -> f64 {
+        let distances = self
+            .bonds()
+            .iter()
+            .map(|it| self.space.distance(q, &it.pose));
+        distances.fold(f64::INFINITY, f64::min)
     }
 
     /// The configurations in which the outlines, regardless of magnets, touch along the greatest
@@ -363,8 +391,8 @@ impl Problem {
 
     /// The pairs of faces that unintentionally bind as strongly as the target: flush against each
     /// other, pushed out into contact if their shapes overlap, they have at least 0.95 of the
-    /// bond's energy. Images of the target under a symmetry are not included. Slid and tilted
-    /// contacts are not considered.
+    /// bond's energy. Contacts that count as the bond are not included. Slid and tilted contacts are
+    /// not considered.
     pub fn rivals(&self) -> Vec<Meeting> {
         let Some(pair) = &self.pair else {
             return Vec::new();
@@ -374,11 +402,6 @@ impl Problem {
         if bond >= 0.0 {
             return Vec::new();
         }
-        let wanted: Vec<_> = self
-            .symmetries
-            .iter()
-            .map(|s| s.apply(&pair.bound))
-            .collect();
         let [fixed, moving] = self.faces();
         let pairs = (0..fixed.len()).flat_map(|f| (0..moving.len()).map(move |m| (f, m)));
         let meetings = pairs.map(|(f, m)| {
@@ -393,8 +416,8 @@ impl Problem {
             }
         });
         let is_wanted = |meeting: &Meeting| {
-            let distance = |q: &Configuration| self.space.distance(q, &meeting.configuration);
-            meeting.faces == pair.target || wanted.iter().any(|q| distance(q) < self.scaled(SAME))
+            meeting.faces == pair.target
+                || self.distance_to_bond(&meeting.configuration) < self.scaled(SAME)
         };
         let is_strong = |meeting: &Meeting| {
             meeting.energy <= AS_STRONG * bond && self.is_free(&meeting.configuration)

@@ -1,4 +1,6 @@
-//! Bonds, traps and clusters at one instant.
+//! Bonds, traps, other contacts and clusters at one instant.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::unionfind::UnionFind;
 
@@ -17,9 +19,15 @@ pub const HELD_WITHIN: f64 = 2e-3;
 pub enum Tie {
     /// The intended contact.
     Bond,
-    /// Any other stable contact.
+    /// Any other stable contact of its own.
     Trap,
+    /// A stable contact that follows from bonds to a common neighbour, as that of the corners in a
+    /// sheet, or that is weaker than [`WEAK`] of the shallowest bond.
+    Contact,
 }
+
+/// A contact with less than this share of the shallowest bond's energy is no trap.
+pub const WEAK: f64 = 0.005;
 
 impl Tie {
     /// Its name in outputs.
@@ -27,6 +35,7 @@ impl Tie {
         match self {
             Self::Bond => "bond",
             Self::Trap => "trap",
+            Self::Contact => "contact",
         }
     }
 }
@@ -42,12 +51,31 @@ pub struct Held {
     pub energy: f64,
 }
 
-/// All stable contacts, in order. Bonds are recognised by the magnets of the target faces. A trap
-/// is any other pair in contact whose energy, including the kinetic energy of their relative
-/// motion, is below 0.
+/// All stable contacts, in order. Bonds are recognised by the tiles' pose. Any other pair in contact
+/// is held if its energy, including the kinetic energy of their relative motion, is below 0: as a
+/// trap, unless it follows from bonds or is weak.
 pub fn held(crowd: &Crowd, movers: &[Mover], near: impl Iterator<Item = Two>) -> Vec<Held> {
     let mut found: Vec<Held> = near.filter_map(|two| tie(crowd, movers, two)).collect();
     found.sort_by_key(|held| held.tiles);
+    let mut partners: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for [a, b] in found
+        .iter()
+        .filter(|it| it.tie == Tie::Bond)
+        .map(|it| it.tiles)
+    {
+        partners.entry(a).or_default().insert(b);
+        partners.entry(b).or_default().insert(a);
+    }
+    let have_a_neighbour = |[a, b]: [usize; 2]| {
+        let both = partners.get(&a).zip(partners.get(&b));
+        both.is_some_and(|(a, b)| !a.is_disjoint(b))
+    };
+    for held in found.iter_mut().filter(|it| it.tie == Tie::Trap) {
+        let is_weak = held.energy > WEAK * crowd.shallowest_bond();
+        if is_weak || have_a_neighbour(held.tiles) {
+            held.tie = Tie::Contact;
+        }
+    }
     found
 }
 

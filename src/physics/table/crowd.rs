@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::structures::Goal;
 use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::dynamics::Body;
@@ -132,6 +133,12 @@ pub struct Crowd {
     couples: Vec<Couple>,
     /// Half the table's size along x and y (m).
     pub half_size: [f64; 2],
+    /// What the tiles are to build, if it is stated.
+    pub goal: Option<Goal>,
+    /// The number of faces of each kind by which it can bind.
+    binding_faces: Vec<usize>,
+    /// The energy (J) of the shallowest bond; 0 without bonds.
+    shallowest: f64,
 }
 
 /// Why tiles cannot be simulated.
@@ -179,17 +186,64 @@ impl Crowd {
                 });
             }
         }
-        Ok(Self {
+        let bonds = couples.iter().flat_map(|couple| {
+            let poses = couple.bonds.iter().flat_map(MatchRule::poses);
+            poses.map(|pose| couple.potential.energy(&pose))
+        });
+        let shallowest = bonds.fold(f64::NEG_INFINITY, f64::max).min(0.0);
+        let mut crowd = Self {
+            binding_faces: Vec::new(),
+            shallowest: if shallowest.is_finite() {
+                shallowest
+            } else {
+                0.0
+            },
+            goal: None,
             kinds,
             couples,
             half_size,
-        })
+        };
+        crowd.binding_faces = (0..crowd.kinds.len())
+            .map(|kind| crowd.count_faces(kind))
+            .collect();
+        Ok(crowd)
     }
 
     /// The interaction of two kinds, and whether the couple's first kind is the second argument.
     pub fn couple(&self, i: usize, j: usize) -> (&Couple, bool) {
         let (low, high) = (i.min(j), i.max(j));
         (&self.couples[high * (high + 1) / 2 + low], i > j)
+    }
+
+    /// The number of faces by which a kind can bind.
+    pub fn binding_faces(&self, kind: usize) -> usize {
+        self.binding_faces[kind]
+    }
+
+    fn count_faces(&self, kind: usize) -> usize {
+        let mut faces: Vec<Vector2<f64>> = Vec::new();
+        let within = 1e-3 * self.kinds[kind].reach;
+        for other in 0..self.kinds.len() {
+            let (couple, _) = self.couple(kind, other);
+            for middles in couple.bonds.iter().flat_map(MatchRule::middles) {
+                let own = match kind.cmp(&other) {
+                    std::cmp::Ordering::Less => &middles[..1],
+                    std::cmp::Ordering::Equal => &middles[..],
+                    std::cmp::Ordering::Greater => &middles[1..],
+                };
+                for middle in own {
+                    if faces.iter().all(|known| (known - middle).norm() > within) {
+                        faces.push(*middle);
+                    }
+                }
+            }
+        }
+        faces.len()
+    }
+
+    /// The energy (J) of the shallowest bond; 0 without bonds.
+    pub fn shallowest_bond(&self) -> f64 {
+        self.shallowest
     }
 
     /// All couples.

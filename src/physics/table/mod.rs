@@ -55,6 +55,7 @@ pub mod settings;
 pub mod settle;
 pub mod start;
 mod stepper;
+pub mod structures;
 
 pub use crowd::{Crowd, CrowdError, Kind};
 pub use mover::Mover;

@@ -11,6 +11,7 @@ use super::mover::Mover;
 use super::settings::TableSettings;
 use super::start::{StartError, at_random, check};
 use super::stepper::{Account, StepError, Stepper};
+use super::structures::{Structure, structures};
 
 /// Largest allowed share of missing energy, relative to the largest term of the balance; beyond it
 /// the step is halved.
@@ -29,16 +30,18 @@ pub struct Sample {
     pub potential: f64,
     /// The other terms of the energy balance.
     pub account: Account,
-    /// Bonds and traps.
+    /// Bonds, traps and other contacts.
     pub held: Vec<Held>,
     /// Sizes of clusters, in descending order.
     pub clusters: Vec<usize>,
+    /// What the tiles have built.
+    pub structures: Vec<Structure>,
     /// The tiles, if they are recorded.
     pub movers: Option<Vec<Mover>>,
 }
 
 impl Sample {
-    /// The number of bonds or traps.
+    /// The number of bonds, traps or other contacts.
     pub fn count(&self, tie: Tie) -> usize {
         self.held.iter().filter(|held| held.tie == tie).count()
     }
@@ -211,6 +214,7 @@ fn sample(crowd: &Crowd, stepper: &mut Stepper, frames: bool) -> Sample {
         potential: stepper.potential(),
         account: stepper.account,
         clusters: clusters(movers.len(), &held),
+        structures: structures(crowd, &movers, &held),
         held,
         movers: frames.then_some(movers),
     }

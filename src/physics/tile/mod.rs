@@ -2,6 +2,7 @@
 
 pub mod assembly;
 pub mod barcode;
+pub mod congruence;
 mod convex;
 pub mod demagnetising;
 pub mod edge_grid;
@@ -19,6 +20,8 @@ pub use outline::Outline;
 pub use pair::{Pair, face_to_face};
 
 use nalgebra::Vector2;
+
+use crate::configuration::Configuration;
 
 /// A face of a tile: the straight base line between two corners of the tile. A profile may replace
 /// the base line in the outline; the face's frame (s along it, h outwards) is unchanged.
@@ -52,6 +55,12 @@ impl Face {
     /// Midpoint of the base line (m).
     pub fn middle(&self) -> Vector2<f64> {
         (self.start + self.end) / 2.0
+    }
+
+    /// Its frame: the middle of the base line, turned so that x points outwards.
+    pub fn frame(&self) -> Configuration {
+        let (middle, normal) = (self.middle(), self.normal());
+        Configuration::new(middle.x, middle.y, libm::atan2(normal.y, normal.x))
     }
 
     /// The point at `s` along the face from its midpoint and `h` outwards (m), in the tile's frame.

@@ -19,6 +19,9 @@ pub struct Pair {
     pub target: (usize, usize),
     /// The configuration in which the target faces coincide.
     pub bound: Configuration,
+    /// Whether only this contact is the bond, and not those equal to it by symmetry, by exchange of
+    /// equal tiles, or of other faces with the same magnets.
+    pub only: bool,
 }
 
 impl Pair {

@@ -22,11 +22,14 @@ class AirTable(tuple):  # type: ignore[type-arg]
         ----------
         time : float
             Duration of each run (s).
-        count : sequence of int, optional
-            Numbers of tiles of the fixed and of the moving kind, at random positions.
+        count : int or sequence of int, optional
+            Numbers of tiles of the fixed and of the moving kind, at random positions; one number
+            for a design of one kind.
         start : str or os.PathLike, optional
             Instead of `count`: a CSV file of the initial tiles, with the columns `tile`, `kind`
-            ("fixed" or "moving"), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
+            ("fixed" or "moving"; not needed for a design of one kind), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
+        target : str or os.PathLike, optional
+            What is to be built: "ring:8", "chain:5", "sheet:3x3", or a start file.
         runs : int, optional
         shard : str, optional
             "i/n": compute only every nth run, from the ith on.

@@ -26,8 +26,9 @@ class _AirTable(tuple[float, float]):
         self,
         time: float,
         *,
-        count: Sequence[int] | None = None,
+        count: int | Sequence[int] | None = None,
         start: str | PathLike[str] | None = None,
+        target: str | PathLike[str] | None = None,
         runs: int = 1,
         shard: str | None = None,
         shaking: float | None = None,
@@ -63,6 +64,7 @@ class Design:
         magnet: str | None = None,
         thickness: float | str | None = None,
         material: str | None = None,
+        one_kind: bool = False,
     ) -> Design: ...
     def replace(self, key: str, value: _Value) -> Design: ...
     def to_dict(self) -> dict[str, Any]: ...

@@ -3,6 +3,8 @@
 const crowd = page.crowd;
 /** Longest playing time (s); a shorter run plays in real time. */
 const LONGEST = 40;
+/** The colours of tiles in structures. */
+const STRUCTURES = { ring: "#7cc4a4", chain: "#a9c3e8", sheet: "#d9c27a", target: "#e59ad0" };
 const moment = { frame: 0, playing: false };
 
 function drawCrowd() {
@@ -15,13 +17,15 @@ function drawCrowd() {
   line(pen, [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => at([x * wide / 2, y * high / 2])), true);
   const poses = frame.poses;
   crowd.tiles.forEach((kind, k) => {
-    drawTile(pen, crowd.kinds[kind], poses[k], at, kind % 2 ? theme.moving : theme.fixed);
+    const own = kind % 2 ? theme.moving : theme.fixed;
+    drawTile(pen, crowd.kinds[kind], poses[k], at, STRUCTURES[frame.built[k]] ?? own);
     if (crowd.kinds.length > 2) label(pen, crowd.kinds[kind], at(poses[k]), scale);
   });
+  const middle = (k) => at(placed(crowd.kinds[crowd.tiles[k]].centre, poses[k]));
   for (const [ties, colour] of [[frame.bonds, theme.certified], [frame.traps, theme.here]]) {
     pen.strokeStyle = colour;
     pen.lineWidth = 3;
-    for (const [i, j] of ties) line(pen, [at(poses[i]), at(poses[j])]);
+    for (const [i, j] of ties) line(pen, [middle(i), middle(j)]);
   }
   // Inside the rim.
   const [right, bottom] = at([wide / 2, -high / 2]);

@@ -30,6 +30,8 @@ pub struct Crowd {
 #[derive(Clone, Debug, Serialize)]
 struct Kind {
     name: String,
+    /// The centre of mass (m), where lines end.
+    centre: [f64; 2],
     #[serde(flatten)]
     shape: Drawn,
 }
@@ -42,6 +44,8 @@ struct Frame {
     poses: Vec<[f64; 3]>,
     bonds: Vec<[usize; 2]>,
     traps: Vec<[usize; 2]>,
+    /// The kind of structure that each tile belongs to; empty for single tiles.
+    built: Vec<&'static str>,
 }
 
 impl Crowd {
@@ -76,10 +80,12 @@ impl Crowd {
             poses: movers.iter().map(pose).collect(),
             bonds: tied(&sample.held, Tie::Bond),
             traps: tied(&sample.held, Tie::Trap),
+            built: built(sample, movers.len()),
         });
         Self {
             note: format!(
-                "Run {}: lines join the tiles of bonds and traps.",
+                "Run {}: lines join the tiles of bonds and traps; the tiles of rings, chains and sheets, and of \
+                 the target, have one colour each.",
                 run.map_or(0, |run| run.index)
             ),
             size: crowd.half_size.map(|half| 2.0 * half),
@@ -88,6 +94,7 @@ impl Crowd {
                 .iter()
                 .map(|kind| Kind {
                     name: kind.name.clone(),
+                    centre: kind.body.centre.into(),
                     shape: Drawn::new(&kind.tile),
                 })
                 .collect(),
@@ -95,4 +102,15 @@ impl Crowd {
             frames: frames.collect(),
         }
     }
+}
+
+/// The kind of structure of each tile; the target comes before its own kind.
+fn built(sample: &Sample, tiles: usize) -> Vec<&'static str> {
+    let mut built = vec![""; tiles];
+    for structure in sample.structures.iter().rev() {
+        for tile in &structure.tiles {
+            built[*tile] = structure.shape.name();
+        }
+    }
+    built
 }

@@ -154,7 +154,7 @@ pub fn table(text: &str, pair: &Design) {
         String::new()
     }));
     tell(distances::PairDistances::read(text).map(|_| String::new()));
-    let (_, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
-    let read = read_start(text, &crowd, &Silent).map_err(|error| error.to_string());
+    let (about, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
+    let read = read_start(text, (&crowd, &about.named), &Silent).map_err(|error| error.to_string());
     tell(read.map(|_| String::new()));
 }

@@ -74,6 +74,7 @@ fn problem(tiles: [Tile; 2], model: MagnetModel, table: [f64; 2]) -> Problem {
         moving,
         target: (0, 2),
         bound,
+        only: false,
     });
     let space = ConfigurationSpace {
         half_size: table.map(|size| size / 2.0),
@@ -294,12 +295,12 @@ fn is_on_table(problem: &Problem, tile: &Tile, q: &Configuration) -> bool {
 }
 
 /// The share of time in which two tiles are bound on a small table, from integrals of exp(-U / kT) by plain
-/// Monte Carlo: one over all places, one over those where the target magnets are close.
+/// Monte Carlo: one over all places, one over those where the target faces are close.
 fn share_by_integrals(problem: &Problem, kt: f64) -> f64 {
     let pair = problem.pair.as_ref().unwrap();
     let rule = MatchRule::new(problem, None).unwrap();
     let tiles = [&pair.fixed, &pair.moving];
-    let [magnet, partner] = tiles.map(|tile| tile.magnets[0].position);
+    let [face, partner] = [pair.target_face(), &pair.moving.faces[pair.target.1]].map(Face::middle);
     let contact = Contact::new(&pair.fixed.outline, &pair.moving.outline);
     let half = problem.space.half_size;
     let mut rng = stream(11);
@@ -314,7 +315,7 @@ fn share_by_integrals(problem: &Problem, kt: f64) -> f64 {
         let shift = Vector2::new(even(rule.threshold), even(rule.threshold));
         let theta = even(TAU / 2.0);
         let turn = Configuration::new(0.0, 0.0, theta);
-        let p = magnet + shift - turn.transform(partner);
+        let p = face + shift - turn.transform(partner);
         let close = Configuration::new(p.x, p.y, theta);
         let weight = |q: &Configuration| {
             let p = a.transform(q.position());
@@ -462,7 +463,8 @@ fn two_tiles_dock_as_often_as_one_at_a_fixed_one() {
             let start = Start::Given(movers.to_vec());
             let found = run(&crowd, &settings, (1, docked.index), &start, false).unwrap();
             let last = found.samples.last().unwrap();
-            let there = match (last.count(Tie::Bond), last.count(Tie::Trap)) {
+            let held = last.count(Tie::Trap) + last.count(Tie::Contact);
+            let there = match (last.count(Tie::Bond), held) {
                 (1, _) => 0,
                 (_, 1) => 1,
                 _ => 2,

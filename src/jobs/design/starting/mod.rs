@@ -77,6 +77,8 @@ pub struct Start {
     pub thickness: Option<f64>,
     /// What they are made of.
     pub material: Material,
+    /// Whether both tiles are of one kind.
+    pub one_kind: bool,
 }
 
 impl Default for Start {
@@ -89,6 +91,7 @@ impl Default for Start {
             magnet: None,
             thickness: None,
             material: Material::USUAL,
+            one_kind: false,
         }
     }
 }
@@ -251,6 +254,7 @@ impl Start {
             shape,
             magnet,
             material,
+            one_kind,
             ..
         } = *self;
         let area = f64::from(sides) * side * side / (4.0 * libm::tan(PI / f64::from(sides)));
@@ -284,6 +288,48 @@ impl Start {
         let tile = format!(
             "side = {side}\nsides = {sides}\nthickness = {thickness}\nmass = {mass}  # of {made}, with the magnets"
         );
+        let magnets = format!("{from} = {{ code = \"{code}\"{profile} }}");
+        let mates = format!(
+            "{to} = {{ mates = \"{from}\" }}     # the exact complement: its code is {mate}"
+        );
+        let tiles = match one_kind {
+            true => format!(
+                "\
+[tile]                        # both tiles: they are of one kind
+{tile}
+
+# Faces are numbered counter-clockwise from the one towards +x, face 0. Only the faces that are to
+# bind carry magnets, so that nothing else binds as strongly.
+[tile.faces]
+{magnets}
+{mates}
+
+[target]
+faces = [\"{from}\", \"{to}\"]
+"
+            ),
+            false => format!(
+                "\
+[fixed]
+{tile}
+
+# Faces are numbered counter-clockwise from the one towards +x, face 0. Only the faces that are to
+# bind carry magnets, so that nothing else binds as strongly.
+[fixed.faces]
+{magnets}
+
+[moving]
+{tile}
+
+[moving.faces]
+{mates}
+
+[target]
+fixed = \"{from}\"
+moving = \"{to}\"
+"
+            ),
+        };
         let mut text = String::new();
         let _ = write!(
             text,
@@ -303,24 +349,7 @@ size = [{table}, {table}]
 pitch = {pitch}                  # centre to centre along the face
 inset = {inset}                  # from the face's surface to the magnet: a wall that can be cut
 
-[fixed]
-{tile}
-
-# Faces are numbered counter-clockwise from the one towards +x, face 0. Only the faces that are to
-# bind carry magnets, so that nothing else binds as strongly.
-[fixed.faces]
-{from} = {{ code = \"{code}\"{profile} }}
-
-[moving]
-{tile}
-
-[moving.faces]
-{to} = {{ mates = \"{from}\" }}     # the exact complement: its code is {mate}
-
-[target]
-fixed = \"{from}\"
-moving = \"{to}\"
-
+{tiles}
 [potential]
 model = \"cuboid\"                # blocks, as magnets are; \"dipole\": the paper's point dipoles
 "

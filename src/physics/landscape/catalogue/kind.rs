@@ -7,7 +7,7 @@ use crate::order::Order;
 
 /// The letters of the kinds of states, in the given order: `A` is the bond, then come the traps,
 /// deepest first, `B`, `C`, ... `Z`, `AA`, ... Kinds of equal depth (such as the mirror twins of a
-/// slid bond) share a letter: `B`, `B'`, `B''`.
+/// slid bond) share a letter: `B`, `B'`, `B''`, as do all contacts that count as the bond.
 pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
     let mut names = vec![String::new(); kinds.len()];
     let mut traps: Vec<usize> = (0..kinds.len()).filter(|&k| !kinds[k].is_bond()).collect();
@@ -22,8 +22,9 @@ pub(super) fn names(kinds: &[Kind]) -> Vec<String> {
             names[k] = letters(rank) + &"'".repeat(primes);
         }
     }
-    for bond in (0..kinds.len()).filter(|&k| kinds[k].is_bond()) {
-        names[bond] = letters(0);
+    let bonds = (0..kinds.len()).filter(|&k| kinds[k].is_bond());
+    for (primes, bond) in bonds.enumerate() {
+        names[bond] = letters(0) + &"'".repeat(primes);
     }
     names
 }
@@ -37,7 +38,7 @@ fn letters(rank: usize) -> String {
     }
 }
 
-/// States that the symmetries of the two tiles map onto each other.
+/// States that the symmetries of the two tiles and the exchange of equal tiles map onto each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kind<'a> {
     /// The one closest to the bound configuration first; never empty.

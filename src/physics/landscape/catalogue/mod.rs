@@ -16,13 +16,38 @@ use super::results::{
     Uncaptured,
 };
 use crate::configuration::Configuration;
-use crate::problem::{Problem, Symmetry};
+use crate::problem::{Equal, Problem, Symmetry};
 use ordered_float::OrderedFloat;
 
 /// Configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 1e-4;
 /// How much lower a barrier must be to replace another one, as a fraction of the problem's depth.
 pub(super) const LEAST_GAIN: f64 = 1e-6;
+
+/// A map of states onto equal ones: a turn of the tiles, after an exchange of equal tiles if need be.
+struct Image<'a> {
+    exchange: Option<&'a Equal>,
+    turn: &'a Symmetry,
+}
+
+impl<'a> Image<'a> {
+    /// All of them, the identity first.
+    fn all(problem: &'a Problem) -> Vec<Self> {
+        let exchanges = std::iter::once(None).chain(problem.exchange.as_ref().map(Some));
+        let of = |exchange| {
+            problem
+                .symmetries
+                .iter()
+                .map(move |turn| Self { exchange, turn })
+        };
+        exchanges.flat_map(of).collect()
+    }
+
+    fn apply(&self, q: &Configuration) -> Configuration {
+        let exchanged = self.exchange.map_or(*q, |exchange| exchange.apply(q));
+        self.turn.apply(&exchanged)
+    }
+}
 
 /// States, barriers and pathways, in the order in which they are reported.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -95,12 +120,14 @@ impl Catalogue {
         if id == class {
             return Some(escape.clone());
         }
-        let image = |symmetry: &&Symmetry| {
-            let image = symmetry.apply(&self.states[class].configuration);
-            self.state_at(problem, &image) == Some(id)
+        let first = self.states[class].configuration;
+        let images = Image::all(problem);
+        let leads_there = |image: &&Image| {
+            let there = image.apply(&first);
+            self.state_at(problem, &there) == Some(id)
         };
-        let symmetry = problem.symmetries.iter().find(image)?;
-        Some(self.image(problem, escape, id, symmetry))
+        let image = images.iter().find(leads_there)?;
+        Some(self.image(problem, escape, id, image))
     }
 
     /// The escape of the first state of a kind. The roadmap's barrier comes first; another one
@@ -127,28 +154,22 @@ impl Catalogue {
         barriers.find(|barrier| barrier.from == from && barrier.to == Place::Free)
     }
 
-    /// A barrier as a symmetry maps it, so that it starts from state `from`.
-    fn image(
-        &self,
-        problem: &Problem,
-        barrier: &Barrier,
-        from: usize,
-        symmetry: &Symmetry,
-    ) -> Barrier {
+    /// A barrier as its image starts from state `from`.
+    fn image(&self, problem: &Problem, barrier: &Barrier, from: usize, map: &Image) -> Barrier {
         let to = match barrier.to {
             Place::Free => Place::Free,
             Place::State(id) => self
-                .state_at(problem, &symmetry.apply(&self.states[id].configuration))
+                .state_at(problem, &map.apply(&self.states[id].configuration))
                 .map_or(barrier.to, Place::State),
         };
         let image = |point: &PathwayPoint| PathwayPoint {
-            configuration: symmetry.apply(&point.configuration),
+            configuration: map.apply(&point.configuration),
             ..*point
         };
         Barrier {
             from: Place::State(from),
             to,
-            saddle: symmetry.apply(&barrier.saddle),
+            saddle: map.apply(&barrier.saddle),
             pathway: barrier.pathway.iter().map(image).collect(),
             ..barrier.clone()
         }
@@ -234,7 +255,8 @@ impl Catalogue {
 
     /// Whether a configuration, or one of its images, is that of a state.
     pub fn holds(&self, problem: &Problem, q: &Configuration) -> bool {
-        let mut images = problem.symmetries.iter().map(|s| s.apply(q));
+        let images = Image::all(problem);
+        let mut images = images.iter().map(|image| image.apply(q));
         images.any(|image| self.state_at(problem, &image).is_some())
     }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use ordered_float::OrderedFloat;
 
-use super::Catalogue;
+use super::{Catalogue, SAME};
 use crate::configuration::Configuration;
 use crate::landscape::exploration::Exploration;
 use crate::landscape::meeting::{magnet_pairs, touching_faces};
@@ -16,7 +16,7 @@ use crate::landscape::transition_network::Cost;
 use crate::order::Order;
 use crate::parallel;
 
-/// A state this close (m, metric of the space) to the bound configuration is the bound one: the
+/// A state this close (m, metric of the space) to a contact that counts as the bond is a bond: the
 /// minimum may be slightly beside the configuration in which the faces coincide.
 const BOUND: f64 = 5e-3;
 
@@ -47,7 +47,7 @@ impl Reader<'_> {
         let bound = order.first().copied();
         let bound = bound
             .filter(|&state| self.distance_to_bound(state) < self.survey.problem.scaled(BOUND));
-        let of_class = |class: &Class| self.states(class, &ids, bound == Some(class[0]));
+        let of_class = |class: &Class| self.states(class, &ids, self.is_bond(class));
         let states: Vec<State> = parallel::flat_map(&classes, of_class);
         Catalogue {
             barriers: self.barriers(&classes, &ids, bound),
@@ -77,14 +77,52 @@ impl Reader<'_> {
         pair.map_or(f64::INFINITY, |pair| distance(&pair.bound))
     }
 
-    /// Classes of states deep enough to be reported, the bound one first, then by energy; and the
-    /// number of omitted states.
-    fn deep_classes(&self) -> (Vec<Class>, usize) {
+    /// Whether a class is one of the contacts that count as the bond.
+    fn is_bond(&self, class: &Class) -> bool {
+        let problem = self.survey.problem;
+        let is_one = |&found: &usize| {
+            problem.distance_to_bond(&self.configuration(found)) < problem.scaled(BOUND)
+        };
+        class.iter().any(is_one)
+    }
+
+    /// The classes of states as symmetries make them, joined where the exchange of equal tiles maps
+    /// the states of one onto those of another.
+    fn classes(&self) -> Vec<Class> {
         let mut of_class: BTreeMap<usize, Class> = BTreeMap::new();
         for (found, state) in self.survey.states.iter().enumerate() {
             of_class.entry(state.class).or_default().push(found);
         }
-        let mut classes: Vec<Class> = of_class.into_values().collect();
+        let problem = self.survey.problem;
+        let Some(exchange) = problem.exchange else {
+            return of_class.into_values().collect();
+        };
+        let partner = |class: &Class| {
+            let image = exchange.apply(&self.configuration(class[0]));
+            let is_there = |found: &usize| {
+                problem.space.distance(&self.configuration(*found), &image) < problem.scaled(SAME)
+            };
+            let found = (0..self.survey.states.len()).find(is_there)?;
+            Some(self.survey.states[found].class)
+        };
+        let numbers: Vec<usize> = of_class.keys().copied().collect();
+        for number in numbers {
+            let Some(class) = of_class.get(&number) else {
+                continue;
+            };
+            let other = partner(class).filter(|other| *other != number);
+            let Some(joined) = other.and_then(|other| of_class.remove(&other)) else {
+                continue;
+            };
+            of_class.entry(number).or_default().extend(joined);
+        }
+        of_class.into_values().collect()
+    }
+
+    /// Classes of states deep enough to be reported, the bound one first, then by energy; and the
+    /// number of omitted states.
+    fn deep_classes(&self) -> (Vec<Class>, usize) {
+        let mut classes = self.classes();
         for class in &mut classes {
             class.order_by_key(|&member| (OrderedFloat(self.distance_to_bound(member)), member));
         }
@@ -104,6 +142,7 @@ impl Reader<'_> {
             let energy = OrderedFloat(self.energy(class[0]));
             (
                 distance >= self.survey.problem.scaled(BOUND),
+                !self.is_bond(class),
                 energy,
                 OrderedFloat(distance),
             )

@@ -76,10 +76,7 @@ impl Exploration<'_> {
     fn most_followed(&self, state: usize) -> usize {
         let problem = self.problem;
         let q = self.states[state].minimum.point.q;
-        let pair = problem.pair.as_ref();
-        let is_bond = pair
-            .is_some_and(|pair| problem.space.distance(&q, &pair.bound) < problem.scaled(BOUND));
-        if is_bond {
+        if problem.distance_to_bond(&q) < problem.scaled(BOUND) {
             FOLLOWED_INTO_BOND
         } else {
             FOLLOWED

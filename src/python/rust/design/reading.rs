@@ -103,6 +103,8 @@ impl Design {
     /// material : str, optional
     ///     What they are made of, for their mass: ``"plywood"`` (default), ``"acrylic"``, ... or
     ///     a density, ``"0.6 g/cm3"``.
+    /// one_kind : bool, optional
+    ///     Both tiles of one kind: each has both binding faces.
     ///
     /// Returns
     /// -------

@@ -196,9 +196,10 @@ impl Design {
         let text = start.as_deref().map(text_of).transpose()?;
         let found = job::answer(py, progress, |told| {
             let designs = std::slice::from_ref(design);
-            let (about, crowd) = About::of_designs(designs)?;
+            let (about, mut crowd) = About::of_designs(designs)?;
+            crowd.goal = asked.goal((&about, &crowd), told)?;
             let text = text.as_deref().map(|text| ("start", text));
-            let start = asked.start((about.designs.len(), &crowd), text, told)?;
+            let start = asked.start((&about, &crowd), text, told)?;
             asked.check()?;
             let found = put((&about, crowd), &asked, start, &[], told);
             let found = found.map_err(|error| error.to_string())?;
