@@ -80,9 +80,9 @@ fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
     // File names have at most 255 bytes.
     let plain = |tile: usize| {
+        // What is left are ASCII letters: a letter is a byte.
         let name = tiles[tile].name.replace(|c| !is_plain(c), "_");
-        let end = name.floor_char_boundary(LONGEST_NAME);
-        name[..end].to_owned()
+        name.chars().take(LONGEST_NAME).collect::<String>()
     };
     let side = SIDES[axis.sides()[0]];
     format!("{}-{side}-{}", plain(*first), plain(*second))

@@ -308,13 +308,13 @@ fn meet(design: &Design, tiles: &mut [MadeTile; 2]) {
         let nearest = others.min_by(|a, b| (a.1 - from).norm().total_cmp(&(b.1 - from).norm()));
         nearest.map(|(other, place)| (other, (place - from).norm()))
     };
-    for tile in 0..2 {
+    for (tile, magnets) in pair.map(|it| &it.magnets).into_iter().enumerate() {
         let [own, other] = match tiles {
             [fixed, moving] if tile == 0 => [fixed, moving],
             [fixed, moving] => [moving, fixed],
         };
         for step in &mut own.steps {
-            let [a, b, _] = pair[tile].magnets[step.pocket].size;
+            let [a, b, _] = magnets[step.pocket].size;
             let facing = nearest(tile, step.pocket).filter(|(facing, far)| {
                 let back = nearest(1 - tile, *facing);
                 *far <= FACING * a.max(b) && back.is_some_and(|it| it.0 == step.pocket)

@@ -118,6 +118,10 @@ impl State {
 /// The impulses of contact were not found.
 struct Unsolved;
 
+/// The mean velocities in a step, the points that last with their impulses, and the length (s) of the
+/// step.
+type Way = (Vec<Vector3<f64>>, Vec<Hold>, f64);
+
 impl Island<'_> {
     /// Advances by one step of the table.
     pub fn advance(&mut self) {
@@ -358,7 +362,7 @@ impl Island<'_> {
         state: &State,
         inverse: &[Vector3<f64>],
         mut longest: f64,
-    ) -> Result<(Vec<Vector3<f64>>, Vec<Hold>, f64), Unsolved> {
+    ) -> Result<Way, Unsolved> {
         let mut h = longest.min(self.time_to_travel(&state.velocities, &state.holds));
         let Margins {
             skin,
