@@ -1,6 +1,7 @@
 //! Whether the codes of the target faces are mates.
 
 use crate::design::Design;
+use nalgebra::Vector2;
 use physics::configuration::Configuration;
 use physics::problem::Problem;
 use physics::tile::{Face, Magnet, Tile};
@@ -29,8 +30,8 @@ pub(crate) fn fault(design: &Design, problem: &Problem) -> Option<String> {
     // Each face alone against its own mate: for mates of unlike magnets the mean is geometric.
     let [a, b] = [only(fixed, f), only(moving, m)];
     let own = strength(&a, &b);
-    let of_fixed = strength(&a, &mated(&b, m, &fixed.faces[f], &a.magnets));
-    let of_moving = strength(&mated(&a, f, &moving.faces[m], &b.magnets), &b);
+    let of_fixed = strength(&a, &mated((&b, m), (&a, f)));
+    let of_moving = strength(&mated((&a, f), (&b, m)), &b);
     let mates = -(of_fixed * of_moving).max(0.0).sqrt();
     let help = format!(
         "make the moving face the mate: {} = {{ mates = \"{}\" }} under [moving.faces]",
@@ -59,9 +60,10 @@ fn only(tile: &Tile, face: usize) -> Tile {
     bare
 }
 
-/// A tile whose face number `face` carries the mates of another face's magnets.
-fn mated(tile: &Tile, face: usize, other: &Face, magnets: &[Magnet]) -> Tile {
-    let own = &tile.faces[face];
+/// A tile whose face number `face` carries the mates of another tile's magnets, which are all on one
+/// face: as deep behind its surface as these are behind theirs.
+fn mated((tile, face): (&Tile, usize), (other_tile, other_face): (&Tile, usize)) -> Tile {
+    let (own, other) = (&tile.faces[face], &other_tile.faces[other_face]);
     let mate = |magnet: &Magnet| {
         let from = magnet.position - other.middle();
         let (s, h) = (from.dot(&other.tangent()), from.dot(&other.normal()));
@@ -70,7 +72,10 @@ fn mated(tile: &Tile, face: usize, other: &Face, magnets: &[Magnet]) -> Tile {
             libm::atan2(normal.y, normal.x)
         };
         let turned = Magnet {
-            position: own.point(-s, h),
+            position: own.point(
+                -s,
+                surface(tile, own, -s) + h - surface(other_tile, other, s),
+            ),
             // Mirrored in the line between the faces; the poles are exchanged below.
             angle: outwards(own) - (magnet.angle - outwards(other)),
             face,
@@ -79,8 +84,24 @@ fn mated(tile: &Tile, face: usize, other: &Face, magnets: &[Magnet]) -> Tile {
         turned.reversed()
     };
     let mut tile = tile.clone();
-    tile.magnets = magnets.iter().map(mate).collect();
+    tile.magnets = other_tile.magnets.iter().map(mate).collect();
     tile
+}
+
+/// The height (m) of a tile's outline above a face's base line, at `s` along the face.
+fn surface(tile: &Tile, face: &Face, s: f64) -> f64 {
+    let local = |p: &Vector2<f64>| {
+        let from = p - face.middle();
+        [from.dot(&face.tangent()), from.dot(&face.normal())]
+    };
+    let corners = tile.outline.vertices();
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let heights = edges.filter_map(|(start, end)| {
+        let ([a, low], [b, high]) = (local(start), local(end));
+        let is_there = a != b && (a.min(b)..=a.max(b)).contains(&s);
+        is_there.then(|| low + (high - low) * (s - a) / (b - a))
+    });
+    heights.reduce(f64::max).unwrap_or(0.0)
 }
 
 /// The strongest free contact of the target faces slid along each other: how far (m), and its energy (J).
