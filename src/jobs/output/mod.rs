@@ -22,6 +22,7 @@
 
 mod command;
 mod folder;
+mod noted;
 mod record;
 mod staging;
 
@@ -31,7 +32,8 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 pub use command::{Command, PICTURES};
-use record::{Noted, Record};
+use noted::Noted;
+use record::Record;
 use staging::Staging;
 
 /// Files by their names relative to the folder they go to.

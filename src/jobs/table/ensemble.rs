@@ -160,6 +160,10 @@ impl Ensemble {
                     .iter()
                     .all(|size| (1..=kinds.len()).contains(size))
                 && it.clusters.iter().sum::<usize>() == kinds.len()
+                && it.structures.iter().all(|of| {
+                    of.tiles.iter().all(|tile| *tile < kinds.len())
+                        && (1..=of.possible).contains(&of.bonds)
+                })
                 && it.movers.as_deref().map_or(!self.frames, are_movers)
         };
         let rises = run.samples.windows(2).all(|two| two[0].time < two[1].time);

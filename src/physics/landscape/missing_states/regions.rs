@@ -56,6 +56,10 @@ impl Part {
 
     /// Whether the boxes are no farther apart than `gap` (m, m, rad) along each coordinate.
     fn is_beside(&self, other: &Self, gap: &[f64; 3]) -> bool {
+        let apart = (self.around.centre.y - other.around.centre.y).abs();
+        if apart > self.around.half[1] + other.around.half[1] + gap[1] {
+            return false;
+        }
         let step = self.around.centre.step_to(&other.around.centre);
         (0..3).all(|i| step[i].abs() <= self.around.half[i] + other.around.half[i] + gap[i])
     }
@@ -80,15 +84,8 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
     }
     let parts: Vec<Part> = places.into_values().collect();
     let mut joined = UnionFind::<usize>::new(parts.len());
-    for (i, a) in parts.iter().enumerate() {
-        for (j, _) in parts
-            .iter()
-            .enumerate()
-            .skip(i + 1)
-            .filter(|(_, b)| a.is_beside(b, &gap))
-        {
-            joined.union(i, j);
-        }
+    for [i, j] in beside(&parts, &gap) {
+        joined.union(i, j);
     }
     let mut regions: BTreeMap<usize, Part> = BTreeMap::new();
     for (i, part) in parts.into_iter().enumerate() {
@@ -100,6 +97,29 @@ pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec
     let mut regions: Vec<OpenRegion> = regions.into_values().map(|part| part.region).collect();
     regions.order_by_key(|region| OrderedFloat(region.lowest));
     regions
+}
+
+/// The parts that lie beside each other, swept along x: there may be a hundred thousand of them, and
+/// all pairs of those would take longer than the proof.
+fn beside(parts: &[Part], gap: &[f64; 3]) -> Vec<[usize; 2]> {
+    let [left, right] = [-1.0, 1.0].map(|side| {
+        move |part: &Part| part.around.centre.x + side * (part.around.half[0] + gap[0] / 2.0)
+    });
+    let mut swept: Vec<usize> = (0..parts.len()).collect();
+    swept.order_by_key(|&i| OrderedFloat(left(&parts[i])));
+    let mut found = Vec::new();
+    for (k, &i) in swept.iter().enumerate() {
+        let a = &parts[i];
+        // Rounding here excludes none that are beside each other.
+        let end = right(a) + 1e-9 * gap[0];
+        let after = swept[k + 1..].iter().copied();
+        let near = after.take_while(|&j| left(&parts[j]) <= end);
+        found.extend(
+            near.filter(|&j| a.is_beside(&parts[j], gap))
+                .map(|j| [i, j]),
+        );
+    }
+    found
 }
 
 #[cfg(test)]
@@ -135,5 +155,29 @@ mod tests {
             ];
             assert_eq!(regions(&turned).len(), count, "{apart}");
         }
+    }
+
+    /// Boxes of all sizes, across theta = pi.
+    #[test]
+    fn a_sweep_finds_the_same_parts_beside_each_other_as_all_pairs_do() {
+        use rand::{RngExt, SeedableRng};
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+        let mut draw = |most: f64| rng.random_range(-most..most);
+        let mut part = || {
+            let centre = Configuration::new(draw(1.0), draw(1.0), draw(3.1));
+            let half = [0.1, 0.1, 0.3].map(|most| draw(most).powi(2) / most);
+            Part::of_cell(&Cell { centre, half }, 0.0)
+        };
+        let parts: Vec<Part> = (0..400).map(|_| part()).collect();
+        let gap = [0.03, 0.03, 0.1];
+        let mut swept = beside(&parts, &gap);
+        swept.iter_mut().for_each(|pair| pair.sort_unstable());
+        swept.sort_unstable();
+        let pairs = (0..parts.len()).flat_map(|i| (i + 1..parts.len()).map(move |j| [i, j]));
+        let all: Vec<[usize; 2]> = pairs
+            .filter(|[i, j]| parts[*i].is_beside(&parts[*j], &gap))
+            .collect();
+        assert!(all.len() > 100, "{}", all.len());
+        assert_eq!(swept, all);
     }
 }
