@@ -80,7 +80,7 @@ pub fn fan(text: &str) -> Result<Fan, String> {
     let read = |(k, part): (usize, &str)| match k {
         0 | 1 | 3 => length(part),
         2 => energy(part),
-        4 => part.parse().ok().filter(|x: &f64| x.is_finite()),
+        4 => share(part).ok(),
         _ => frequency(part),
     };
     let parts: Option<Vec<f64>> = text

@@ -14,6 +14,9 @@ use physics::problem::Problem;
 use physics::table::{Crowd, Kind};
 use physics::tile::{Pair, Tile};
 
+/// Largest number of tiles on a table.
+pub(super) const MOST_TILES: usize = 100_000;
+
 /// Pairs' energies are cut off below this share of the bond's depth.
 const CUT_OFF: f64 = 1e-4;
 

@@ -6,6 +6,7 @@ mod ensemble;
 mod goal;
 mod request;
 mod start_file;
+mod starting;
 mod statistics;
 mod subject;
 mod target;

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use csv::{ReaderBuilder, Trim};
 
-use super::crowds::Named;
-use super::request::MOST_TILES;
+use super::crowds::{MOST_TILES, Named};
 use crate::measured::{ANGLE, LENGTH, Measured, SPEED, SPIN};
 use crate::request::FARTHEST;
 use crate::text::{column, not_too_long};

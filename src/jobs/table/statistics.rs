@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::target::in_target;
 use physics::dynamics::docking::poisson_interval;
 use physics::order::Order;
 use physics::table::TableSettings;
@@ -341,6 +340,13 @@ fn lifetime(runs: &[Run], tie: Tie) -> Lifetime {
         lifetime.interval = [high, low].map(|count| (count > 0.0).then(|| lifetime.time / count));
     }
     lifetime
+}
+
+/// The number of tiles in structures that are the goal.
+pub(super) fn in_target(sample: &physics::table::Sample) -> usize {
+    let targets = sample.structures.iter();
+    let targets = targets.filter(|it| it.shape == Shape::Target);
+    targets.map(|it| it.tiles.len()).sum()
 }
 
 #[cfg(test)]

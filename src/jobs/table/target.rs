@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::statistics::in_target;
 use super::{About, Interval};
 use crate::assembly::growth::{Place, STEPS};
 use petgraph::algo::maximum_matching;
 use petgraph::graph::UnGraph;
 use physics::table::contacts::{Tie, cluster_of_each};
 use physics::table::run::Run;
-use physics::table::structures::Shape;
-use physics::table::{Crowd, Mover, Sample};
+use physics::table::{Crowd, Mover};
 
 /// The completeness of the target at the end of the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,13 +63,6 @@ impl Target {
             ..alone(of(|it| it.0).of_at_most(pattern.len()))
         }
     }
-}
-
-/// The number of tiles in structures that are the goal.
-pub(super) fn in_target(sample: &Sample) -> usize {
-    let targets = sample.structures.iter();
-    let targets = targets.filter(|it| it.shape == Shape::Target);
-    targets.map(|it| it.tiles.len()).sum()
 }
 
 /// The number of bound pairs of which no two share a tile.

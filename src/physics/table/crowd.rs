@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::structures::Goal;
+use super::goal::Goal;
 use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::dynamics::Body;

@@ -43,6 +43,7 @@
 pub mod contacts;
 pub mod crowd;
 mod drive;
+pub mod goal;
 mod hold;
 mod island;
 mod margins;

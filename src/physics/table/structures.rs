@@ -9,6 +9,7 @@ use nalgebra::Vector2;
 
 use super::contacts::{Held, Tie, cluster_of_each};
 use super::crowd::Crowd;
+pub use super::goal::Goal;
 use super::mover::Mover;
 use super::pair::Two;
 use crate::configuration::{Configuration, wrap_angle};
@@ -64,30 +65,6 @@ pub struct Structure {
     pub holes: usize,
     /// Columns and rows of a full rectangle of squares, the larger number first.
     pub rectangle: Option<[usize; 2]>,
-}
-
-/// The structure that is to be built.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub enum Goal {
-    /// A ring of this many tiles.
-    Ring(usize),
-    /// A chain of this many tiles.
-    Chain(usize),
-    /// A full sheet of this many rows and columns.
-    Sheet(usize, usize),
-    /// Tiles, by kind and place, up to a motion of all of them.
-    Pattern(Vec<(usize, Configuration)>),
-}
-
-impl Goal {
-    /// The number of its tiles.
-    pub fn tiles(&self) -> usize {
-        match self {
-            Self::Ring(count) | Self::Chain(count) => *count,
-            Self::Sheet(rows, columns) => rows * columns,
-            Self::Pattern(tiles) => tiles.len(),
-        }
-    }
 }
 
 /// All structures of two tiles or more, in the order of their first tiles; those that are the

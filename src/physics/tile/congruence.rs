@@ -117,7 +117,9 @@ pub fn near_face(tile: &Tile, face: usize) -> Vec<&Magnet> {
     if !own.is_empty() {
         return own;
     }
-    let Face { start, end, .. } = tile.faces[face];
+    let Some(Face { start, end, .. }) = tile.faces.get(face) else {
+        return own;
+    };
     let distance = |p: Vector2<f64>| {
         let along = (p - start).dot(&(end - start)) / (end - start).norm_squared();
         (start + (end - start) * along.clamp(0.0, 1.0) - p).norm()

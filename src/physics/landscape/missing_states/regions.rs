@@ -168,7 +168,7 @@ mod tests {
             let half = [0.1, 0.1, 0.3].map(|most| draw(most).powi(2) / most);
             Part::of_cell(&Cell { centre, half }, 0.0)
         };
-        let parts: Vec<Part> = (0..400).map(|_| part()).collect();
+        let parts: Vec<Part> = (0..800).map(|_| part()).collect();
         let gap = [0.03, 0.03, 0.1];
         let mut swept = beside(&parts, &gap);
         swept.iter_mut().for_each(|pair| pair.sort_unstable());
