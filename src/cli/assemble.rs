@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tilebind::assembly::Request;
-use tilebind::design::WordSet;
 use tilebind::report::assembly::{FILES, document};
 
 use super::options::ThreadOption;
@@ -75,16 +74,9 @@ impl Assemble {
         let output = self.results.output(&FILES, inputs.collect())?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        let words = self.words.as_ref().map(|path| -> Result<_, Failure> {
-            let set = WordSet::load(path, self.request.model)?;
-            let text =
-                tilebind::text::read(path).map_err(|error| Failure::Run(error.to_string()))?;
-            Ok((set, text))
-        });
+        let words = input::words(self.words.as_deref(), self.request.model)?;
         let design = design.as_ref().map(|it| &it.0);
-        let assembly = self
-            .request
-            .build(&tiles, words.transpose()?, design, &progress)?;
+        let assembly = self.request.build(&tiles, words, design, &progress)?;
         self.results
             .deliver(&document(&assembly), output, &progress)
     }

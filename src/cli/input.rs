@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use tilebind::Configuration;
-use tilebind::design::{Design, MagnetModel};
+use tilebind::design::{Design, MagnetModel, WordSet};
 use tilebind::text::{self, with_commas};
 
 use super::{Failure, tell};
@@ -41,6 +41,19 @@ pub fn if_given(path: Option<&Path>) -> Result<Option<(Design, Vec<PathBuf>)>, F
     let read = |path| load(path).map(|design| (files_of(path, &design), design));
     let read = path.map(read).transpose()?;
     Ok(read.map(|(files, design)| (design, files)))
+}
+
+/// The words of a file, with its text.
+pub fn words(
+    path: Option<&Path>,
+    model: Option<MagnetModel>,
+) -> Result<Option<(WordSet, String)>, Failure> {
+    let Some(path) = path else {
+        return Ok(None);
+    };
+    let set = WordSet::load(path, model)?;
+    let text = text::read(path).map_err(|error| Failure::Run(error.to_string()))?;
+    Ok(Some((set, text)))
 }
 
 /// The files of a design: its own and its drawings.

@@ -14,6 +14,19 @@ const LARGEST: u64 = 256 << 20;
 /// Where a process finds the streams that it was started with.
 const STREAMS: [&str; 3] = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
 
+/// Longest name that a user gives to something in the names of files (bytes), which have at most
+/// 255.
+const LONGEST_NAME: usize = 60;
+
+/// A name as a file name can have it: of ASCII letters, digits and `-`, with `_` for all else.
+pub fn file_stem(name: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
+    name.chars()
+        .map(|c| if is_plain(c) { c } else { '_' })
+        .take(LONGEST_NAME)
+        .collect()
+}
+
 /// Opens a regular file. Devices, pipes and folders are rejected: some never end, and opening
 /// others blocks forever.
 ///

@@ -8,7 +8,9 @@ use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::plots::{field, glance};
 use crate::sold;
-use crate::tiles::{GRAM, fits, force, letter, magnets, models, pull, pull_off, wrong};
+use crate::tiles::{
+    GRAM, fits, force, letter, magnets, models, pull, pull_off, without_wall, wrong,
+};
 use crate::values::{pose, positive_zero};
 use jobs::design::Design;
 use jobs::inspection::{Inspection, NEGLIGIBLE};
@@ -76,7 +78,12 @@ pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
             }),
         ],
         origin: "the tiles with their target faces in contact; nothing is searched".to_owned(),
-        notes: design.sold.iter().map(sold::told).collect(),
+        notes: design
+            .sold
+            .iter()
+            .map(sold::told)
+            .chain(without_wall(design))
+            .collect(),
         ..Document::default()
     }
 }

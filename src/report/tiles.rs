@@ -3,6 +3,7 @@
 use crate::columns::{Table, rows};
 use jobs::design::{Design, DesignError};
 use jobs::inspection::{Fit, Hold, Inspection, NEGLIGIBLE};
+use jobs::workshop::{CLEARANCE, open_pockets};
 use physics::order::Order;
 use physics::tile::{Magnet, Tile};
 use physics::units::{plain, si};
@@ -16,6 +17,33 @@ const DIGITS: usize = 4;
 pub fn wrong(design: &Design, inspection: &Inspection) -> Vec<String> {
     let doubts = design.warnings.iter().map(DesignError::sentence);
     doubts.chain(inspection.faults(design)).collect()
+}
+
+/// A sentence on pockets that would have no wall to the rim, if there are any.
+pub fn without_wall(design: &Design) -> Option<String> {
+    let [fixed, moving] = [&design.pair.fixed, &design.pair.moving];
+    let each = [fixed, moving].map(|tile| open_pockets(tile, CLEARANCE));
+    let count = each[0].0 + each[1].0;
+    let of = fixed.magnets.len() + moving.magnets.len();
+    let more = each.iter().filter(|it| it.0 > 0).map(|it| it.1);
+    let most: Option<Vec<f64>> = more.collect();
+    let help = match most {
+        Some(most) => {
+            let most = most.into_iter().fold(0.0, f64::max);
+            format!(
+                "raise `inset` by {} mm for a wall",
+                plain(1e3 * most, DIGITS)
+            )
+        }
+        None => "no `inset` leaves a wall for all of them".to_owned(),
+    };
+    let pockets = if of == 1 { "pocket" } else { "pockets" };
+    (count > 0).then(|| {
+        format!(
+            "if the tiles are cut, {count} of {of} {pockets} would have a wall below 0.5 mm to the \
+             rim, and `tilebind make` cuts them as notches: {help}"
+        )
+    })
 }
 
 /// A force in newtons and grams.

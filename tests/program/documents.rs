@@ -127,7 +127,7 @@ fn check(document: &Document) {
         if let Some(file) = table.file {
             assert!(files.insert(file), "{file} is there twice");
             if table.is_data {
-                numbers_agree(table, &report[table.key]);
+                numbers_agree(table, &report[&*table.key]);
             }
         }
     }

@@ -93,8 +93,9 @@ def test_the_version_is_told():
 
 def test_files_for_the_workshop(design):
     files = design.make(kerf=0.0002)
-    drawings = {"fixed.dxf", "fixed.svg", "moving.dxf", "moving.svg", "check.svg"}
-    assert set(files) == drawings | {"sheet.md"}
+    drawings = {"fixed.dxf", "fixed.svg", "moving.dxf", "moving.svg"}
+    checks = {name for name in files if name.startswith("check")}
+    assert checks and set(files) == drawings | checks | {"sheet.md"}
     assert b"CUT_OUTSIDE" in files["fixed.dxf"] and b"mm" in files["sheet.md"]
     with pytest.raises(ValueError, match="kerf"):
         design.make(kerf=0.15)
@@ -127,6 +128,54 @@ def test_cad_programs_read_the_workshop_files():
         bulges = [bulge for *_, bulge in outline.get_points("xyb") if bulge]
         # A segment 5 high over 60 wide: the tangent of a quarter of its angle is 2 * 5 / 60.
         assert bulges == pytest.approx([sign / 6], abs=1e-9)
+
+
+def test_drawings_for_browsers_agree_with_those_for_cutters():
+    """Each SVG file, read by svgelements, has the shapes of its DXF file, layer by layer, in mm."""
+    svg = pytest.importorskip("svgelements")
+    ezdxf = pytest.importorskip("ezdxf")
+    from ezdxf import bbox
+    text = """
+        table = { size = [1.0, 1.0] }
+        target = { fixed = "east", moving = "west" }
+        [magnet]
+        shape = "disc"
+        diameter = "6 mm"
+        height = "3 mm"
+        remanence = 1.2
+        pitch = 0.012
+        inset = 0.002
+        [fixed]
+        side = 0.06
+        thickness = "6 mm"
+        mass = "20 g"
+        faces.east = { code = "UUD", profile = { shape = "arc", width = 0.04, depth = 0.004 } }
+        [moving]
+        side = 0.06
+        thickness = "6 mm"
+        mass = "20 g"
+        faces.west.mates = "east"
+    """
+    files = Design.loads(text).make(copies=3, sheet="300x200 mm")
+    for name in ("fixed", "moving", "nested-1"):
+        drawing = ezdxf.read(io.StringIO(files[f"{name}.dxf"].decode()))
+        lines = {layer: list(drawing.modelspace().query(f"*[layer=='{layer}']"))
+                 for layer in ("CUT_INSIDE", "CUT_OUTSIDE")}
+        assert lines["CUT_INSIDE"] and all(line.dxftype() == "CIRCLE" for line in lines["CUT_INSIDE"])
+        assert all(line.dxf.radius == pytest.approx(3.1) for line in lines["CUT_INSIDE"])
+        page = svg.SVG.parse(io.BytesIO(files[f"{name}.svg"]), ppi=25.4)
+        for layer, own in lines.items():
+            group = page.get_element_by_id(layer)
+            shapes = [shape for shape in group.select() if isinstance(shape, svg.Shape)]
+            assert len(shapes) == len(own)
+            for shape, line in zip(shapes, own):
+                box = bbox.extents([line])
+                low_x, low_y, high_x, high_y = svg.Path(shape).bbox()
+                size = (high_x - low_x, high_y - low_y)
+                assert size == pytest.approx((box.size.x, box.size.y), abs=2e-3)
+                if name == "nested-1":
+                    at = (low_x, page.height - high_y)
+                    assert at == pytest.approx((box.extmin.x, box.extmin.y), abs=2e-3)
 
 
 def test_parts_on_sheets_are_apart():

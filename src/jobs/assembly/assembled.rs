@@ -265,6 +265,15 @@ fn lettered(text: &str, words: &WordSet, built: &Built) -> Result<String, Refuse
 }
 
 impl Assembly<'_> {
+    /// The number of each tile: in the growth without errors, or to be laid by hand.
+    pub fn counts(&self) -> Vec<usize> {
+        let set = &self.built.set;
+        match self.growing {
+            Some(_) => self.built.grown.counts(set.tiles.len()),
+            None => set.laid(),
+        }
+    }
+
     /// The name of a face.
     pub fn face(&self, face: usize) -> String {
         self.built.matrix.name(face)

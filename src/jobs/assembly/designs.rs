@@ -7,7 +7,9 @@ use super::axis::{Met, SIDES};
 use super::{Assembly, Request, TileSet};
 use crate::Refused;
 use crate::design::{Design, DesignError, WordSet, written};
+use crate::text::file_stem;
 use physics::observer::Observer;
+use physics::tile::Tile;
 
 impl Request {
     /// Builds a tile set from words: from the given ones, with the text of their file, or else from
@@ -30,8 +32,8 @@ impl Request {
 
 /// Reads the designs as other commands will.
 fn check(assembly: &Assembly) -> Result<(), DesignError> {
-    for (name, text) in all(assembly) {
-        Design::parse(&text, &format!("designs/{name}.toml")).map_err(|error| {
+    for (design, _) in parsed(assembly) {
+        design.map_err(|error| {
             let help = format!(
                 "use longer tiles (a DESIGN with a longer side), smaller magnets, or words with \
                  fewer positions; {}",
@@ -52,8 +54,32 @@ pub fn all(assembly: &Assembly) -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// Longest name of a tile in the names of files (bytes).
-const LONGEST_NAME: usize = 60;
+/// The designs of every two tiles that meet, as other commands read them.
+pub fn parsed(assembly: &Assembly) -> impl Iterator<Item = (Result<Design, DesignError>, Met)> {
+    let named = named(assembly).into_iter();
+    named.map(|(name, met)| {
+        let text = design(assembly, &met, &name);
+        let file = format!("designs/{name}.toml");
+        (Design::parse(&text, &file), met)
+    })
+}
+
+/// A tile of the set.
+///
+/// # Errors
+/// If its magnets do not fit into it.
+pub fn tile(assembly: &Assembly, number: usize) -> Result<Tile, DesignError> {
+    let name = &assembly.built.set.tiles[number].name;
+    let mut text = head(assembly, name, name);
+    // It meets a tile without magnets: designs have two.
+    for (role, number) in [("fixed", Some(number)), ("moving", None)] {
+        let like = &assembly.design.unwrap_or(&assembly.words.stage).pair.fixed;
+        text += &section(assembly, role, number, like);
+    }
+    text += "\n[target]\nfixed = \"east\"\nmoving = \"west\"\n";
+    let design = Design::parse(&text, name)?;
+    Ok(design.pair.fixed.clone())
+}
 
 /// The tiles that meet and bind each other, with the names of their designs.
 pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
@@ -76,14 +102,7 @@ pub fn named(assembly: &Assembly) -> Vec<(String, Met)> {
 }
 
 fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
-    let tiles = &assembly.built.set.tiles;
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
-    // File names have at most 255 bytes.
-    let plain = |tile: usize| {
-        // What is left are ASCII letters: a letter is a byte.
-        let name = tiles[tile].name.replace(|c| !is_plain(c), "_");
-        name.chars().take(LONGEST_NAME).collect::<String>()
-    };
+    let plain = |tile: usize| file_stem(&assembly.built.set.tiles[tile].name);
     let side = SIDES[axis.sides()[0]];
     format!("{}-{side}-{}", plain(*first), plain(*second))
 }
@@ -91,22 +110,36 @@ fn name(assembly: &Assembly, (first, axis, second): &Met) -> String {
 fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
     let (first, axis, second) = *met;
     let stage = &assembly.words.stage;
-    let like = assembly.design.unwrap_or(stage);
-    let magnet = assembly.magnet();
-    let tile = &stage.pair.fixed;
+    let like = &assembly.design.unwrap_or(stage).pair;
     let tiles = &assembly.built.set.tiles;
     let [out, back] = axis.sides().map(|side| SIDES[side]);
     let described = format!(
         "{}: the {out} face of {} meets the {back} face of {}",
         assembly.built.set.name, tiles[first].name, tiles[second].name
     );
+    let mut text = head(assembly, name, &described);
+    text += &section(assembly, "fixed", Some(first), &like.fixed);
+    text += &section(assembly, "moving", Some(second), &like.moving);
+    let _ = write!(
+        text,
+        "\n[target]\nfixed = \"{out}\"\nmoving = \"{back}\"\n\n[potential]\nmodel = \"{}\"\n",
+        stage.interaction.model.name()
+    );
+    text
+}
+
+/// The beginning of a design: its name, table and magnet.
+fn head(assembly: &Assembly, name: &str, described: &str) -> String {
+    let stage = &assembly.words.stage;
+    let like = assembly.design.unwrap_or(stage);
+    let magnet = assembly.magnet();
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let [wide, high] = like.table.map(|size| size.max(stage.table[0]));
     let mut text = format!(
         "name = {}\ndescription = {}\n\n[table]\nsize = [{wide:?}, {high:?}]\n\n[magnet]\n{}\
          moment = {:?}\n",
         quoted(name),
-        quoted(&described),
+        quoted(described),
         written::magnet(magnet.form, magnet.size),
         magnet.moment
     );
@@ -115,28 +148,24 @@ fn design(assembly: &Assembly, met: &Met, name: &str) -> String {
     if inset > 0.0 {
         let _ = writeln!(text, "inset = {inset:?}");
     }
-    for (role, number, like) in [
-        ("fixed", first, &like.pair.fixed),
-        ("moving", second, &like.pair.moving),
-    ] {
-        let _ = write!(
-            text,
-            "\n[{role}]\nside = {:?}\nthickness = {:?}\nmass = {:?}\n\n[{role}.faces]\n",
-            tile.faces[0].length(),
-            like.thickness,
-            like.mass
-        );
-        for (side, name) in SIDES.iter().enumerate() {
-            if let Some(face) = assembly.built.face(number, side) {
-                let _ = writeln!(text, "{name} = {}", entry(assembly, face));
-            }
+    text
+}
+
+/// The section of one tile of the set, as thick and heavy as another one; `None` for a tile without
+/// magnets.
+fn section(assembly: &Assembly, role: &str, number: Option<usize>, like: &Tile) -> String {
+    let tile = &assembly.words.stage.pair.fixed;
+    let mut text = format!(
+        "\n[{role}]\nside = {:?}\nthickness = {:?}\nmass = {:?}\n\n[{role}.faces]\n",
+        tile.faces[0].length(),
+        like.thickness,
+        like.mass
+    );
+    for (side, name) in SIDES.iter().enumerate() {
+        if let Some(face) = number.and_then(|number| assembly.built.face(number, side)) {
+            let _ = writeln!(text, "{name} = {}", entry(assembly, face));
         }
     }
-    let _ = write!(
-        text,
-        "\n[target]\nfixed = \"{out}\"\nmoving = \"{back}\"\n\n[potential]\nmodel = \"{}\"\n",
-        stage.interaction.model.name()
-    );
     text
 }
 

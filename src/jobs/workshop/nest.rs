@@ -22,19 +22,21 @@ struct Row {
 /// Places rectangles (m) on sheets (m), `apart` (m) from each other and from the edges; `None` if
 /// one is larger than a sheet.
 ///
-/// Highest first, each in the first row with room, lying down where it fits.
-pub fn nest(sizes: &[[f64; 2]], sheet: [f64; 2], apart: f64) -> Option<Vec<Place>> {
+/// Highest first, each in the first row with room; where rectangles may be turned, lying down if it
+/// fits.
+pub fn nest(sizes: &[[f64; 2]], sheet: [f64; 2], apart: f64, may_turn: bool) -> Option<Vec<Place>> {
     let room = sheet.map(|length| length - apart);
     let fits = |[w, h]: [f64; 2]| w + apart <= room[0] + 1e-9 && h + apart <= room[1] + 1e-9;
     let laid: Option<Vec<(bool, [f64; 2])>> = sizes
         .iter()
         .map(|&[w, h]| {
-            let ways = if w >= h {
+            let ways = if w >= h || !may_turn {
                 [(false, [w, h]), (true, [h, w])]
             } else {
                 [(true, [h, w]), (false, [w, h])]
             };
-            ways.into_iter().find(|way| fits(way.1))
+            let mut allowed = ways.into_iter().filter(|way| may_turn || !way.0);
+            allowed.find(|way| fits(way.1))
         })
         .collect();
     let laid = laid?;
@@ -96,7 +98,7 @@ mod tests {
                 .map(|_| [random(0.005, 0.39), random(0.005, 0.39)])
                 .collect();
             let (sheet, apart) = ([0.6, 0.4], random(0.0, 0.005));
-            let places = nest(&sizes, sheet, apart).unwrap();
+            let places = nest(&sizes, sheet, apart, true).unwrap();
             let boxes: Vec<(usize, [f64; 4])> = places
                 .iter()
                 .zip(&sizes)
@@ -116,7 +118,8 @@ mod tests {
                 }
             }
         }
-        assert_eq!(nest(&[[0.61, 0.1]], [0.6, 0.4], 0.0), None);
-        assert!(nest(&[[0.1, 0.6]], [0.6, 0.4], 0.0).is_some_and(|it| it[0].turned));
+        assert_eq!(nest(&[[0.61, 0.1]], [0.6, 0.4], 0.0, true), None);
+        assert!(nest(&[[0.1, 0.6]], [0.6, 0.4], 0.0, true).is_some_and(|it| it[0].turned));
+        assert_eq!(nest(&[[0.1, 0.6]], [0.6, 0.4], 0.0, false), None);
     }
 }

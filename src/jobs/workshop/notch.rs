@@ -64,6 +64,20 @@ pub(super) fn cut(line: &[Corner], bottom: &[Corner], out: Vector2<f64>) -> Opti
     Some(kept.collect())
 }
 
+/// Width and length (m) of the piece of material on one side of a notch: at the corner of its bottom
+/// up to the next line, and along the side of the notch. `aside` is the direction away from it.
+pub(super) fn beside(
+    line: &[Corner],
+    corner: Vector2<f64>,
+    out: Vector2<f64>,
+    aside: Vector2<f64>,
+) -> Option<[f64; 2]> {
+    let start = corner + aside * (10.0 * SHORT);
+    let reach =
+        |along: Vector2<f64>| Some((crossing(line, start, along)?.point - start).dot(&along));
+    Some([reach(aside)?, reach(out)?])
+}
+
 /// The bulge of the part of a piece between two of its points.
 fn part(piece: &Corner, end: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
     if piece.bulge == 0.0 {

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector2;
 
-use super::Making;
+use super::error::PartError;
+use super::making::Making;
 use super::marks::{Marks, marks};
 use super::notch;
 use super::rim::{Corner, length, rim};
-use crate::request::Unanswered;
 use physics::configuration::Configuration;
 use physics::contact::Contact;
 use physics::tile::assembly::{FaceLine, assemble};
@@ -21,25 +21,6 @@ const TIE: f64 = 1e-6;
 /// Insets are raised in steps of this (m), and by at most this many of them.
 const STEP: f64 = 1e-4;
 const STEPS: u32 = 300;
-
-/// Why a part cannot be cut.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PartError {
-    /// The cutter is wider than details of the outline.
-    #[error("a cut {0} m wide is wider than details of the outline: use a narrower --kerf")]
-    Kerf(f64),
-    /// A pocket vanishes.
-    #[error("a cut {0} m wide leaves no pocket for the magnets: use a narrower --kerf")]
-    Pocket(f64),
-    /// The layers do not make up the tile.
-    #[error("{0}")]
-    Layers(String),
-    /// A part does not fit on a sheet.
-    #[error("{0}")]
-    Sheet(String),
-}
-
-impl Unanswered for PartError {}
 
 /// The cutting lines of a tile, in its own frame (m).
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +59,8 @@ pub struct Pocket {
     pub wall: f64,
     /// Whether it is part of the outline: a notch, for want of a wall.
     pub is_notch: bool,
+    /// Width (m) of the thinnest piece of material beside a notch that is longer than wide.
+    pub sliver: Option<f64>,
     /// The thinnest wall between the pocket and another one (m), negative if they overlap; `None`
     /// for a single pocket.
     pub between: Option<f64>,
@@ -127,6 +110,10 @@ impl Part {
             if let Some(notched) = notch::cut(&outline, &bottom, out) {
                 (outline, pocket.is_notch) = (notched, true);
             }
+        }
+        for (pocket, hole) in pockets.iter_mut().zip(&holes).filter(|it| it.0.is_notch) {
+            let (bottom, out) = pocket.bottom(hole, tile.faces[hole.face].normal());
+            pocket.sliver = sliver(&outline, &bottom, out, making.kerf);
         }
         let names: Vec<[String; 3]> = pockets.iter().map(Pocket::texts).collect();
         Ok(Self {
@@ -189,6 +176,15 @@ impl Pocket {
     }
 }
 
+/// The number of pockets of a tile that leave no stable wall to the rim, with the given clearance (m)
+/// around magnets, and how much `inset` must be raised (m) for all to have one, if that helps.
+pub fn open_pockets(tile: &Tile, clearance: f64) -> (usize, Option<f64>) {
+    let holes: Vec<Magnet> = tile.magnets.iter().map(|it| it.grown(clearance)).collect();
+    let walls = holes.iter().map(|hole| hole.wall(&tile.outline));
+    let open = walls.filter(|wall| *wall < THINNEST - TIE).count();
+    (open, deeper(tile, &holes))
+}
+
 /// See [`Part::deeper`]: tried, since on slopes a wall grows by less than the inset.
 fn deeper(tile: &Tile, holes: &[Magnet]) -> Option<f64> {
     let moved = |hole: &Magnet, by: f64| Magnet {
@@ -201,6 +197,21 @@ fn deeper(tile: &Tile, holes: &[Magnet]) -> Option<f64> {
     };
     let tried = (0..=STEPS).map(|k| STEP * f64::from(k));
     tried.into_iter().find(|&by| wall(by) >= THINNEST - TIE)
+}
+
+/// Width (m) of the thinner of the pieces of material on both sides of a notch that are longer than
+/// wide. The cutter takes half the kerf from either side of them.
+fn sliver(outline: &[Corner], bottom: &[Corner], out: Vector2<f64>, kerf: f64) -> Option<f64> {
+    let along = Vector2::new(-out.y, out.x);
+    let ends = [(bottom.first()?, -along), (bottom.last()?, along)];
+    let pieces = ends
+        .iter()
+        .filter_map(|(corner, aside)| notch::beside(outline, corner.point, out, *aside));
+    pieces
+        .map(|[wide, long]| [wide - kerf, long])
+        .filter(|[wide, long]| wide < long)
+        .map(|[wide, _]| wide)
+        .min_by(f64::total_cmp)
 }
 
 /// The outline offset outwards by half the kerf.
@@ -251,6 +262,7 @@ fn pocket(
         depth: (tile.thickness + magnet.size[2]) / 2.0,
         wall: hole.wall(&tile.outline),
         is_notch: false,
+        sliver: None,
         between: None,
     })
 }

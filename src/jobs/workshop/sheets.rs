@@ -1,8 +1,9 @@
 //! All copies of the tiles on sheets of material.
 
+use super::error::PartError;
 use super::nest::{Place, nest};
 use super::rim::extent;
-use super::{MadeTile, Making, PartError};
+use super::{MadeTile, Making};
 
 /// A sheet of material with parts.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Sheet {
 /// A part on a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// 0 for the fixed tile, 1 for the moving one.
+    /// The index of the kind of tile.
     pub tile: usize,
     /// The number of the copy, from 1.
     pub number: usize,
@@ -32,11 +33,7 @@ pub struct Placed {
 ///
 /// # Errors
 /// If a part is larger than a sheet.
-pub(super) fn sheets(
-    tiles: &[MadeTile; 2],
-    counts: [usize; 2],
-    making: &Making,
-) -> Result<Vec<Sheet>, PartError> {
+pub(super) fn sheets(tiles: &[MadeTile], making: &Making) -> Result<Vec<Sheet>, PartError> {
     // Thickness, tile, number and layer of every part.
     let mut parts = Vec::new();
     for (tile, made) in tiles.iter().enumerate() {
@@ -46,7 +43,7 @@ pub(super) fn sheets(
                 .map(|(layer, &(thickness, _))| (Some(layer), thickness))
                 .collect(),
         };
-        for number in 1..=counts[tile] {
+        for number in 1..=made.copies {
             parts.extend(
                 layers
                     .iter()
@@ -57,10 +54,11 @@ pub(super) fn sheets(
     let mut kinds: Vec<f64> = parts.iter().map(|part| part.0).collect();
     kinds.sort_by(f64::total_cmp);
     kinds.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-    let boxes = [0, 1].map(|tile| {
-        let [low, high] = extent(&tiles[tile].part.outline);
+    let size_of = |made: &MadeTile| {
+        let [low, high] = extent(&made.part.outline);
         [0, 1].map(|k| high[k] - low[k])
-    });
+    };
+    let boxes: Vec<[f64; 2]> = tiles.iter().map(size_of).collect();
     let size = making.sheet();
     let mut sheets = Vec::new();
     for thickness in kinds {
@@ -69,7 +67,8 @@ pub(super) fn sheets(
             .filter(|part| (part.0 - thickness).abs() < 1e-6);
         let mine: Vec<_> = mine.collect();
         let sizes: Vec<[f64; 2]> = mine.iter().map(|part| boxes[part.1]).collect();
-        let places = nest(&sizes, size, making.spacing).ok_or_else(|| too_small(&sizes, making))?;
+        let places =
+            nest(&sizes, size, making.spacing, true).ok_or_else(|| too_small(&sizes, making))?;
         let count = places
             .iter()
             .map(|place| place.sheet + 1)

@@ -1,6 +1,6 @@
 //! Tiles of several layers: which are cut through for the magnets, and which are lids.
 
-use super::PartError;
+use super::error::PartError;
 
 /// Share of the tile's thickness by which the sum of its layers may differ.
 const CLOSE: f64 = 0.05;
@@ -10,6 +10,8 @@ const CLOSE: f64 = 0.05;
 pub struct Stack {
     /// Thickness of each layer (m), lowest first, and whether the pockets are cut through it.
     pub layers: Vec<(f64, bool)>,
+    /// Thickness of the thickest magnet (m).
+    pub magnet: f64,
     /// Height (m) left in the pockets above the magnets' thickness.
     pub play: f64,
     /// How far (m) the middle of the pockets is above the middle of the tile.
@@ -54,6 +56,7 @@ impl Stack {
             layers: (layers.iter().enumerate())
                 .map(|(k, &thick)| (thick, (from..to).contains(&k)))
                 .collect(),
+            magnet,
             play: below(to) - below(from) - magnet,
             raised: (below(from) + below(to) - total) / 2.0,
         })

@@ -85,7 +85,7 @@ fn entries(assembly: &Assembly) -> Entries {
         (tau, Tau::OfEnergies) => (tau, "Gmc / Gse"),
         (tau, Tau::Assumed) => (tau, "assumed"),
     };
-    let counts = text::counts(assembly);
+    let counts = assembly.counts();
     let shaken = assembly.growing.as_ref().map(|it| &it.shaken);
     let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
     let mut deepest: Vec<_> = assembly.slides.iter().filter(|it| it.deepest.is_some()).collect();
@@ -244,7 +244,7 @@ fn tried(choice: &Choice) -> Value {
 fn tiles(assembly: &Assembly) -> Table {
     type Row<'a> = (usize, &'a TileType);
     let built = &assembly.built;
-    let counts = text::counts(assembly);
+    let counts = assembly.counts();
     let count = match assembly.growing {
         Some(_) => ["grown", "copies in the error-free growth"],
         None => ["how many", "copies to be laid"],

@@ -1,6 +1,5 @@
 //! The workshop sheet.
 
-use super::text::counts;
 use crate::document::rows;
 use crate::markdown::markdown_table;
 use jobs::assembly::{Assembly, Axis, TileType};
@@ -11,7 +10,7 @@ use physics::units::si;
 pub(super) fn sheet(assembly: &Assembly) -> String {
     let built = &assembly.built;
     let set = &built.set;
-    let counts = counts(assembly);
+    let counts = assembly.counts();
     let magnet = assembly.magnet();
     let [length, width, thickness] = magnet.axis_first().map(|x| (1e5 * x).round() / 100.0);
     let bought = match magnet.form.shape {

@@ -25,7 +25,7 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         built.matrix.words.first().map_or(0, |word| word.places()),
     );
     let Some(growing) = &assembly.growing else {
-        let tiles: usize = counts(assembly).iter().sum();
+        let tiles: usize = assembly.counts().iter().sum();
         return format!(
             "{what}, for {tiles} tiles laid by hand (--kt also simulates growth); the weakest bond \
              is {}",
@@ -71,15 +71,6 @@ pub(super) fn headline(assembly: &Assembly) -> String {
         },
         shaken.gmc,
     )
-}
-
-/// The number of each tile: in the growth without errors, or to be laid by hand.
-pub(super) fn counts(assembly: &Assembly) -> Vec<usize> {
-    let set = &assembly.built.set;
-    match assembly.growing {
-        Some(_) => assembly.built.grown.counts(set.tiles.len()),
-        None => set.laid(),
-    }
 }
 
 /// The tiles from which growth starts; the first of the set if its file names none.

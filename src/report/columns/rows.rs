@@ -132,7 +132,7 @@ impl<'a, Row> Rows<'a, Row> {
     }
 
     /// The finished table, with its key in JSON.
-    pub fn table(self, key: &'static str) -> Table {
+    pub fn table(self, key: impl Into<Cow<'static, str>>) -> Table {
         let cells = |row: &Row| -> Vec<_> {
             let cell = |column: &Column<Row>| {
                 let view = column.view.as_ref().map(|view| view(row));
@@ -141,7 +141,7 @@ impl<'a, Row> Rows<'a, Row> {
             self.columns.iter().map(cell).collect()
         };
         Table {
-            key,
+            key: key.into(),
             file: None,
             title: String::new(),
             note: String::new(),

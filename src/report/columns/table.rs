@@ -240,7 +240,7 @@ pub enum Link {
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Its key in JSON.
-    pub key: &'static str,
+    pub key: Cow<'static, str>,
     /// The stem of its file of numbers, if it has one.
     pub file: Option<&'static str>,
     /// Its title.

@@ -18,7 +18,9 @@ impl Document<'_> {
     /// The output with `--json`.
     pub fn printed(&self) -> String {
         let tables = self.tables();
-        let alone = tables.iter().find(|table| Some(table.key) == self.printed);
+        let alone = tables
+            .iter()
+            .find(|table| Some(&*table.key) == self.printed);
         alone.map_or_else(|| self.report(), |table| json::text(&table.json()))
     }
 
@@ -46,7 +48,7 @@ fn object(entries: &[Entry]) -> Value {
                 map.insert(fact.head.key.to_string(), fact.cell.json());
             }
             Entry::Table(table) if table.is_data => {
-                map.insert(table.key.to_owned(), table.json());
+                map.insert(table.key.to_string(), table.json());
             }
             Entry::Group(key, inner) => {
                 map.insert((*key).to_owned(), object(inner));

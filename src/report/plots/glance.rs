@@ -9,7 +9,7 @@ use super::style::{
     Anchor, BLUE, FIXED_FILL, LABEL, MOVING_FILL, SMALL, SOFT, TITLE, VERMILLION, minus,
 };
 use super::{Figure, Sheet};
-use crate::tiles::{energy, letter, magnets, models, pull, wrong};
+use crate::tiles::{energy, letter, magnets, models, pull, without_wall, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use physics::configuration::Configuration;
@@ -60,6 +60,70 @@ pub fn draw(
         pictures: vec![("tiles".to_owned(), picture)],
         data: models(design, inspection).csv(),
     })
+}
+
+/// Draws kinds of tiles beside each other, with their names.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn kinds(
+    title: &str,
+    kinds: Vec<(&str, &Tile)>,
+    sheet: &Sheet,
+) -> Result<Figure, PictureError> {
+    let columns = (kinds.len() as f64).sqrt().ceil().max(1.0);
+    let rows = (kinds.len() as f64 / columns).ceil();
+    let width = sheet.width(SIZE[0]);
+    let side = width / columns;
+    let head = if sheet.is_titled() { HEAD } else { 0.0 };
+    let mut canvas = Canvas::new([width, head + side * rows]);
+    if sheet.is_titled() {
+        let at = (width / 2.0, HEAD / 2.0);
+        canvas.write(TITLE.bold(), title, at, Anchor::Middle);
+    }
+    let widest = kinds.iter().map(|(_, tile)| spread(tile));
+    let widest = widest.fold([0.0, 0.0], |a, [low, high]| {
+        let size = high - low;
+        [f64::max(a[0], size.x), f64::max(a[1], size.y)]
+    });
+    for (k, (name, tile)) in kinds.iter().enumerate() {
+        let (column, row) = (k as f64 % columns, (k as f64 / columns).floor());
+        let (left, top) = (column * side + EDGE, head + row * side + EDGE);
+        let room = [left, top, left + side - 2.0 * EDGE, top + side - 2.0 * EDGE];
+        // All to one scale.
+        let [low, high] = spread(tile);
+        let half = Vector2::from(widest) / 2.0;
+        let middle = (low + high) / 2.0;
+        let view = View::filling(room, [middle - half, middle + half]);
+        view.tile(&mut canvas, tile, &ORIGIN, FIXED_FILL);
+        let centre = view.pixel(tile.outline.centroid());
+        canvas.write(LABEL.bold().colour(SOFT), name, centre, Anchor::Middle);
+        faces(&mut canvas, &view, tile, &ORIGIN);
+    }
+    let rows = kinds
+        .iter()
+        .map(|(name, tile)| format!("{name},{}\n", tile.magnets.len()));
+    let data = ["tile,magnets\n".to_owned()]
+        .into_iter()
+        .chain(rows)
+        .collect();
+    Ok(Figure {
+        name: "tiles".to_owned(),
+        pictures: vec![("tiles".to_owned(), Picture::new(sheet, title, &canvas)?)],
+        data,
+    })
+}
+
+/// The corners of the smallest rectangle that contains a tile (m).
+fn spread(tile: &Tile) -> [Vector2<f64>; 2] {
+    let corners = tile.outline.vertices().iter();
+    corners.fold(
+        [
+            Vector2::repeat(f64::INFINITY),
+            Vector2::repeat(f64::NEG_INFINITY),
+        ],
+        |[low, high], p| [low.inf(p), high.sup(p)],
+    )
 }
 
 /// The tiles with the figures below them.
@@ -169,18 +233,25 @@ fn faults(canvas: &mut Canvas, design: &Design, inspection: &Inspection) {
     const STEP: f64 = 19.0;
     let top = SIZE[1] - FOOT + 10.0 + 4.0 * LINE;
     let faults = wrong(design, inspection);
-    if faults.is_empty() {
-        let sound = "no mistakes found; run analyse to see whether the tiles dock";
-        return canvas.write(SMALL.colour(SOFT), sound, (MARGIN, top), Anchor::TopLeft);
-    }
+    let sound = "no mistakes found; run analyse to see whether the tiles dock";
+    let (told, colour) = match faults.is_empty() {
+        true => (
+            [sound.to_owned()]
+                .into_iter()
+                .chain(without_wall(design))
+                .collect(),
+            SOFT,
+        ),
+        false => (faults, VERMILLION),
+    };
     let room = SIZE[0] - 2.0 * MARGIN;
-    let lines = faults
+    let lines = told
         .iter()
         .take(TOLD)
-        .flat_map(|fault| SMALL.lines(&fault.replace('`', ""), room));
+        .flat_map(|line| SMALL.lines(&line.replace('`', ""), room));
     let most = ((SIZE[1] - top) / STEP) as usize;
     for (k, line) in lines.take(most).enumerate() {
         let at = (MARGIN, top + STEP * k as f64);
-        canvas.write(SMALL.colour(VERMILLION), &line, at, Anchor::TopLeft);
+        canvas.write(SMALL.colour(colour), &line, at, Anchor::TopLeft);
     }
 }

@@ -1,9 +1,13 @@
 //! Workshop files: the sheet, and the drawings for the cutter.
 //!
-//! `plan` draws the parts, and `stacked` the glue-up of layers.
+//! `plan` draws the parts, `check` the pages on which glued tiles are laid, and `stacked` the glue-up
+//! of layers.
 
+mod check;
 mod plan;
 mod stacked;
+
+use std::collections::BTreeMap;
 
 use serde_json::json;
 
@@ -14,7 +18,7 @@ use crate::tiles::grams;
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use jobs::output::Command;
-use jobs::workshop::{Filled, Made, MadeTile, Placed, Pocket, Sheet, grade};
+use jobs::workshop::{Filled, Made, MadeTile, Placed, Pocket, Sheet, Subject, grade};
 use physics::tile::Magnet;
 use physics::tile::magnet::Shape;
 use plan::Plan;
@@ -31,42 +35,72 @@ pub const FILES: Command = Command {
         "fixed.svg",
         "moving.dxf",
         "moving.svg",
+        "tile.dxf",
+        "tile.svg",
         "fixed-layer-#.dxf",
         "fixed-layer-#.svg",
         "moving-layer-#.dxf",
         "moving-layer-#.svg",
+        "tile-layer-#.dxf",
+        "tile-layer-#.svg",
+        "tiles/*.dxf",
+        "tiles/*.svg",
         "glue-up.svg",
         "nested-#.dxf",
         "nested-#.svg",
         "nested.csv",
         "check.svg",
+        "check-#.svg",
         "sheet.md",
     ],
     pictures: &["tiles"],
 };
 
-/// The names of the tiles.
-const NAMES: [&str; 2] = ["fixed", "moving"];
+/// The names of the tiles of a single design, whose files are not in a folder.
+const NAMES: [&str; 3] = ["fixed", "moving", "tile"];
+/// Largest number of kinds of tiles that are listed on a terminal.
+const LISTED: usize = 4;
 
-/// Distance (m) between the drawings of the page for checks, and height of its text.
-const GAP: f64 = 0.015;
-const TEXT: f64 = 0.004;
-
-/// The document of the workshop files; its text is the sheet.
-pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
+/// The document of the workshop files of a design, or of several kinds of tiles; its text is the
+/// sheet.
+pub fn document<'a>(design: Option<&'a Design>, subject: &'a Subject, made: &Made) -> Document<'a> {
     let making = &made.making;
+    let tiles: usize = made.tiles.iter().map(|tile| tile.copies).sum();
     let count = match made.magnets.iter().map(|(_, count)| count).sum() {
         1 => "1 magnet".to_owned(),
         many => format!("{many} magnets"),
     };
-    let tiles = match made.counts {
-        [1, 1] => "Two tiles".to_owned(),
-        [fixed, moving] => format!("{fixed} fixed and {moving} moving tiles"),
+    let tiles = match &made.tiles[..] {
+        [one] => format!("{} equal tiles", one.copies),
+        [fixed, moving] if design.is_some() => match (fixed.copies, moving.copies) {
+            (1, 1) => "Two tiles".to_owned(),
+            (fixed, moving) => format!("{fixed} fixed and {moving} moving tiles"),
+        },
+        kinds => format!("{tiles} tiles of {} kinds", kinds.len()),
     };
-    let [fixed, moving] = &made.tiles;
     let (facts, said) = shopping(made);
+    let pages = check::pages(made);
+    let opened = match design {
+        Some(design) => entries(design),
+        None => Entries::default()
+            .data("tilebind", env!("CARGO_PKG_VERSION"))
+            .data("name", &made.name[..]),
+    };
+    let picture = match design {
+        Some(design) => Drawing::new("Outward pole of each magnet", |sheet| {
+            glance::draw(design, &Inspection::new(design), sheet)
+        }),
+        None => Drawing::new("Outward pole of each magnet", |sheet| {
+            let kinds = subject.kinds.iter();
+            glance::kinds(
+                &subject.name,
+                kinds.map(|kind| (&*kind.name, &kind.tile)).collect(),
+                sheet,
+            )
+        }),
+    };
     let mut document = Document {
-        title: format!("{}: to be made", design.name),
+        title: format!("{}: to be made", made.name),
         answer: format!(
             "{tiles} with {count}, to scale in mm, as `.dxf` and `.svg`. Layers, in the order of \
              work: ENGRAVE, CUT_INSIDE, CUT_OUTSIDE. Lines are the cutter's centre line: they \
@@ -76,24 +110,28 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
              tile points towards its face {}.",
             plain(making.kerf),
             plain(making.clearance),
-            design.pair.fixed.faces[0].name
+            made.tiles.first().map_or("", |tile| &tile.first_face)
         ),
-        entries: entries(design)
+        entries: opened
             .data("settings", settings(made))
             .and(facts)
             .table(magnets(&made.magnets))
-            .more(nested(made).map(Entry::Table))
-            .table(steps("fixed", fixed))
-            .table(steps("moving", moving)),
-        pictures: vec![Drawing::new("Outward pole of each magnet", |sheet| {
-            glance::draw(design, &Inspection::new(design), sheet)
-        })],
-        notes: vec![said, CHECK.to_owned()],
+            .more(sheets(made).into_iter().flatten().map(Entry::Table))
+            .more(made.tiles.iter().map(|tile| {
+                let steps = steps(made, tile);
+                Entry::Table(if made.tiles.len() > LISTED {
+                    steps.on_page()
+                } else {
+                    steps
+                })
+            })),
+        pictures: vec![picture],
+        notes: vec![said, how_to_check(pages.len())],
         origin: "magnets in the order with the least repulsion".to_owned(),
         ..Document::default()
     };
     let sheet = document.markdown();
-    document.beside = drawings(design, made);
+    document.beside = drawings(made, pages);
     document
         .beside
         .insert("sheet.md".to_owned(), sheet.into_bytes());
@@ -101,16 +139,27 @@ pub fn document<'a>(design: &'a Design, made: &Made) -> Document<'a> {
 }
 
 /// How to check the tiles after gluing.
-const CHECK: &str = "To check the glued tiles, print check.svg at full size (100 %), lay each tile \
-    on it, and compare every pole with a marked magnet. Then hold the two faces together: a pocket \
-    that repels the one it faces holds a magnet the wrong way round.";
+fn how_to_check(pages: usize) -> String {
+    let name = match pages {
+        1 => "check.svg".to_owned(),
+        2 => "check-1.svg and check-2.svg".to_owned(),
+        many => format!("check-1.svg to check-{many}.svg"),
+    };
+    let paper = check::PAPER.map(|length| 1e3 * length);
+    format!(
+        "To check the glued tiles, print {name} at full size (100 %, {} x {} mm; the bar is 100 mm \
+         long), lay each tile on it, and compare every pole with a marked magnet. Then hold two \
+         faces together: a pocket that repels the one it faces holds a magnet the wrong way round.",
+        paper[0], paper[1]
+    )
+}
 
 fn settings(made: &Made) -> serde_json::Value {
     let making = &made.making;
     json!({
         "kerf_m": making.kerf,
         "clearance_m": making.clearance,
-        "copies": made.counts,
+        "copies": made.tiles.iter().map(|tile| tile.copies).collect::<Vec<_>>(),
         "sheet_m": making.sheet(),
         "spacing_m": making.spacing,
         "layers_m": making.layers.as_ref().map(|layers| &layers.0),
@@ -119,7 +168,7 @@ fn settings(made: &Made) -> serde_json::Value {
 
 /// What to buy besides magnets, as figures and as a sentence.
 fn shopping(made: &Made) -> (Entries, String) {
-    let lengths = made.tiles.iter().zip(made.counts).map(|(tile, copies)| {
+    let lengths = made.tiles.iter().map(|tile| {
         let stack = tile.stack.as_ref();
         let layers = stack.map_or(vec![true], |stack| {
             stack.layers.iter().map(|it| it.1).collect()
@@ -127,7 +176,7 @@ fn shopping(made: &Made) -> (Entries, String) {
         let lengths = layers
             .into_iter()
             .map(|is_cut| tile.part.cut_length(is_cut));
-        copies as f64 * lengths.sum::<f64>()
+        tile.copies as f64 * lengths.sum::<f64>()
     });
     let cut = lengths.sum::<f64>();
     let facts = Entries::default().fact("cut_length_m", "length of all cuts", cut);
@@ -159,16 +208,17 @@ fn shopping(made: &Made) -> (Entries, String) {
     (facts, said)
 }
 
-/// The places of all parts on sheets, if there are any.
+/// The sheets for people, and the places of all parts on them for programs, if there are any.
 // One line a column.
 #[rustfmt::skip]
-fn nested(made: &Made) -> Option<Table> {
+fn sheets(made: &Made) -> Option<[Table; 2]> {
+    let name = |part: &Placed| made.tiles[part.tile].name.clone();
     let all = (1..).zip(&made.sheets).flat_map(|(number, sheet)| sheet.parts.iter().map(move |part| (number, sheet, part)));
     let all: Vec<(usize, &Sheet, &Placed)> = all.collect();
-    let table = rows(all)
+    let nested = rows(all)
         .column("sheet", "sheet", "nested-1 and so on", |it| it.0)
         .column("thickness_m", "material", "", |it| it.1.thickness)
-        .column("tile", "tile", "", |it| NAMES[it.2.tile])
+        .column("tile", "tile", "", |it| name(it.2))
         .column("number", "number", "as engraved", |it| it.2.number)
         .column("layer", "layer", "1 is the lowest", |it| it.2.layer.map(|layer| layer + 1))
         .column("x_m", "x", "lower left corner of the part", |it| it.2.corner[0])
@@ -176,26 +226,77 @@ fn nested(made: &Made) -> Option<Table> {
         .column("turned", "turned", "by a quarter turn", |it| if it.2.turned { "yes" } else { "no" })
         .table("nested")
         .in_file("nested")
-        .titled("Parts on sheets", "");
-    (!made.sheets.is_empty()).then_some(table)
+        .in_data();
+    let sheets = rows((1..).zip(&made.sheets))
+        .column("", "sheet", "", |it: &(usize, &Sheet)| format!("nested-{}", it.0)).in_view()
+        .column("", "material (mm)", "its thickness", |it| plain(it.1.thickness)).in_view()
+        .column("", "parts", "with their numbers as engraved; layer 1 is the lowest", |it| parts(made, it.1)).in_view()
+        .table("")
+        .titled("Parts on sheets", "places in nested.csv");
+    let sheets = Table { is_data: false, ..sheets };
+    (!made.sheets.is_empty()).then_some([sheets, nested])
+}
+
+/// The parts on a sheet: `fixed 1 to 6 (layers 1, 2), moving 1`.
+fn parts(made: &Made, sheet: &Sheet) -> String {
+    // Numbers are engraved only where there are several copies.
+    let is_single = made.tiles.iter().all(|tile| tile.copies <= 1);
+    // Tile, layers and numbers.
+    let mut groups: Vec<(usize, Vec<usize>, Vec<usize>)> = Vec::new();
+    let mut by_copy: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    for part in &sheet.parts {
+        let layers = by_copy.entry((part.tile, part.number)).or_default();
+        layers.extend(part.layer.map(|layer| layer + 1));
+        layers.sort_unstable();
+    }
+    for ((tile, number), layers) in by_copy {
+        match groups.last_mut() {
+            Some(last) if last.0 == tile && last.1 == layers && last.2.ends_with(&[number - 1]) => {
+                last.2.push(number);
+            }
+            _ => groups.push((tile, layers, vec![number])),
+        }
+    }
+    let group = |(tile, layers, numbers): &(usize, Vec<usize>, Vec<usize>)| {
+        let name = &made.tiles[*tile].name;
+        let numbers = match (numbers.first(), numbers.last()) {
+            _ if is_single => String::new(),
+            (Some(first), Some(last)) if first < last => format!(" {first} to {last}"),
+            (first, _) => first.map_or(String::new(), |number| format!(" {number}")),
+        };
+        let layer: Vec<String> = layers.iter().map(ToString::to_string).collect();
+        let layers = match layer.len() {
+            0 => String::new(),
+            1 => format!(" (layer {})", layer[0]),
+            _ => format!(" (layers {})", layer.join(", ")),
+        };
+        format!("{name}{numbers}{layers}")
+    };
+    groups.iter().map(group).collect::<Vec<_>>().join(", ")
+}
+
+/// The files of a kind of tile are named like this.
+fn stem(name: &str) -> String {
+    match NAMES.contains(&name) {
+        true => name.to_owned(),
+        false => format!("tiles/{name}"),
+    }
 }
 
 /// All drawings.
-fn drawings(design: &Design, made: &Made) -> Files {
+fn drawings(made: &Made, pages: Vec<String>) -> Files {
     let mut files = Files::new();
     let mut add = |name: String, plan: &Plan, frame| {
         files.insert(format!("{name}.dxf"), plan.dxf().into_bytes());
         files.insert(format!("{name}.svg"), plan.svg(frame).into_bytes());
     };
-    for (name, tile) in NAMES.into_iter().zip(&made.tiles) {
-        add(name.to_owned(), &Plan::new(&tile.part, "", true), None);
+    for tile in &made.tiles {
+        let name = stem(&tile.name);
         for (k, layer) in tile.stack.iter().flat_map(|stack| (1..).zip(&stack.layers)) {
-            add(
-                format!("{name}-layer-{k}"),
-                &Plan::new(&tile.part, "", layer.1),
-                None,
-            );
+            let layered = Plan::new(&tile.part, "", layer.1);
+            add(format!("{name}-layer-{k}"), &layered, None);
         }
+        add(name, &Plan::new(&tile.part, "", true), None);
     }
     for (k, sheet) in (1..).zip(&made.sheets) {
         let mut plan = Plan::default();
@@ -212,31 +313,25 @@ fn drawings(design: &Design, made: &Made) -> Files {
             Some([[0.0; 2], made.making.sheet()]),
         );
     }
-    if let [Some(fixed), Some(moving)] = [0, 1].map(|k| made.tiles[k].stack.as_ref()) {
-        let magnets = [&design.pair.fixed, &design.pair.moving].map(stacked::thickest);
-        let drawing = stacked::draw([fixed, moving], magnets);
-        files.insert("glue-up.svg".to_owned(), drawing.into_bytes());
+    let stacks = made.tiles.iter();
+    let stacks: Vec<_> = stacks
+        .filter_map(|tile| Some((&tile.name[..], tile.stack.as_ref()?)))
+        .collect();
+    if !stacks.is_empty() {
+        files.insert(
+            "glue-up.svg".to_owned(),
+            stacked::draw(&stacks).into_bytes(),
+        );
     }
-    files.insert("check.svg".to_owned(), check(made).into_bytes());
+    let is_one = pages.len() == 1;
+    files.extend((1..).zip(pages).map(|(number, page)| {
+        let name = match is_one {
+            true => "check.svg".to_owned(),
+            false => format!("check-{number}.svg"),
+        };
+        (name, page.into_bytes())
+    }));
     files
-}
-
-/// A page to print at full size, on which the glued tiles are laid.
-fn check(made: &Made) -> String {
-    let mut page = Plan::default();
-    let mut left = 0.0;
-    for (name, tile) in NAMES.into_iter().zip(&made.tiles) {
-        let plan = Plan::check(&tile.part).placed([left, 0.0], false);
-        let [low, high] = plan.extent();
-        page.append(plan);
-        page.text(name, [(low[0] + high[0]) / 2.0, -1.5 * TEXT], TEXT);
-        left = high[0] + GAP;
-    }
-    let [low, high] = page.extent();
-    page.svg(Some([
-        [low[0] - GAP, low[1] - 2.0 * GAP],
-        high.map(|x| x + GAP),
-    ]))
 }
 
 /// The magnets to buy.
@@ -278,11 +373,13 @@ fn nearest(remanence: f64) -> String {
 /// The magnets of a tile in the order of insertion.
 // One line a column.
 #[rustfmt::skip]
-fn steps(name: &'static str, tile: &MadeTile) -> Table {
+fn steps(made: &Made, tile: &MadeTile) -> Table {
+    let name = tile.name.clone();
     let pocket = |it: &(usize, &Filled)| tile.part.pockets[it.1.pocket].clone();
     let open = |pocket: &Pocket| {
         let open = pocket.is_open().then_some(if pocket.is_notch { "notch" } else { "open" });
-        let words: Vec<&str> = open.into_iter().chain((pocket.crowded() > 0.0).then_some("close")).collect();
+        let fragile = pocket.sliver.map(|_| "fragile");
+        let words: Vec<&str> = open.into_iter().chain(fragile).chain((pocket.crowded() > 0.0).then_some("close")).collect();
         if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
     };
     let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
@@ -303,33 +400,59 @@ fn steps(name: &'static str, tile: &MadeTile) -> Table {
     let open = if has(|it| it.is_open() && !it.is_notch) { format!(
         "; pockets marked open reach the rim where they cannot be a notch: {}", raise.replacen("or ", "", 1),
     ) } else { String::new() };
+    let thinnest = part.pockets.iter().filter_map(|pocket| pocket.sliver).reduce(f64::min);
+    let fragile = thinnest.map_or(String::new(), |wide| format!(
+        "; beside pockets marked fragile a piece only {} mm wide is longer than wide and may break off",
+        plain(wide.max(0.0)),
+    ));
     let most = part.pockets.iter().map(Pocket::crowded).fold(0.0, f64::max);
     let close = if most > 0.0 { format!(
         "; pockets marked close overlap or leave a wall below 0.5 mm between them: space the \
          magnets out by {} mm (`pitch`, `at`; on two faces: away from their corner), or use a \
          smaller --clearance", plain((most * 1e4 - 1e-6).ceil() / 1e4),
     ) } else { String::new() };
+    // Names of tiles are needed only if there are several others.
+    let met = |(tile, pocket): &(usize, String)| match made.tiles.len() {
+        0..=2 => pocket.clone(),
+        _ => format!("{} {pocket}", made.tiles[*tile].name),
+    };
+    let meets = |it: &Filled| it.meets.iter().map(met).collect::<Vec<_>>().join(", ");
     let unmarked = part.marks.pockets.iter().filter(|mark| mark.is_none()).count();
     let unmarked = match unmarked {
         0 => String::new(),
+        1 => "; 1 of its pockets has no room for an engraved mark".to_owned(),
         many => format!("; {many} of its pockets have no room for an engraved mark"),
     };
     rows((1..).zip(&tile.steps))
-        .column("tile", "", "", move |_| name).in_csv()
+        .column("tile", "", "", |_| name.clone()).in_csv()
         .column("step", "step", "", |(step, _)| *step)
         .column("pocket", "pocket", "its face, and the magnet's number on it, counter-clockwise", move |it| pocket(it).name).viewed(told)
         .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "during insertion", "largest repulsion", |(_, it)| it.push).viewed(|(_, it)| advice(it))
-        .column("meets", "faces in the bond", "the pocket of the other tile, which this one repels if one magnet of the two is the wrong way round", |(_, it)| it.meets.clone().unwrap_or_default())
+        .column("meets", "faces in the bond", "the pocket of the other tile, which this one repels if one magnet of the two is the wrong way round", |(_, it)| meets(it))
+        .column("left_if_wrong", "bond if wrong", "share of the bond that is left if this magnet is the wrong way round", |(_, it)| it.left_if_wrong).viewed(|(_, it)| it.left_if_wrong.map_or(String::new(), left))
         .column("wall_m", "", "", move |it| pocket(it).wall)
         .column("between_m", "", "", move |it| pocket(it).between)
         .column("depth_m", "", "", move |it| pocket(it).depth)
-        .table(name)
+        .table(name.clone())
         .in_file("order")
         .titled(
-            format!("The {name} tile"),
-            format!("{}{notched}{open}{close}{unmarked}", thickness(tile, &depths)),
+            match &*name {
+                "tile" => "Each tile".to_owned(),
+                "fixed" | "moving" => format!("The {name} tile"),
+                name => format!("Tile {name}"),
+            },
+            format!("{}{notched}{open}{fragile}{close}{unmarked}", thickness(tile, &depths)),
         )
+}
+
+/// What is left of a bond, for people.
+fn left(share: f64) -> String {
+    match (100.0 * share).round() {
+        percent if percent > 0.0 => format!("{percent} % left"),
+        percent if percent < 0.0 => "repels".to_owned(),
+        _ => "none left".to_owned(),
+    }
 }
 
 /// How the magnets lie in the thickness of a tile.

@@ -132,6 +132,19 @@ impl Plan {
         self.add(Work::Engrave, shape);
     }
 
+    /// Adds a horizontal bar of a length (m) with its ends marked.
+    pub fn bar(&mut self, [x, y]: [f64; 2], length: f64) {
+        let end = Vector2::new(0.0, length / 40.0);
+        let [left, right] = [Vector2::new(x, y), Vector2::new(x + length, y)];
+        for line in [
+            [left, right],
+            [left - end, left + end],
+            [right - end, right + end],
+        ] {
+            self.add(Work::Engrave, Shape::Line(line));
+        }
+    }
+
     fn add(&mut self, work: Work, shape: Shape) {
         self.shapes.push((work, shape));
     }

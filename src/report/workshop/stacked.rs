@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{NAMES, plain};
+use super::plain;
 use jobs::workshop::Stack;
-use physics::tile::Tile;
 
 /// The drawing is this many times as large as the tile.
 const SCALE: f64 = 4.0;
@@ -13,17 +12,11 @@ const WIDE: f64 = 90.0;
 const LEFT: f64 = 10.0;
 const APART: f64 = 18.0;
 
-/// The largest thickness of a tile's magnets (m).
-pub(super) fn thickest(tile: &Tile) -> f64 {
-    let sizes = tile.magnets.iter().map(|magnet| magnet.size[2]);
-    sizes.fold(0.0, f64::max)
-}
-
-/// Both tiles as SVG: their layers and a magnet (thicknesses in m).
-pub(super) fn draw(stacks: [&Stack; 2], magnets: [f64; 2]) -> String {
+/// The kinds of tiles with their names as SVG: their layers and a magnet.
+pub(super) fn draw(stacks: &[(&str, &Stack)]) -> String {
     let mm = |length: f64| 1e3 * SCALE * length;
     let total = |stack: &Stack| mm(stack.layers.iter().map(|layer| layer.0).sum());
-    let high = stacks.iter().map(|stack| total(stack) + APART).sum::<f64>() + 5.0;
+    let high = stacks.iter().map(|it| total(it.1) + APART).sum::<f64>() + 5.0;
     let wide = 2.0 * LEFT + WIDE + 60.0;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}mm\" height=\"{high:.3}mm\" \
@@ -31,10 +24,11 @@ pub(super) fn draw(stacks: [&Stack; 2], magnets: [f64; 2]) -> String {
          stroke-width=\"0.3\">\n"
     );
     let mut top = APART;
-    for ((stack, magnet), name) in stacks.into_iter().zip(magnets).zip(NAMES) {
+    for (name, stack) in stacks {
+        let magnet = stack.magnet;
         let _ = writeln!(
             text,
-            "<text x=\"{LEFT}\" y=\"{:.3}\">{name} tile from the side, {SCALE} : 1</text>",
+            "<text x=\"{LEFT}\" y=\"{:.3}\">{name} from the side, {SCALE} : 1</text>",
             top - 4.0
         );
         let bottom = top + total(stack);

@@ -12,6 +12,7 @@ mod energy;
 mod excess;
 mod excuses;
 mod first_hour;
+mod make;
 mod mistakes;
 mod rates;
 mod shields;

@@ -9,7 +9,7 @@ use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
 use tilebind::table::{About, Request, compared, table as put};
-use tilebind::workshop::{Made, Making};
+use tilebind::workshop::{Made, Making, Subject};
 use tilebind::yields::{Question, yields};
 
 use super::Design;
@@ -211,7 +211,8 @@ impl Design {
         shown::report(py, &document)
     }
 
-    /// Workshop files for both tiles: outlines with pockets, to scale, and a magnet sheet.
+    /// Workshop files for both tiles: outlines with pockets, to scale, and a magnet sheet. Equal tiles
+    /// are drawn once, as `tile.dxf`.
     ///
     /// Parameters
     /// ----------
@@ -220,10 +221,10 @@ impl Design {
     /// clearance : float, optional
     ///     Gap between magnet and pocket on each side (m).
     /// copies : int, optional
-    ///     Copies of both tiles, nested on sheets.
+    ///     Copies of each kind of tile, nested on sheets.
     /// count : str or int, optional
     ///     Copies of the fixed tile and of the moving one, `"6,4"`; one number if both tiles are
-    ///     the same.
+    ///     equal.
     /// sheet : str, optional
     ///     Size of a sheet of material: `"600x400 mm"`.
     /// spacing : float, optional
@@ -242,8 +243,10 @@ impl Design {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (design, making) = (&self.content.design, request::<Making>(settings)?);
-        let made = job::answer(py, Some(false), |_| Made::new(design, &making))?;
-        convert::files(py, report::workshop::document(design, &made).beside)
+        let subject = Subject::of_design(design);
+        let made = job::answer(py, Some(false), |_| Made::new(&subject, &making))?;
+        let document = report::workshop::document(Some(design), &subject, &made);
+        convert::files(py, document.beside)
     }
 
     /// Fit the constants of soft-iron shields to measured forces or energies.
