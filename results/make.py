@@ -373,13 +373,13 @@ def shaken(name):
 
 
 def rates(work):
-    columns = ["kT_J", "exit_times_D_m2", "lower_m2", "upper_m2", "bound_first"]
+    columns = ["kT_J", "exit_times_D_m2", "error", "bound_first"]
     rows = [columns]
     for kt in ("3.037e-3", "1.9e-3", "0.76e-3"):
         found = work.json("tilebind", "rates", "shapes/paper-tile.toml", "--kt", kt, "--start", "0.43,-0.04,0",
                           "--basin-energy", "-0.03", "--free-at", "0.75")
-        times = [found["mean_exit_s"], *found["mean_exit_bounds_s"]]
-        rows.append([float(kt), *(f"{it * found['diffusion_m2_s']:.6g}" for it in times), f"{found['exits']['bound']:.6g}"])
+        time = found["mean_exit_s"] * found["diffusion_m2_s"]
+        rows.append([float(kt), f"{time:.6g}", f"{found['mean_exit_error']:.3g}", f"{found['exits']['bound']:.6g}"])
     work.keep_rows("rates.csv", rows)
 
 
@@ -626,10 +626,9 @@ def yields_table():
 def rates_table():
     rows = []
     for it in table("rates.csv"):
-        low, high = float(it["lower_m2"]), float(it["upper_m2"])
-        rows.append([f"{milli(it['kT_J'])} mJ", f"{float(it['exit_times_D_m2']):.4g} m²", f"{low:.4g} to {high:.4g} m²",
-                     f"{100 * (high / low - 1):.1f} %", f"{100 * float(it['bound_first']):.1f} %"])
-    return markdown(["kT", "mean exit time times D", "bounds", "apart", "bound first"], rows)
+        rows.append([f"{milli(it['kT_J'])} mJ", f"{float(it['exit_times_D_m2']):.4g} m²", f"{100 * float(it['error']):.1f} %",
+                     f"{100 * float(it['bound_first']):.1f} %"])
+    return markdown(["kT", "mean exit time times D", "estimated error", "bound first"], rows)
 
 
 def crowds_table():

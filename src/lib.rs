@@ -133,7 +133,7 @@
 //!
 //! | version | changes for users |
 //! |---|---|
-//! | 0.1.0, in work | Magnets are blocks unless the design says `[potential] model = "dipole"` (before: dipoles). `dock`, `compare` and `sweep` write `report.json`, as all commands do (before: `dock.json`, `compare.json`, `sweep.json`). `analyse --arrays` is gone: Python has the same as arrays. All points of a sweep have the sweep's seed (before: seeds derived from their names); start sweeps from before anew; contacts equal to the target are the bond (before: traps), `[target] only = true` restores the stated contact alone; two equal tiles are one kind on a table, called `tile` (before: `fixed` and `moving`) |
+//! | 0.1.0, in work | Magnets are blocks unless the design says `[potential] model = "dipole"` (before: dipoles). `dock`, `compare` and `sweep` write `report.json`, as all commands do (before: `dock.json`, `compare.json`, `sweep.json`). `analyse --arrays` is gone: Python has the same as arrays. All points of a sweep have the sweep's seed (before: seeds derived from their names); start sweeps from before anew; contacts equal to the target are the bond (before: traps), `[target] only = true` restores the stated contact alone; two equal tiles are one kind on a table, called `tile` (before: `fixed` and `moving`); rates and exits have estimated errors in place of bounds, which excluded the error of the mesh: `rates --certify`, `lower_per_s`, `upper_per_s`, `leaving_bounds_per_s` and `mean_exit_midway` are gone, `mean_exit_bounds_s` is null |
 //!
 //! `results/bench.csv` is the history of the benches; everything else is in the log of the
 //! repository.

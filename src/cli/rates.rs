@@ -37,10 +37,8 @@ between the bond, the deepest traps and free tiles. A rate depends on the sets b
 defined, so these are always printed. Where no path between two sets is known, no rate is given (- or
 null). A rate of 0 is printed only where contact proves that there is no path.
 
-Bounds: upper bounds of capacities come from trial committors (Dirichlet), for all tiles. Lower bounds
-come from divergence-free fluxes (Thomson), for tiles whose contact boundary every ray from the
-centre crosses once: convex tiles, tabs, slots, teeth and arcs, but not dovetails or square teeth.
-The bounds exclude the discretisation error, which is estimated separately: they hold \"on the mesh\".
+Errors are estimated, not proved: from the difference of the two finest meshes and from how smooth
+solutions are on the finest. --check compares an exit with simulated tiles.
 
 kT is the effective energy of the shaking. The rates hold for a drag of at least 50 /s and
 elastic collisions. At less drag tiles are not overdamped; with lossy collisions no kT exists.";
@@ -51,7 +49,7 @@ Examples:
   tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0
   tilebind rates shapes/paper-tile.toml --kt 1e-3 --drag 80 --start \"43 cm,-4 cm,0\" \\
     --basin-energy -0.03 --free-at 0.75 --json
-  tilebind rates shapes/paper-tile.toml --kt 3e-3 --start 0.43,-0.04,0 --certify 0.05";
+  tilebind rates shapes/paper-tile.toml --kt 6e-3 --start 0.43,-0.04,0 --check 200";
 
 impl Rates {
     pub fn run(self) -> Result<(), Failure> {

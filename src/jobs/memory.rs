@@ -59,8 +59,7 @@ pub fn check_threads(threads: usize) -> Result<(), String> {
 }
 
 /// Checks that the meshes between a number of places (with a function for each, and one for the
-/// mean time) fit beside the threads into the memory that the process may reserve. Requested
-/// accuracies can take more; how much is known only from the mesh.
+/// mean time) fit beside the threads into the memory that the process may reserve.
 ///
 /// # Errors
 /// If the process's limit (`ulimit -v`) is lower.

@@ -96,17 +96,15 @@ fn exponential(rate: &OnRate) -> &'static str {
 
 fn beside(found: &Loosening) -> Value {
     json!({
-        "lower_per_s": found.bounds[0], "rate_per_s": found.rate,
-        "upper_per_s": found.bounds[1], "in_well_per_s": found.in_well,
+        "rate_per_s": found.rate, "in_well_per_s": found.in_well,
     })
 }
 
 fn told_beside(found: &Loosening) -> String {
-    let [lower, upper] = found.bounds.map(|rate| plain(rate, 3));
     let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
     format!(
-        "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s\n({lower} \
-         to {upper}) including the path to free tiles, {in_well} /s in the well;\nthe measured rate \
+        "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s \
+         including the path to free tiles, {in_well} /s in the well;\nthe measured rate \
          counts a tile as detached when it last leaves the bond, so it lies between the two; motion is overdamped at a \
          drag of {OVERDAMPED} /s or more"
     )

@@ -9,8 +9,8 @@ DISTANCES = SHAPES.parent / "tests" / "fuzz" / "cases" / "table" / "distances.cs
 COMMANDS = {
     "match": ["match", SHAPES / "tab-20mm.toml", "--quiet"],
     "bond": ["bond", SHAPES / "tab-20mm.toml", "--kt", "2e-3", "--coverage", "0.3", "--quiet"],
-    "rates": ["rates", ONE, "--kt", "8e-3", "--traps", "1", "--certify", "2", "--quiet"],
-    "exit": ["rates", ONE, "--kt", "8e-3", "--start", "0.43,-0.04,0", "--certify", "1", "--quiet"],
+    "rates": ["rates", ONE, "--kt", "8e-3", "--traps", "1", "--quiet"],
+    "exit": ["rates", ONE, "--kt", "8e-3", "--start", "0.43,-0.04,0", "--quiet"],
     "yield": ["yield", ONE, "--tiles", "4", "--time", "10", "--kt", "2e-3,3e-3", "--runs", "8", "--simulations", "0", "--quiet"],
     "assemble": ["assemble", "lattice", "--lattice", "3x3", "--kt", "7e-3", "--coverage", "0.1", "--quiet"],
     "calibrate": ["calibrate", TILE, "--bonds", DISTANCES, "--quiet"],

@@ -21,7 +21,6 @@ fn of_twins(file: &str, slide: f64, kt: f64, part: f64) -> Rates {
     let basins = [0.0, -slide, slide].map(beside).to_vec();
     let settings = RateSettings {
         tolerance: 0.05,
-        certify: None,
         ..RateSettings::new(kt, basins, design.space().free_distance)
     };
     rates(&problem, &settings).unwrap()
@@ -77,7 +76,6 @@ fn basins_hold_what_their_integrals_say() {
         };
         let settings = RateSettings {
             tolerance: 0.3,
-            certify: None,
             ..RateSettings::new(kt, vec![basin], design.space().free_distance)
         };
         let found = rates(&problem, &settings).unwrap();

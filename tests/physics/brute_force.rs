@@ -48,7 +48,6 @@ fn asked() -> ExitSettings {
     let start = Configuration::new(0.13, 0.05, 0.5);
     ExitSettings {
         tolerance: 0.01,
-        certify: None,
         ..ExitSettings::new(KT, start, -0.03e-3, 0.2)
     }
 }
@@ -183,7 +182,6 @@ fn compare_shipped(file: &str, start: [f64; 3], [kt, basin]: [f64; 2], steps: &[
     let design = designs::load(file);
     let free_at = design.space().free_distance;
     let asked = ExitSettings {
-        certify: None,
         ..ExitSettings::new(kt, Configuration::from(start), basin, free_at)
     };
     compare(&design, asked, steps, 4000);

@@ -118,7 +118,6 @@ fn a_basin_far_smaller_than_first_cells_is_found_as_often_as_it_should_be() {
     }
     // The dent is negligible compared with kT.
     let asked = ExitSettings {
-        certify: None,
         ..ExitSettings::new(1e3, start(), -0.5, FREE)
     };
     let found = exit(&problem, &middle(), &asked).unwrap();
@@ -196,7 +195,6 @@ fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
         let below = 0.9 * problem.energy(&bond);
         let settings = RateSettings {
             tolerance: 10.0,
-            certify: None,
             ..RateSettings::new(10.0, vec![Basin { at: bond, below }], 0.7)
         };
         let found = rates(&problem, &settings).unwrap();
@@ -217,7 +215,6 @@ fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says(
     // The magnets are negligible compared with kT.
     let settings = RateSettings {
         tolerance: 0.05,
-        certify: None,
         ..RateSettings::new(10.0, vec![Basin { at: bond, below }], 0.7)
     };
     let found = rates(&problem, &settings).unwrap();

@@ -15,8 +15,8 @@ tilebind make shapes/dovetail.toml --kerf 0.2mm --out target/workshop
 tilebind init target/mine.toml --sides 6 --side 12cm --magnets 3 --shape arc
 # Rates and what is built on them.
 tilebind bond shapes/tab-20mm.toml --kt 2e-3 --coverage 0.3 --out target/bond
-tilebind rates shapes/paper-tile.toml --kt 8e-3 --start 0.43,-0.04,0 --certify 0.5 --out target/exit
-tilebind rates shapes/paper-tile.toml --kt 1.2e-2 --traps 1 --certify 1 --out target/rates
+tilebind rates shapes/paper-tile.toml --kt 8e-3 --start 0.43,-0.04,0 --out target/exit
+tilebind rates shapes/paper-tile.toml --kt 1.2e-2 --traps 1 --out target/rates
 tilebind yield shapes/paper-tile.toml --tiles 10 --time 600 --kt 3e-3,4e-3 --runs 8 --simulations 100 --out target/yield
 tilebind dock shapes/paper-tile.toml --runs 400 --out target/dock
 tilebind table shapes/paper-tile.toml --count 3,3 --time 3 --runs 2 --shaking 3e-3 --drag 0.5 --frames 0.5 --out target/table

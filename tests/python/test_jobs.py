@@ -292,7 +292,7 @@ def test_wrong_arguments_are_told(design):
 
 
 def test_shaken_tiles(design, analysis):
-    left = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75, certify=0.3)
+    left = design.exits([0.43, -0.04, 0], kt=3.037e-3, basin_energy=-0.03, free_at=0.75)
     # Brownian motion step by step: 0.0176 +- 0.0004 m^2 over D, 0.405 +- 0.01 bound.
     assert left["mean_exit_s"] * left["diffusion_m2_s"] == pytest.approx(0.0176, abs=0.0008)
     assert left["exits"]["bound"] == pytest.approx(0.405, abs=0.02)
@@ -300,12 +300,11 @@ def test_shaken_tiles(design, analysis):
     assert held["ln_K"] == pytest.approx(held["bond_kT"] - held["docking_cost_kT"])
     with pytest.raises(ValueError, match="kt"):
         design.exits([0.43, -0.04, 0], kt=-1)
-    with pytest.raises(ValueError, match="certify"):
-        design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.0)
-    lower, upper = left["mean_exit_bounds_s"]
-    assert lower < left["mean_exit_s"] < upper
-    with pytest.raises(ValueError, match="certify"):
-        analysis.rates(3e-3, certify=-0.1)
+    with pytest.raises(ValueError, match="no longer have bounds"):
+        design.exits([0.43, -0.04, 0], kt=3e-3, certify=0.1)
+    assert left["mean_exit_bounds_s"] is None and 0 < left["mean_exit_error"] < 0.05
+    with pytest.raises(ValueError, match="no longer have bounds"):
+        analysis.rates(3e-3, certify=0.1)
     with pytest.raises(ValueError, match="coverage"):
         analysis.bond(3e-3, 30)
     with pytest.raises(ValueError, match="kt"):

@@ -7,6 +7,8 @@ mod table;
 pub use states::RatedState;
 pub use table::{AtKt, StateRates};
 
+use std::convert::Infallible;
+
 use clap::Args;
 
 use crate::design::Design;
@@ -17,9 +19,9 @@ use crate::seated::seated;
 use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
+use physics::kinetics::OVERDAMPED;
 use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit_on, half_bond};
 use physics::kinetics::rates::{MeshRates, RateSettings, RatesError, rates_on};
-use physics::kinetics::{Certify, OVERDAMPED};
 use physics::observer::Observer;
 use physics::problem::Problem;
 use physics::units::{duration, plain};
@@ -51,13 +53,9 @@ pub struct Question {
     #[arg(long, value_name = "R", value_parser = request::length)]
     pub free_at: Option<f64>,
 
-    /// Target relative width of the bounds [default: 0.1, or what seconds of work reach]
-    ///
-    /// The mesh is refined until the bounds of the mean exit time differ by at most this fraction of
-    /// the lower one. Without --start this holds for the rates out of the bond and the traps, and for
-    /// every rate that is at least a tenth of these.
-    #[arg(long, value_name = "REL", value_parser = request::positive)]
-    pub certify: Option<f64>,
+    /// No longer accepted: the error says why
+    #[arg(long, hide = true, value_name = "REL", value_parser = refuse_bounds)]
+    certify: Option<Infallible>,
 }
 
 /// The options of rates between states, or of the exit from a pose.
@@ -88,6 +86,14 @@ pub struct Request {
     /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = request::seed)]
     pub seed: u64,
+}
+
+/// Refuses the option of earlier versions.
+fn refuse_bounds(_: &str) -> Result<Infallible, String> {
+    Err("rates and exits no longer have bounds: those excluded the error of the mesh, so they \
+         proved nothing. Leave --certify out. The error is estimated from two meshes; with --start, \
+         --check N compares with N simulated tiles"
+        .to_owned())
 }
 
 /// Why there are no rates.
@@ -206,10 +212,7 @@ impl Question {
         let bound = &design.pair.bound;
         let half = || half_bond(problem, bound);
         let basin = self.basin_energy.unwrap_or_else(half);
-        let asked = ExitSettings {
-            certify: Some(self.certify.map_or_else(Certify::of_exit, Certify::to)),
-            ..ExitSettings::new(self.kt, start, basin, self.free_at(design))
-        };
+        let asked = ExitSettings::new(self.kt, start, basin, self.free_at(design));
         let diffusion = diffusion(design, self.kt, self.drag);
         let found = exit_on(problem, bound, &asked, |mesh| {
             let time = duration(mesh.time / diffusion, 2);
@@ -237,7 +240,6 @@ impl Question {
     ) -> Result<StateRates, RatesError> {
         let basins = states.iter().map(RatedState::basin).collect();
         let asked = RateSettings {
-            certify: Some(self.certify.map_or_else(Certify::default, Certify::to)),
             map: is_pictured.then_some(SQUARES),
             ..RateSettings::new(self.kt, basins, self.free_at(design))
         };
@@ -272,21 +274,12 @@ impl Question {
 impl PoseExit {
     /// The mean exit time (s).
     pub fn mean(&self) -> f64 {
-        self.found.time() / self.diffusion
-    }
-
-    /// Bounds of the mean exit time (s), if there are any; the upper one may be infinite.
-    pub fn bounds(&self) -> Option<[f64; 2]> {
-        let bounds = self.found.bracket()?.map(|end| end / self.diffusion);
-        bounds[0].is_finite().then_some(bounds)
+        self.found.finest().time / self.diffusion
     }
 
     /// The relative error of the mean exit time, estimated from meshes.
     pub fn error(&self) -> f64 {
-        match (self.found.midway, self.found.bracket()) {
-            (Some(midway), Some([_, upper])) => upper / midway - 1.0,
-            _ => self.found.spread()[0].max(self.found.finest().error),
-        }
+        self.found.spread()[0].max(self.found.finest().error)
     }
 
     /// Simulates a number of rigid bodies with inertia from the same start to the same ends, with

@@ -58,7 +58,6 @@ impl StateRates {
                 kt,
                 tolerance: ROUGH.0,
                 unknowns: ROUGH.1,
-                certify: None,
                 map: None,
                 ..self.asked.clone()
             };
@@ -149,29 +148,6 @@ impl StateRates {
     pub fn error(&self, from: usize, to: usize) -> f64 {
         let spread = Some(self.found.spread(from, to)).filter(|spread| spread.is_finite());
         spread.unwrap_or(0.0).max(self.found.error())
-    }
-
-    /// Bounds (1/s) of the rate from one place to another, if any.
-    pub fn bounds(&self, from: usize, to: usize) -> [Option<f64>; 2] {
-        let bounds = self.found.bounds.as_ref();
-        self.scaled(bounds.map(|bounds| bounds.rates[from][to]))
-    }
-
-    /// Bounds (1/s) of the rate out of a place, if any.
-    pub fn bounds_out(&self, from: usize) -> [Option<f64>; 2] {
-        let bounds = self.found.bounds.as_ref();
-        self.scaled(bounds.map(|bounds| bounds.leaving[from]))
-    }
-
-    /// Meaningful bounds (1/s): a lower bound of 0 counts as unknown, unless the upper bound is 0
-    /// as well.
-    fn scaled(&self, bounds: Option<[f64; 2]>) -> [Option<f64>; 2] {
-        let scaled = |end: f64| Some(end * self.diffusion).filter(|end| end.is_finite());
-        let [lower, upper] = bounds.map_or([None; 2], |ends| ends.map(scaled));
-        [
-            lower.filter(|lower| *lower > 0.0 || upper == Some(0.0)),
-            upper,
-        ]
     }
 
     /// The mean time (s) from one place to another, by any path; time outside of all places does

@@ -218,7 +218,6 @@ pub fn solve(
 ) -> Result<Attachments, YieldError> {
     let held: Vec<Basin> = basins.iter().copied().flatten().collect();
     let settings = RateSettings {
-        certify: None,
         ..RateSettings::new(kt, held, problem.space.free_distance)
     };
     let found = rates(problem, &settings)?;

@@ -10,7 +10,6 @@ pub mod cells;
 mod constraint;
 mod distance;
 mod halving;
-mod leaving;
 mod lift;
 pub mod matching;
 mod motion;

@@ -93,7 +93,7 @@ impl Field<'_> {
     /// path. If some cells are too small to be tested, nothing is excluded.
     fn closed_on_way(&self, from: &Configuration, is_excluded: &mut bool) -> Option<Vec<usize>> {
         let mesh = &self.mesh;
-        let is_small = |level: u8| mesh.chart.depth(level, from) < self.problem.scaled(NARROW);
+        let is_small = |level: u8| mesh.chart.depth(level) < self.problem.scaled(NARROW);
         let beside = mesh.joined(&|leaf| !leaf.blocked);
         let cost = |id: usize| match mesh.leaves[id].element {
             Some(_) => 0,

@@ -32,6 +32,7 @@ impl Distances {
     pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
         let ground = problem.energy(bond);
         let mut field = Field::new(problem, kt, end, ground, &[*bond]);
+        field.settle(&[*bond]);
         let mut known: Option<Vec<f64>> = None;
         let mut settled = 0;
         loop {
@@ -78,8 +79,8 @@ impl Distances {
 fn edges(field: &Field) -> Vec<f64> {
     let chart = &field.mesh.chart;
     let radius = |cell: i64| {
-        let [s, phi, theta] = chart.coordinates([(cell * UNITS) as f64, 0.0, 0.0]);
-        chart.ray([phi, theta]).radius(s)
+        let [s, ..] = chart.coordinates([(cell * UNITS) as f64, 0.0, 0.0]);
+        chart.distance(s)
     };
     (0..=chart.cells[0]).map(radius).collect()
 }

@@ -1,14 +1,12 @@
 //! How soon a tile leaves a configuration, and which end it reaches first.
 
-use super::bracket::{Asked, Bracket};
-use super::certify::{Step, narrowed};
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
 use super::results::{DEEPEST, MESHES, enough};
 pub use super::results::{Exit, ExitError, ExitSettings, MeshExit, half_bond};
 use super::rim::Rims;
-use super::sets::{basin, pass, reaching};
+use super::sets::{basin, pass};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
 
@@ -41,6 +39,7 @@ pub fn exit_on(
     let ground = problem.energy(&start);
     let mut field = Field::new(problem, settings.kt, settings.free_at, ground, &seeds);
     let way = field.open_way(&start);
+    field.settle(&seeds);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
     let mut grows = true;
@@ -65,29 +64,7 @@ pub fn exit_on(
         meshes.push(found);
         let is_fine = errors.largest < settings.tolerance && meshes.len() >= MESHES;
         if is_fine || found.unknowns > enough(settings.unknowns, meshes[0].unknowns) || !grows {
-            let mut bounds = bounds(problem, bond, settings)?;
-            if let (Some(_), true) = (settings.certify, bounds.is_empty()) {
-                let lower = ends.lower_bound(&field, &nodes)?;
-                bounds.extend(lower.map(|lower| [lower, f64::INFINITY]));
-            }
-            let own = meshes[meshes.len() - 1].time;
-            let mut midway = None;
-            if let Some(&[lower, upper]) = bounds.last()
-                && !(lower..=upper).contains(&own)
-            {
-                // The exit time of a start that is not deep in its well can differ from that of the
-                // well.
-                match ends.is_deep() && upper.is_finite() {
-                    true => midway = Some((lower * upper).sqrt()),
-                    false => bounds.clear(),
-                }
-            }
-            return Ok(Exit {
-                meshes,
-                bounds,
-                midway,
-                way,
-            });
+            return Ok(Exit { meshes, way });
         }
         grows = field.refine(&errors.shares, DIVIDED);
         earlier = Some((nodes, functions));
@@ -115,26 +92,6 @@ fn seeds(problem: &Problem, bond: &Configuration, start: Configuration) -> Vec<C
 /// Configurations closer than this (m, for the paper's tile) are the same contact.
 const SAME_CONTACT: f64 = 1e-3;
 
-/// Bounds of the mean exit time times D (m^2) on increasingly fine meshes that begin at contact.
-fn bounds(
-    problem: &Problem,
-    bond: &Configuration,
-    settings: &ExitSettings,
-) -> Result<Vec<[f64; 2]>, ExitError> {
-    let ground = problem.energy(&settings.start);
-    let seeds = seeds(problem, bond, settings.start);
-    let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
-    let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok(Vec::new());
-    };
-    let all = narrowed(&mut field, &certify, |field| {
-        let ends = Ends::new(field, bond, settings, Way::Open)?;
-        let nodes = Nodes::new(&field.mesh);
-        Ok::<_, ExitError>(ends.bounds(field, &nodes)?)
-    })?;
-    Ok(all.iter().map(|step| step.bounds[0]).collect())
-}
-
 fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Result<(), ExitError> {
     for (q, name) in [(&asked.start, "the start"), (bond, "the bond")] {
         let distance = libm::hypot(q.x, q.y);
@@ -157,18 +114,12 @@ fn check(problem: &Problem, bond: &Configuration, asked: &ExitSettings) -> Resul
     Ok(())
 }
 
-/// Bounds refer to a start in the well, which extends this many kT above the pose, or as far up as
-/// equilibrium is assumed.
-const NEAR: f64 = 0.5;
-
 /// Cells in which a tile is bound, and those of the start's well, if the start is deep in it.
 struct Ends {
     bound: Vec<bool>,
     well: Option<Vec<bool>>,
-    /// The cells around the start to which bounds refer.
-    near: Option<Vec<bool>>,
-    /// The energy limits (J) of the bound cells, the well and the cells around the start.
-    limits: [f64; 3],
+    /// The energy limits (J) of the bound cells and of the well.
+    limits: [f64; 2],
 }
 
 /// Places where the value at a corner is given: in the well, ...
@@ -224,39 +175,20 @@ impl Ends {
         field.set_level(level.ok_or(ExitError::Closed(way))?);
         let deep = field.deep();
         let is_deep = energy < deep;
-        let top = energy + NEAR * field.kt;
-        let limits = [asked.basin_energy.max(deep), deep, deep.max(top)];
+        let limits = [asked.basin_energy.max(deep), deep];
         let bound = bound_below(field, limits[0]);
-        // Any well gives valid bounds: the wider it is, the narrower they are.
-        let near = reaching(&field.mesh, &beside, &asked.start, limits[2]);
-        let is_apart = |&id: &usize| !(bound[id] || field.mesh.is_outer(id));
-        let is_well = near.iter().all(is_apart);
-        let mut is_near = vec![false; bound.len()];
-        for id in near {
-            is_near[id] = true;
-        }
         Ok(Self {
             bound,
             well: is_deep.then(|| around(field, &asked.start, deep)),
-            near: is_well.then_some(is_near),
             limits,
         })
     }
 
-    /// Whether the start is so deep in its well that all starts in the well are equivalent.
-    fn is_deep(&self) -> bool {
-        self.well.is_some()
-    }
-
     /// The rims of the ends and of the start's well.
     fn rims(&self, field: &Field) -> Rims {
-        self.rims_with(field, self.well.as_ref(), self.limits[1])
-    }
-
-    /// The rims of the ends and of some cells below a limit (J).
-    fn rims_with(&self, field: &Field, well: Option<&Vec<bool>>, below: f64) -> Rims {
-        let limit = |id: usize| match well.is_some_and(|well| well[id]) {
-            true => Some(below),
+        let is_well = |id: usize| self.well.as_ref().is_some_and(|well| well[id]);
+        let limit = |id: usize| match is_well(id) {
+            true => Some(self.limits[1]),
             false => self.bound[id].then_some(self.limits[0]),
         };
         let limits: Vec<_> = (0..self.bound.len()).map(limit).collect();
@@ -265,12 +197,14 @@ impl Ends {
 
     /// For each corner the place where its value is given. Where ends meet, which happens only on
     /// coarse meshes, free takes precedence, then bound.
-    fn pins(&self, field: &Field, nodes: &Nodes, well: Option<&Vec<bool>>) -> Vec<Option<usize>> {
+    fn pins(&self, field: &Field, nodes: &Nodes) -> Vec<Option<usize>> {
         let of = |place: usize, cells: Option<&Vec<bool>>| {
             let is_inside = |id: usize| cells.is_some_and(|cells| cells[id]);
             nodes.pins(&field.mesh, FREE, |id| is_inside(id).then_some(place))
         };
-        let pins = of(BOUND, Some(&self.bound)).into_iter().zip(of(WELL, well));
+        let pins = of(BOUND, Some(&self.bound))
+            .into_iter()
+            .zip(of(WELL, self.well.as_ref()));
         pins.map(|(bound, well)| bound.or(well)).collect()
     }
 
@@ -287,7 +221,7 @@ impl Ends {
         start: &Configuration,
         earlier: Option<&Earlier>,
     ) -> Result<(MeshExit, Vec<Vec<f64>>), Unsolved> {
-        let pins = self.pins(field, nodes, self.well.as_ref());
+        let pins = self.pins(field, nodes);
         let system = System::new(&field.mesh, nodes, &pins);
         let guesses = earlier.map(|earlier| field.carry_over(nodes, earlier));
         let guess = |i: usize| guesses.as_ref().and_then(|guesses| guesses.get(i));
@@ -314,47 +248,5 @@ impl Ends {
         let products = loads.iter().zip(&back).map(|(load, value)| load * value);
         let time = products.sum::<f64>() / (bound + free);
         Ok((exit(time, bound / (bound + free)), vec![back]))
-    }
-
-    /// A lower bound of the mean exit time times D (m^2) from the well around the start, for any
-    /// outlines: the occupation of the well's own cells over the energy of a trial committor.
-    fn lower_bound(&self, field: &Field, nodes: &Nodes) -> Result<Option<f64>, Unsolved> {
-        let Some(near) = &self.near else {
-            return Ok(None);
-        };
-        let pins = self.pins(field, nodes, Some(near));
-        let system = System::new(&field.mesh, nodes, &pins);
-        let [trial] = system.solve([system.committor(WELL, None)])?;
-        let own = field.mesh.live().filter(|(id, ..)| near[*id]);
-        let held: f64 = own.map(|(.., element)| element.held()).sum();
-        let scale = scale(field);
-        Ok(Some(scale * held / field.energy(nodes, &trial)))
-    }
-
-    /// Bounds of the mean exit time times D (m^2) from the well around the start, and the
-    /// contribution of each cell to their width: as in [`Self::solve`] it is an integral over a
-    /// capacity, for any well.
-    fn bounds(&self, field: &Field, nodes: &Nodes) -> Result<Option<Step>, Unsolved> {
-        let Some(near) = &self.near else {
-            return Ok(None);
-        };
-        let asked = Asked {
-            field,
-            nodes,
-            pins: &self.pins(field, nodes, Some(near)),
-            rim: FREE,
-            // It does not depend on the well.
-            rims: &self.rims_with(field, None, 0.0),
-            left_out: &self.bound,
-        };
-        let bracket = Bracket::new(&asked, 1)?;
-        let scale = scale(field);
-        Ok(Some(Step {
-            bounds: vec![bracket.ratio(0, 0.0).map(|time| scale * time)],
-            deciding: vec![0],
-            unknowns: nodes.len(),
-            shares: bracket.shares(&[]),
-            rates: None,
-        }))
     }
 }

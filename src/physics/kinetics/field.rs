@@ -1,9 +1,6 @@
 //! A mesh with its energies at one temperature, and its refinement.
 
-mod network;
-
 use std::cmp::Reverse;
-use std::sync::Mutex;
 
 use ordered_float::OrderedFloat;
 
@@ -12,7 +9,6 @@ use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;
-use network::Costs;
 
 /// First cells from the centre to the end of the chart.
 const FIRST: f64 = 32.0;
@@ -36,7 +32,6 @@ pub(super) struct Field<'a> {
     /// The problem.
     pub problem: &'a Problem,
     integrator: Integrator<'a>,
-    costs: Mutex<Costs>,
 }
 
 /// Functions on an earlier, coarser mesh.
@@ -44,7 +39,7 @@ pub(super) type Earlier = (Nodes, Vec<Vec<f64>>);
 
 impl<'a> Field<'a> {
     /// A mesh up to `radius` (m) at kT (J), with loads relative to the energy `ground` (J) and
-    /// small cells around the `seeds`.
+    /// small cells around the `seeds`; their wells are not settled yet.
     pub fn new(
         problem: &'a Problem,
         kt: f64,
@@ -52,46 +47,17 @@ impl<'a> Field<'a> {
         ground: f64,
         seeds: &[Configuration],
     ) -> Self {
-        Self::on(
-            Chart::new(problem, radius, radius / FIRST, false),
-            problem,
-            kt,
-            ground,
-            seeds,
-        )
-    }
+        let chart = Chart::new(problem, radius, radius / FIRST);
 
-    /// The same on a mesh that begins at contact; `None` if the tiles' shapes do not permit it.
-    pub fn fitted(
-        problem: &'a Problem,
-        kt: f64,
-        radius: f64,
-        ground: f64,
-        seeds: &[Configuration],
-    ) -> Option<Self> {
-        let chart = Chart::new(problem, radius, radius / FIRST, true);
-        chart
-            .is_fitted()
-            .then(|| Self::on(chart, problem, kt, ground, seeds))
-    }
-
-    fn on(
-        chart: Chart,
-        problem: &'a Problem,
-        kt: f64,
-        ground: f64,
-        seeds: &[Configuration],
-    ) -> Self {
         let mut field = Self {
             mesh: Octree::new(chart, problem.space.rho),
             kt,
             problem,
             integrator: Integrator::new(problem, kt, 0.0, ground),
-            costs: Mutex::default(),
         };
         field.evaluate();
         loop {
-            let size = |id: &usize, q| field.mesh.chart.depth(field.mesh.leaves[*id].level, q);
+            let size = |id: &usize| field.mesh.chart.depth(field.mesh.leaves[*id].level);
             let mut large = Vec::new();
             for q in seeds {
                 let held = field.mesh.holding(q);
@@ -99,17 +65,12 @@ impl<'a> Field<'a> {
                 let met = lowest.fold(f64::INFINITY, f64::min);
                 let is_met = met < problem.energy(q) + NEAR * kt;
                 let least = problem.scaled(if is_met { SEED } else { LEAST_SEED });
-                large.extend(held.into_iter().filter(|id| size(id, q) > least));
+                large.extend(held.into_iter().filter(|id| size(id) > least));
             }
             if large.is_empty() {
                 break;
             }
             field.divide(&large);
-        }
-        if !field.mesh.chart.is_fitted() {
-            for q in seeds {
-                field.settle(q);
-            }
         }
         field
     }
@@ -158,7 +119,6 @@ impl<'a> Field<'a> {
     pub fn set_level(&mut self, level: f64) {
         if (level - self.integrator.level).abs() > MOVED * self.kt {
             self.integrator.level = level;
-            self.costs = Mutex::default();
             for leaf in &mut self.mesh.leaves {
                 leaf.seen = false;
             }

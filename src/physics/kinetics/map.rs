@@ -31,7 +31,7 @@ impl Map {
     /// Projects a function on a mesh onto a number of squares along x and y.
     pub(super) fn new(field: &Field, nodes: &Nodes, values: &[f64], side: usize) -> Self {
         let chart = &field.mesh.chart;
-        let radius = chart.ray([0.0; 2]).radius(1.0);
+        let radius = chart.distance(1.0);
         let turn = chart.turn();
         let turns = (TAU / turn).round() as usize;
         let mut sums = vec![[0.0; 4]; side * side];
@@ -42,8 +42,8 @@ impl Map {
                 let part =
                     [number % POINTS, number / POINTS].map(|k| (k as f64 + 0.5) / POINTS as f64);
                 let part = [part[0], part[1], 0.5];
-                let [s, phi, theta] = chart.coordinates(leaf.at(part));
-                let r = chart.ray([phi, theta]).radius(s);
+                let [s, phi, _] = chart.coordinates(leaf.at(part));
+                let r = chart.distance(s);
                 let value = value(part, &own);
                 let weight = element.weight / (POINTS * POINTS) as f64;
                 for copy in 0..turns {

@@ -13,7 +13,7 @@ use crate::configuration::Configuration;
 const DEEP: f64 = 3.0;
 /// Cells with more than this share of it are divided ...
 const SHARE: f64 = 1e-3;
-/// ... until it changes by less than this share, ...
+/// ... until it changes by less than this share twice in a row, ...
 const CHANGE: f64 = 3e-3;
 /// ... at most this often.
 const ROUNDS: usize = 8;
@@ -21,9 +21,18 @@ const ROUNDS: usize = 8;
 const LEFT: f64 = 0.5;
 
 impl Field<'_> {
-    /// Divides the cells around a state's well until their integrals converge.
-    pub(super) fn settle(&mut self, state: &Configuration) {
+    /// Divides the cells around the wells of states until their integrals converge. This leaves
+    /// cells without free configurations that are too small to prove anything by: paths are sought
+    /// before.
+    pub(super) fn settle(&mut self, states: &[Configuration]) {
+        if self.problem.contact.is_some() {
+            states.iter().for_each(|state| self.settle_one(state));
+        }
+    }
+
+    fn settle_one(&mut self, state: &Configuration) {
         let limit = self.problem.energy(state) + DEEP * self.kt;
+        let mut calm = 0;
         for _ in 0..ROUNDS {
             let beside = self.mesh.joined(&|leaf| !leaf.blocked);
             let well = reaching(&self.mesh, &beside, state, limit);
@@ -47,7 +56,11 @@ impl Field<'_> {
             let come: f64 = (before..self.mesh.leaves.len())
                 .map(|id| self.mesh.held(id))
                 .sum();
-            if (come - gone).abs() <= CHANGE * whole {
+            calm = match (come - gone).abs() <= CHANGE * whole {
+                true => calm + 1,
+                false => 0,
+            };
+            if calm == 2 {
                 return;
             }
         }

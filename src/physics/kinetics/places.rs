@@ -1,24 +1,16 @@
 //! Basins and `free` on a mesh, and the rates between them computed from the mesh.
 
-use super::bracket::{Asked, Bracket};
-use super::certify::Step;
 use super::field::{DEEP, Earlier, Field};
 use super::mesh::{Nodes, System, Unsolved, loads};
-use super::results::{Basin, MeshRates, RateBounds, RateSettings, RatesError};
+use super::results::{Basin, MeshRates, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, pass, reaching};
-
-/// Rates that are at least this share of the total rate out of a basin are bounded to the requested
-/// accuracy.
-const MATTERS: f64 = 0.1;
 
 /// The assignment of cells to basins.
 pub(super) struct Places {
     of: Vec<Option<usize>>,
     /// The energy limits (J) of the basins.
     limits: Vec<f64>,
-    /// For each basin the cells that it extends into.
-    reached: Vec<Vec<usize>>,
     /// Which basins have no path out on the mesh.
     pub closed: Vec<bool>,
     /// The number of places, including `free`.
@@ -67,7 +59,6 @@ impl Places {
         let mut places = Self {
             of: vec![None; field.mesh.leaves.len()],
             limits: Vec::new(),
-            reached: Vec::new(),
             closed,
             count: wells.len() + 1,
             shared: Vec::new(),
@@ -75,8 +66,6 @@ impl Places {
         for (number, (basin, pass)) in basins.iter().zip(passes).enumerate() {
             let limit = basin.below.max(pass - DEEP * settings.kt);
             places.limits.push(limit);
-            let reached = reaching(&field.mesh, &beside, &basin.at, limit);
-            places.reached.push(reached);
             let inside = around(field, basin, limit);
             for id in (0..inside.len()).filter(|&id| inside[id]) {
                 match places.of[id] {
@@ -190,115 +179,5 @@ impl Places {
         let system = System::new(&field.mesh, nodes, &pins);
         let [found] = system.solve([system.committor(0, None)])?;
         Ok(found)
-    }
-
-    /// Upper bounds of the rates out of each place, then of those from each place to each other,
-    /// divided by D (1/m^2), for any outline: trial committors can extend through contact, fluxes
-    /// cannot. The occupation of a place is at least that of its cells below its limit: all except
-    /// their volume times the weight there.
-    pub fn upper_bounds(
-        &self,
-        field: &Field,
-        nodes: &Nodes,
-        beyond: f64,
-        committors: &[Vec<f64>],
-    ) -> RateBounds {
-        let copies = field.mesh.chart.copies as f64;
-        let scale = copies * field.weight();
-        // Where nothing leaves, only rounding errors of either sign remain.
-        let capacity = |place: usize| match self.is_closed(place) {
-            true => 0.0,
-            false => field.energy(nodes, &committors[place]).max(0.0),
-        };
-        let capacities: Vec<f64> = (0..self.count).map(capacity).collect();
-        let held = |place: usize| -> f64 {
-            let Some(limit) = self.limits.get(place) else {
-                return beyond;
-            };
-            let rim = libm::exp((field.ground() - limit) / field.kt);
-            let below = |&id: &usize| {
-                let element = field.mesh.leaves[id].element.as_ref();
-                element.map_or(0.0, |it| (it.held() - rim * it.free).max(0.0))
-            };
-            // If that is zero, bounds are infinite.
-            let own = self.reached[place].iter().map(below);
-            (copies * own.sum::<f64>()).max(f64::MIN_POSITIVE)
-        };
-        let held: Vec<f64> = (0..self.count).map(held).collect();
-        let most = |capacity: f64, place: usize| [0.0, scale * capacity / held[place]];
-        RateBounds {
-            leaving: (0..self.count).map(|i| most(capacities[i], i)).collect(),
-            rates: self.every_two(|i, j| most(capacities[i].min(capacities[j]), i)),
-        }
-    }
-
-    /// Bounds of the rates out of each place, then of those from each place to each other, divided
-    /// by D (1/m^2), and the contribution of each cell to their width. `beyond` is the occupation
-    /// of the table outside the mesh.
-    pub fn bounds(&self, field: &Field, nodes: &Nodes, beyond: f64) -> Result<Step, Unsolved> {
-        let asked = Asked {
-            field,
-            nodes,
-            pins: &self.pins(field, nodes),
-            rim: self.count - 1,
-            rims: &self.rims(field),
-            left_out: &vec![false; field.mesh.leaves.len()],
-        };
-        let bracket = Bracket::new(&asked, self.count)?;
-        let copies = field.mesh.chart.copies as f64;
-        let scale = copies * field.weight();
-        let places = 0..self.count;
-        let rest = |place: usize| if place + 1 == self.count { beyond } else { 0.0 };
-        let occupation = |place| copies * bracket.occupation(place) + rest(place);
-        let held: Vec<f64> = places.clone().map(occupation).collect();
-        let rates = self.every_two(|i, j| match i == j {
-            true => 0.0,
-            false => scale * bracket.flow(i, j) / held[i],
-        });
-        let leaving = |place: usize| {
-            let [least, most] = bracket.ratio(place, rest(place) / copies);
-            [scale / copies / most, scale / copies / least]
-        };
-        let mut bounds: Vec<[f64; 2]> = places.clone().map(leaving).collect();
-        let wells = 0..self.count - 1;
-        let matters =
-            |i: usize, j: usize| i != j && rates[i][j] >= MATTERS * rates[i].iter().sum::<f64>();
-        let pairs: Vec<(usize, usize)> = wells
-            .clone()
-            .flat_map(|i| places.clone().map(move |j| (i, j)))
-            .filter(|&(i, j)| matters(i, j))
-            .collect();
-        let mut shares = bracket.shares(&pairs);
-        if !self.shared.is_empty() {
-            // Basins that the mesh does not distinguish.
-            bounds[0] = [0.0, f64::INFINITY];
-            for &(cell, _) in &self.shared {
-                shares[cell] = f64::MAX.sqrt();
-            }
-        }
-        let widest = |far: f64, [lower, upper]: &[f64; 2]| far.max(upper / lower - 1.0);
-        let error = bounds[..self.count - 1].iter().fold(0.0, widest);
-        let all: f64 = held.iter().sum();
-        let rate = |i: usize, j| {
-            let bounds = bracket.rate(i, j, rest(i) / copies);
-            bounds.map(|rate| scale / copies * rate)
-        };
-        bounds.extend(self.every_two(rate).into_iter().flatten());
-        let at = |&(i, j): &(usize, usize)| self.count * (i + 1) + j;
-        let deciding = wells.chain(pairs.iter().map(at)).collect();
-        Ok(Step {
-            bounds,
-            deciding,
-            unknowns: nodes.len(),
-            shares,
-            rates: Some(MeshRates {
-                rates,
-                occupation: held.iter().map(|own| own / all).collect(),
-                volumes: held,
-                unknowns: nodes.len(),
-                error,
-                of_rims: bracket.off_by_rims(),
-            }),
-        })
     }
 }

@@ -2,14 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::certify::narrowed;
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
 use super::links::links;
 use super::map::Map;
 use super::mesh::{Nodes, Unsolved};
 use super::places::Places;
-pub use super::results::{Basin, MeshRates, RateBounds, RateSettings, Rates, RatesError};
+pub use super::results::{Basin, MeshRates, RateSettings, Rates, RatesError};
 use super::results::{DEEPEST, MESHES, enough, half_bond};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
@@ -43,9 +42,11 @@ pub fn rates_on(
     if -ground > DEEPEST * kt {
         return Err(RatesError::Cold(kt, -ground / kt));
     }
-    let mut field = Field::new(problem, kt, free_at, ground, &with_images(problem, &seeds));
+    let all_seeds = with_images(problem, &seeds);
+    let mut field = Field::new(problem, kt, free_at, ground, &all_seeds);
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
+    field.settle(&all_seeds);
     let beyond = outside * TAU * libm::exp(ground / kt);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
@@ -91,32 +92,9 @@ pub fn rates_on(
             let all: f64 = meshes[meshes.len() - 1].volumes.iter().sum();
             let inside = places.inside(&field, settings, beyond);
             let inside = inside.iter().map(|own| own / all).collect();
-            let upper = places.upper_bounds(&field, &nodes, beyond, &functions);
-            let found = bounded(problem, settings, [ground, beyond])?;
-            let (between, bounds) = match found {
-                Some((between, bounds)) => (between, Some(bounds)),
-                None => (None, None),
-            };
-            // Values lie between their bounds. The more accurate of two sets is taken: the error of
-            // the middle of bounds is at most half their width.
-            let is_better = |between: &MeshRates| {
-                let holds = bounds
-                    .as_ref()
-                    .is_some_and(|it| it.hold(&meshes[meshes.len() - 1]));
-                !holds || 0.5 * between.error < error
-            };
-            let between = between.filter(is_better);
-            let is_between_bounds = between.is_some();
-            meshes.extend(between);
             let links = links(&ways, &places.closed, &blocked);
-            let bounds = match bounds {
-                Some(bounds) => Some(bounds.or_below(&upper)),
-                None => settings.certify.map(|_| upper),
-            };
             return Ok(Rates {
                 meshes,
-                is_between_bounds,
-                bounds: bounds.map(|bounds| bounds.known(&links)),
                 map,
                 inside,
                 ways,
@@ -138,43 +116,12 @@ fn with_images(problem: &Problem, seeds: &[Configuration]) -> Vec<Configuration>
     seeds.iter().copied().chain(images).collect()
 }
 
-/// The results of the finest mesh that begins at contact, and its bounds, if any. Energies are
-/// relative to `ground` (J), and `beyond` is the occupation of the table outside the mesh.
-fn bounded(
-    problem: &Problem,
-    settings: &RateSettings,
-    [ground, beyond]: [f64; 2],
-) -> Result<Option<(Option<MeshRates>, RateBounds)>, RatesError> {
-    let seeds: Vec<Configuration> = settings.basins.iter().map(|basin| basin.at).collect();
-    let seeds = with_images(problem, &seeds);
-    let fitted = Field::fitted(problem, settings.kt, settings.free_at, ground, &seeds);
-    let (Some(certify), Some(mut field)) = (settings.certify, fitted) else {
-        return Ok(None);
-    };
-    let mut all = narrowed(&mut field, &certify, |field| {
-        let places = Places::new(field, settings)?;
-        let nodes = Nodes::new(&field.mesh);
-        Ok::<_, RatesError>(Some(places.bounds(field, &nodes, beyond)?))
-    })?;
-    let count = settings.basins.len() + 1;
-    Ok(all.pop().map(|step| {
-        let rates = step.bounds[count..].chunks(count);
-        let bounds = RateBounds {
-            leaving: step.bounds[..count].to_vec(),
-            rates: rates.map(<[_]>::to_vec).collect(),
-        };
-        (step.rates, bounds)
-    }))
-}
-
 /// The rates at which tiles leave a bond for good in overdamped motion, divided by D (1/m^2) unless
 /// stated otherwise. With C the flow from the bond to free tiles and h the committor:
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loosening {
     /// C / Z(h), relative to the time until tiles are free.
     pub rate: f64,
-    /// Its lower and upper bound.
-    pub bounds: [f64; 2],
     /// C / Z(well), relative to the time in the well alone.
     ///
     /// Relative to the time until the well is last left the rate is C / Z(h^2), between the two,
@@ -198,10 +145,8 @@ impl Loosening {
         let found = rates(problem, &settings)?;
         let finest = found.finest();
         let rate: f64 = finest.rates[0].iter().sum();
-        let bounds = found.bounds.as_ref().map(|bounds| bounds.leaving[0]);
         Ok(Self {
             rate,
-            bounds: bounds.unwrap_or([0.0, f64::INFINITY]),
             in_well: rate * (finest.occupation[0] / found.inside[0]).max(1.0),
         })
     }
@@ -211,7 +156,6 @@ impl Loosening {
     pub fn times(self, diffusion: f64) -> Self {
         Self {
             rate: self.rate * diffusion,
-            bounds: self.bounds.map(|bound| bound * diffusion),
             in_well: self.in_well * diffusion,
         }
     }

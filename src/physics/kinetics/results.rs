@@ -7,43 +7,6 @@ use crate::configuration::Configuration;
 use crate::problem::Problem;
 use crate::units::si;
 
-/// The requested accuracy of bounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Certify {
-    /// Their width as a share of the lower one.
-    pub distance: f64,
-    /// Largest number of unknowns of meshes.
-    pub unknowns: usize,
-}
-
-impl Default for Certify {
-    /// As narrow as possible within seconds.
-    fn default() -> Self {
-        Self {
-            distance: 0.1,
-            unknowns: 60_000,
-        }
-    }
-}
-
-impl Certify {
-    /// The same for an exit, which needs fewer functions.
-    pub fn of_exit() -> Self {
-        Self {
-            unknowns: 80_000,
-            ..Self::default()
-        }
-    }
-
-    /// The given width, if possible.
-    pub fn to(distance: f64) -> Self {
-        Self {
-            distance,
-            unknowns: 400_000,
-        }
-    }
-}
-
 /// A basin: the configurations with U below a limit that are connected to a given one; with its
 /// symmetric copies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,9 +50,6 @@ pub struct RateSettings {
     /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
     /// mesh's or more.
     pub unknowns: usize,
-    /// Requested relative width of the bounds of the rates out of the basins, and of rates between
-    /// two places that are at least a tenth of the rate out of the first; `None` for no bounds.
-    pub certify: Option<Certify>,
     /// Number of squares along x and y of a map of the committor from `free` to the first basin, if
     /// requested.
     pub map: Option<usize>,
@@ -104,7 +64,6 @@ impl RateSettings {
             free_at,
             tolerance: 0.015,
             unknowns: 60_000,
-            certify: Some(Certify::default()),
             map: None,
         }
     }
@@ -135,25 +94,18 @@ pub struct MeshRates {
     pub volumes: Vec<f64>,
     /// Unknowns of the mesh.
     pub unknowns: usize,
-    /// Estimated relative error of the committors' energies; on a mesh with bounds the relative
-    /// width of those of the rates out of the basins.
+    /// Estimated relative error of the committors' energies.
     pub error: f64,
-    /// The part of it because basins consist of whole cells; on a mesh with bounds an additional
-    /// error.
+    /// The part of it because basins consist of whole cells.
     pub of_rims: f64,
 }
 
 /// The rates on ever finer meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
-    /// The results of the meshes, each finer than the previous one; but if bounds are narrower than
-    /// the error of these, the last is the mesh of the bounds, which begins at contact.
+    /// The results of the meshes, each finer than the previous one.
     pub meshes: Vec<MeshRates>,
-    /// Whether the last is that one.
-    pub is_between_bounds: bool,
-    /// Bounds, if requested.
-    pub bounds: Option<RateBounds>,
-    /// The requested map, from the last mesh without bounds.
+    /// The requested map, from the last mesh.
     pub map: Option<Map>,
     /// The share of all time that each place is occupied itself: U below the basin's limit, or
     /// centres farther apart than where tiles are free. Unlike [`MeshRates::occupation`] it
@@ -171,11 +123,9 @@ impl Rates {
         self.meshes.last().expect("there is a mesh")
     }
 
-    /// Estimated relative error of the flows between places, on the finest mesh without bounds.
+    /// Estimated relative error of the flows between places, on the finest mesh.
     pub fn error(&self) -> f64 {
-        let of_bounds = usize::from(self.is_between_bounds);
-        let meshes = &self.meshes[..self.meshes.len() - of_bounds];
-        meshes.last().map_or(f64::INFINITY, |mesh| mesh.error)
+        self.finest().error
     }
 
     /// The relative difference of a rate on the two finest meshes: an estimate of the error, not a
@@ -227,51 +177,6 @@ pub(super) fn enough(asked: usize, first: usize) -> usize {
     asked.max(first + first / 2)
 }
 
-/// Bounds of rates, from below and above, divided by D (1/m^2). They exclude the errors of
-/// integrals over cells. If rays may leave contact more than once, lower bounds are 0, since the
-/// fluxes are constructed along rays, see [`crate::contact::Contact::least_lever`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateBounds {
-    /// Out of each place.
-    pub leaving: Vec<[f64; 2]>,
-    /// From place i (row) to place j; undefined on the diagonal.
-    pub rates: Vec<Vec<[f64; 2]>>,
-}
-
-impl RateBounds {
-    /// Whether a mesh's rates lie between them, those out of places as well.
-    pub(super) fn hold(&self, mesh: &MeshRates) -> bool {
-        let lies = |rate: f64, [lower, upper]: [f64; 2]| lower <= rate && rate <= upper;
-        let mut places = mesh.rates.iter().enumerate();
-        places.all(|(from, rates)| {
-            let mut others = rates.iter().enumerate().filter(|(to, _)| *to != from);
-            lies(rates.iter().sum(), self.leaving[from])
-                && others.all(|(to, rate)| lies(*rate, self.rates[from][to]))
-        })
-    }
-
-    /// The same, with missing upper bounds taken from others, which are also valid.
-    pub(super) fn or_below(mut self, others: &Self) -> Self {
-        let lower = |own: &mut [f64; 2], other: &[f64; 2]| {
-            if !own[1].is_finite() {
-                own[1] = other[1];
-            }
-        };
-        for (from, rates) in self.rates.iter_mut().enumerate() {
-            lower(&mut self.leaving[from], &others.leaving[from]);
-            for (own, other) in rates.iter_mut().zip(&others.rates[from]) {
-                lower(own, other);
-            }
-        }
-        self
-    }
-
-    /// Whether there are only upper bounds.
-    pub fn are_one_sided(&self) -> bool {
-        self.leaving.iter().all(|[lower, _]| *lower == 0.0)
-    }
-}
-
 /// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitSettings {
@@ -288,8 +193,6 @@ pub struct ExitSettings {
     /// Unknowns at which it is fine enough anyway, if they are half as many again as the first
     /// mesh's or more.
     pub unknowns: usize,
-    /// Requested relative width of the bounds of the mean exit time; `None` for no bounds.
-    pub certify: Option<Certify>,
 }
 
 impl ExitSettings {
@@ -302,7 +205,6 @@ impl ExitSettings {
             free_at,
             tolerance: 0.015,
             unknowns: 60_000,
-            certify: Some(Certify::default()),
         }
     }
 }
@@ -332,32 +234,14 @@ pub struct MeshExit {
 pub struct Exit {
     /// The results of the meshes, each finer than the previous one.
     pub meshes: Vec<MeshExit>,
-    /// Bounds of the mean exit time times D (m^2) on other meshes, each finer than the last: for a
-    /// tile that starts in the well around the start, at its last exit. They exclude the errors of
-    /// integrals over cells. Empty if the start is not in a well; upper bounds are infinite if rays
-    /// may leave contact more than once.
-    pub bounds: Vec<[f64; 2]>,
-    /// The middle of the bounds, if the finest mesh's mean exit time is not between them: far below
-    /// the passes, cells that do not begin at contact may be too coarse for the well's occupation.
-    pub midway: Option<f64>,
     /// Whether a path leads from the start to free tiles.
     pub way: Way,
 }
 
 impl Exit {
-    /// The mean exit time times D (m^2).
-    pub fn time(&self) -> f64 {
-        self.midway.unwrap_or(self.finest().time)
-    }
-
     /// The results of the finest mesh.
     pub fn finest(&self) -> MeshExit {
         *self.meshes.last().expect("there is a mesh")
-    }
-
-    /// The narrowest bounds of the mean exit time times D (m^2).
-    pub fn bracket(&self) -> Option<[f64; 2]> {
-        self.bounds.last().copied()
     }
 
     /// The difference of the two finest meshes: relative for the mean exit time, and for the

@@ -157,7 +157,6 @@ class Design:
         drag: float = 50.0,
         basin_energy: float | None = None,
         free_at: float | None = None,
-        certify: float | None = None,
         check: int | None = None,
         restitution: float = 1.0,
         seed: int = 1,
@@ -236,7 +235,6 @@ class Analysis:
         traps: int = 3,
         basin_energy: float | None = None,
         free_at: float | None = None,
-        certify: float | None = None,
     ) -> dict[str, Any]: ...
     def bond(self, kt: float, coverage: float) -> dict[str, Any]: ...
     def disconnectivity(self) -> _Table: ...

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::told::{NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite};
+use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
@@ -10,7 +10,7 @@ use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
 use physics::kinetics::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
-use physics::units::{duration, duration_to, si};
+use physics::units::{duration, plain, si};
 
 /// The document of an exit, with the check by moving tiles if requested.
 pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Document<'a> {
@@ -32,7 +32,7 @@ pub fn document<'a>(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) 
             si(exit.asked.kt, "J", 4),
             exit.drag,
             si(exit.diffusion, "m²/s", 4),
-            area(exit.found.time()),
+            area(exit.found.finest().time),
             si(exit.asked.basin_energy, "J", 4),
             si(exit.asked.free_at, "m", 4),
         )],
@@ -49,7 +49,7 @@ fn percent(share: f64) -> String {
 }
 
 fn known_digits(exit: &PoseExit) -> usize {
-    digits(exit.mean(), exit.error(), [None; 2])
+    digits(exit.error())
 }
 
 // One line an entry.
@@ -57,16 +57,12 @@ fn known_digits(exit: &PoseExit) -> usize {
 fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> Entries {
     let (asked, found, finest) = (&exit.asked, &exit.found, exit.found.finest());
     let [time, bound] = found.spread();
-    let bounds = found.bracket();
     entries(design)
         .fact("diffusion_m2_s", "", exit.diffusion)
-        .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(told_bounds(exit).unwrap_or_default())
-        // The mesh's value, or the middle of the bounds if the mesh is too coarse for it.
-        .fact("mean_exit_midway", "", found.midway.is_some())
-        .fact("mean_exit_bounds_s", "", exit.bounds())
-        // The inequalities are proved, the integrals over cells are not.
-        .data("bounds_hold", bounds.map(|_| "on the mesh"))
-        .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
+        .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(told_error(exit))
+        .fact("mean_exit_error", "", finite(exit.error()))
+        // Nothing is proved about an exit: the key stays for those who read it.
+        .data("mean_exit_bounds_s", Value::Null)
         .group("exits", Entries::default()
             .fact("bound", "bound first", finest.bound).viewed(percent(finest.bound)).noted("probability")
             .fact("free", "free first", 1.0 - finest.bound).viewed(percent(1.0 - finest.bound)).noted("probability"))
@@ -98,21 +94,20 @@ fn meshes(exit: &PoseExit) -> Table {
         .table("meshes").titled("Meshes", "").in_file("meshes")
 }
 
-/// The mean exit time over the meshes' unknowns, with its bounds.
+/// The mean exit time over the meshes' unknowns.
 fn by_mesh(exit: &PoseExit) -> Chart {
     let unknowns = |mesh: &MeshExit| mesh.unknowns as f64;
     let line = |of: &dyn Fn(&MeshExit) -> f64| -> Vec<[f64; 2]> {
         let meshes = exit.found.meshes.iter();
         meshes.map(|mesh| [unknowns(mesh), of(mesh)]).collect()
     };
-    let ends = exit.bounds().unwrap_or([f64::NAN; 2]);
     let meshes = exit.found.meshes.iter();
-    let times = meshes.map(|mesh| mesh.time / exit.diffusion).chain(ends);
+    let times = meshes.map(|mesh| mesh.time / exit.diffusion);
     let times = times.filter(|time| time.is_finite());
     let range = times.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], time| {
         [low.min(0.9 * time), high.max(1.1 * time)]
     });
-    let mut chart = Chart {
+    Chart {
         name: "meshes",
         title: "Mean exit time on successively finer meshes".to_owned(),
         x: Dimension::new("unknowns", "unknowns of the mesh")
@@ -131,29 +126,15 @@ fn by_mesh(exit: &PoseExit) -> Chart {
         "on the mesh",
         Look::Line,
         line(&|mesh| mesh.time / exit.diffusion),
-    );
-    for (name, end) in ["lower bound", "upper bound"].into_iter().zip(ends) {
-        if end.is_finite() {
-            chart = chart.with(name, Look::Dashed, line(&|_| end));
-        }
-    }
-    chart
+    )
 }
 
-/// The bounds of the mean exit time.
-fn told_bounds(exit: &PoseExit) -> Option<String> {
-    let [lower, upper] = exit.bounds()?;
-    let least = duration_to(lower, 3, f64::floor);
-    Some(match upper.is_finite() {
-        true => {
-            let most = duration_to(upper, 3, f64::ceil);
-            format!(
-                "between {least} and {most} ({} apart)",
-                apart([lower, upper])
-            )
-        }
-        false => format!("at least {least}; {ONE_SIDED}"),
-    })
+/// The estimated error of the mean exit time.
+fn told_error(exit: &PoseExit) -> String {
+    match exit.error() {
+        error if error.is_finite() => format!("± {} %, estimated", plain(100.0 * error, 2)),
+        _ => "error unknown".to_owned(),
+    }
 }
 
 fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
@@ -167,22 +148,9 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
         100.0 * finest.of_rims,
         100.0 * finest.error,
     )];
-    if exit.found.midway.is_some() {
-        notes.push(format!(
-            "this mesh has {}, which is outside the bounds below: the time given is the middle of \
-             the bounds",
-            duration(finest.time / exit.diffusion, 2),
-        ));
-    }
     if exit.found.way != Way::Open {
         notes.push(exit.found.way.told().to_owned());
     }
-    notes.push(match told_bounds(exit) {
-        Some(told) => {
-            format!("from the well around the start the mean exit time is {told}; {ON_THE_MESH}")
-        }
-        None => NO_BOUNDS.to_owned(),
-    });
     notes.push(SCOPE.to_owned());
     notes.extend(check.into_iter().flat_map(|runs| check_notes(exit, runs)));
     notes

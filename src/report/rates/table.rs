@@ -2,9 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::told::{
-    NO_BOUNDS, NOT_BOUNDED, ON_THE_MESH, ONE_SIDED, SCOPE, apart, digits, finite, outwards,
-};
+use super::told::{SCOPE, digits, finite};
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
 use crate::plots::committor::committor;
@@ -14,15 +12,10 @@ use physics::dynamics::MotionSettings;
 use physics::kinetics::Way;
 use physics::kinetics::bond::LEAST_DEPTH;
 use physics::kinetics::map::Map;
-use physics::kinetics::rates::RateBounds;
 use physics::units::{duration, plain, si};
 
 /// Relative difference of meshes above which a rate is unknown.
 const UNSETTLED: f64 = 0.5;
-/// Factor by which occupation outside of basins increases upper bounds, above which a note explains
-/// it.
-const MOSTLY: f64 = 1.5;
-
 /// The document of rates, computed with this random seed.
 pub fn document<'a>(design: &'a Design, found: &'a StateRates, seed: u64) -> Document<'a> {
     Document {
@@ -75,36 +68,37 @@ fn share(part: f64) -> String {
 
 /// The number of known digits of a rate, estimated from meshes.
 fn digits_of(found: &StateRates, from: usize, to: usize) -> usize {
-    let bounds = found.bounds(from, to);
-    digits(found.rate(from, to), found.error(from, to), bounds)
+    digits(found.error(from, to))
 }
 
-/// The number of known digits of the rate out of a place: that of the largest rate it consists of.
+/// The number of known digits of the rate out of a place.
 fn digits_out(found: &StateRates, from: usize) -> usize {
+    digits(error_out(found, from))
+}
+
+/// The relative error of the rate out of a place: that of the largest rate it consists of.
+fn error_out(found: &StateRates, from: usize) -> f64 {
     let others = (0..found.count()).filter(|to| *to != from);
     let largest = others.max_by(|a, b| found.rate(from, *a).total_cmp(&found.rate(from, *b)));
-    let error = largest.map_or(1.0, |to| found.error(from, to));
-    digits(found.rate_out(from), error, found.bounds_out(from))
+    largest.map_or(f64::INFINITY, |to| found.error(from, to))
 }
 
-/// A lower or upper bound, rounded outwards.
-fn told_end(end: Option<f64>, is_upper: bool) -> String {
-    end.map_or("-".to_owned(), |end| {
-        per_second(outwards([end; 2])[usize::from(is_upper)], 3)
-    })
+/// The relative error of a rate, if the rate is known and not 0.
+fn error_of(rate: Option<f64>, error: f64) -> Option<f64> {
+    rate.filter(|rate| *rate > 0.0).and(finite(error))
 }
 
-/// The bounds of the rate out of a place.
-fn told_bounds(found: &StateRates, place: usize) -> String {
-    match found.bounds_out(place) {
-        [_, Some(0.0)] => "contact blocks every path".to_owned(),
-        [Some(lower), Some(upper)] => {
-            let [lower, upper] = outwards([lower, upper]).map(|end| plain(end, 3));
-            format!("{lower} to {upper} /s")
-        }
-        [_, upper @ Some(_)] => format!("up to {}", told_end(upper, true)),
-        _ => "-".to_owned(),
+/// The error of the rate out of a place, or that there is no way out.
+fn told_error(found: &StateRates, place: usize) -> String {
+    match found.known_rate_out(place) {
+        Some(0.0) => "contact blocks every path".to_owned(),
+        known => error_of(known, error_out(found, place)).map_or("-".to_owned(), either_way),
     }
+}
+
+/// A relative error.
+fn either_way(error: f64) -> String {
+    format!("± {} %", plain(100.0 * error, 2))
 }
 
 /// The region of the landscape that a place stands for.
@@ -123,11 +117,10 @@ fn below(limit: f64) -> String {
 #[rustfmt::skip]
 fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
     let (finest, free, error) = (found.found.finest(), found.states.len(), found.found.error());
-    let bounds = found.found.bounds.as_ref();
     let of_basins = finite(finest.of_rims).filter(|_| error.is_finite());
     entries(design)
         .data("seed", seed)
-        .fact("leaving_per_s", "bonds break", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_bounds(found, 0)).in_view()
+        .fact("leaving_per_s", "bonds break", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_error(found, 0)).in_view()
         .fact("binding_per_s", "free tiles bind", found.known_rate(free, 0)).digits(digits_of(found, free, 0)).noted("by \
             any path").in_view()
         .fact("diffusion_m2_s", "", found.diffusion)
@@ -136,9 +129,6 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
         .fact("free_at_m", "free", found.asked.free_at).noted("centres so far apart").in_view()
         .table(places(found))
         .table(pairs(found))
-        // The inequalities are proved, the integrals over cells are not.
-        .data("bounds_hold", bounds.map(|_| "on the mesh"))
-        .data("bounds_leave_out", json!(bounds.map(|_| NOT_BOUNDED)))
         .group("mesh", Entries::default()
             .fact("unknowns", "", finest.unknowns)
             .fact("of_basins", "", of_basins)
@@ -174,25 +164,22 @@ fn places(found: &StateRates) -> Table {
         .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
         .column("leaving_per_s", "escape rate", "rate to any other state", |k| found.known_rate_out(*k))
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
-        .column("leaving_bounds_per_s", "", "", |k| json!(found.bounds_out(*k))).in_json()
-        .column("bounds", "bounds", "bounds of that rate", |k| told_bounds(found, *k)).in_view()
+        .column("leaving_error", "error", "of that rate, estimated from two meshes", |k| error_of(found.known_rate_out(*k), error_out(found, *k)))
+            .viewed(|k| told_error(found, *k)).without_csv()
         .table("places").titled("Places", "").in_file("occupation")
 }
 
 #[rustfmt::skip]
 fn pairs(found: &StateRates) -> Table {
-    let bound = |end: usize| move |(i, j): &(usize, usize)| found.bounds(*i, *j)[end];
-    let [lower, upper] = [0, 1].map(bound);
+    let error = |(i, j): &(usize, usize)| error_of(found.known_rate(*i, *j), found.error(*i, *j));
     let passage = |(i, j): &(usize, usize)| finite(found.mean_first_passage(*i, *j));
     let limit = |k: usize| found.states.get(k).map(|it| it.below);
-    let hold = found.found.bounds.as_ref().map(|_| "on the mesh");
     rows(found.pairs())
         .column("from", "from", "", |(i, _)| found.name(*i))
         .column("to", "to", "", |(_, j)| found.name(*j))
-        .column("lower_per_s", "lower bound", "of the rate", lower).viewed(move |row| told_end(lower(row), false))
         .column("value_per_s", "rate", "", |(i, j)| found.known_rate(*i, *j))
             .viewed(|(i, j)| found.known_rate(*i, *j).map_or("-".to_owned(), |rate| per_second(rate, digits_of(found, *i, *j))))
-        .column("upper_per_s", "upper bound", "of the rate", upper).viewed(move |row| told_end(upper(row), true))
+        .column("error", "error", "of the rate, estimated from two meshes", error).viewed(move |row| error(row).map_or("-".to_owned(), either_way))
         .column("spread", "", "difference between the two finest meshes", |(i, j)| finite(found.found.spread(*i, *j))).in_data()
         .column("first", "probability as next", "that it is the next state", |(i, j)| found.first(*i, *j)).share()
         .column("mean_first_passage_s", "mean first passage", "mean time from one to the other, \
@@ -201,7 +188,6 @@ fn pairs(found: &StateRates) -> Table {
         .column("from_basin_J", "", "", move |(i, _)| limit(*i)).in_csv()
         .column("to_basin_J", "", "", move |(_, j)| limit(*j)).in_csv()
         .column("free_at_m", "", "", |_| found.asked.free_at).in_csv()
-        .column("bounds_hold", "", "", move |_| hold).in_csv()
         .table("rates").titled("Rates", "").in_file("rates")
 }
 
@@ -299,13 +285,6 @@ fn notes(found: &StateRates) -> Vec<String> {
     let ways = found.states.iter().zip(&found.found.ways);
     let ways = ways.filter(|(_, way)| **way != Way::Open);
     notes.extend(ways.map(|(state, way)| format!("{}: {}", state.name, way.told())));
-    let is_blocked = |k: usize| found.bounds_out(k)[1] == Some(0.0);
-    match &found.found.bounds {
-        None => notes.push(NO_BOUNDS.to_owned()),
-        // The proof that contact blocks every path does not depend on a mesh.
-        Some(_) if (0..found.states.len()).all(is_blocked) => {}
-        Some(bounds) => notes.extend(of_bounds(found, bounds)),
-    }
     notes.push(format!(
         "lifetimes depend on the drag: these are for overdamped motion at {} /s; rates are \
          inversely proportional to the drag. `tilebind yield` counts docking runs with inertia, \
@@ -337,31 +316,4 @@ fn of_meshes(found: &StateRates) -> String {
         ),
         _ => format!("no flux on the mesh ({unknowns} unknowns){unsettled}"),
     }
-}
-
-fn of_bounds(found: &StateRates, bounds: &RateBounds) -> Vec<String> {
-    if !bounds.are_one_sided() {
-        let wells = found.states.iter().zip(&bounds.leaving);
-        let told = wells.map(|(state, ends)| format!("{} {}", state.name, apart(*ends)));
-        let told = told.collect::<Vec<_>>().join(", ");
-        return vec![format!(
-            "relative width of the bounds of the rates out: {told}; {ON_THE_MESH}"
-        )];
-    }
-    // The first basin with most of its occupation outside of it: upper bounds of rates that only
-    // count the inside are then poor.
-    let shares = |k: usize| (found.found.inside[k], found.found.finest().occupation[k]);
-    let mut all = 0..found.states.len();
-    let mostly_outside = all.find(|k| MOSTLY * shares(*k).0 < shares(*k).1);
-    let told = mostly_outside.map(|k| {
-        let ((inside, all), name) = (shares(k), found.name(k));
-        format!(
-            "upper bounds use only the time inside {name}'s basin, {} of all; its full occupation \
-             is {}, and the share of the time between states is not bounded",
-            share(inside),
-            share(all),
-        )
-    });
-    let reason = format!("{ONE_SIDED}; {ON_THE_MESH}");
-    told.into_iter().chain([reason]).collect()
 }

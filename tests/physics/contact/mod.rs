@@ -3,7 +3,6 @@
 mod cells;
 mod constraint;
 mod distance;
-mod leaving;
 mod lift;
 mod matching;
 mod motion;

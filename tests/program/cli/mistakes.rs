@@ -68,7 +68,7 @@ fn negative_numbers_are_told_in_our_words() {
         ("yield", "--time", "-600", "greater than 0"),
         ("rates", "--free-at", "-5 cm", "greater than 0"),
         ("rates", "--drag", "-50", "greater than 0"),
-        ("rates", "--certify", "-0.1", "greater than 0"),
+        ("rates", "--certify", "-0.1", "no longer have bounds"),
         ("rates", "--traps", "-1", "a whole number"),
         ("rates", "--check", "-10", "a whole number"),
         ("rates", "--check", "1", "2 or more"),

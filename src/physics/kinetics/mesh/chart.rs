@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::wall::{Ray, Wall};
+use nalgebra::{Matrix3, Vector3};
+
 use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::problem::{Problem, Symmetry};
@@ -15,31 +16,21 @@ pub(in crate::kinetics) const UNITS: i64 = 1 << DEEPEST;
 /// Rounding tolerance of coordinates, as a share of the distance of the centres and of a radian.
 const ROUNDING: f64 = 1e-12;
 
-/// Aspect ratio of first cells, in phi and theta, if a mesh begins at contact and ...
-const WIDER: [f64; 2] = [6.0, 3.0];
-/// ... symmetry identifies fewer configurations than this: otherwise first cells are so numerous
-/// that too few remain for the wells. Far from contact functions depend almost only on the
-/// distance. With equal numbers of cells, this makes the bounds of a pair without symmetry at least
-/// twice as narrow (against ratios of 4 and 2: by a quarter with 60,000 corners and by half with
-/// 150,000; more cells along s gain nothing); with sixteen copies, the exit from a slid bond would
-/// take half as long again.
-const FEW: usize = 4;
-
 /// Places in a mesh: (s, phi, theta) in its smallest units.
 pub(in crate::kinetics) type Place = [i64; 3];
 
 /// The configurations with centres at most `radius` apart, in the coordinates (s, phi, theta) with
-/// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g), with only one of all configurations
-/// equivalent under the symmetries of the pair: phi within one rotation of the fixed tile onto
-/// itself and theta within one of the moving tile. One period in phi shifts theta by the same
-/// rotation. If the wall g is that of contact, the whole chart is free.
+/// x = r cos phi, y = r sin phi and s = (r - g) / (radius - g) with a constant g, with only one of
+/// all configurations equivalent under the symmetries of the pair: phi within one rotation of the
+/// fixed tile onto itself and theta within one of the moving tile. One period in phi shifts theta by
+/// the same rotation.
 #[derive(Clone)]
 pub(in crate::kinetics) struct Chart {
     /// The origin of phi and theta (rad), chosen so that the bond, which is held by edge contact,
     /// lies on sides of cells.
     origin: [f64; 3],
-    /// Where s begins.
-    wall: Wall,
+    /// Where s begins: g (m).
+    inner: f64,
     /// Where it ends (m).
     pub radius: f64,
     /// First cells along s, phi and theta.
@@ -54,8 +45,8 @@ pub(in crate::kinetics) struct Chart {
 
 impl Chart {
     /// The chart of a problem's configurations up to `radius` (m), in first cells of about `size`
-    /// (m); starting at contact if that is requested and possible.
-    pub fn new(problem: &Problem, radius: f64, size: f64, fitted: bool) -> Self {
+    /// (m).
+    pub fn new(problem: &Problem, radius: f64, size: f64) -> Self {
         let of_fixed = |s: &&Symmetry| s.moving == 0.0;
         let of_moving = |s: &&Symmetry| s.fixed == 0.0;
         let fixed = problem.symmetries.iter().filter(of_fixed).count();
@@ -67,22 +58,16 @@ impl Chart {
         let count = |length: f64| (length / size).round().max(2.0) as i64;
         let outside = (radius - lever).max(radius / 8.0);
         let along_r = outside / count(outside) as f64;
-        let whole = (radius / along_r).floor();
-        let wall = Wall::new(problem, radius - along_r * whole, fitted);
-        let (along_s, [across, turning]) = match wall {
-            Wall::Contact(_) if fixed * moving < FEW => ((outside / along_r).round(), WIDER),
-            Wall::Contact(_) => ((outside / along_r).round(), [1.0; 2]),
-            _ => (whole, [1.0; 2]),
-        };
+        let along_s = (radius / along_r).floor();
         // A rotation of the fixed tile must be a whole number of cells in theta.
         let whole = (fixed / greatest_common_divisor(fixed, moving)) as i64;
-        let along_theta = count(periods[1] * problem.space.rho / turning);
+        let along_theta = count(periods[1] * problem.space.rho);
         let along_theta = (along_theta + whole - 1) / whole * whole;
-        let along_phi = count(periods[0] * lever / across);
+        let along_phi = count(periods[0] * lever);
         let cells = [along_s as i64, along_phi, along_theta];
         Self {
             origin: [0.0, libm::atan2(bound.y, bound.x), bound.theta],
-            wall,
+            inner: radius - along_r * along_s,
             radius,
             cells,
             step: [
@@ -95,11 +80,6 @@ impl Chart {
         }
     }
 
-    /// Whether all of it is free because it begins at contact.
-    pub fn is_fitted(&self) -> bool {
-        !matches!(self.wall, Wall::Circle(_))
-    }
-
     /// The turn (rad) of the fixed tile onto itself that phi goes through.
     pub fn turn(&self) -> f64 {
         self.step[1] * self.cells[1] as f64
@@ -110,9 +90,9 @@ impl Chart {
         self.step.map(|step| step / f64::from(1u32 << level))
     }
 
-    /// Size of a cell of this level (m) along the ray that a configuration lies on.
-    pub fn depth(&self, level: u8, q: &Configuration) -> f64 {
-        self.ray([libm::atan2(q.y, q.x), q.theta]).length * self.size(level)[0]
+    /// Size of a cell of this level (m) along s.
+    pub fn depth(&self, level: u8) -> f64 {
+        self.length() * self.size(level)[0]
     }
 
     /// (s, phi, theta) of a place (1, rad, rad).
@@ -120,20 +100,39 @@ impl Chart {
         std::array::from_fn(|i| self.origin[i] + self.step[i] * place[i] / UNITS as f64)
     }
 
-    /// The ray at (phi, theta).
-    pub fn ray(&self, at: [f64; 2]) -> Ray {
-        self.wall.ray(at, self.radius)
+    /// The length of s (m).
+    fn length(&self) -> f64 {
+        self.radius - self.inner
     }
 
-    /// The configurations at two s on the ray at (phi, theta).
-    pub fn places(&self, at: [f64; 2], s: [f64; 2]) -> [Configuration; 2] {
-        self.wall.places(at, self.radius, s)
+    /// The distance of the centres (m) at s.
+    pub fn distance(&self, s: f64) -> f64 {
+        self.inner + s * self.length()
+    }
+
+    /// The configuration at (s, phi, theta).
+    pub fn configuration(&self, [s, phi, theta]: [f64; 3]) -> Configuration {
+        let r = self.distance(s);
+        Configuration::new(r * libm::cos(phi), r * libm::sin(phi), theta)
+    }
+
+    /// The volume element by (s, phi, theta) (m^2).
+    pub fn volume(&self, s: f64) -> f64 {
+        self.distance(s) * self.length()
+    }
+
+    /// Gradients by (x, y, theta) of s, phi and theta, as columns.
+    pub fn gradients(&self, [s, phi, _]: [f64; 3]) -> Matrix3<f64> {
+        let (sin, cos) = libm::sincos(phi);
+        let outwards = Vector3::new(cos, sin, 0.0) / self.length();
+        let around = Vector3::new(-sin, cos, 0.0) / self.distance(s);
+        Matrix3::from_columns(&[outwards, around, Vector3::z()])
     }
 
     /// The place of a configuration, folded, in smallest units.
     pub fn place(&self, q: &Configuration) -> [f64; 3] {
         let phi = libm::atan2(q.y, q.x);
-        let s = self.ray([phi, q.theta]).part(libm::hypot(q.x, q.y));
+        let s = ((libm::hypot(q.x, q.y) - self.inner) / self.length()).max(0.0);
         let raw = [s, phi, q.theta];
         let at = |i: usize| (raw[i] - self.origin[i]) / self.step[i] * UNITS as f64;
         let mut place: [f64; 3] = std::array::from_fn(at);
@@ -167,14 +166,12 @@ impl Chart {
         is_inside.then_some(folded)
     }
 
-    /// A box of configurations around the mesh's cell with this lower corner, where s begins on a
-    /// circle.
+    /// A box of configurations around the mesh's cell with this lower corner.
     pub fn around(&self, low: Place, level: u8) -> Cell {
         let mut size = self.size(level);
         let [s, phi, theta] = self.coordinates(low.map(|units| units as f64));
-        let ray = self.ray([phi, theta]);
-        let r = ray.radius(s);
-        size[0] *= ray.length;
+        let r = self.distance(s);
+        size[0] *= self.length();
         let middle = [
             r + size[0] / 2.0,
             phi + size[1] / 2.0,

@@ -26,8 +26,6 @@ pub(in crate::kinetics) struct Element {
     pub stiffness: [f64; 36],
     /// Integral of the limited w (m^2 rad).
     pub weight: f64,
-    /// The free volume (m^2 rad).
-    pub free: f64,
     /// Integrals of w times each shape function (m^2 rad).
     pub load: [f64; 8],
     /// The least and the greatest U met (J).
@@ -36,7 +34,7 @@ pub(in crate::kinetics) struct Element {
     /// The mean of U over the free part (J).
     pub mean: f64,
     /// The gradients, at the cell's centre, of the positions as shares of its size, as columns:
-    /// along the ray from the centre, across it and by theta.
+    /// along s, across it and by theta.
     pub gradients: Matrix3<f64>,
 }
 
@@ -46,7 +44,6 @@ impl Element {
         Self {
             stiffness: [0.0; 36],
             weight: 0.0,
-            free: 0.0,
             load: [0.0; 8],
             lowest: f64::INFINITY,
             highest: f64::NEG_INFINITY,
@@ -70,7 +67,6 @@ impl Element {
             }
         }
         self.weight += weight * volume;
-        self.free += volume;
         for (sum, shape) in self.load.iter_mut().zip(shapes(point.part)) {
             *sum += load * volume * shape;
         }
@@ -85,21 +81,6 @@ impl Element {
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         let (i, j) = (i.min(j), i.max(j));
         self.stiffness[i * 8 - i * (i + 1) / 2 + j]
-    }
-
-    /// The tilts of the load along phi and theta: a density 1 + tilt (2 u - 1) at the share u of
-    /// the size that gives the right mean of u, limited so that it is not negative.
-    pub fn tilts(&self) -> [f64; 2] {
-        let all = self.held();
-        [1, 2].map(|axis| {
-            let upper = (0..8).filter(|corner| corner >> axis & 1 == 1);
-            let mean = upper.map(|corner| self.load[corner]).sum::<f64>() / all;
-            if mean.is_finite() {
-                (6.0 * mean - 3.0).clamp(-1.0, 1.0)
-            } else {
-                0.0
-            }
-        })
     }
 
     /// The integral of w grad f . grad f for values at the corners (rad).

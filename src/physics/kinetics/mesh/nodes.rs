@@ -82,13 +82,6 @@ impl Nodes {
         self.corners[cell].map(|node| values[node as usize])
     }
 
-    /// The mean of a function over a side of a cell.
-    pub fn mean(&self, cell: usize, side: usize, values: &[f64]) -> f64 {
-        let own = self.of(cell, values);
-        let of_side = (0..8).filter(|corner| corner >> (side / 2) & 1 == side % 2);
-        0.25 * of_side.map(|corner| own[corner]).sum::<f64>()
-    }
-
     /// The value at a configuration; `None` if no cell with free configurations contains it.
     pub fn at(&self, mesh: &Octree, values: &[f64], q: &Configuration) -> Option<f64> {
         let held = mesh.holding(q);

@@ -60,11 +60,6 @@ impl Leaf {
         std::array::from_fn(|i| self.low[i] as f64 + part[i] * self.size() as f64)
     }
 
-    /// Where it begins and ends in s.
-    pub fn along(&self, chart: &Chart) -> [f64; 2] {
-        [0.0, 1.0].map(|part| chart.coordinates(self.at([part, 0.0, 0.0]))[0])
-    }
-
     /// A place just beyond the middle of one of its sides: 2 i and 2 i + 1 are the lower and upper
     /// ones along coordinate i.
     pub fn beyond(&self, side: usize) -> Place {

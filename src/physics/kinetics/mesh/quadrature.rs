@@ -7,8 +7,6 @@ use nalgebra::Matrix3;
 use super::chart::Chart;
 use super::element::{Element, Point};
 use super::octree::Leaf;
-use super::profile::{Resistance, Spread};
-use super::wall::Ray;
 use crate::configuration::Configuration;
 use crate::contact::cells::ContactCells;
 use crate::interruption;
@@ -53,7 +51,6 @@ pub(in crate::kinetics) struct Integrator<'a> {
 
 /// The free parts of a line through a cell along s.
 struct Line {
-    ray: Ray,
     /// Where it crosses the cell's face, in parts of phi's and theta's sizes.
     at: [f64; 2],
     /// Points of the integral along it: part of s's size, share of it, weight and load, and U (J).
@@ -76,7 +73,7 @@ impl<'a> Integrator<'a> {
     /// Computes the integrals over a cell, and whether it is proved blocked.
     pub fn integrate(&self, chart: &Chart, leaf: &Leaf) -> (Option<Box<Element>>, bool) {
         interruption::check();
-        let contact = self.contact.as_ref().filter(|_| !chart.is_fitted());
+        let contact = self.contact.as_ref();
         let found = contact.map(|cells| cells.classify(&chart.around(leaf.low, leaf.level)));
         let cut = match found {
             None => false,
@@ -84,9 +81,8 @@ impl<'a> Integrator<'a> {
             Some(Some(cuts)) => !cuts.is_none(),
         };
         let mut lines = Lines::new(self, chart, leaf, cut);
-        let middle = lines.ray([0.5; 2]);
-        let gradients = middle.upright() * lines.gradients(&middle, lines.along(0.5));
-        let mut element = Element::new(gradients);
+        let middle = lines.coordinates([0.5; 3]);
+        let mut element = Element::new(upright(middle) * lines.gradients(middle));
         let mut free = [0.0; 2];
         lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
             free[0] += point.share;
@@ -106,7 +102,7 @@ impl<'a> Integrator<'a> {
     /// The integral of the load (m^2 rad) over the part of a cell where U is below a limit (J).
     pub fn held_below(&self, chart: &Chart, leaf: &Leaf, limit: f64) -> f64 {
         let mut held = 0.0;
-        let mut lines = Lines::new(self, chart, leaf, !chart.is_fitted());
+        let mut lines = Lines::new(self, chart, leaf, self.contact.is_some());
         lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
             if point.energy < limit {
                 held += point.share * point.volume * point.weights[1];
@@ -114,22 +110,12 @@ impl<'a> Integrator<'a> {
         });
         held
     }
+}
 
-    /// The cost (1/rad) of fluxes through the six sides of a cell of a fitted chart, for a given
-    /// distribution.
-    pub fn resistance(&self, chart: &Chart, leaf: &Leaf, spread: &Spread) -> Resistance {
-        let mut lines = Lines::new(self, chart, leaf, false);
-        let ends = leaf.along(chart);
-        let mut cost = Resistance::zeros();
-        lines.fill([[0.0, 1.0]; 2], 0, &mut |point| {
-            if let Some(inverse) = point.metric.try_inverse() {
-                let fluxes = spread.fluxes(point.part, ends);
-                let scale = point.share / point.weights[0];
-                cost += fluxes.transpose() * (inverse * scale) * fluxes;
-            }
-        });
-        cost
-    }
+/// From the directions of x, y and theta to those along s, across it and of theta.
+fn upright([_, phi, _]: [f64; 3]) -> Matrix3<f64> {
+    let (sin, cos) = libm::sincos(phi);
+    Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// The lines through a cell along which integrals are computed.
@@ -159,20 +145,15 @@ impl<'a> Lines<'a> {
         self.chart.coordinates(self.leaf.at(part))
     }
 
-    /// s of a part of the cell's size.
-    fn along(&self, part: f64) -> f64 {
-        self.coordinates([part, 0.0, 0.0])[0]
+    /// The configuration at a part of s's size on the line that crosses the cell's face at `at`.
+    fn on_line(&self, at: [f64; 2], part: f64) -> Configuration {
+        self.chart
+            .configuration(self.coordinates([part, at[0], at[1]]))
     }
 
-    /// The ray through a point of the cell's face.
-    fn ray(&self, [v, w]: [f64; 2]) -> Ray {
-        let [_, phi, theta] = self.coordinates([0.0, v, w]);
-        self.chart.ray([phi, theta])
-    }
-
-    /// Gradients by x, y and theta of the parts at a point of a ray, as columns.
-    fn gradients(&self, ray: &Ray, s: f64) -> Matrix3<f64> {
-        let mut by = ray.gradients(s);
+    /// Gradients by x, y and theta of the parts of the cell's size at (s, phi, theta), as columns.
+    fn gradients(&self, at: [f64; 3]) -> Matrix3<f64> {
+        let mut by = self.chart.gradients(at);
         let sizes = self.chart.size(self.leaf.level);
         for (mut column, size) in by.column_iter_mut().zip(sizes) {
             column /= size;
@@ -203,11 +184,11 @@ impl<'a> Lines<'a> {
         for line in &lines {
             for &(u, width, weights, energy) in &line.points {
                 let part = [u, line.at[0], line.at[1]];
-                let [s, _, theta] = self.coordinates(part);
+                let at @ [s, _, theta] = self.coordinates(part);
                 let inverse = self.of.problem.mass_metric(theta).try_inverse();
                 let inverse = inverse.unwrap_or_else(Matrix3::identity);
-                let volume = line.ray.volume(s) * size;
-                let by = self.gradients(&line.ray, s);
+                let volume = self.chart.volume(s) * size;
+                let by = self.gradients(at);
                 add(&Point {
                     part,
                     metric: by.transpose() * inverse * by * volume,
@@ -225,13 +206,12 @@ impl<'a> Lines<'a> {
     fn lines(&mut self, at: [[f64; 2]; 4]) -> [Line; 4] {
         let Integrator { kt, .. } = *self.of;
         let mut lines = at.map(|at| Line {
-            ray: self.ray(at),
             at,
             points: Vec::new(),
             sums: [0.0; 2],
         });
         let parts = lines.iter().enumerate().flat_map(|(k, line)| {
-            let free = self.free_parts(&line.ray).into_iter();
+            let free = self.free_parts(line.at).into_iter();
             free.map(move |ends| (k, ends))
         });
         let parts: Vec<(usize, [f64; 2])> = parts.collect();
@@ -270,7 +250,7 @@ impl<'a> Lines<'a> {
 
     /// U (J) at places on lines, given by the line's number and the part of s's size.
     fn energies(&self, lines: &[Line; 4], places: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
-        let qs = places.map(|(k, u)| lines[k].ray.configuration(self.along(u)));
+        let qs = places.map(|(k, u)| self.on_line(lines[k].at, u));
         let qs: Vec<Configuration> = qs.collect();
         let mut energies = vec![0.0; qs.len()];
         self.of.problem.potential().energies(&qs, &mut energies);
@@ -278,12 +258,12 @@ impl<'a> Lines<'a> {
     }
 
     /// The free parts of a line.
-    fn free_parts(&self, ray: &Ray) -> Vec<[f64; 2]> {
+    fn free_parts(&self, at: [f64; 2]) -> Vec<[f64; 2]> {
         let Some(contact) = self.of.problem.contact.as_ref().filter(|_| self.cut) else {
             return vec![[0.0, 1.0]];
         };
         interruption::check();
-        let [from, to] = [0.0, 1.0].map(|u| ray.configuration(self.along(u)));
+        let [from, to] = [0.0, 1.0].map(|u| self.on_line(at, u));
         let way = to.position() - from.position();
         let length = way.norm();
         let free = contact.free_stretches(&from, way / length, length);

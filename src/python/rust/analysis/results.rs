@@ -207,15 +207,12 @@ impl Analysis {
     ///     up to its lowest barrier.
     /// free_at : float, optional
     ///     Distance (m) between centres at which tiles are free.
-    /// certify : float, optional
-    ///     Target relative width of the bounds of the rates out of the bond and the traps, and
-    ///     of every rate that is at least a tenth of these.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     As ``tilebind rates --json``: basins, rates with their bounds, occupation, first-passage
-    ///     times.
+    ///     As ``tilebind rates --json``: basins, rates with their estimated errors, occupation,
+    ///     first-passage times.
     #[pyo3(signature = (kt, **settings))]
     fn rates<'py>(
         &self,

@@ -100,9 +100,6 @@ impl Design {
     ///     symmetric copy; half the bond's energy by default.
     /// free_at : float, optional
     ///     Distance (m) between centres at which the tile is free.
-    /// certify : float, optional
-    ///     Target relative width of the bounds of the mean exit time; by default 0.1, or what
-    ///     seconds of work reach.
     /// check : int, optional
     ///     Also simulate this many rigid bodies with inertia.
     /// restitution : float, optional
@@ -113,8 +110,8 @@ impl Design {
     /// Returns
     /// -------
     /// dict
-    ///     As ``tilebind rates --start --json``: ``mean_exit_s`` and ``mean_exit_bounds_s``,
-    ///     ``exits`` (probabilities of bound first and free first), ``diffusion_m2_s``,
+    ///     As ``tilebind rates --start --json``: ``mean_exit_s`` and its estimated
+    ///     relative error ``mean_exit_error``, ``exits`` (probabilities of bound first and free first), ``diffusion_m2_s``,
     ///     ``mesh`` (difference between the two finest meshes).
     #[pyo3(signature = (start, **settings))]
     fn exits<'py>(
