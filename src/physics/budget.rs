@@ -57,6 +57,15 @@ impl Allowance {
         }
     }
 
+    /// What is left of it after this work (core-seconds) and time.
+    pub fn after(self, work: f64, time: Duration) -> Self {
+        let left = |all: f64, spent: f64| (all - spent).max(0.0);
+        Self {
+            work: self.work.map(|all| left(all, work)),
+            seconds: self.seconds.map(|all| left(all, time.as_secs_f64())),
+        }
+    }
+
     /// Whether no work is allowed.
     pub fn is_none(&self) -> bool {
         [self.work, self.seconds].contains(&Some(0.0))
@@ -155,6 +164,12 @@ impl Budget {
     /// Returns what a part did not spend, or deducts what it overspent.
     pub fn give_back(&mut self, part: &Self) {
         self.left += part.left;
+    }
+
+    /// Core-seconds spent of what was allowed at first, and beyond it.
+    pub fn spent_of(&self, allowed: Allowance) -> f64 {
+        let all = allowed.work.map_or(i64::MAX, units);
+        (all - self.left) as f64 / UNITS_A_SECOND
     }
 
     /// Units left.

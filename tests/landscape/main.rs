@@ -5,6 +5,7 @@
 
 mod analytic;
 mod barriers;
+mod budgets;
 mod catalogue;
 mod counts;
 #[path = "../shared/designs.rs"]

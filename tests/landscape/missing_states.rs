@@ -18,7 +18,7 @@ use crate::designs::load;
 use crate::surveys;
 
 /// Traps deeper than a hundredth of the bond with an escape barrier of half of that.
-const USUAL: CompletenessSettings = CompletenessSettings {
+pub const USUAL: CompletenessSettings = CompletenessSettings {
     below: 0.01,
     escape: 0.005,
     cells: 1_000_000,
@@ -43,7 +43,7 @@ fn settings(problem: &Problem, milestones: usize) -> (RoadmapSettings, Explorati
     (roadmap, settings)
 }
 
-fn survey(problem: &Problem, milestones: usize) -> Exploration<'_> {
+pub fn survey(problem: &Problem, milestones: usize) -> Exploration<'_> {
     let (roadmap, settings) = settings(problem, milestones);
     let built = surveys::weighed(problem, &roadmap);
     surveys::survey(problem, built, &settings)

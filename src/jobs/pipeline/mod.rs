@@ -12,6 +12,7 @@ pub use settings::Settings;
 pub(crate) use clock::Clock;
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use crate::design::Design;
 use physics::configuration::Configuration;
@@ -155,15 +156,21 @@ fn certify(
     settings: &Settings,
     observer: &dyn Observer,
 ) -> Result<Certified, Uncertified> {
-    let asked = settings.certification();
+    let mut asked = settings.certification();
+    let begun = Instant::now();
     let mut all = Certified::default();
     loop {
         let certified = barrier_bounds::certify(problem, catalogue, &asked, observer)?;
         all.cells += certified.cells;
+        all.work += certified.work;
         all.ended = all.ended.or(certified.ended);
         let count = catalogue.states.len();
         catalogue.leave_out_shallow(problem, settings.least_depth);
         if settings.claims == Claims::All || catalogue.states.len() == count {
+            return Ok(all);
+        }
+        asked.allowed = settings.certify.after(all.work, begun.elapsed());
+        if asked.allowed.is_none() {
             return Ok(all);
         }
     }

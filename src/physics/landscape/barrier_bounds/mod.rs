@@ -62,6 +62,8 @@ impl Claims {
 pub struct Certified {
     /// Cells assessed.
     pub cells: usize,
+    /// The effort spent, in core-seconds as it is counted.
+    pub work: f64,
     /// The reason for ending before all bounds were as narrow as requested; `None` if it was only
     /// the limit of cells per barrier.
     pub ended: Option<Ended>,
@@ -160,6 +162,7 @@ pub fn certify(
     catalogue.barriers.order_by_key(|barrier| barrier.from);
     Ok(Certified {
         cells: certifier.assessed(),
+        work: certifier.spent_of(settings.allowed),
         ended,
     })
 }

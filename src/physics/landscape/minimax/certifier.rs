@@ -58,12 +58,25 @@ impl<'a> Certifier<'a> {
         if allowed.is_none() {
             return Err(Uncertified::Unasked);
         }
+        Self::with(bounds, contact, space, Budget::new(allowed))
+    }
+
+    /// The same with what is left of a budget.
+    ///
+    /// # Errors
+    /// [`Uncertified::Ended`].
+    pub(in crate::landscape) fn with(
+        bounds: &'a dyn CellBounds,
+        contact: Option<&'a Contact>,
+        space: &'a ConfigurationSpace,
+        budget: Budget,
+    ) -> Result<Self, Uncertified> {
         let mut certifier = Self {
             bounded: Bounded::new(bounds, contact, space),
             store: Store::new(space),
             ends: Ends::default(),
             assessed: 0,
-            budget: Budget::new(allowed),
+            budget,
             proofs: Proofs::default(),
             ways: Ways::default(),
         };
@@ -96,6 +109,18 @@ impl<'a> Certifier<'a> {
     pub fn ended(&mut self) -> Option<Ended> {
         self.bounded.pay(&mut self.budget);
         self.budget.ended()
+    }
+
+    /// Core-seconds spent of what was allowed at first.
+    pub fn spent_of(&mut self, allowed: Allowance) -> f64 {
+        self.bounded.pay(&mut self.budget);
+        self.budget.spent_of(allowed)
+    }
+
+    /// What is left of the budget.
+    pub(in crate::landscape) fn into_budget(mut self) -> Budget {
+        self.bounded.pay(&mut self.budget);
+        self.budget
     }
 
     /// Records a proved pathway, from end to end.

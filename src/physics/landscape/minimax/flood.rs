@@ -22,6 +22,9 @@ const KNOWN: u8 = 16;
 /// path. Larger leaves contain more than the path, and a flood would leak through.
 const MARGIN: f64 = 16.0;
 
+/// Units of work for each flooded leaf.
+pub(super) const FLOODED: u64 = 50;
+
 /// Stands for the previous leaf of a start of the flood.
 const NONE: u32 = u32::MAX;
 
@@ -112,9 +115,10 @@ impl<'a> Flood<'a> {
     }
 
     /// Lets the flood rise until the ends are separated, or the divide has `most` leaves (at least
-    /// one), those of the lowest passes.
-    pub fn rise(&mut self, most: usize) {
-        while self.divide.len() < most {
+    /// one), those of the lowest passes. After these units of work it stops at the first pass.
+    pub fn rise(&mut self, most: usize, work: u64) {
+        let is_late = |flood: &Self| flood.pass.is_some() && flood.flooded as u64 * FLOODED > work;
+        while self.divide.len() < most && !is_late(self) {
             let Some(Reverse(next)) = self.queue.pop() else {
                 break;
             };
@@ -318,7 +322,7 @@ mod tests {
                     far: Some(&far),
                 };
                 let mut all = Flood::new(&store, &seeds, level, &[]);
-                all.rise(usize::MAX);
+                all.rise(usize::MAX, u64::MAX);
                 let lowest = minimax(&store, &seeds, level, &[]);
                 assert_eq!(all.pass.is_some(), lowest.is_some());
                 if lowest.is_some_and(|lowest| lowest <= level) {
@@ -331,7 +335,7 @@ mod tests {
                     assert_eq!(minimax(&store, &seeds, level, &all.divide), None);
                 }
                 let mut few = Flood::new(&store, &seeds, level, &[]);
-                few.rise(12);
+                few.rise(12, u64::MAX);
                 assert!(all.divide.starts_with(&few.divide));
                 let Some((_, chain)) = all.pass else {
                     continue;

@@ -28,8 +28,9 @@ impl Seeds<'_> {
 }
 
 /// The lowest level (J) at which a chain of adjacent leaves with lower bounds of at most that level
-/// joins the ends: no free path between them stays below it. Infinite if there is no chain.
-pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
+/// joins the ends: no free path between them stays below it. Infinite if there is no chain. With the
+/// number of leaves met.
+pub(super) fn least_level(store: &Store, seeds: &Seeds) -> (f64, usize) {
     let mut seen = vec![false; store.len()];
     let mut queue = BinaryHeap::new();
     for &id in &seeds.from {
@@ -37,10 +38,12 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
         queue.push(Reverse((ordered(store.lower(id)), id)));
     }
     let mut level = f64::NEG_INFINITY;
+    let mut met = 0;
     while let Some(Reverse((lower, id))) = queue.pop() {
+        met += 1;
         level = level.max(unordered(lower));
         if seeds.goal(id).is_some() {
-            return level;
+            return (level, met);
         }
         for &n in store.neighbours(id) {
             if !std::mem::replace(&mut seen[n as usize], true) {
@@ -48,7 +51,7 @@ pub(super) fn least_level(store: &Store, seeds: &Seeds) -> f64 {
             }
         }
     }
-    f64::INFINITY
+    (f64::INFINITY, met)
 }
 
 /// A number ordered like the float.

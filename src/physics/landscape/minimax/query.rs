@@ -4,7 +4,7 @@ use ordered_float::OrderedFloat;
 
 use super::certifier::{Certifier, SHARPNESS};
 use super::ends::{Held, far_end};
-use super::flood::Flood;
+use super::flood::{FLOODED, Flood};
 use super::level::{Seeds, least_level};
 use super::proved::Proofs;
 use super::upper::{ProvedPath, Sharpening};
@@ -82,12 +82,12 @@ impl<'q> Query<'q> {
             is_over: false,
             from_behind: end > start,
         };
-        let sharpening = Sharpening {
+        let mut sharpening = Sharpening {
             tolerance: SHARPNESS * question.effort.tolerance,
             give_up: f64::INFINITY,
             work,
         };
-        let proved = |path: &[Configuration]| bounded.prove(path, &sharpening).ok();
+        let mut proved = |path: &[Configuration]| bounded.prove(path, &mut sharpening).ok();
         let known = query.joined_to_the_ends(bounded);
         query.best = known.and_then(|path| proved(&path));
         if query.best.is_none() {
@@ -153,7 +153,7 @@ impl<'q> Query<'q> {
 
     /// Lets a flood rise over the leaves, of which those `known` can be passed at an energy (J);
     /// returns the number of leaves flooded and what was found. At most these units of work are
-    /// spent on a pathway.
+    /// spent on a pathway, and no more on leaves to subdivide.
     pub fn search(
         &mut self,
         certifier: &Certifier,
@@ -165,7 +165,7 @@ impl<'q> Query<'q> {
         let level = self.level();
         let seeds = self.seeds(certifier);
         let mut flood = Flood::new(store, &seeds, level, known);
-        flood.rise(SPLITS.max(self.gained / SPLIT_SHARE));
+        flood.rise(SPLITS.max(self.gained / SPLIT_SHARE), work);
         let Some((pass, mut chain)) = flood.pass.take() else {
             return (flood.flooded, Found::NoWay);
         };
@@ -196,12 +196,12 @@ impl<'q> Query<'q> {
         let tolerance = self.question.effort.tolerance;
         let ceiling = self.level() + (1.0 - GAIN) * tolerance;
         let bounded = &certifier.bounded;
-        let sharpening = Sharpening {
+        let mut sharpening = Sharpening {
             tolerance: SHARPNESS * tolerance,
             give_up: ceiling,
             work,
         };
-        match bounded.prove(&path, &sharpening) {
+        match bounded.prove(&path, &mut sharpening) {
             Ok(proved) if proved.upper <= ceiling || self.best.is_none() => Ok(proved),
             Ok(_) => Err(Vec::new()),
             Err(point) => {
@@ -275,7 +275,9 @@ impl<'q> Query<'q> {
             self.floor
         } else {
             let seeds = self.seeds(certifier);
-            least_level(&certifier.store, &seeds).max(self.floor)
+            let (least, met) = least_level(&certifier.store, &seeds);
+            certifier.bounded.count(FLOODED * met as u64);
+            least.max(self.floor)
         };
         let best = self.best.take();
         let saddle = best.as_ref().map(|path| path.peak);

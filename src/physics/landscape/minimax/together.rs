@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::ops::RangeInclusive;
 
 use super::certifier::Certifier;
+use super::flood::FLOODED;
 use super::query::{Found, Query};
 use super::{Bracket, CertifyError, Effort, End, Goal, Question};
 use crate::configuration::Configuration;
@@ -17,11 +18,10 @@ const TOGETHER: usize = 32;
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: RangeInclusive<u32> = 3..=8;
 
-/// Leaves subdivided between two checks of the remaining effort.
+/// Leaves subdivided between two checks of the remaining effort: at most this many, and fewer
+/// towards its end, when they may cost at most this fraction of it.
 const BATCH: usize = 512;
-
-/// Units of work of a flood for each flooded leaf.
-const FLOODED: u64 = 50;
+const LAST: u64 = 4;
 
 /// A query and the number of its question.
 type Open<'q> = (usize, Query<'q>);
@@ -208,13 +208,20 @@ impl Certifier<'_> {
     /// Subdivides leaves until the effort is spent: the fewer there are the finer, so that this costs
     /// no less than the floods (units of work) that have to be repeated afterwards.
     fn grant(&mut self, wishes: &BTreeMap<u32, Wish>, floods: u64, open: &mut [Open]) {
-        let costs = |halvings: u32| ((wishes.len() as u64) << (halvings + 1)) * self.bounded.work();
-        let enough = |halvings: &u32| costs(*halvings) >= floods;
+        let a_cell = self.bounded.work();
+        let costs = |halvings: u32| (2 << halvings) * a_cell;
+        let enough = |halvings: &u32| wishes.len() as u64 * costs(*halvings) >= floods;
         let halvings = HALVINGS.into_iter().find(enough).unwrap_or(*HALVINGS.end());
         let leaves: Vec<(u32, f64)> = wishes.iter().map(|(id, wish)| (*id, wish.level)).collect();
         let wishes: Vec<&Wish> = wishes.values().collect();
-        for (leaves, wishes) in leaves.chunks(BATCH).zip(wishes.chunks(BATCH)) {
-            for (&assessed, wish) in self.subdivide(leaves, halvings).iter().zip(wishes) {
+        let mut done = 0;
+        while done < leaves.len() {
+            let most = self.part_of(1) / (LAST * costs(halvings)).max(1);
+            let end = leaves.len().min(done + (most as usize).clamp(1, BATCH));
+            let batch = done..end;
+            done = end;
+            let divided = self.subdivide(&leaves[batch.clone()], halvings);
+            for (&assessed, wish) in divided.iter().zip(&wishes[batch]) {
                 open[wish.by[0]].1.cells += assessed;
                 for &by in &wish.by {
                     open[by].1.gained += assessed;

@@ -31,6 +31,10 @@ const FINEST: usize = 24;
 /// Until it is halved this often, a stretch's bound is assumed to be wider than that of a point.
 const COARSE: usize = 6;
 
+/// Units of work to prove a stretch free and to lift its end, in units of a test of contact and a
+/// step.
+const FREED: u64 = 4;
+
 /// Points and stretches examined before a pathway can be given up. It does not depend on the number
 /// of threads, so the results do not either.
 const AT_ONCE: usize = 64;
@@ -42,8 +46,14 @@ pub(in crate::landscape) struct Sharpening {
     pub tolerance: f64,
     /// A pathway above this energy (J) is not wanted.
     pub give_up: f64,
-    /// Units of work after which it stays as it is.
+    /// Units of work left, after which it stays as it is, or is given up where it has no bound yet.
     pub work: u64,
+}
+
+impl Sharpening {
+    fn spend(&mut self, work: u64) {
+        self.work = self.work.saturating_sub(work);
+    }
 }
 
 /// A pathway proved free throughout, and the proved bound of its energy.
@@ -61,17 +71,18 @@ pub(in crate::landscape) struct ProvedPath {
 impl Bounded<'_> {
     /// Proves a pathway through the given points: straight stretches, lifted off contact and
     /// refined where they cannot be proved as they are. The energy's bound is sharpened as far as
-    /// `sharpening` says.
+    /// `sharpening` says, from whose work is taken what this costs.
     ///
     /// # Errors
     /// The index of a point before which the pathway cannot be proved free, or rises above
-    /// [`Sharpening::give_up`].
+    /// [`Sharpening::give_up`], or how far the work led.
     pub fn prove(
         &self,
         path: &[Configuration],
-        sharpening: &Sharpening,
+        sharpening: &mut Sharpening,
     ) -> Result<ProvedPath, usize> {
         let give_up = sharpening.give_up;
+        let of_a_point = FREED * (self.work_of_contact() + A_STEP) + self.work_of_bounds();
         let mut points = vec![*path.first().ok_or(0usize)?];
         let mut energies: Vec<f64> = Vec::new();
         // For each point, the number of the given point before which it was inserted, or which it is.
@@ -81,12 +92,17 @@ impl Bounded<'_> {
             let first = part * AT_ONCE;
             let few = &stretches[first..stretches.len().min(first + AT_ONCE)];
             let is_end = first + few.len() == stretches.len();
-            let freed = self.freed(&points[points.len() - 1], few, is_end);
+            let most = sharpening.work / (AT_ONCE as u64 * of_a_point);
+            if most == 0 {
+                return Err(first);
+            }
+            let freed = self.freed(&points[points.len() - 1], few, is_end, most as usize);
             for (k, inserted) in (first + 1..).zip(freed) {
                 points.extend(inserted.ok_or(k)?);
                 owners.resize(points.len(), k);
             }
             let known = energies.len();
+            sharpening.spend((points.len() - known) as u64 * of_a_point);
             energies.extend(parallel::map(&points[known..], |q| self.energy(q)));
             let is_out = |k: &usize| !self.space.contains(&points[*k]) || energies[*k] > give_up;
             if let Some(k) = (known..energies.len()).find(is_out) {
@@ -105,13 +121,15 @@ impl Bounded<'_> {
     }
 
     /// For each of some consecutive stretches the points of a path proved free, without its first;
-    /// `None` if it cannot be proved free. The first one begins at `from`. Where a stretch is not free
-    /// itself, its path leads to its end lifted off contact, unless that `is_end` of the pathway.
+    /// `None` if it cannot be proved free, or needs more points than `most`. The first one begins at
+    /// `from`. Where a stretch is not free itself, its path leads to its end lifted off contact,
+    /// unless that `is_end` of the pathway.
     fn freed(
         &self,
         from: &Configuration,
         stretches: &[&[Configuration]],
         is_end: bool,
+        most: usize,
     ) -> Vec<Option<Vec<Configuration>>> {
         let free = parallel::map(stretches, |ends| self.is_free(&ends[0], &ends[1]));
         let mut targets = parallel::map(0..stretches.len(), |i| {
@@ -131,7 +149,7 @@ impl Bounded<'_> {
             if free[i] && points[0] == stretches[i][0] {
                 points.push(to);
             } else {
-                self.join(&mut points, &to, DEPTH)?;
+                self.join(&mut points, &to, DEPTH, most)?;
             }
             Some(points.split_off(1))
         })
@@ -143,19 +161,20 @@ impl Bounded<'_> {
         points: &mut Vec<Configuration>,
         to: &Configuration,
         depth: usize,
+        most: usize,
     ) -> Option<()> {
         let from = *points.last()?;
         if self.is_free(&from, to) {
             points.push(*to);
             return Some(());
         }
-        if depth == 0 {
+        if depth == 0 || points.len() > most {
             return None;
         }
         let middle = from.interpolate(to, 0.5);
         let middle = self.lifted(&middle)?;
-        self.join(points, &middle, depth - 1)?;
-        self.join(points, to, depth - 1)
+        self.join(points, &middle, depth - 1, most)?;
+        self.join(points, to, depth - 1, most)
     }
 
     /// Whether the straight path is proved free throughout.
@@ -225,11 +244,19 @@ impl Bounded<'_> {
 
     /// Lower and upper bound of the energy (J) of one configuration; they differ by rounding only.
     pub fn value(&self, q: &Configuration) -> (f64, f64) {
+        let (low, _, high) = self.bounded_energy(q);
+        (low, high)
+    }
+
+    /// The same with the energy (J) between them.
+    fn bounded_energy(&self, q: &Configuration) -> (f64, f64, f64) {
         let known = self.enclose(&Cell::at(q));
         let rounding = known.form.rounding(&[0.0; 3]);
+        let energy = known.form.value;
         (
-            known.form.value + known.low - rounding,
-            known.form.value + known.high + rounding,
+            energy + known.low - rounding,
+            energy,
+            energy + known.high + rounding,
         )
     }
 
@@ -241,18 +268,23 @@ impl Bounded<'_> {
     /// A stretch is halved until its bound exceeds the highest energy met by no more than the
     /// tolerance. Bounds of blocks near each other stay apart by more than that even at a point; so a
     /// stretch is not halved either if its bound exceeds that at its middle by no more, which no
-    /// halving can go below. After [`Sharpening::work`] no stretch is halved.
+    /// halving can go below. After [`Sharpening::work`] no stretch is halved, and the pathway is given
+    /// up if it has stretches without a bound.
     fn highest(
         &self,
         (points, energies): (&[Configuration], &[f64]),
-        sharpening: &Sharpening,
+        sharpening: &mut Sharpening,
     ) -> Result<(f64, Configuration), usize> {
         let Sharpening {
             tolerance, give_up, ..
         } = *sharpening;
-        // Of each stretch the bound, and the energy at its middle.
-        let most = sharpening.work / (2 * self.work_of_bounds()).max(1);
-        let mut examined = 0;
+        // The bound, and the energy at the middle.
+        let of_a_stretch = 2 * self.work_of_bounds();
+        let count = points.len() as u64 - 1;
+        if count * of_a_stretch > sharpening.work {
+            return Err((sharpening.work / of_a_stretch) as usize);
+        }
+        sharpening.spend(count * of_a_stretch);
         let met = points.iter().zip(energies);
         let highest = met.max_by_key(|(_, energy)| OrderedFloat(**energy));
         let (mut peak, mut level) = highest.map(|(q, energy)| (*q, *energy)).ok_or(0usize)?;
@@ -267,16 +299,19 @@ impl Bounded<'_> {
             .collect();
         while !open.is_empty() {
             let part = open.split_off(open.len().saturating_sub(AT_ONCE));
-            examined += part.len() as u64;
+            let halved = part.iter().filter(|stretch| stretch.halvings > 0);
+            sharpening.spend(halved.count() as u64 * of_a_stretch);
             let bounds = parallel::map(&part, |stretch| {
                 let highest = self.highest_on(stretch);
                 let middle = stretch.middle();
                 let is_close = highest <= level + tolerance;
-                let least = match stretch.halvings < COARSE {
-                    true => f64::NEG_INFINITY,
-                    false => self.value(&middle).1,
+                let value = || match stretch.halvings < COARSE {
+                    true => (self.energy(&middle), f64::NEG_INFINITY),
+                    false => {
+                        let (_, energy, upper) = self.bounded_energy(&middle);
+                        (energy, upper)
+                    }
                 };
-                let value = || (self.energy(&middle), least);
                 (highest, middle, (!is_close).then(value))
             });
             for (_, middle, value) in &bounds {
@@ -289,7 +324,7 @@ impl Bounded<'_> {
                 let is_last = highest <= level + tolerance
                     || is_sharp
                     || stretch.halvings == FINEST
-                    || examined > most;
+                    || sharpening.work == 0;
                 if level > give_up || is_last && highest > give_up {
                     return Err(stretch.number);
                 }

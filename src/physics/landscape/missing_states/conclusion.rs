@@ -10,16 +10,22 @@ use crate::landscape::catalogue::Catalogue;
 use crate::landscape::exploration::Exploration;
 use crate::landscape::minimax::{Certifier, Effort, Goal, Question};
 use crate::landscape::pathway;
+use crate::landscape::results::Uncertified;
 use crate::observer::Silent;
 
 /// Cells spent on finding a way on from a minimum that is not listed.
 const CELLS: usize = 50_000;
+/// The part of the remaining effort that all of these may take.
+const WAYS_ON: f64 = 0.5;
 
-impl Search<'_> {
+impl<'a> Search<'a> {
     /// The proved statement about the listed states. Minima that are not listed must have a path on
     /// to a listed one, or to `free`. Cells from whose lowest energy this path rises too far are
-    /// examined again, because bounds of smaller cells are tighter.
+    /// examined again, because bounds of smaller cells are tighter. All that is left of the effort
+    /// may be spent on it.
     pub fn conclude(mut self, survey: &Exploration, listed: &Catalogue) -> Completeness {
+        self.budget.give_back(&self.reserve);
+        let mut certifier = None;
         let (mut judged, mut closed) = (BTreeSet::new(), Vec::new());
         loop {
             let reached: BTreeSet<usize> = self.explained.iter().map(|cell| cell.2).collect();
@@ -29,7 +35,8 @@ impl Search<'_> {
                 if !judged.insert(ending) || listed.holds(self.problem, &at.q) {
                     continue;
                 }
-                let Some(beyond) = self.way_on(survey, listed, ending) else {
+                let beyond = self.way_on(survey, listed, ending, &mut certifier);
+                let Some(beyond) = beyond else {
                     closed.push(OpenRegion {
                         pose: at.q,
                         volume: 0.0,
@@ -51,6 +58,10 @@ impl Search<'_> {
             }
             self.look_through(again, &Silent);
         }
+        if let Some(ways) = certifier.and_then(Result::ok) {
+            let budget = ways.into_budget();
+            self.budget.give_back(&budget);
+        }
         let volume: f64 = self.open.iter().map(|(cell, _)| cell.volume()).sum();
         let mut open = regions::of_cells(&self.problem.space, &self.open);
         open.extend(closed);
@@ -61,6 +72,7 @@ impl Search<'_> {
             escape: self.exits.rise,
             open,
             cells: self.cells,
+            work: self.budget.spent_of(self.settings.allowed),
             ended: self.ended,
         }
     }
@@ -68,15 +80,30 @@ impl Search<'_> {
     /// Proved highest energy (J) of a path from a minimum that is not listed to a listed one, or to
     /// `free`, if it does not rise more than allowed: a path known from the survey, or one that the
     /// certificate finds.
-    fn way_on(&self, survey: &Exploration, listed: &Catalogue, ending: usize) -> Option<f64> {
+    fn way_on(
+        &mut self,
+        survey: &Exploration,
+        listed: &Catalogue,
+        ending: usize,
+        certifier: &mut Option<Result<Certifier<'a>, Uncertified>>,
+    ) -> Option<f64> {
         let problem = self.problem;
         let minimum = self.exits.endings[ending].minimum.point;
         let allowed = minimum.energy + self.exits.rise;
+        if self.exits.is_over(&mut self.budget) {
+            self.ended = self.ended.or(self.budget.ended());
+            return None;
+        }
         let known = known_way(survey, listed, &minimum.q).unwrap_or_default();
         self.exits.prove(&known, allowed).or_else(|| {
             let places = listed.states.iter().map(|s| s.configuration).collect();
             let contact = problem.contact.as_ref();
-            let mut certifier = Certifier::new(problem.bounds().ok()?, contact, &problem.space);
+            let bounds = problem.bounds().ok()?;
+            let budget = &mut self.budget;
+            let certifier = certifier.get_or_insert_with(|| {
+                Certifier::with(bounds, contact, &problem.space, budget.share(WAYS_ON))
+            });
+            let certifier = certifier.as_mut().ok()?;
             let question = Question {
                 from: minimum.q,
                 to: Goal { places, free: true },
@@ -87,6 +114,7 @@ impl Search<'_> {
                 },
             };
             let way = certifier.answer(&question).ok()?;
+            self.ended = self.ended.or(certifier.ended());
             way.bounds.upper.filter(|upper| *upper <= allowed)
         })
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use ordered_float::OrderedFloat;
 
+use crate::budget::Budget;
 use crate::configuration::Configuration;
 use crate::landscape::bounded::{A_STEP, Bounded};
 use crate::landscape::minimax::upper::Sharpening;
@@ -21,8 +22,12 @@ pub(super) const SAME: f64 = 1e-5;
 const STUCK: f64 = 1e-4;
 /// Number of exits tried from one place.
 const TRIED: usize = 3;
-/// Number of descents made together, before the remaining places try their starts as exits.
+/// Number of descents made together, before the remaining places try their starts as exits; and of
+/// places that try these together, between two checks of the remaining effort.
 const TOGETHER: usize = 16;
+const JOINED: usize = 256;
+/// Units of work to measure the distance to an exit.
+const AN_EXIT: u64 = 4;
 /// A pathway's bound exceeds its highest energy by at most this fraction of the allowed rise.
 pub(super) const SHARP: f64 = 0.1;
 /// Units of work after which the bound of a pathway stays as it is.
@@ -86,18 +91,25 @@ impl<'a> Exits<'a> {
         }
     }
 
-    /// For each place, the ending to which a path is proved.
-    pub fn find(&mut self, places: &[Opened]) -> Vec<Option<usize>> {
+    /// For each place, the ending to which a path is proved, as far as the budget leads.
+    pub fn find(&mut self, places: &[Opened], budget: &mut Budget) -> Vec<Option<usize>> {
         let mut found = vec![None; places.len()];
         let mut left: Vec<usize> = (0..places.len()).collect();
         let mut first = 0;
         while !left.is_empty() {
-            let joined: Vec<Option<usize>> =
-                parallel::map(&left, |&k| self.join(&places[k], first));
-            for (&k, ending) in left.iter().zip(joined) {
-                found[k] = ending;
+            for few in left.chunks(JOINED) {
+                if self.is_over(budget) {
+                    return found;
+                }
+                let joined = parallel::map(few, |&k| self.join(&places[k], first));
+                for (&k, ending) in few.iter().zip(joined) {
+                    found[k] = ending;
+                }
             }
             left.retain(|&k| found[k].is_none());
+            if self.is_over(budget) {
+                break;
+            }
             first = self.exits.len();
             let rest = left.split_off(left.len().min(TOGETHER));
             let ways = parallel::map(&left, |&k| self.descent(&places[k]));
@@ -121,6 +133,12 @@ impl<'a> Exits<'a> {
         found
     }
 
+    /// Whether nothing is left of a budget that pays for what was done.
+    pub fn is_over(&self, budget: &mut Budget) -> bool {
+        self.bounded.pay(budget);
+        budget.ended().is_some()
+    }
+
     /// Extends all exits to an ending by a path over this energy (J).
     pub fn lead_on(&mut self, ending: usize, beyond: f64) {
         self.endings[ending].beyond = beyond;
@@ -132,6 +150,8 @@ impl<'a> Exits<'a> {
     /// The minimum that a straight motion to one of the exits from number `first` on leads to.
     fn join(&self, place: &Opened, first: usize) -> Option<usize> {
         let highest = place.lowest + self.rise;
+        self.bounded
+            .count(AN_EXIT * (self.exits.len() - first) as u64);
         let mut near: Vec<(f64, &Exit)> = self.exits[first..]
             .iter()
             .filter(|exit| exit.highest <= highest)
@@ -165,12 +185,12 @@ impl<'a> Exits<'a> {
 
     /// The proved highest energy (J) of a pathway, if it is not above `allowed`.
     pub fn prove(&self, way: &[Configuration], allowed: f64) -> Option<f64> {
-        let sharpening = Sharpening {
+        let mut sharpening = Sharpening {
             tolerance: SHARP * self.rise,
             give_up: allowed,
             work: MOST_WORK,
         };
-        let proved = self.bounded.prove(way, &sharpening);
+        let proved = self.bounded.prove(way, &mut sharpening);
         proved.ok().map(|proved| proved.upper)
     }
 

@@ -73,6 +73,9 @@ pub struct Completeness {
     pub share: f64,
     /// Number of assessed cells.
     pub cells: usize,
+    /// The effort spent, in core-seconds as it is counted.
+    #[serde(skip)]
+    pub work: f64,
     /// The reason for ending the search early, other than the number of cells.
     pub ended: Option<Ended>,
 }

@@ -22,14 +22,19 @@ use crate::subdivision::Waiting;
 /// Sides smaller than this (half a side in rad, or in m for the paper's tile) are not halved,
 /// because rounding dominates below it.
 const SMALLEST: f64 = 1e-9;
-/// Number of cells assessed between two checks of the remaining effort.
-const BATCH: usize = 4096;
+/// Number of cells assessed between two checks of the remaining effort: at most the first, and
+/// fewer, but not below the second, towards its end, when they may cost at most this fraction of it.
+const BATCH: [u64; 2] = [4096, 64];
+const LAST: u64 = 8;
+/// The part of the effort kept for the conclusion.
+const RESERVE: f64 = 0.1;
 
 /// A search for states that may be missing.
 pub struct Search<'a> {
     pub(super) problem: &'a Problem,
-    settings: CompletenessSettings,
-    budget: Budget,
+    pub(super) settings: CompletenessSettings,
+    pub(super) budget: Budget,
+    pub(super) reserve: Budget,
     pub(super) exits: Exits<'a>,
     pub(super) below: f64,
     /// Cells about which nothing is proved, with the lowest energy (J) that each may hold.
@@ -71,11 +76,13 @@ impl<'a> Search<'a> {
             return Err(Uncertified::Unasked);
         }
         let depth = problem.depth();
+        let mut budget = Budget::new(settings.allowed);
         let known = survey.states.iter().map(|state| state.minimum.clone());
         let mut search = Self {
             problem,
             settings: *settings,
-            budget: Budget::new(settings.allowed),
+            reserve: budget.share(RESERVE),
+            budget,
             exits: Exits::new(problem, bounded, settings.escape * depth, known),
             below: -settings.below * depth,
             open: Vec::new(),
@@ -103,12 +110,15 @@ impl<'a> Search<'a> {
         };
         let domain = Domain::new(self.problem);
         while !queue.is_empty() {
-            bounded.pay(&mut self.budget);
-            self.ended = self.budget.ended();
-            if self.ended.is_some() || self.cells >= self.settings.cells {
+            let is_over = self.exits.is_over(&mut self.budget);
+            if is_over || self.cells >= self.settings.cells {
+                self.ended = self.ended.or(self.budget.ended());
                 break;
             }
-            let looked_at = queue.look(BATCH, |(cell, _)| proof.verdict(cell));
+            let [most, least] = BATCH;
+            let last = self.budget.part_of(1) / (LAST * bounded.work()).max(1);
+            let batch = last.clamp(least, most) as usize;
+            let looked_at = queue.look(batch, |(cell, _)| proof.verdict(cell));
             self.cells += looked_at.len();
             for (cell, lowest, losses) in self.unproved(&proof, looked_at) {
                 match halves(&cell, &losses, self.problem.scale()) {
@@ -140,7 +150,10 @@ impl<'a> Search<'a> {
             }
         }
         let places: Vec<Opened> = opened.iter().map(|(_, place)| *place).collect();
-        for ((cell, place), ending) in opened.into_iter().zip(self.exits.find(&places)) {
+        for ((cell, place), ending) in opened
+            .into_iter()
+            .zip(self.exits.find(&places, &mut self.budget))
+        {
             match ending {
                 Some(ending) => self.explained.push((cell, place.lowest, ending)),
                 None => left.push((cell, place.lowest, proof.sizes(&cell))),
