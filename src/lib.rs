@@ -81,8 +81,7 @@
 //! - Drawings: clip paths, masks, and style sheets that move or hide shapes are reported, not read
 //!   (`<use>`, `<symbol>` and nested `<svg>` are read); a tile has one outline without holes and at
 //!   most 64 faces.
-//! - TopSearch's files have one transition state between two kinds of state, the lowest. TopSearch
-//!   0.0.3 cannot read a network with only one transition state, as of two kinds of state.
+//! - TopSearch's files have one transition state between two kinds of state, the lowest.
 //! - Barriers, lists of states and `crosstalk` are not certified for discs and for upright magnets,
 //!   nor barriers and states for the nearest-face rule, whose energy is discontinuous. `words` and
 //!   `crosstalk` take all magnets, but no shields.

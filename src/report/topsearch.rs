@@ -7,7 +7,8 @@
 //! (J) with the lowest transition state between two minima; `min.coords` and `ts.coords` have x, y
 //! (m) and theta (rad) of each line, `pairlist` the connected pairs. TopSearch requires all five.
 //!
-//! TopSearch 0.0.3 cannot read a network with a single transition state, as of two minima.
+//! TopSearch 0.0.3 reads a file of one line as a row of numbers, not as a table. A single transition
+//! state, as of two minima, is therefore written twice; to it these are one edge.
 //!
 //! TopSearch 0.0.3 (`pip install topsearch`) reads `topsearch/` with `read_network` and draws the
 //! paper tile's graph: the same ten minima (nine kinds of state and free tiles), in which the
@@ -74,9 +75,12 @@ pub fn files(scene: &Scene, far: f64) -> Files {
         let _ = writeln!(min, "{i} {energy:?}");
         let _ = writeln!(min_coords, "{}", coordinates(&q));
     }
+    let times = if lowest.len() == 1 { 2 } else { 1 };
     for ((i, j), (energy, q)) in &lowest {
-        let _ = writeln!(ts, "{i} {j} {energy:?}");
-        let _ = writeln!(ts_coords, "{}", coordinates(q));
+        for _ in 0..times {
+            let _ = writeln!(ts, "{i} {j} {energy:?}");
+            let _ = writeln!(ts_coords, "{}", coordinates(q));
+        }
         let _ = writeln!(pairs, "{i} {j}");
     }
     texts
