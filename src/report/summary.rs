@@ -145,7 +145,11 @@ fn name(catalogue: &Catalogue, kind: &Kind) -> String {
 fn escape(catalogue: &Catalogue, way: Option<&Barrier>) -> String {
     match way {
         Some(way) if way.bounds.caged => "caged, proved".to_owned(),
-        Some(way) if way.has_way() => catalogue.name_of(way.to),
+        Some(way) if way.has_way() => match way.to {
+            // The letter says which state it is.
+            Place::State(to) => catalogue.names()[to].clone(),
+            Place::Free => catalogue.name_of(way.to),
+        },
         _ => "none found".to_owned(),
     }
 }

@@ -360,9 +360,8 @@ fn tables_pictures_and_the_summary() {
         assert!(summary.contains(said), "{said:?} in\n{summary}");
     }
     assert!((8..=21).contains(&summary.lines().count()), "{summary}");
-    // Poses have the digits with which they can be used again.
     assert!(
-        summary.lines().all(|line| line.chars().count() <= 114),
+        summary.lines().all(|line| line.chars().count() <= 110),
         "{summary}"
     );
     assert!(stderr(&output).is_empty(), "silent where nobody watches");
