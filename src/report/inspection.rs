@@ -9,7 +9,7 @@ use crate::files::{PAGE, REPORT};
 use crate::plots::{field, glance};
 use crate::sold;
 use crate::tiles::{
-    GRAM, fits, force, letter, magnets, models, pull, pull_off, without_wall, wrong,
+    GRAM, fits, force, letter, magnets, models, pull, pull_off, weights, without_wall, wrong,
 };
 use crate::values::{pose, positive_zero};
 use jobs::design::Design;
@@ -83,6 +83,7 @@ pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
             .iter()
             .map(sold::told)
             .chain(without_wall(design))
+            .chain(weights(design))
             .collect(),
         ..Document::default()
     }

@@ -1,7 +1,7 @@
 //! Descriptions of tiles and of the forces that hold them, in words.
 
 use crate::columns::{Table, rows};
-use jobs::design::{Design, DesignError};
+use jobs::design::{Design, DesignError, Weight};
 use jobs::inspection::{Fit, Hold, Inspection, NEGLIGIBLE};
 use jobs::workshop::{CLEARANCE, open_pockets};
 use physics::order::Order;
@@ -164,4 +164,15 @@ pub fn magnets(tile: &Tile, number: usize) -> Vec<(f64, &Magnet)> {
     let mut placed: Vec<_> = own.map(|magnet| (place(magnet), magnet)).collect();
     placed.order_by(|a, b| a.0.total_cmp(&b.0));
     placed
+}
+
+/// Notes on tiles whose mass is that of foam.
+pub(crate) fn weights(design: &Design) -> Vec<String> {
+    let tiles = [&design.pair.fixed, &design.pair.moving];
+    let [fixed, moving] = tiles.map(Weight::of);
+    let notes = match fixed == moving {
+        true => vec![fixed.note("each tile")],
+        false => vec![fixed.note("the fixed tile"), moving.note("the moving tile")],
+    };
+    notes.into_iter().flatten().collect()
 }

@@ -6,6 +6,7 @@ use super::face::FaceContent;
 use super::quantity::{self, four_digits};
 use super::reader::Section;
 use super::tile::{TileEntry, nearly_mates};
+use super::weight::Weight;
 use physics::tile::Tile;
 
 /// Warnings about a valid design: an enormous table, a fit larger than the shape's depth.
@@ -23,12 +24,6 @@ pub(super) fn find(
     doubts.chain(nearly_mates(entries)).collect()
 }
 
-/// Densities (kg/m^3) of tiles that occur: from foam to brass. Plastic foam has 20 or more, and the paper's
-/// hollow tile 42.
-const DENSITIES: [f64; 2] = [20.0, 9e3];
-/// Density (kg/m^3) of the lightest magnets, of ferrite.
-const LIGHTEST_MAGNETS: f64 = 4.5e3;
-
 /// Warns of tiles that are lighter or heavier than any usual material, or lighter than their magnets.
 pub(super) fn masses(entries: &[TileEntry; 2], built: &[BuiltTile; 2]) -> Vec<DesignError> {
     let each = entries.iter().zip(built);
@@ -37,42 +32,11 @@ pub(super) fn masses(entries: &[TileEntry; 2], built: &[BuiltTile; 2]) -> Vec<De
 }
 
 fn implausible(entry: &TileEntry, tile: &Tile) -> Option<DesignError> {
-    let (key, mass) = entry.mass.as_ref()?;
-    let volume = tile.outline.area() * tile.thickness;
-    let density = mass / volume;
-    let volumes = tile.magnets.iter().map(|it| it.form.shape.volume(it.size));
-    let magnets: f64 = LIGHTEST_MAGNETS * volumes.sum::<f64>();
-    let grams = |mass: f64| four_digits(1e3 * mass);
-    let usual = |density: f64| grams(density * volume);
-    let per_volume = four_digits(density / 1e3);
-    let message = match () {
-        () if *mass < magnets => format!(
-            "the {} tile weighs {} g, less than its magnets (about {} g)",
-            entry.name,
-            grams(*mass),
-            grams(magnets)
-        ),
-        () if density < DENSITIES[0] => format!(
-            "the {} tile weighs {} g: {per_volume} g/cm3, lighter than foam",
-            entry.name,
-            grams(*mass)
-        ),
-        () if density > DENSITIES[1] => format!(
-            "the {} tile weighs {} g: {per_volume} g/cm3, heavier than brass",
-            entry.name,
-            grams(*mass)
-        ),
-        () => return None,
-    };
-    Some(entry.section.source.doubt(
-        key.span(),
-        message,
-        format!(
-            "a full tile of plywood would weigh {} g, one of acrylic {} g; masses are in kg, or write \"20 gram\"",
-            usual(600.0),
-            usual(1190.0)
-        ),
-    ))
+    let (key, _) = entry.mass.as_ref()?;
+    let weight = Weight::of(tile);
+    let message = format!("the {} tile {}", entry.name, weight.doubt()?);
+    let help = format!("{}; masses are in kg, or write \"20 gram\"", weight.usual());
+    Some(entry.section.source.doubt(key.span(), message, help))
 }
 
 /// Warns of a table so large that another unit may have been meant.

@@ -66,6 +66,7 @@ mod target;
 mod tile;
 mod tolerance;
 pub(crate) mod units;
+mod weight;
 mod word_places;
 mod word_set;
 mod word_stage;
@@ -79,6 +80,7 @@ pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
 pub use starting::{Material, Shape, ShopMagnet, Start, StartError};
 pub use units::{angle, area, density, energy, frequency, length, rate, speed, spin, time};
+pub use weight::Weight;
 pub use word_set::WordSet;
 
 use std::collections::BTreeMap;

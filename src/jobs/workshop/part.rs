@@ -61,9 +61,9 @@ pub struct Pocket {
     pub is_notch: bool,
     /// Width (m) of the thinnest piece of material beside a notch that is longer than wide.
     pub sliver: Option<f64>,
-    /// The thinnest wall between the pocket and another one (m), negative if they overlap; `None`
-    /// for a single pocket.
-    pub between: Option<f64>,
+    /// The thinnest walls (m) between the pocket and another one of its face, and one of another
+    /// face, negative if they overlap; `None` without such a pocket.
+    pub beside: [Option<f64>; 2],
 }
 
 impl Pocket {
@@ -78,12 +78,17 @@ impl Pocket {
         self.wall < THINNEST - TIE
     }
 
-    /// How much its wall to another pocket is too thin (m).
-    pub fn crowded(&self) -> f64 {
-        self.between
-            .map(|wall| THINNEST - wall)
-            .filter(|more| *more > TIE)
-            .unwrap_or(0.0)
+    /// The thinnest wall (m) between the pocket and any other; `None` for a single pocket.
+    pub fn between(&self) -> Option<f64> {
+        self.beside.into_iter().flatten().reduce(f64::min)
+    }
+
+    /// How much its walls to pockets of its own face and of other faces are too thin (m).
+    pub fn crowded(&self) -> [f64; 2] {
+        self.beside.map(|wall| {
+            let more = wall.map(|wall| THINNEST - wall);
+            more.filter(|more| *more > TIE).unwrap_or(0.0)
+        })
     }
 }
 
@@ -102,7 +107,7 @@ impl Part {
             pockets.push(pocket(tile, (magnet, &holes[i]), number, making)?);
         }
         for (pocket, wall) in pockets.iter_mut().zip(walls(&holes)) {
-            pocket.between = wall;
+            pocket.beside = wall;
         }
         let mut outline = outline(tile, making.kerf)?;
         for (pocket, hole) in pockets.iter_mut().zip(&holes).filter(|it| it.0.is_open()) {
@@ -263,26 +268,28 @@ fn pocket(
         wall: hole.wall(&tile.outline),
         is_notch: false,
         sliver: None,
-        between: None,
+        beside: [None; 2],
     })
 }
 
-/// The thinnest wall (m) between each hole and the others.
-fn walls(holes: &[Magnet]) -> Vec<Option<f64>> {
+/// The thinnest walls (m) between each hole and the others of its face, and those of other faces.
+fn walls(holes: &[Magnet]) -> Vec<[Option<f64>; 2]> {
     let radius = |hole: &Magnet| libm::hypot(hole.size[0], hole.size[1]) / 2.0;
-    let mut walls = vec![None; holes.len()];
+    let mut walls = vec![[None; 2]; holes.len()];
     for (i, one) in holes.iter().enumerate() {
         for (j, other) in holes[..i].iter().enumerate() {
+            let kind = usize::from(one.face != other.face);
             let apart = (one.position - other.position).norm() - radius(one) - radius(other);
             let is_known = |wall: &Option<f64>| wall.is_some_and(|wall| wall <= apart);
-            if is_known(&walls[i]) && is_known(&walls[j]) {
+            if is_known(&walls[i][kind]) && is_known(&walls[j][kind]) {
                 continue;
             }
             let Some(wall) = between([&one.outline(), &other.outline()]) else {
                 continue;
             };
             for k in [i, j] {
-                walls[k] = Some(walls[k].map_or(wall, |known: f64| known.min(wall)));
+                let known = &mut walls[k][kind];
+                *known = Some(known.map_or(wall, |known: f64| known.min(wall)));
             }
         }
     }

@@ -14,7 +14,7 @@ use serde_json::json;
 use crate::document::{Document, Drawing, Entries, Entry, Table, entries, rows};
 use crate::files::{Files, PAGE, REPORT};
 use crate::plots::glance;
-use crate::tiles::grams;
+use crate::tiles::{grams, weights};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
 use jobs::output::Command;
@@ -79,6 +79,7 @@ pub fn document<'a>(design: Option<&'a Design>, subject: &'a Subject, made: &Mad
         kinds => format!("{tiles} tiles of {} kinds", kinds.len()),
     };
     let (facts, said) = shopping(made);
+    let weights = design.map_or_else(Vec::new, weights);
     let pages = check::pages(made);
     let opened = match design {
         Some(design) => entries(design),
@@ -126,7 +127,7 @@ pub fn document<'a>(design: Option<&'a Design>, subject: &'a Subject, made: &Mad
                 })
             })),
         pictures: vec![picture],
-        notes: vec![said, how_to_check(pages.len())],
+        notes: [weights, vec![said, how_to_check(pages.len())]].concat(),
         origin: "magnets in the order with the least repulsion".to_owned(),
         ..Document::default()
     };
@@ -379,7 +380,7 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
     let open = |pocket: &Pocket| {
         let open = pocket.is_open().then_some(if pocket.is_notch { "notch" } else { "open" });
         let fragile = pocket.sliver.map(|_| "fragile");
-        let words: Vec<&str> = open.into_iter().chain(fragile).chain((pocket.crowded() > 0.0).then_some("close")).collect();
+        let words: Vec<&str> = open.into_iter().chain(fragile).chain((pocket.crowded() != [0.0; 2]).then_some("close")).collect();
         if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
     };
     let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
@@ -405,12 +406,22 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
         "; beside pockets marked fragile a piece only {} mm wide is longer than wide and may break off",
         plain(wide.max(0.0)),
     ));
-    let most = part.pockets.iter().map(Pocket::crowded).fold(0.0, f64::max);
-    let close = if most > 0.0 { format!(
-        "; pockets marked close overlap or leave a wall below 0.5 mm between them: space the \
-         magnets out by {} mm (`pitch`, `at`; on two faces: away from their corner), or use a \
-         smaller --clearance", plain((most * 1e4 - 1e-6).ceil() / 1e4),
-    ) } else { String::new() };
+    let most = [0, 1].map(|k| part.pockets.iter().map(|it| it.crowded()[k]).fold(0.0, f64::max));
+    let tenths = |more: f64| plain((more * 1e4 - 1e-6).ceil() / 1e4);
+    let apart = match most {
+        [0.0, 0.0] => None,
+        [0.0, corner] => Some(format!("move the magnets beside a corner {} mm away from it (a \
+            smaller `pitch`, or `at`)", tenths(corner))),
+        [face, 0.0] => Some(format!("space the magnets of a face out by {} mm (a larger `pitch`, or \
+            `at`)", tenths(face))),
+        [face, corner] => Some(format!("space the magnets of a face out by {} mm and move those \
+            beside a corner {} mm away from it (`at`), or use smaller magnets or a larger tile",
+            tenths(face), tenths(corner))),
+    };
+    let close = apart.map_or(String::new(), |apart| format!(
+        "; pockets marked close overlap or leave a wall below 0.5 mm between them: {apart}, or use \
+         a smaller --clearance",
+    ));
     // Names of tiles are needed only if there are several others.
     let met = |(tile, pocket): &(usize, String)| match made.tiles.len() {
         0..=2 => pocket.clone(),
@@ -432,7 +443,7 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
         .column("meets", "faces in the bond", "the pocket of the other tile, which this one repels if one magnet of the two is the wrong way round", |(_, it)| meets(it))
         .column("left_if_wrong", "bond if wrong", "share of the bond that is left if this magnet is the wrong way round", |(_, it)| it.left_if_wrong).viewed(|(_, it)| it.left_if_wrong.map_or(String::new(), left))
         .column("wall_m", "", "", move |it| pocket(it).wall)
-        .column("between_m", "", "", move |it| pocket(it).between)
+        .column("between_m", "", "", move |it| pocket(it).between())
         .column("depth_m", "", "", move |it| pocket(it).depth)
         .table(name.clone())
         .in_file("order")

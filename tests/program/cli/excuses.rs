@@ -294,6 +294,27 @@ fn new_designs_weigh_what_their_material_weighs() {
     );
 }
 
+/// What the magnets leave for the rest of the tile counts: foam has 0.02 g/cm3 and more.
+#[test]
+fn a_tile_lighter_than_foam_is_doubted_and_one_as_light_as_foam_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |mass: &str| {
+        let design = design(folder.path(), &[("mass = 0.1", &format!("mass = {mass}"))]);
+        let output = tilebind(&["show", &design]);
+        let told = stdout(&output) + &stderr(&output);
+        told.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // Of 2.4 litres; 16 magnets of 0.3 cm3 weigh 35 g.
+    let light = told("0.06");
+    assert!(light.contains("lighter than foam"), "{light}");
+    let foam = told("0.1");
+    assert!(foam.contains("weighs 100 g, as one of foam or a hollow one; a full one of plywood would weigh 1.47 kg"), "{foam}");
+    let heavy = told("30");
+    assert!(heavy.contains("heavier than brass"), "{heavy}");
+    let plywood = told("1.5");
+    assert!(!plywood.contains("weigh"), "{plywood}");
+}
+
 #[test]
 fn names_that_cannot_be_files_are_shortened_or_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -334,6 +334,34 @@ fn pockets_that_overlap_are_told() {
     assert!(!sheet("0.015", &[]).contains("close)"));
 }
 
+/// Magnets that crowd in a corner are farther apart where each is nearer to the middle of its face.
+#[test]
+fn pockets_too_close_in_a_corner_are_to_move_away_from_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = |pitch: &str| {
+        let text = squares(pitch)
+            .replace("side = 0.1", "side = 0.03")
+            .replace("[0.005, 0.005, 0.003]", "[0.003, 0.006, 0.003]")
+            .replace("east = { code = \"NNNS\" }", "all = { code = \"NNS\" }");
+        let design = folder.path().join("design.toml");
+        fs::write(&design, text).unwrap();
+        let out = folder.path().join("out");
+        let [design, out] = [&design, &out].map(|path| path.to_str().unwrap());
+        let made = tilebind(&["make", design, "--force", "-o", out]);
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+        fs::read_to_string(folder.path().join("out/sheet.md")).unwrap()
+    };
+    let told = sheet("0.0080")
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    let by = told.split("move the magnets beside a corner ").nth(1);
+    let by = by.unwrap_or_else(|| panic!("{told}")).split(' ').next();
+    assert!(!told.contains("space the magnets"), "{told}");
+    let less = 0.008 - by.unwrap().parse::<f64>().unwrap() / 1e3;
+    assert!(!sheet(&less.to_string()).contains("close)"), "{by:?}");
+}
+
 /// Squares of 10 cm whose target faces carry magnets of 5 mm at a pitch (m).
 fn squares(pitch: &str) -> String {
     let tile = "side = 0.1\nthickness = 0.005\nmass = 0.05";
