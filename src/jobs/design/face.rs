@@ -228,7 +228,12 @@ fn read_pattern(entry: &Entry) -> Result<Pattern> {
     check_count(entry, text.chars().count())?;
     let code = Barcode::parse(text).map_err(|error: BarcodeError| {
         let help = match error.character {
-            'n' | 's' => format!("write {}", error.character.to_ascii_uppercase()),
+            'n' | 's' | 'u' | 'd' => format!("write {}", error.character.to_ascii_uppercase()),
+            ' ' | '_' | '0' => "write . for a position without a magnet".to_owned(),
+            'F' | 'f' => "if it stands for iron: pieces that are not magnetised are not modelled. Leave \
+                the position empty, `.`; the other tile's magnet then pulls too little there. An iron \
+                plate behind the magnets of a face is its `shield`"
+                .to_owned(),
             _ => "use N for a north pole out, S for a south pole out, . for no magnet".to_owned(),
         };
         let span = entry.character_span(error.index);
