@@ -2,6 +2,7 @@
 //! do.
 
 use nalgebra::Vector2;
+use ordered_float::OrderedFloat;
 
 use super::error::{DesignError, Result};
 use super::face::find_face;
@@ -223,18 +224,39 @@ impl Target<'_> {
 /// Bulges below this share of a face are rounding.
 const STRAIGHT: f64 = 1e-9;
 
-/// Whether the outline over a face lies outside its base line without any corner that cuts in.
+/// The steepest slope of a bulge that rises from straight ends of its face; a tab is steeper.
+const GENTLE: f64 = 1.0;
+
+/// Whether the outline over a face lies outside its base line without any corner that cuts in, but
+/// for straight ends from which it rises gently.
 fn bulges(tile: &Tile, face: &Face) -> bool {
     let rounding = STRAIGHT * face.length();
     let local = |p: &Vector2<f64>| {
         let from = p - face.middle();
         [from.dot(&face.tangent()), from.dot(&face.normal())]
     };
-    let half = face.length() / 2.0 - rounding;
-    let mut line: Vec<[f64; 2]> = tile.outline.vertices().iter().map(local).collect();
-    line.retain(|[s, h]| s.abs() < half && *h > -rounding);
-    line.extend([[-half, 0.0], [half, 0.0]]);
-    line.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let corners = tile.outline.vertices();
+    let nearest = |end: f64| {
+        let end = face.point(end * face.length() / 2.0, 0.0);
+        let distance = |k: &usize| OrderedFloat((corners[*k] - end).norm());
+        (0..corners.len()).min_by_key(distance).unwrap_or(0)
+    };
+    let [first, last] = [nearest(-1.0), nearest(1.0)];
+    let count = (last + corners.len() - first) % corners.len();
+    let along = (0..=count).map(|k| local(&corners[(first + k) % corners.len()]));
+    let mut line: Vec<[f64; 2]> = along.collect();
+    if line.iter().any(|[_, h]| *h < -rounding) {
+        return false;
+    }
+    let is_gentle = line.windows(2).all(|two| {
+        let [[a, b], [c, d]] = [two[0], two[1]];
+        (d - b).abs() <= GENTLE * (c - a)
+    });
+    let rises = |[_, h]: &[f64; 2]| *h > rounding;
+    if let Some(first) = line.iter().position(rises).filter(|_| is_gentle) {
+        let last = line.iter().rposition(rises).unwrap_or(first);
+        line = line[first.saturating_sub(1)..line.len().min(last + 2)].to_vec();
+    }
     // The direction turns one way only: clockwise, along increasing s.
     line.windows(3).all(|three| {
         let [[a, b], [c, d], [e, f]] = [three[0], three[1], three[2]];

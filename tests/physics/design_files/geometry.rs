@@ -182,3 +182,50 @@ fn a_halbach_row_gathers_its_field_outside() {
     );
     assert!(outside < 2.0 * inside, "{outside} {inside}");
 }
+
+/// The pose in which squares of 6 cm with these shapes of their target faces bind, if they do.
+fn shaped(fixed: &str, moving: &str) -> Option<Configuration> {
+    let tile = |name: &str, face: &str, shape: &str| {
+        format!(
+            "[{name}]\nside = 0.06\nthickness = 0.01\nmass = 0.03\n[{name}.faces]\n{face} = {{ code = \
+             \"N\"{shape} }}\n"
+        )
+    };
+    let text = format!(
+        "[table]\nsize = [1.0, 1.0]\n[magnet]\nsize = [0.004, 0.006, 0.006]\nremanence = 1.3\ninset = \
+         0.001\n{}{}[target]\nfixed = \"east\"\nmoving = \"west\"\n",
+        tile("fixed", "east", fixed),
+        tile("moving", "west", moving)
+    );
+    let design = Design::parse(&text, "shaped.toml").ok()?;
+    Some(design.pair.bound)
+}
+
+/// Arcs on straight faces, two of them, one against a flat face; not hollows, and not tabs.
+#[test]
+fn faces_that_bulge_touch_in_a_point() {
+    let arc = |depth: f64| {
+        format!(", profile = {{ shape = \"arc\", width = 0.05, depth = {depth}, offset = 0.0 }}")
+    };
+    let tab = ", profile = { shape = \"tab\", width = 0.02, depth = 0.005 }";
+    for (fixed, moving, apart) in [
+        (arc(3e-4), arc(3e-4), 6e-4),
+        (arc(0.01), arc(0.004), 0.014),
+        (arc(0.008), String::new(), 0.008),
+        (String::new(), arc(2e-4), 2e-4),
+    ] {
+        let bound = shaped(&fixed, &moving).unwrap_or_else(|| panic!("{fixed} {moving}"));
+        let error = bound.x - 0.06 - apart;
+        assert!(
+            error.abs() < 1e-6 && bound.y == 0.0,
+            "{fixed} {moving}: {bound:?}"
+        );
+    }
+    for (fixed, moving) in [
+        (arc(0.01), arc(-0.005)),
+        (tab.to_owned(), tab.to_owned()),
+        (tab.to_owned(), arc(0.004)),
+    ] {
+        assert_eq!(shaped(&fixed, &moving), None, "{fixed} {moving}");
+    }
+}
