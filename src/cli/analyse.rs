@@ -90,6 +90,7 @@ impl Analyse {
         workload::tell_memory(settings.check_memory())?;
         self.threads.use_threads()?;
         workload::tell_of(&design, &settings);
+        workload::tell_time(&design, &settings, self.threads.count());
 
         let progress = self.print.progress();
         let show = |first: &Analysis| {

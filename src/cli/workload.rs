@@ -1,5 +1,7 @@
-//! Says before an analysis that it takes much memory, or, for many magnets, that it is sampled less.
+//! Says before an analysis that it takes much memory or time, or, for many magnets, that it is
+//! sampled less.
 
+use tilebind::potential::MagnetModel;
 use tilebind::units::si;
 use tilebind::{Design, Settings};
 
@@ -31,10 +33,73 @@ pub fn tell_of(design: &Design, asked: &Settings) {
     ));
 }
 
+/// Pairs of blocks from which on proofs take minutes: two quadrilaterals with one or two magnets on
+/// each face have about 30.
+const MANY_BLOCKS: usize = 30;
+/// Core-seconds of the rest of an analysis for each pair of blocks.
+const A_PAIR: f64 = 0.015;
+/// Shorter proofs (s) are not worth a word.
+const SHORT: f64 = 60.0;
+
+/// For proofs that may take minutes, says how long, and how to do without them.
+pub fn tell_time(design: &Design, asked: &Settings, threads: usize) {
+    if let Some(note) = of_time(design, asked, threads as f64) {
+        tell(note);
+    }
+}
+
+fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
+    let pairs = design.pair.fixed.magnets.len() * design.pair.moving.magnets.len();
+    let is_slow = design.interaction.model == MagnetModel::Cuboid && pairs >= MANY_BLOCKS;
+    let [bounds, list] = [asked.certify, asked.completeness.allowed].map(|allowed| {
+        let work = allowed.work.unwrap_or(f64::INFINITY) / threads;
+        work.min(allowed.seconds.unwrap_or(f64::INFINITY))
+    });
+    let survey = (A_PAIR * pairs as f64 / threads).max(1.0);
+    (is_slow && bounds + list >= SHORT).then(|| {
+        format!(
+            "note: {pairs} pairs of blocks: states and barriers take about {survey:.0} s, and their \
+             proofs up to {:.0} minutes more; --quick leaves the proofs out, --certify-work and \
+             --complete-work shorten them",
+            ((bounds + list) / 60.0).ceil()
+        )
+    })
+}
+
 /// Reports a check of the memory: an error if the machine does not have it.
 pub fn tell_memory(checked: Result<Option<String>, String>) -> Result<(), Failure> {
     if let Some(told) = checked.map_err(Failure::Usage)? {
         tell(format!("note: {told}"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tilebind::budget::Allowance;
+
+    #[test]
+    fn proofs_of_minutes_are_told_before() {
+        let load = |model: MagnetModel| {
+            let text = std::fs::read_to_string("shapes/paper-tile.toml").unwrap();
+            let text = text.replace(
+                "model = \"dipole\"",
+                &format!("model = \"{}\"", model.name()),
+            );
+            Design::parse(&text, "paper-tile.toml").unwrap()
+        };
+        let usual = Settings::default();
+        let [blocks, dipoles] = [MagnetModel::Cuboid, MagnetModel::Dipole].map(load);
+        let on_two = of_time(&blocks, &usual, 2.0).unwrap();
+        let told = ["256 pairs", "about 2 s", "up to 3 minutes", "--quick"];
+        assert!(told.iter().all(|it| on_two.contains(it)), "{on_two}");
+        let on_one = of_time(&blocks, &usual, 1.0).unwrap();
+        assert!(on_one.contains("up to 6 minutes"), "{on_one}");
+        let mut short = usual.clone();
+        short.certify = Allowance::of(10.0);
+        short.completeness.allowed = Allowance::NONE;
+        assert_eq!(of_time(&blocks, &short, 1.0), None);
+        assert_eq!(of_time(&dipoles, &usual, 1.0), None);
+    }
 }

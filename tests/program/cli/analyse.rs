@@ -68,6 +68,50 @@ fn quick_is_an_analysis_without_proofs() {
     assert_eq!(both.status.code(), Some(2), "{}", stderr(&both));
 }
 
+/// TopSearch 0.0.3 takes a file of one line for a row of numbers.
+#[test]
+fn a_network_of_one_transition_state_has_two_lines_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let tile = |name: &str, face: &str, pole: &str| {
+        format!(
+            "[{name}]\nside = 0.06\nthickness = 0.01\nmass = 0.03\n[{name}.faces]\n{face} = {{ code = \
+             \"{pole}\" }}\n"
+        )
+    };
+    let text = format!(
+        "[table]\nsize = [1.0, 1.0]\n[magnet]\nsize = [0.004, 0.006, 0.006]\nremanence = 1.3\n{}{}\
+         [target]\nfixed = \"east\"\nmoving = \"west\"\n",
+        tile("fixed", "east", "N"),
+        tile("moving", "west", "S")
+    );
+    let design = folder.path().join("one.toml");
+    std::fs::write(&design, text).unwrap();
+    let [design, out] = [&design, folder.path()].map(|path| path.to_str().unwrap());
+    let few = [
+        "--quick",
+        "--milestones",
+        "500",
+        "--far-starts",
+        "50",
+        "--force",
+    ];
+    let output = tilebind(&[&["analyse", design, "--out", out], &few[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let lines = |name: &str| -> Vec<String> {
+        let text = std::fs::read_to_string(folder.path().join("topsearch").join(name)).unwrap();
+        text.lines().map(str::to_owned).collect()
+    };
+    for (name, count) in [
+        ("min.data", 2),
+        ("ts.data", 2),
+        ("ts.coords", 2),
+        ("pairlist", 1),
+    ] {
+        assert_eq!(lines(name).len(), count, "{name}");
+    }
+    assert_eq!(lines("ts.data")[0], lines("ts.data")[1]);
+}
+
 /// Enough magnets for far groups to be replaced, and enough slides for several paths to be searched
 /// in parallel.
 const MANY: &str = r#"
