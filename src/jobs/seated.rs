@@ -23,6 +23,16 @@ pub fn seated(problem: &Problem, q: &Configuration, observer: &dyn Observer) -> 
     let Some(found) = settle(problem, q, 2.0 * depth) else {
         return *q;
     };
+    // As few digits as can be used again: a picometre is less than what counts as touching.
+    let [x, y, theta] = found
+        .to_array()
+        .map(|value| (1e12 * value).round() / 1e12 + 0.0);
+    let short = Configuration::new(x, y, theta);
+    let found = if problem.is_clear(&short) {
+        short
+    } else {
+        found
+    };
     let way = q.step_to(&found);
     observer.warn(&format!(
         "the tiles overlap by {:.3} um at the pose {},{},{}: it is moved out to contact, by {:.3} um and \

@@ -10,19 +10,25 @@ use physics::units::{plain, si, si_range};
 /// Largest number of reasons given why nothing attaches to the seed.
 const MOST_REASONS: usize = 6;
 
+/// So many of something, in the plural unless it is one.
+fn counted(count: usize, one: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {one}{plural}")
+}
+
 /// One sentence that says whether the set can be built.
 pub(super) fn headline(assembly: &Assembly) -> String {
     let built = &assembly.built;
     let set = &built.set;
     let what = format!(
-        "{}: {} with {} words of {} positions",
+        "{}: {} with {} of {}",
         set.name,
-        match set.tiles.len() {
-            1 => "1 tile".to_owned(),
-            count => format!("{count} tiles"),
-        },
-        built.wiring.bonds.len(),
-        built.matrix.words.first().map_or(0, |word| word.places()),
+        counted(set.tiles.len(), "tile"),
+        counted(built.wiring.bonds.len(), "word"),
+        counted(
+            built.matrix.words.first().map_or(0, |word| word.places()),
+            "position"
+        ),
     );
     let Some(growing) = &assembly.growing else {
         let tiles: usize = assembly.counts().iter().sum();
@@ -249,7 +255,7 @@ fn growing(assembly: &Assembly, growing: &Growing) -> Vec<String> {
     let grown = &assembly.built.grown;
     let tiles = grown.tiles.len();
     let ends = match grown.complete {
-        true => format!("without errors growth ends with {tiles} tiles"),
+        true => format!("without errors growth ends with {}", counted(tiles, "tile")),
         false => format!(
             "without errors growth never ends; the first {tiles} tiles were \
             computed"
@@ -411,8 +417,9 @@ fn found(assembly: &Assembly) -> Option<String> {
         false => wider,
     };
     Some(format!(
-        "words found with a gap of {:.3} on {} positions{wider}{shorter}",
-        last.gap, last.places
+        "words found with a gap of {:.3} on {}{wider}{shorter}",
+        last.gap,
+        counted(last.places, "position")
     ))
 }
 
