@@ -87,14 +87,7 @@ fn a_network_of_one_transition_state_has_two_lines_for_it() {
     let design = folder.path().join("one.toml");
     std::fs::write(&design, text).unwrap();
     let [design, out] = [&design, folder.path()].map(|path| path.to_str().unwrap());
-    let few = [
-        "--quick",
-        "--milestones",
-        "500",
-        "--far-starts",
-        "50",
-        "--force",
-    ];
+    let few = ["--quick", "--far-starts", "50", "--force"];
     let output = tilebind(&[&["analyse", design, "--out", out], &few[..]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let lines = |name: &str| -> Vec<String> {
