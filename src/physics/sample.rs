@@ -82,8 +82,3 @@ pub fn pair(sides: usize, side: f64, [fixed, moving]: [&[usize]; 2]) -> Problem 
 pub fn paper_tile() -> Problem {
     pair(4, 0.43, [&[0, 1, 2, 3]; 2])
 }
-
-/// Squares with a code on one face each.
-pub fn one_face() -> Problem {
-    pair(4, 0.43, [&[0], &[2]])
-}

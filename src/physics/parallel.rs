@@ -5,8 +5,6 @@
 //! iterator of rayon is about 10 kB of code. Those are still used for items that take less than a
 //! microsecond.
 
-pub mod split;
-
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -129,24 +127,19 @@ pub fn threads() -> usize {
 
 /// The number of items in a part.
 fn size(count: usize) -> usize {
-    let threads = match split::is_recording() {
-        true => split::AS_FOR,
-        false => threads(),
-    };
-    count.div_ceil(PARTS * threads).max(1)
+    count.div_ceil(PARTS * threads()).max(1)
 }
 
 /// Runs this many parts on all threads; no further part starts once one has failed or was
 /// interrupted.
 fn shared_out(parts: usize, work: &(dyn Fn(usize) + Sync)) {
-    let part = |part| split::part(|| work(part));
-    split::region(|| match parts {
-        1 => part(0),
+    match parts {
+        1 => work(0),
         _ => {
             let parts = (0..parts).into_par_iter().with_max_len(1);
-            parts.panic_fuse().for_each(part);
+            parts.panic_fuse().for_each(work);
         }
-    });
+    }
 }
 
 #[cfg(test)]
