@@ -1,9 +1,8 @@
 //! `tilebind bond`.
 
 use clap::Args;
-use tilebind::bond::{Request, held};
+use tilebind::bond::Request;
 use tilebind::report::bond::{FILES, document};
-use tilebind::{Settings, pipeline};
 
 use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
@@ -43,11 +42,8 @@ impl BondCommand {
         let output = self.results.output(&FILES, self.design.inputs(&design))?;
         self.threads.use_threads()?;
         let progress = self.results.progress();
-        let settings = Settings::without_proofs(self.request.seed);
-        let analysis = pipeline::analyse(&design, &settings, &progress);
-        let found = (&*analysis.problem, &analysis.catalogue);
-        let shaking = self.request.shaking();
-        let held = held(&design, found, shaking, output.is_some()).map_err(Failure::of)?;
+        let held = self.request.run(&design, output.is_some(), &progress);
+        let held = held.map_err(Failure::of)?;
         self.results
             .deliver(&document(&design, &held), output, &progress)
     }

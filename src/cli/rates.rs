@@ -4,7 +4,6 @@ use clap::Args;
 use tilebind::observer::Observer;
 use tilebind::rates::Request;
 use tilebind::report::rates::{FILES, document, exit_document};
-use tilebind::{Settings, pipeline};
 
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
@@ -55,7 +54,7 @@ impl Rates {
     pub fn run(self) -> Result<(), Failure> {
         let design = self.design.load()?;
         let output = self.results.output(&FILES, self.design.inputs(&design))?;
-        let (problem, request) = (design.problem(), &self.request);
+        let request = &self.request;
         self.threads.use_threads()?;
         let progress = self.results.progress();
         let threads = self.threads.count();
@@ -63,21 +62,15 @@ impl Rates {
         if let Some(start) = request.start {
             input::doubt_pose(&design, &start);
             progress.stage("exit", 0.1);
+            let problem = design.problem();
             let (found, check) = request
                 .exit((&design, &problem), start, &progress)
                 .map_err(Failure::of)?;
             let document = exit_document(&design, &found, check.as_ref());
             return self.results.deliver(&document, output, &progress);
         }
-        // Only states and their lowest barriers are needed, without proofs.
-        let settings = Settings {
-            milestones: Settings::default().milestones,
-            ..Settings::without_proofs(request.seed)
-        };
-        workload::tell_memory(settings.check_memory())?;
-        let analysis = pipeline::analyse_problem(&design, problem, &settings, &progress);
-        progress.stage("rates", 0.9);
-        let found = request.rates(&design, &analysis, output.is_some(), &progress);
+        workload::tell_memory(request.survey().check_memory())?;
+        let found = request.rates(&design, output.is_some(), &progress);
         let found = found.map_err(Failure::of)?;
         let document = document(&design, &found, request.seed);
         self.results.deliver(&document, output, &progress)

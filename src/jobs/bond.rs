@@ -3,11 +3,12 @@
 use clap::Args;
 
 use crate::design::Design;
-use crate::pipeline::Settings;
+use crate::pipeline::{self, Settings};
 use crate::request;
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
 use physics::landscape::Catalogue;
+use physics::observer::Observer;
 use physics::parallel;
 use physics::problem::Problem;
 
@@ -34,10 +35,27 @@ pub struct Request {
 }
 
 impl Request {
-    /// The shaking.
-    pub fn shaking(&self) -> Shaking {
+    /// Surveys the states of a design and integrates over the bond and the traps; also at other
+    /// kT, if they are to be plotted.
+    ///
+    /// # Errors
+    /// If there is no bond.
+    pub fn run(
+        &self,
+        design: &Design,
+        is_pictured: bool,
+        observer: &dyn Observer,
+    ) -> Result<Held, BondError> {
+        let settings = Settings::without_proofs(self.seed);
+        let found = pipeline::analyse(design, &settings, observer);
         let Self { kt, coverage, .. } = *self;
-        Shaking { kt, coverage }
+        let shaking = Shaking { kt, coverage };
+        held(
+            design,
+            (&found.problem, &found.catalogue),
+            shaking,
+            is_pictured,
+        )
     }
 }
 
@@ -116,7 +134,7 @@ impl HeldState {
 ///
 /// # Errors
 /// If there is no bond.
-pub fn held(
+fn held(
     design: &Design,
     (problem, catalogue): (&Problem, &Catalogue),
     shaking: Shaking,

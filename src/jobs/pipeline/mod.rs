@@ -31,20 +31,10 @@ use physics::roadmap::{Roadmap, RoadmapSettings};
 /// Analyses a design. The same design and settings give the same result on any number of threads,
 /// unless a time limit ends a proof.
 pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
-    analyse_problem(design, design.problem(), settings, observer)
+    analyse_showing(design, design.problem(), settings, observer, None)
 }
 
-/// Analyses the given problem of a design.
-pub fn analyse_problem(
-    design: &Design,
-    problem: Problem,
-    settings: &Settings,
-    observer: &dyn Observer,
-) -> Analysis {
-    analyse_showing(design, problem, settings, observer, None)
-}
-
-/// The same. `show` gets what the survey found before the proofs begin, which take most of the time.
+/// The same for the given problem of a design. `show` gets what the survey found before the proofs begin, which take most of the time.
 pub fn analyse_showing(
     design: &Design,
     problem: Problem,

@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::memory;
-use crate::pipeline::Analysis;
+use crate::pipeline::{self, Settings};
 use crate::request::{self, Unanswered};
 use crate::seated::seated;
 use physics::configuration::Configuration;
@@ -150,20 +150,31 @@ impl Request {
         Ok((found, check))
     }
 
-    /// Rates between the bond, the deepest traps and free tiles; with additional results if they
-    /// are to be plotted. The observer is told first figures at once, as for [`Self::exit`].
+    /// The settings of the survey of states that rates begin with: only states and their lowest
+    /// barriers are needed, without proofs.
+    pub fn survey(&self) -> Settings {
+        Settings {
+            milestones: Settings::default().milestones,
+            ..Settings::without_proofs(self.seed)
+        }
+    }
+
+    /// Surveys the states of a design and solves for the rates between the bond, the deepest traps
+    /// and free tiles; with additional results if they are to be plotted. The observer gets first
+    /// figures at once, as for [`Self::exit`].
     ///
     /// # Errors
     /// See [`RateFault`].
     pub fn rates(
         &self,
         design: &Design,
-        analysis: &Analysis,
         is_pictured: bool,
         observer: &dyn Observer,
     ) -> Result<StateRates, RateFault> {
+        let analysis = pipeline::analyse(design, &self.survey(), observer);
+        observer.stage("rates", 0.9);
         let question = &self.question;
-        let states = RatedState::held(analysis, question.kt, self.traps, question.basin_energy);
+        let states = RatedState::held(&analysis, question.kt, self.traps, question.basin_energy);
         let posed = (design, &*analysis.problem);
         Ok(question.rates(posed, states, is_pictured, observer)?)
     }

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tilebind::bond::{self, held};
+use tilebind::bond;
 use tilebind::landscape::Place;
 use tilebind::landscape::map::{EnergyMap, Window};
 use tilebind::rates;
@@ -160,7 +160,8 @@ impl Analysis {
         convert::named(py, "LandscapeMap", &fields)
     }
 
-    /// Compute how strongly the bond and the traps hold shaken tiles.
+    /// Compute how strongly the bond and the traps hold shaken tiles, with the states that
+    /// ``tilebind bond`` finds with this analysis's seed, whatever its other settings.
     ///
     /// Parameters
     /// ----------
@@ -182,17 +183,16 @@ impl Analysis {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = PyDict::new(py);
         asked.set_item("coverage", coverage)?;
+        asked.set_item("seed", self.found.settings.seed)?;
         let asked: bond::Request = request_with(py, Some(&asked), "kt", kt)?;
-        let (design, found) = (&self.content.design, &self.found);
-        let found = (&*found.problem, &found.catalogue);
-        let held = job::answer(py, Some(false), |_| {
-            held(design, found, asked.shaking(), false)
-        })?;
+        let design = &self.content.design;
+        let held = job::answer(py, Some(false), |told| asked.run(design, false, told))?;
         shown::report(py, &report::bond::document(design, &held))
     }
 
     /// Compute how fast shaken tiles bind, unbind and change between bond and traps:
-    /// overdamped motion at kT between stated basins.
+    /// overdamped motion at kT between stated basins, those that ``tilebind rates`` finds with
+    /// this analysis's seed, whatever its other settings.
     ///
     /// Parameters
     /// ----------
@@ -220,13 +220,19 @@ impl Analysis {
         kt: Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let asked: rates::Request = request_with(py, settings, "kt", kt)?;
+        let given = match settings {
+            Some(settings) => settings.copy()?,
+            None => PyDict::new(py),
+        };
+        if !given.contains("seed")? {
+            given.set_item("seed", self.found.settings.seed)?;
+        }
+        let asked: rates::Request = request_with(py, Some(&given), "kt", kt)?;
         job::check_memory(asked.check_memory(job::threads()))?;
-        let (design, found) = (&self.content.design, &self.found);
-        let rates = job::answer(py, Some(false), |told| {
-            asked.rates(design, found, false, told)
-        })?;
-        let document = report::rates::document(design, &rates, found.settings.seed);
+        job::check_memory(asked.survey().check_memory())?;
+        let design = &self.content.design;
+        let rates = job::answer(py, Some(false), |told| asked.rates(design, false, told))?;
+        let document = report::rates::document(design, &rates, asked.seed);
         shown::report(py, &document)
     }
 
