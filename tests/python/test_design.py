@@ -142,6 +142,7 @@ def test_drawings_for_browsers_agree_with_those_for_cutters():
         shape = "disc"
         diameter = "6 mm"
         height = "3 mm"
+        axis = "up"
         remanence = 1.2
         pitch = 0.012
         inset = 0.002

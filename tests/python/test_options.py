@@ -35,11 +35,13 @@ CALLS = {
     "words": "words",
     "yield": "Design.yields",
 }
-# Parts of a sweep on many machines; what has a method of its own; the seed of an analysis that is there.
+# Parts of a sweep on many machines; what has a method of its own; the seed of an analysis that is there;
+# the words of a tile set, whose parts only the program makes.
 ELSEWHERE = {
     "bond": {"seed"},
     "calibrate": {"bonds", "gaps"},
     "dock": {"from_bond", "trajectory"},
+    "make": {"words"},
     "table": {"lattice", "merge", "hoomd"},
     "sweep": {"run", "merge", "status", "shard", "plan"},
 }

@@ -32,33 +32,48 @@ pub struct Mark {
 }
 
 /// The marks of a tile: of its pockets, `names` in the order of its magnets, then its own name.
-/// Where not even the shortest text fits, the mark is `None`.
+///
+/// All letters are as high as there is room for all marks, and texts are shortened only if there is
+/// none for letters of the least height. Where not even the shortest text fits, the mark is `None`.
 pub(super) fn marks(tile: &Tile, holes: &[Magnet], names: &[[String; 3]], name: &str) -> Marks {
     let taken = holes.iter().map(Magnet::outline);
-    let mut board = Board {
+    let board = Board {
         rim: &tile.outline,
         taken: taken.filter_map(|hole| Outline::new(hole).ok()).collect(),
     };
-    let pockets = holes.iter().zip(names);
-    let pockets = pockets
-        .map(|(hole, names)| {
-            let inwards = -tile.faces[hole.face].normal();
-            board.beside(hole, inwards, names)
-        })
-        .collect();
     let texts = [
         format!("{name}, this side up"),
         format!("{name} up"),
         name.chars().take(1).chain(" up".chars()).collect(),
     ];
-    Marks {
-        pockets,
-        tile: board.anywhere(&texts, &tile.faces[0].normal()),
+    let tried = |shortened: usize, height: f64| {
+        let mut board = board.clone();
+        let pockets = holes.iter().zip(names).map(|(hole, names)| {
+            let inwards = -tile.faces[hole.face].normal();
+            board.beside(hole, inwards, &names[shortened..], height)
+        });
+        Marks {
+            pockets: pockets.collect(),
+            tile: board.anywhere(&texts[shortened..], &tile.faces[0].normal(), height),
+        }
+    };
+    let mut best = Marks::default();
+    for shortened in 0..texts.len() {
+        for height in HEIGHTS {
+            let marks = tried(shortened, height);
+            if marks.count() > best.count() || best.pockets.len() < holes.len() {
+                best = marks;
+            }
+            if best.count() == holes.len() + 1 {
+                return best;
+            }
+        }
     }
+    best
 }
 
 /// The marks of a tile.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
     /// Of each pocket.
     pub pockets: Vec<Option<Mark>>,
@@ -66,34 +81,46 @@ pub struct Marks {
     pub tile: Option<Mark>,
 }
 
+impl Marks {
+    /// How many there are.
+    fn count(&self) -> usize {
+        self.pockets.iter().chain([&self.tile]).flatten().count()
+    }
+}
+
 /// What is free of a tile.
+#[derive(Clone)]
 struct Board<'a> {
     rim: &'a Outline,
     taken: Vec<Outline>,
 }
 
 impl Board<'_> {
-    /// Places a text inwards of a hole.
-    fn beside(&mut self, hole: &Magnet, inwards: Vector2<f64>, texts: &[String]) -> Option<Mark> {
+    /// Places one of some texts inwards of a hole.
+    fn beside(
+        &mut self,
+        hole: &Magnet,
+        inwards: Vector2<f64>,
+        texts: &[String],
+        height: f64,
+    ) -> Option<Mark> {
         let corners = hole.outline();
         let reach = corners.iter().map(|p| (p - hole.position).dot(&inwards));
         let reach = reach.fold(0.0, f64::max) + 1.05 * FREE;
         let along = Vector2::new(-inwards.y, inwards.x);
         for text in texts {
-            for height in HEIGHTS {
-                let width = WIDTH * height * text.chars().count() as f64;
-                for farther in [0.0, 1.5 * height, 3.0 * height] {
-                    for (axis, deep) in [(along, height), (inwards, width)] {
-                        let middle = hole.position + inwards * (reach + farther + deep / 2.0);
-                        if self.take(middle, axis, [width, height]) {
-                            return Some(Mark {
-                                text: text.clone(),
-                                middle,
-                                height,
-                                turn: readable(axis),
-                                arrow: None,
-                            });
-                        }
+            let width = WIDTH * height * text.chars().count() as f64;
+            for farther in [0.0, 1.5 * height, 3.0 * height] {
+                for (axis, deep) in [(along, height), (inwards, width)] {
+                    let middle = hole.position + inwards * (reach + farther + deep / 2.0);
+                    if self.take(middle, axis, [width, height]) {
+                        return Some(Mark {
+                            text: text.clone(),
+                            middle,
+                            height,
+                            turn: readable(axis),
+                            arrow: None,
+                        });
                     }
                 }
             }
@@ -101,8 +128,8 @@ impl Board<'_> {
         None
     }
 
-    /// Places a text with an arrow as near to the middle of the tile as possible.
-    fn anywhere(&mut self, texts: &[String], arrow: &Vector2<f64>) -> Option<Mark> {
+    /// Places one of some texts with an arrow as near to the middle of the tile as possible.
+    fn anywhere(&mut self, texts: &[String], arrow: &Vector2<f64>, height: f64) -> Option<Mark> {
         let middle = self.rim.centroid();
         let step = self.rim.circumradius() / f64::from(PLACES);
         let range = -PLACES..=PLACES;
@@ -112,26 +139,24 @@ impl Board<'_> {
             .collect();
         places.sort_by_key(|(i, j)| i * i + j * j);
         for text in texts {
-            for height in HEIGHTS {
-                let width = WIDTH * height * text.chars().count() as f64;
-                for &(i, j) in &places {
-                    let at = middle + Vector2::new(f64::from(i), f64::from(j)) * step;
-                    let size = [width.max(TALL * height), TALL * height];
-                    if !self.take(at, Vector2::x(), size) {
-                        continue;
-                    }
-                    // Text below, arrow above.
-                    let low = at - Vector2::y() * ((TALL - 1.0) / 2.0 * height);
-                    let high = at + Vector2::y() * (0.5 * height);
-                    let half = arrow * (0.65 * height);
-                    return Some(Mark {
-                        text: text.clone(),
-                        middle: low,
-                        height,
-                        turn: 0.0,
-                        arrow: Some([high - half, high + half]),
-                    });
+            let width = WIDTH * height * text.chars().count() as f64;
+            for &(i, j) in &places {
+                let at = middle + Vector2::new(f64::from(i), f64::from(j)) * step;
+                let size = [width.max(TALL * height), TALL * height];
+                if !self.take(at, Vector2::x(), size) {
+                    continue;
                 }
+                // Text below, arrow above.
+                let low = at - Vector2::y() * ((TALL - 1.0) / 2.0 * height);
+                let high = at + Vector2::y() * (0.5 * height);
+                let half = arrow * (0.65 * height);
+                return Some(Mark {
+                    text: text.clone(),
+                    middle: low,
+                    height,
+                    turn: 0.0,
+                    arrow: Some([high - half, high + half]),
+                });
             }
         }
         None
@@ -149,13 +174,20 @@ impl Board<'_> {
             middle + a + b,
             middle - a + b,
         ];
-        let ring = corners.iter().zip(corners.iter().cycle().skip(1));
-        let inside = ring.clone().all(|(p, q)| {
+        let mut ring = corners.iter().zip(corners.iter().cycle().skip(1));
+        let inside = ring.all(|(p, q)| {
             (0..4).all(|k| {
                 let p = p + (q - p) * (f64::from(k) / 4.0);
                 self.rim.signed_distance(p) < -FREE
             })
         });
+        // The rim may reach into the rectangle between these points.
+        let reaches_in = |corner: &Vector2<f64>| {
+            let from = corner - middle;
+            let along = from.dot(&axis).abs() - size[0] / 2.0;
+            along.max(from.perp(&axis).abs() - size[1] / 2.0) < FREE
+        };
+        let inside = inside && !self.rim.vertices().iter().any(reaches_in);
         let Some(own) = inside.then(|| Outline::new(corners).ok()).flatten() else {
             return false;
         };

@@ -545,3 +545,26 @@ fn a_tile_that_is_larger_than_a_page_has_several() {
     assert_eq!(pages.count(), 12);
     assert!(!files.contains_key("check.svg"));
 }
+
+/// On a small tile all letters become as low as it takes for every pocket to have its mark.
+#[test]
+fn every_pocket_has_its_mark() {
+    let out = tempfile::tempdir().unwrap();
+    let design = "shapes/ring-of-eight.toml";
+    let report = json(&[
+        "make",
+        design,
+        "--json",
+        "-o",
+        out.path().join("o").to_str().unwrap(),
+    ]);
+    assert!(report["tile"].as_array().unwrap().len() >= 4);
+    let sheet = fs::read_to_string(out.path().join("o/sheet.md")).unwrap();
+    assert!(!sheet.contains("no room"), "{sheet}");
+    let drawing = fs::read_to_string(out.path().join("o/tile.svg")).unwrap();
+    // A mark for each pocket, and the tile's own.
+    assert_eq!(
+        drawing.matches("<text").count(),
+        report["tile"].as_array().unwrap().len() + 1
+    );
+}
