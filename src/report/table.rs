@@ -223,8 +223,18 @@ fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String 
         (Some(_), Some(_)) => "; the two results agree within their intervals",
         _ => "",
     };
+    let traps = best.trapped * (question.tiles / 2) as f64;
+    let here = &found.statistics.traps;
+    let trapped = match (here.low, here.high) {
+        (Some(low), Some(high)) if traps < low || traps > high => format!(
+            "; of traps it predicts {}, and here are {}: `yield` has no contacts of equal tiles or of three",
+            plain(traps, 2),
+            told(here)
+        ),
+        _ => String::new(),
+    };
     format!(
-        "`tilebind yield` predicts that {} are bound ({}){verdict}",
+        "`tilebind yield` predicts that {} are bound ({}){verdict}{trapped}",
         share(best.bound),
         in_pairs(question, best.interval)
     )

@@ -13,9 +13,9 @@ use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::mixture::Mixture;
-use physics::kinetics::population::MOST_STATES;
+use physics::kinetics::population::{Crowd, MOST_STATES};
 use physics::order::Order;
-use physics::units::{duration, si};
+use physics::units::{duration, plain, si};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -47,11 +47,12 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         title: format!("Yield of {}", design.name),
         answer: answer(design, question, found),
         remarks: vec![format!(
-            "({} and {} tiles covering {:.0} % of {:.2} m2; intervals: {interval})",
-            found.crowd.tiles[0],
-            found.crowd.tiles[1],
+            "({} covering {:.0} % of {:.2} m2, in which they meet as points would in {}; intervals: \
+             {interval})",
+            tiles(&found.crowd),
             100.0 * question.coverage,
-            found.crowd.area,
+            found.crowd.table,
+            format!("{} m2", plain(found.crowd.area, 3)),
         )],
         entries: found_entries(design, question, found),
         pictures: pictures(question, found),
@@ -64,7 +65,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
                 lifetimes(question),
             ])
             .chain(dissipation(question))
-            .chain(one_kind(design))
+            .chain([left_out(found)])
             .collect(),
         origin: format!(
             "{} magnets; {told}, detachment {}; a tile binds at most one partner",
@@ -75,13 +76,25 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
     }
 }
 
-/// A note if all tiles bind each other.
-fn one_kind(design: &Design) -> Option<String> {
-    design.problem().exchange.map(|_| {
-        "both tiles are of one kind, so that any two of them bind; here a tile binds only tiles of the \
-         other half, and one of them: `tilebind table --count N` simulates all contacts"
-            .to_owned()
-    })
+/// The tiles, for people.
+fn tiles(crowd: &Crowd) -> String {
+    let [fixed, moving] = crowd.tiles;
+    match crowd.one_kind {
+        true => format!("{} equal tiles", fixed + moving),
+        false => format!("{fixed} and {moving} tiles"),
+    }
+}
+
+/// Which contacts are left out.
+fn left_out(found: &Yields) -> String {
+    let contacts = match found.crowd.one_kind {
+        true => "here a tile binds one other tile at most, so chains and rings are left out",
+        false => {
+            "here a tile binds one tile of the other kind at most: bonds and traps of tiles of the same kind, \
+             and of a third tile, are left out"
+        }
+    };
+    format!("{contacts}; `tilebind table --count N` simulates all of them")
 }
 
 /// A note if collisions dissipate energy.
@@ -127,7 +140,8 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .fact("time_s", "", question.time)
         .fact("coverage", "", question.coverage)
         .fact("tile_area_m2", "", found.tile_area)
-        .fact("table_area_m2", "", found.crowd.area)
+        .fact("table_area_m2", "", found.crowd.table)
+        .fact("meeting_area_m2", "", found.crowd.area)
         .fact("yield", "bound", best.bound).viewed(within(best.bound, best.interval)).noted("of all pairs")
         .fact("yield_interval", "", best.interval)
         .fact("trapped", "in traps", best.trapped).share().in_view()

@@ -4,7 +4,8 @@
 //! follow from them by detailed balance, `k_off = k_on / K`, with the constants K of
 //! [`physics::kinetics::bond`]. Both are valid only if the table has a temperature: contact that
 //! dissipates energy, which shaking does not return, violates detailed balance, and drag determines
-//! how fast tiles meet. Pairs go from trap to bond only through free.
+//! how fast tiles meet. The table's rim and the other tiles take room: see
+//! [`Crowd`](physics::kinetics::population::Crowd). Pairs go from trap to bond only through free.
 
 pub mod attachment;
 mod outcome;
@@ -27,7 +28,7 @@ use physics::kinetics::population::Crowd;
 use physics::kinetics::rates::RatesError;
 use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
-use physics::units::si;
+use physics::units::{plain, si};
 
 /// Largest number of settings.
 const MOST_SETTINGS: usize = 20;
@@ -37,7 +38,7 @@ const MOST_TILES: usize = 10_000;
 /// The options.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Question {
-    /// Number of tiles on the table, half of each kind
+    /// Number of tiles on the table, half of each kind unless both are one
     #[arg(long, value_name = "N", value_parser = tiles)]
     pub tiles: usize,
 
@@ -118,6 +119,12 @@ pub enum YieldError {
          choose a larger --kt", si(*.0, "J", 4), si(NO_PLAY, "m", 2)
     )]
     Cold(f64),
+    /// The table of this area (m^2) is too small.
+    #[error(
+        "a bound pair has no room on a square table of {} m2: use more tiles, or a smaller --coverage",
+        plain(*.0, 3)
+    )]
+    NoRoom(f64),
     /// The bond's basin has no volume.
     #[error("the bond has no clearance at all: shaken tiles never find it, and the yield is 0")]
     NoPlay,
@@ -132,7 +139,12 @@ pub enum YieldError {
 impl Unanswered for YieldError {
     fn is_of_the_question(&self) -> bool {
         match self {
-            Self::Many(_) | Self::Docking(_) | Self::Hot(..) | Self::Cold(_) | Self::Lost => true,
+            Self::Many(_)
+            | Self::Docking(_)
+            | Self::Hot(..)
+            | Self::Cold(_)
+            | Self::Lost
+            | Self::NoRoom(_) => true,
             Self::Rates(error) => error.is_of_the_question(),
             Self::Bond(_) | Self::NoPlay => false,
         }
@@ -212,8 +224,17 @@ pub fn yields(
     let coldest = usable.fold(f64::INFINITY, f64::min);
     let traps = traps(problem, catalogue, coldest);
     let holds: Vec<&Hold> = std::iter::once(&bond).chain(&traps).collect();
-    let tile_area = design.pair.moving.outline.area();
-    let crowd = Crowd::new(question.tiles, question.coverage, tile_area);
+    let pair = &*design.pair;
+    let tile_area = pair.moving.outline.area();
+    let crowd = Crowd::new(
+        question.tiles,
+        question.coverage,
+        pair,
+        problem.exchange.is_some(),
+    );
+    if crowd.area.is_infinite() {
+        return Err(YieldError::NoRoom(crowd.table));
+    }
     let at = |kt: f64| {
         if let Some(why) = refused(kt) {
             return Err(why);
@@ -231,7 +252,7 @@ pub fn yields(
         if states.first().is_none_or(|first| first.name != bond.name) {
             return Err(YieldError::NoPlay);
         }
-        Ok(outcome(kt, states, attached, &crowd, tile_area, question))
+        Ok(outcome(kt, states, attached, (&crowd, pair), question))
     };
     let (mut outcomes, mut without) = (Vec::new(), Vec::new());
     for (k, &kt) in question.kts.iter().enumerate() {
@@ -248,8 +269,7 @@ pub fn yields(
     if let (true, Some((_, error))) = (outcomes.is_empty(), without.first()) {
         return Err(error.clone());
     }
-    let mixture =
-        (outcomes.len() > 1).then(|| schedule::best(&outcomes, &holds, question, tile_area));
+    let mixture = (outcomes.len() > 1).then(|| schedule::best(&outcomes, &holds, question, &crowd));
     Ok(Yields {
         tile_area,
         crowd,

@@ -8,6 +8,7 @@ use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
 use physics::kinetics::population::{Crowd, MOST_STATES, PairRates, Shares};
 use physics::order::Order;
 use physics::parallel;
+use physics::tile::Pair;
 
 /// Numbers of tiles and coverages in the table of yields, besides the requested ones.
 const TILES: [usize; 6] = [2, 4, 8, 16, 32, 50];
@@ -128,8 +129,7 @@ pub(super) fn outcome(
     kt: f64,
     states: Vec<StateRates>,
     attached: Attachments,
-    crowd: &Crowd,
-    tile_area: f64,
+    (crowd, pair): (&Crowd, &Pair),
     question: &Question,
 ) -> Outcome {
     let rates = PairRates {
@@ -179,8 +179,13 @@ pub(super) fn outcome(
         ends[0].min(bound - wider).max(0.0),
         ends[1].max(bound + wider).min(1.0),
     ];
+    // A tile among its possible partners.
+    let partners = match crowd.one_kind {
+        true => crowd.tiles[0] + crowd.tiles[1] - 1,
+        false => crowd.tiles[0],
+    };
     let mean_times = |rates: &PairRates| {
-        let chain = rates.pair_chain(crowd.area / crowd.tiles[0].max(1) as f64);
+        let chain = rates.pair_chain(crowd.area / partners.max(1) as f64);
         [chain.mean_times(&[1])[0], chain.mean_times(&[0])[1]]
     };
     let course = times.iter().zip(&found[0].bound).zip(&found[0].trapped);
@@ -195,7 +200,7 @@ pub(super) fn outcome(
         if (tiles, coverage) == (question.tiles, question.coverage) {
             return (tiles, coverage, bound, exact);
         }
-        let crowd = Crowd::new(tiles, coverage, tile_area);
+        let crowd = Crowd::new(tiles, coverage, pair, crowd.one_kind);
         let found = shares(&rates, &crowd, &[time], MOST_IN_TABLE);
         (tiles, coverage, found.bound[0], found.exact)
     });

@@ -22,7 +22,7 @@ pub(super) fn best(
     outcomes: &[Outcome],
     holds: &[&Hold],
     question: &Question,
-    tile_area: f64,
+    crowd: &Crowd,
 ) -> (usize, Mixture) {
     // All settings have the same states: a trap without attachments at one kT still holds tiles
     // caught at another.
@@ -36,7 +36,14 @@ pub(super) fn best(
         |pairs: &usize| numbers::count(kinds.len(), *pairs).is_some_and(|states| states <= STATES);
     let most = PAIRS.min(question.tiles / 2);
     let pairs = (1..=most).rev().find(fits).unwrap_or(1);
-    let crowd = Crowd::new(2 * pairs, question.coverage, tile_area);
+    // Fewer tiles on as much smaller a part of the table.
+    let share = pairs as f64 / crowd.pairs() as f64;
+    let crowd = Crowd {
+        tiles: [pairs; 2],
+        area: share * crowd.area,
+        table: share * crowd.table,
+        ..*crowd
+    };
     let settings = parallel::map(0..outcomes.len(), |k| {
         let all = rates(outcomes, &outcomes[k], &kinds, question.coverage);
         Numbers::new(&all, &crowd)

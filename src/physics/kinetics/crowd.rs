@@ -3,6 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::chain::Chain;
+use super::room::meeting_area;
+use crate::tile::Pair;
 
 /// The rates of a pair of tiles: state 0 is the bond, the others are traps.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,22 +22,44 @@ pub struct PairRates {
 pub struct Crowd {
     /// Numbers of tiles of the fixed and of the moving tile's kind.
     pub tiles: [usize; 2],
-    /// The table's area (m^2).
+    /// Whether both kinds are one, so that any two tiles can bind.
+    pub one_kind: bool,
+    /// The area (m^2) by which rates are divided: that in which tiles meet, see [`meeting_area`].
     pub area: f64,
+    /// The table's own area (m^2).
+    pub table: f64,
 }
 
 impl Crowd {
-    /// A number of tiles, half of each kind, of `tile_area` (m^2) that cover a share of a table.
-    pub fn new(tiles: usize, coverage: f64, tile_area: f64) -> Self {
+    /// A number of tiles, half of each kind of a pair, that cover a share of a square table. The area
+    /// is infinite if a bound pair has no room on it.
+    pub fn new(tiles: usize, coverage: f64, pair: &Pair, one_kind: bool) -> Self {
+        let table = tiles as f64 * pair.moving.outline.area() / coverage;
         Self {
             tiles: [tiles.div_ceil(2), tiles / 2],
-            area: tiles as f64 * tile_area / coverage,
+            one_kind,
+            area: meeting_area(pair, table, tiles.saturating_sub(2)),
+            table,
         }
     }
 
     /// Largest possible number of pairs.
     pub fn pairs(&self) -> usize {
-        self.tiles[0].min(self.tiles[1])
+        match self.one_kind {
+            true => (self.tiles[0] + self.tiles[1]) / 2,
+            false => self.tiles[0].min(self.tiles[1]),
+        }
+    }
+
+    /// The number of pairs of free tiles that can bind while `held` pairs are bound, over the area
+    /// (1/m^2), and how much it falls with each more. Two equal tiles are counted once.
+    pub fn meetings(&self, held: f64) -> [f64; 2] {
+        let [a, b] = self.tiles.map(|tiles| tiles as f64 - held);
+        let [pairs, less] = match self.one_kind {
+            true => [(a + b) * (a + b - 1.0) / 2.0, 2.0 * (a + b) - 1.0],
+            false => [a * b, a + b],
+        };
+        [pairs, less].map(|count| count.max(0.0) / self.area)
     }
 }
 

@@ -77,6 +77,7 @@ pub mod population;
 pub mod rates;
 mod results;
 mod rim;
+mod room;
 mod root;
 mod sets;
 pub mod stiff;

@@ -68,12 +68,7 @@ impl Numbers {
                 .binary_search_by(|other| (held(other), &other[..]).cmp(&key))
                 .ok()
         };
-        let meeting = |state: &[u32]| {
-            let free = crowd
-                .tiles
-                .map(|tiles| tiles as f64 - f64::from(held(state)));
-            free[0] * free[1] / crowd.area
-        };
+        let meeting = |state: &[u32]| crowd.meetings(f64::from(held(state)))[0];
         let (mut begins, mut into) = (vec![0], Vec::new());
         let mut out = vec![0.0; states.len()];
         for state in &states {
@@ -284,7 +279,9 @@ mod tests {
         rates.turns[(0, 1)] = 1e-9;
         let crowd = Crowd {
             tiles: [4, 4],
+            one_kind: false,
             area: 3.0,
+            table: 3.0,
         };
         let numbers = Numbers::new(&rates, &crowd);
         assert_eq!(Some(numbers.len()), count(3, 4));

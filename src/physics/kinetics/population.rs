@@ -1,6 +1,7 @@
 //! Many tiles on a table: how many are bound and how many are trapped after a given time.
 //!
-//! Half of the tiles are of the fixed tile's kind, half of the moving one's. A tile binds at most
+//! Half of the tiles are of the fixed tile's kind, half of the moving one's, or all are of one kind: then
+//! `a (a - 1) / 2` pairs of free tiles take the place of `a b`. A tile binds at most
 //! one partner (pairs are the product; larger assemblies are not considered), every free tile of
 //! one kind meets every free tile of the other equally often (a well stirred table), and a pair
 //! changes its state at constant rates. With a and b free tiles of the two kinds, n_i pairs in
@@ -60,16 +61,21 @@ impl PairRates {
     /// With z_i = kappa_i / (k_i S), A and B tiles and H pairs in all, the numbers of pairs have
     /// the weights `A! B! / ((A - H)! (B - H)!) prod z_i^n_i / n_i!` (detailed balance); for T
     /// trapped pairs the sum over kinds equals that of one kind with the sum of their z. Rates from
-    /// state to state satisfy the same balance and do not change it.
+    /// state to state satisfy the same balance and do not change it. N tiles of one kind have the
+    /// weights `N! / (N - 2 H)! prod (z_i / 2)^n_i / n_i!`.
     pub fn equilibrium(&self, crowd: &Crowd) -> Option<f64> {
         let each = self.on.iter().zip(&self.off);
-        let z: Vec<f64> = each.map(|(on, off)| on / off / crowd.area).collect();
+        let orders = if crowd.one_kind { 2.0 } else { 1.0 };
+        let z: Vec<f64> = each
+            .map(|(on, off)| on / off / crowd.area / orders)
+            .collect();
         let traps: f64 = z[1..].iter().filter(|z| z.is_finite()).sum();
         if !(z[0] > 0.0 && z[0].is_finite()) {
             return None;
         }
         let pairs = crowd.pairs();
-        let mut logs = vec![0.0; crowd.tiles[0].max(crowd.tiles[1]) + 1];
+        let all_tiles = crowd.tiles[0] + crowd.tiles[1];
+        let mut logs = vec![0.0; all_tiles + 1];
         for k in 1..logs.len() {
             logs[k] = logs[k - 1] + libm::log(k as f64);
         }
@@ -80,8 +86,12 @@ impl PairRates {
         // Trapped pairs summed first, for each number in the bond: logarithms of the sums.
         let weight = |bound: usize| {
             let terms = (0..=pairs - bound).map(|trapped| {
-                let left = crowd.tiles.map(|tiles| logs[tiles - bound - trapped]);
-                power(traps, trapped) - left[0] - left[1]
+                let held = bound + trapped;
+                let left = match crowd.one_kind {
+                    true => logs[all_tiles - 2 * held],
+                    false => crowd.tiles.iter().map(|tiles| logs[tiles - held]).sum(),
+                };
+                power(traps, trapped) - left
             });
             power(z[0], bound) + sum_of_logs(&terms.collect::<Vec<f64>>())
         };
@@ -99,8 +109,7 @@ impl PairRates {
         let leaving: Vec<f64> = (0..kinds).map(|i| self.leaving(i)).collect();
         let euler = |numbers: &[f64], h: f64| {
             let held: f64 = numbers.iter().sum();
-            let [a, b] = crowd.tiles.map(|tiles| tiles as f64 - held);
-            let (meeting, less) = (a * b / crowd.area, (a + b) / crowd.area);
+            let [meeting, less] = crowd.meetings(held);
             let turned =
                 |i: usize| -> f64 { (0..kinds).map(|j| self.turns[(j, i)] * numbers[j]).sum() };
             let change =
@@ -117,9 +126,8 @@ impl PairRates {
             Some(numbers.iter().zip(&step).map(|(n, dn)| n + dn).collect())
         };
         let start = vec![0.0; self.on.len()];
-        let meetings = (crowd.tiles[0] * crowd.tiles[1]) as f64 / crowd.area;
-        let fastest =
-            self.on.iter().sum::<f64>() * meetings + self.off.iter().copied().fold(0.0, f64::max);
+        let fastest = self.on.iter().sum::<f64>() * crowd.meetings(0.0)[0]
+            + self.off.iter().copied().fold(0.0, f64::max);
         let first = match fastest > 0.0 {
             true => 0.1 / fastest,
             false => f64::MAX,
@@ -181,8 +189,7 @@ impl PairRates {
                 interruption::check();
             }
             let held: usize = numbers.iter().sum();
-            let free = crowd.tiles.map(|tiles| (tiles - held) as f64);
-            let meeting = free[0] * free[1] / crowd.area;
+            let [meeting, _] = crowd.meetings(held as f64);
             for i in 0..n {
                 let here = numbers[i] as f64;
                 rates[i] = self.on[i] * meeting;
@@ -241,8 +248,47 @@ mod tests {
     fn crowd(pairs: usize) -> Crowd {
         Crowd {
             tiles: [pairs; 2],
+            one_kind: false,
             area: 0.4 * pairs as f64,
+            table: 0.4 * pairs as f64,
         }
+    }
+
+    /// Two equal tiles are one pair, as two different ones are; of four equal tiles six pairs can form
+    /// first, and equilibrium, the forward equation and simulations agree.
+    #[test]
+    fn tiles_of_one_kind_are_counted_once() {
+        let rates = rates();
+        let equal = |tiles: usize| Crowd {
+            tiles: [tiles / 2; 2],
+            one_kind: true,
+            area: 0.8,
+            table: 0.8,
+        };
+        let different = Crowd {
+            one_kind: false,
+            ..equal(2)
+        };
+        assert_eq!(equal(4).meetings(0.0)[0] * 0.8, 6.0);
+        let shares = |crowd: &Crowd, time: f64| {
+            let shares = rates.forward_equation(crowd, &[time], MOST_STATES);
+            shares.unwrap().bound[0]
+        };
+        for time in [3.0, 300.0] {
+            let [one, two] = [equal(2), different].map(|crowd| shares(&crowd, time));
+            assert!((one - two).abs() < 1e-12, "{one} {two}");
+        }
+        let late = shares(&equal(6), 1e8);
+        let expected = rates.equilibrium(&equal(6)).unwrap();
+        assert!((late - expected).abs() < 1e-6, "{late} {expected}");
+        let time = 40.0;
+        let runs = (0..4000).map(|run| {
+            let numbers = rates.simulate(&equal(6), time, &mut stream(3, run));
+            numbers.unwrap()[0] as f64 / 3.0
+        });
+        let [mean, error] = mean_and_error(&runs.collect::<Vec<_>>());
+        let exact = shares(&equal(6), time);
+        assert!((mean - exact).abs() < 4.0 * error, "{mean} {error} {exact}");
     }
 
     /// One pair: the crowd's chain is the pair's.
@@ -342,7 +388,9 @@ mod tests {
         let far = |pairs: usize| {
             let crowd = Crowd {
                 tiles: [pairs; 2],
+                one_kind: false,
                 area: 2.4 * pairs as f64,
+                table: 2.4 * pairs as f64,
             };
             let of = |most: usize| rates.shares(&crowd, &[60.0], most).unwrap().bound[0];
             (of(MOST_STATES) - of(0)).abs()
@@ -358,7 +406,9 @@ mod tests {
         let weights = [1.0, 0.02 / 2.0 / 2e-3, 0.03 / 2.0 / 0.2, 0.01 / 2.0 / 0.01];
         let one = Crowd {
             tiles: [1, 1],
+            one_kind: false,
             area: 2.0,
+            table: 2.0,
         };
         let share = weights[1] / weights.iter().sum::<f64>();
         assert!((rates.equilibrium(&one).unwrap() - share).abs() < 1e-12);

@@ -558,7 +558,7 @@ fn every_pocket_has_its_mark() {
         "-o",
         out.path().join("o").to_str().unwrap(),
     ]);
-    assert!(report["tile"].as_array().unwrap().len() >= 4);
+    assert!(report["tile"].as_array().unwrap().len() >= 2);
     let sheet = fs::read_to_string(out.path().join("o/sheet.md")).unwrap();
     assert!(!sheet.contains("no room"), "{sheet}");
     let drawing = fs::read_to_string(out.path().join("o/tile.svg")).unwrap();
