@@ -30,8 +30,10 @@ const JOINED: usize = 256;
 const AN_EXIT: u64 = 4;
 /// A pathway's bound exceeds its highest energy by at most this fraction of the allowed rise.
 pub(super) const SHARP: f64 = 0.1;
-/// Units of work after which the bound of a pathway stays as it is.
+/// Units of work after which the bound of a pathway stays as it is; for very many magnets at least
+/// what so many cells take.
 const MOST_WORK: u64 = 1 << 24;
+const LEAST_CELLS: u64 = 512;
 
 /// A wholly free box about `at`, to which a step leads from all of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,7 +190,7 @@ impl<'a> Exits<'a> {
         let mut sharpening = Sharpening {
             tolerance: SHARP * self.rise,
             give_up: allowed,
-            work: MOST_WORK,
+            work: MOST_WORK.max(LEAST_CELLS * self.bounded.work()),
         };
         let proved = self.bounded.prove(way, &mut sharpening);
         proved.ok().map(|proved| proved.upper)
