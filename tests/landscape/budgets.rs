@@ -16,7 +16,7 @@ use tilebind::{Design, Problem};
 use crate::missing_states;
 
 /// Core-seconds of each proof.
-const WORK: f64 = 0.2;
+const WORK: f64 = 0.05;
 
 /// Corners (m) of a quadrilateral about the origin.
 fn corners(rng: &mut ChaCha8Rng) -> [[f64; 2]; 4] {
