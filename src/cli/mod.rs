@@ -67,8 +67,8 @@ Files: a command replaces only its own unchanged results, which it records in .t
 files are in the way, it stops at once; --force replaces them. Input files are never
 replaced. Either all files of a result are replaced or none.
 
-Environment: TILEBIND_KERNEL=avx512, avx2 or portable selects the instruction set (default: the fastest
-available). Results are identical."
+Environment: TILEBIND_KERNEL=avx512 or avx2 selects the instruction set (default: the fastest available;
+portable on other processors than x86-64). Results are identical."
 )]
 pub struct Arguments {
     #[command(subcommand)]

@@ -8,8 +8,7 @@ use super::x86::Avx2;
 
 /// Eight lanes in plain Rust.
 ///
-/// On x86-64 it is used only by processors without AVX2 (made before 2013), so its operations are
-/// not inlined there: inlined, with a call for each lane of a fused operation, they would double
+/// On x86-64 it is built for tests only, so its operations are not inlined there: inlined, with a call for each lane of a fused operation, they would double
 /// the code of all tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Portable;

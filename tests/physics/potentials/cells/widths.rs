@@ -1,6 +1,6 @@
 //! Exact widths of enclosures over fixed cells: if one of them grows, certificates have become
 //! slower; if one shrinks, a term may be missing. If a change is meant to alter them, enter the new
-//! numbers here. The portable instruction set is used, so that they are the same on every machine.
+//! numbers here. They have the same bits on every machine.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
