@@ -1,9 +1,10 @@
 //! Progress bars on a terminal; no output elsewhere.
 
 use std::io::IsTerminal;
-use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tilebind::observer::Observer;
 
 use super::{interrupt, tell};
@@ -16,33 +17,65 @@ const BAR: &str = "{bar:30} {elapsed:>4}  {msg}";
 const BAR_AND_RESULT: &str = "{bar:30} {elapsed:>4}  {msg}\n{prefix}";
 
 /// A bar with the name of the stage, on standard error.
-pub struct Progress(ProgressBar);
+pub struct Progress {
+    bar: ProgressBar,
+    /// Since when parts of one kind are counted.
+    parts: Mutex<Option<Parts>>,
+}
+
+/// Parts of a stage, all of about the same duration.
+#[derive(Clone, Copy)]
+struct Parts {
+    name: &'static str,
+    count: usize,
+    since: Instant,
+    /// Those done before.
+    before: usize,
+}
+
+impl Parts {
+    /// How long the rest takes, if it takes as long as those before; empty while that is unknown.
+    fn left(&self, done: usize) -> String {
+        let (spent, of) = (self.since.elapsed(), done.saturating_sub(self.before));
+        if of == 0 || spent < Duration::from_secs(2) {
+            return String::new();
+        }
+        let left = spent.as_secs_f64() * self.count.saturating_sub(done) as f64 / of as f64;
+        format!(
+            ", about {} left",
+            HumanDuration(Duration::from_secs_f64(left))
+        )
+    }
+}
 
 impl Progress {
     /// A bar if standard error is a terminal and `quiet` is false.
     pub fn new(quiet: bool) -> Self {
-        Self(bar(STEPS, BAR, Duration::from_millis(200), quiet))
+        Self {
+            bar: bar(STEPS, BAR, Duration::from_millis(200), quiet),
+            parts: Mutex::default(),
+        }
     }
 
     /// Shows the stage and its finished share (0 to 1).
     pub fn share(&self, name: &'static str, share: f64) {
-        self.0.set_position((share * STEPS as f64) as u64);
-        self.0.set_message(name);
+        self.bar.set_position((share * STEPS as f64) as u64);
+        self.bar.set_message(name);
     }
 
     /// Whether there is a terminal to show it on.
     pub fn is_shown(&self) -> bool {
-        !self.0.is_hidden()
+        !self.bar.is_hidden()
     }
 
     /// Prints a text above the bar.
     pub fn print(&self, text: &str) {
-        self.0.println(text);
+        self.bar.println(text);
     }
 
     /// Removes the bar from the terminal.
     pub fn finish(&self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }
 
@@ -52,20 +85,30 @@ impl Observer for Progress {
     }
 
     fn part(&self, name: &'static str, done: usize, count: usize) {
-        self.0
-            .set_message(format!("{name}, {done} of {count} done"));
+        let mut parts = self.parts.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = parts.filter(|it| (it.name, it.count) == (name, count) && it.before <= done);
+        let of = same.unwrap_or_else(|| Parts {
+            name,
+            count,
+            since: Instant::now(),
+            before: done,
+        });
+        *parts = Some(of);
+        let left = of.left(done);
+        let message = format!("{name}, {done} of {count} done{left}");
+        self.bar.set_message(message);
     }
 
     fn known(&self, what: &str) {
         interrupt::keep(what);
         if let Ok(style) = ProgressStyle::with_template(BAR_AND_RESULT) {
-            self.0.set_style(style);
+            self.bar.set_style(style);
         }
-        self.0.set_prefix(what.to_owned());
+        self.bar.set_prefix(what.to_owned());
     }
 
     fn warn(&self, what: &str) {
-        self.0.suspend(|| tell(format!("warning: {what}")));
+        self.bar.suspend(|| tell(format!("warning: {what}")));
     }
 }
 

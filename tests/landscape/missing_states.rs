@@ -50,7 +50,7 @@ pub fn survey(problem: &Problem, milestones: usize) -> Exploration<'_> {
 }
 
 fn conclude(survey: &Exploration, search: Search) -> Completeness {
-    let listed = Catalogue::of_survey(survey, 1e-4);
+    let listed = Catalogue::of_survey(survey, 1e-4, &Silent);
     search.conclude(survey, &listed)
 }
 
@@ -132,11 +132,11 @@ fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
     };
     let without = |least_depth| {
         let search = Search::run(&problem, &survey, &allowed, &Silent).unwrap();
-        let listed = Catalogue::of_survey(&survey, least_depth);
+        let listed = Catalogue::of_survey(&survey, least_depth, &Silent);
         (listed.states.len(), search.conclude(&survey, &listed))
     };
     let (most, complete) = without(0.025);
-    let all = Catalogue::of_survey(&survey, 1e-4).states.len();
+    let all = Catalogue::of_survey(&survey, 1e-4, &Silent).states.len();
     assert!(most < all, "{most} {all}");
     assert!(complete.is_complete(), "{:?}", complete.open);
     let (few, open) = without(0.3);

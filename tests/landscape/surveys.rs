@@ -1,6 +1,7 @@
 //! Surveys for tests: from roadmaps with the costs of all motions known.
 
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
+use tilebind::observer::Silent;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings, edge};
 
@@ -25,6 +26,6 @@ pub fn survey<'a>(
     settings: &ExplorationSettings,
 ) -> Exploration<'a> {
     let mut survey = Exploration::of_roadmap(problem, roadmap, settings);
-    survey.explore(&[]);
+    survey.explore(&[], &Silent);
     survey
 }

@@ -9,7 +9,8 @@ use physics::problem::Problem;
 /// Measures the stages, and reports them to an observer.
 pub struct Clock<'a> {
     problem: &'a Problem,
-    observer: &'a dyn Observer,
+    /// What the stages are reported to.
+    pub observer: &'a dyn Observer,
     stages: Vec<Stage>,
     running: Option<(&'static str, Instant, u64)>,
 }

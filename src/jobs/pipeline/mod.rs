@@ -22,7 +22,7 @@ use physics::landscape::barrier_bounds::Certified;
 use physics::landscape::exploration::Exploration;
 use physics::landscape::missing_states::Search;
 use physics::landscape::{Barrier, Catalogue, Claims, Uncertified, barrier_bounds, capture};
-use physics::observer::Observer;
+use physics::observer::{Observer, Silent};
 use physics::parallel;
 use physics::potential::{Interaction, MagnetModel};
 use physics::problem::Problem;
@@ -68,12 +68,12 @@ pub fn analyse_showing(
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
     survey.add_arrivals(&arrivals);
     clock.start("states and barriers", 0.7);
-    let mut catalogue = Catalogue::of_survey(&survey, settings.least_depth);
+    let mut catalogue = Catalogue::of_survey(&survey, settings.least_depth, observer);
     for repeat in 1..settings.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
         let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
-        let other = Catalogue::of_survey(&survey, settings.least_depth);
+        let other = Catalogue::of_survey(&survey, settings.least_depth, observer);
         catalogue.widen_spread(&problem, &other);
     }
     weigh_blocks(design, &mut catalogue);
@@ -118,7 +118,7 @@ fn unproved(
     survey: &Exploration,
 ) -> Analysis {
     let ends = capture::ends(problem, &settings.far_starts(), survey.known());
-    let mut catalogue = Catalogue::of_survey(survey, settings.least_depth);
+    let mut catalogue = Catalogue::of_survey(survey, settings.least_depth, &Silent);
     catalogue.leave_out_shallow(problem, settings.least_depth);
     weigh_blocks(design, &mut catalogue);
     Analysis {
@@ -186,7 +186,7 @@ pub(crate) fn survey<'a>(
     let milestones = built.milestones.len();
     let mut survey = Exploration::of_roadmap(problem, built, &settings.survey(roadmap));
     clock.start("states and transition states", 0.4);
-    survey.explore(guesses);
+    survey.explore(guesses, clock.observer);
     let counts = Counts {
         milestones,
         edges: survey.network.motions(),

@@ -16,7 +16,7 @@ use physics::landscape::minimax::End;
 use physics::landscape::minimum::descend;
 use physics::landscape::pathway::{self, Limits};
 use physics::landscape::{Pathway, capture, highest_point};
-use physics::observer::Observer;
+use physics::observer::{Observer, Silent};
 use physics::order::Order;
 use physics::problem::{Problem, Symmetry};
 use physics::roadmap::{Point, Roadmap, RoadmapSettings, edge};
@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
             }
         };
         survey.network.add_way(from, to, points);
-        survey.add_transition_states_near(&peaks, &[Symmetry::IDENTITY]);
+        survey.add_transition_states_near(&peaks, &[Symmetry::IDENTITY], &Silent);
         self.add_arrivals(&mut survey);
         let goal = match self.query.to {
             End::At(_) => to,

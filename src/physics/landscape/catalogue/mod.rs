@@ -16,6 +16,7 @@ use super::results::{
     Uncaptured,
 };
 use crate::configuration::Configuration;
+use crate::observer::Observer;
 use crate::problem::{Equal, Problem, Symmetry};
 use ordered_float::OrderedFloat;
 
@@ -68,9 +69,10 @@ pub struct Catalogue {
 impl Catalogue {
     /// The catalogue of a survey, without minima whose escape barrier is below `least_depth`, a
     /// fraction of the deepest energy.
-    pub fn of_survey(survey: &Exploration, least_depth: f64) -> Self {
+    pub fn of_survey(survey: &Exploration, least_depth: f64, observer: &dyn Observer) -> Self {
         Reader {
             survey,
+            observer,
             least_depth,
         }
         .catalogue()

@@ -13,6 +13,7 @@ use crate::landscape::results::{
     Alternative, Barrier, PathwayCost, Place, SAME_ENERGY, State, StateKind,
 };
 use crate::landscape::transition_network::Cost;
+use crate::observer::Observer;
 use crate::order::Order;
 use crate::parallel;
 
@@ -23,8 +24,12 @@ const BOUND: f64 = 5e-3;
 /// Configurations this far apart (m, and rad) are distinguishable.
 const TELLABLE: f64 = 1e-6;
 
+/// Number of kinds of states read in parallel.
+const TOGETHER: usize = 64;
+
 pub(super) struct Reader<'a> {
     pub survey: &'a Exploration<'a>,
+    pub observer: &'a dyn Observer,
     /// Least escape barrier of reported states, as a fraction of the deepest energy.
     pub least_depth: f64,
 }
@@ -269,7 +274,14 @@ impl Reader<'_> {
     /// also if no path is known for the bond, or no exit at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
-        parallel::flat_map(classes, of_class)
+        let some = classes.chunks(TOGETHER).enumerate();
+        let found = some.flat_map(|(turn, some)| {
+            let done = turn * TOGETHER;
+            self.observer
+                .part("ways out of states", done, classes.len());
+            parallel::flat_map(some, of_class)
+        });
+        found.collect()
     }
 
     fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {

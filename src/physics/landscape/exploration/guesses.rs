@@ -3,9 +3,10 @@
 
 use ordered_float::OrderedFloat;
 
-use super::{Exploration, siblings, slides};
+use super::{Exploration, TOGETHER, siblings, slides};
 use crate::configuration::Configuration;
 use crate::landscape::minimum::{Descent, descend_among};
+use crate::observer::Observer;
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;
@@ -25,21 +26,22 @@ const AROUND: f64 = 0.75;
 impl Exploration<'_> {
     /// Searches minima at the siblings of known ones (except for the first few), on other pairs of
     /// faces and mirrored, until there are no more.
-    pub(super) fn find_siblings(&mut self, mut known: usize) {
+    pub(super) fn find_siblings(&mut self, mut known: usize, observer: &dyn Observer) {
         while known < self.states.len() {
             let fresh = self.states[known..].iter().map(|state| {
                 let Point { q, energy, .. } = state.minimum.point;
                 (q, energy)
             });
+            let fresh = fresh.filter(|(_, energy)| self.is_followed(*energy));
             let fresh: Vec<(Configuration, f64)> = fresh.collect();
             known = self.states.len();
-            self.look_near(siblings::siblings(self.problem, &fresh));
+            self.look_near(siblings::siblings(self.problem, &fresh), observer);
         }
     }
 
     /// Searches minima along sliding faces, and where the outlines are in contact along much of
     /// their length, on faces or elsewhere.
-    pub(super) fn find_meetings(&mut self) {
+    pub(super) fn find_meetings(&mut self, observer: &dyn Observer) {
         let problem = self.problem;
         let known = self.states.len();
         let held = -HELD * problem.depth();
@@ -59,22 +61,25 @@ impl Exploration<'_> {
             places.truncate(most.unwrap_or(usize::MAX));
         }
         let places = places.into_iter().map(|(_, q)| q).collect();
-        self.look_near(places);
-        self.find_siblings(known);
+        self.look_near(places, observer);
+        self.find_siblings(known, observer);
     }
 
     /// Descends from configurations that are not near known minima.
-    fn look_near(&mut self, places: Vec<Configuration>) {
+    fn look_near(&mut self, places: Vec<Configuration>, observer: &dyn Observer) {
         let places: Vec<Configuration> = places
             .into_iter()
             .filter(|q| self.state_at(q, self.problem.scaled(KNOWN)).is_none())
             .collect();
         let verified = self.known();
-        let descents: Vec<Descent> =
-            parallel::map(&places, |q| descend_among(self.problem, q, &verified));
-        for descent in &descents {
-            if let Some(end) = self.arrive(descent) {
-                self.join(end);
+        for (turn, some) in places.chunks(TOGETHER).enumerate() {
+            observer.part("states like those found", turn * TOGETHER, places.len());
+            let descents: Vec<Descent> =
+                parallel::map(some, |q| descend_among(self.problem, q, &verified));
+            for descent in &descents {
+                if let Some(end) = self.arrive(descent) {
+                    self.join(end);
+                }
             }
         }
     }

@@ -34,6 +34,7 @@ use super::minimum::{Descent, Known, Outcome, descend_among};
 use super::stationary::Stationary;
 use super::transition_network::{Merge, Network};
 use crate::configuration::Configuration;
+use crate::observer::{Observer, Silent};
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;
@@ -41,9 +42,12 @@ use crate::roadmap::{EdgeSettings, Roadmap};
 
 /// Two stationary points closer than this (m, metric of the space) are the same.
 const SAME: f64 = 1e-5;
-/// With very many magnets, milestones shallower than this share of the bond's depth are ignored:
-/// shallower states are not listed.
-const HELD: f64 = 1e-4;
+/// Where the energy is below this share of the bond's depth, up or down, nothing acts. With very many
+/// magnets such milestones are ignored; with many pairs of faces, such guesses.
+const ACTS: f64 = 1e-4;
+/// With more pairs of faces than these, most are bare, and their contacts, each tried on all other pairs,
+/// would take nearly all of the time.
+const MANY_FACES: usize = 100;
 /// Number of descents in parallel.
 const TOGETHER: usize = 64;
 
@@ -105,21 +109,24 @@ pub struct Exploration<'a> {
 
 impl<'a> Exploration<'a> {
     /// Finds states, transition states and ways from the roadmap, and from guesses besides.
-    pub fn explore(&mut self, guesses: &[Configuration]) {
+    pub fn explore(&mut self, guesses: &[Configuration], observer: &dyn Observer) {
         let problem = self.problem;
         // All configurations have the same energy: none is a state.
         if problem.is_inert() {
             self.network.span();
             return;
         }
-        let guesses = [problem.flush_meetings(), guesses].concat();
-        self.find_states(&guesses);
-        self.find_siblings(0);
-        self.find_meetings();
+        let flush = problem.flush_meetings();
+        let flush =
+            parallel::flat_map(flush, |q| self.is_followed(problem.energy(q)).then_some(*q));
+        let guesses = [&flush, guesses].concat();
+        self.find_states(&guesses, observer);
+        self.find_siblings(0, observer);
+        self.find_meetings(observer);
         if let Some(most) = self.settings.most_kinds {
             self.keep_deepest(most);
         }
-        self.settle(0);
+        self.settle(0, observer);
     }
 
     /// Adds minima found in another way, and their connections.
@@ -129,11 +136,11 @@ impl<'a> Exploration<'a> {
             let node = self.state_node(minimum);
             self.join(node);
         }
-        self.settle(fresh);
+        self.settle(fresh, &Silent);
     }
 
     /// Refines passes between basins, in rounds. States from `fresh` on are new.
-    fn settle(&mut self, fresh: usize) {
+    fn settle(&mut self, fresh: usize, observer: &dyn Observer) {
         self.join_neighbours(fresh);
         self.withdraw(fresh);
         self.network.span();
@@ -146,7 +153,7 @@ impl<'a> Exploration<'a> {
                 self.merges()
             };
             let places = self.unsettled(merges);
-            self.polish(&places, &mut tried);
+            self.polish(&places, &mut tried, observer);
             let open = self.unsettled(self.lowest_merges());
             if open.is_empty() {
                 break;
@@ -185,18 +192,19 @@ impl<'a> Exploration<'a> {
 
     /// Follows the energy down from the guesses and from every milestone that has no lower
     /// neighbour.
-    fn find_states(&mut self, guesses: &[Configuration]) {
+    fn find_states(&mut self, guesses: &[Configuration], observer: &dyn Observer) {
         let problem = self.problem;
         let nodes = self.network.local_minima();
         let mut starts: Vec<(Option<usize>, Configuration)> =
             guesses.iter().map(|q| (None, *q)).collect();
         starts.extend(nodes.into_iter().filter_map(|node| {
             let (q, energy) = self.network.nodes[node]?;
-            let is_asked = !problem.is_dear() || energy < -HELD * problem.depth();
+            let is_asked = !problem.is_dear() || energy < -ACTS * problem.depth();
             (is_asked && !problem.space.is_far(&q)).then_some((Some(node), q))
         }));
         // Later descents need not verify minima found by earlier ones.
-        for some in starts.chunks(TOGETHER) {
+        for (turn, some) in starts.chunks(TOGETHER).enumerate() {
+            observer.part("states", turn * TOGETHER, starts.len());
             let known = self.known();
             let descents: Vec<Descent> =
                 parallel::map(some, |(_, q)| descend_among(problem, q, &known));
@@ -238,6 +246,12 @@ impl<'a> Exploration<'a> {
                 first = number;
             }
         }
+    }
+
+    /// Whether a guess of this energy (J) is followed.
+    pub(super) fn is_followed(&self, energy: f64) -> bool {
+        let [fixed, moving] = self.problem.faces();
+        fixed.len() * moving.len() <= MANY_FACES || energy.abs() >= ACTS * self.problem.depth()
     }
 
     /// The minima found so far.

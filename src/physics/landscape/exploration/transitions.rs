@@ -5,12 +5,13 @@ use std::collections::HashSet;
 use nalgebra::Vector3;
 
 use super::copies::distinct;
-use super::{Exploration, SAME};
+use super::{Exploration, SAME, TOGETHER};
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::landscape::minimum::{Descent, Known, descend_among};
 use crate::landscape::stationary::{self, Stationary};
 use crate::landscape::transition_network::Merge;
+use crate::observer::Observer;
 use crate::parallel;
 use crate::problem::{Problem, Symmetry};
 use crate::roadmap::Point;
@@ -20,13 +21,18 @@ const OFF_SADDLE: f64 = 2e-4;
 
 impl Exploration<'_> {
     /// Searches the transition states of passes and adds those found, with their symmetric images.
-    pub(super) fn polish(&mut self, open: &[Merge], tried: &mut HashSet<usize>) {
+    pub(super) fn polish(
+        &mut self,
+        open: &[Merge],
+        tried: &mut HashSet<usize>,
+        observer: &dyn Observer,
+    ) {
         let places: Vec<(Configuration, Vector3<f64>)> = open
             .iter()
             .filter(|merge| tried.insert(merge.link))
             .filter_map(|merge| self.meeting_place(merge.link))
             .collect();
-        self.add_transition_states_near(&places, &self.problem.symmetries);
+        self.add_transition_states_near(&places, &self.problem.symmetries, observer);
     }
 
     /// Searches transition states near some configurations, each given with its direction of
@@ -35,11 +41,17 @@ impl Exploration<'_> {
         &mut self,
         places: &[(Configuration, Vector3<f64>)],
         symmetries: &[Symmetry],
+        observer: &dyn Observer,
     ) {
         let problem = self.problem;
-        let found = parallel::flat_map(places, |(q, along)| {
+        let near = |(q, along): &(Configuration, Vector3<f64>)| {
             stationary::transition_state(problem, q, along)
                 .filter(|found| problem.is_free(&found.point.q))
+        };
+        let some = places.chunks(TOGETHER).enumerate();
+        let found = some.flat_map(|(turn, some)| {
+            observer.part("transition states", turn * TOGETHER, places.len());
+            parallel::flat_map(some, near)
         });
         let mut known: Vec<Configuration> =
             self.transition_states.iter().map(|s| s.0.point.q).collect();
