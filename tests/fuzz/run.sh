@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes the readers (of designs, drawings, tile sets, sets of words, manifests of sweeps, tables) and
-# the energies' bounds over cells, for the given number of seconds each [20], starting from the
+# Fuzzes the readers (of designs, drawings, tile sets, sets of words, manifests of sweeps, tables, starts
+# and parts of tables), fits to gaps, the energies' bounds over cells and whole analyses, for the given number of seconds each [20], starting from the
 # shipped files, the tests' files and earlier findings (cases/). With `same` instead of the seconds a
 # fixed sequence of a few thousand inputs is tried. A finding is written to target/fuzz/found; move it
 # to cases/, which ordinary tests replay: they contain all of src/lib.rs. Names of targets after the
@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 effort="${1:-20}"
 targets=("${@:2}")
-((${#targets[@]})) || targets=(design drawing tileset words plan table bounds)
+((${#targets[@]})) || targets=(design drawing tileset words plan table start part gaps bounds analyse)
 root=../..
 export CARGO_TARGET_DIR="$PWD/$root/target/fuzz"
 
@@ -29,11 +29,16 @@ declare -A seeds=(
     [words]="$root/shapes"
     [plan]=""
     [table]=""
+    [start]="cases/table"
+    [part]=""
+    [gaps]=""
     [bounds]=""
+    [analyse]=""
 )
 # As many as end in about ten seconds.
 declare -A inputs=(
-    [design]=15000 [drawing]=20000 [tileset]=40000 [words]=10000 [plan]=60000 [table]=1000 [bounds]=200
+    [design]=15000 [drawing]=20000 [tileset]=40000 [words]=10000 [plan]=60000 [table]=1000
+    [start]=20000 [part]=20000 [gaps]=2000 [bounds]=200 [analyse]=20
 )
 try() {
     local target="$1" limit options cases=() executed

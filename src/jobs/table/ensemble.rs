@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::About;
+use super::{About, Request};
 use crate::checksum::sha256;
 use physics::table::run::{HALVINGS, Run, Sample, Start};
 use physics::table::{Crowd, Mover, TableSettings};
@@ -34,8 +34,21 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
+    /// The runs of a request.
+    pub fn of(about: &About, crowd: &Crowd, request: &Request, start: Start) -> Self {
+        Self {
+            tilebind: env!("CARGO_PKG_VERSION").to_owned(),
+            tiles: Self::checksum(about, crowd),
+            settings: request.settings(),
+            seed: request.seed,
+            runs: request.runs,
+            start,
+            frames: request.keeps_frames(),
+        }
+    }
+
     /// A checksum of tiles.
-    pub(super) fn checksum(about: &About, crowd: &Crowd) -> String {
+    fn checksum(about: &About, crowd: &Crowd) -> String {
         let tiles: Vec<_> = crowd.kinds.iter().map(|it| (&it.name, &it.tile)).collect();
         sha256(format!(
             "{about:?} {:?} {:?} {tiles:?}",

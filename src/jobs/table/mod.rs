@@ -87,15 +87,7 @@ pub fn table(
     let clock = Instant::now();
     let workload = Workload::of(request, &start);
     workload.check().map_err(TableError::Memory)?;
-    let ensemble = Ensemble {
-        tilebind: env!("CARGO_PKG_VERSION").to_owned(),
-        tiles: Ensemble::checksum(about, &crowd),
-        settings: request.settings(),
-        seed: request.seed,
-        runs: request.runs,
-        start,
-        frames: request.keeps_frames(),
-    };
+    let ensemble = Ensemble::of(about, &crowd, request, start);
     let runs = match parts.is_empty() {
         true => simulated(&ensemble, &crowd, &request.made(), progress)?,
         false => ensemble.merge(&crowd, parts).map_err(TableError::Parts)?,

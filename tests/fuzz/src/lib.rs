@@ -9,14 +9,18 @@ use std::fmt::Display;
 
 use jobs::Design;
 use jobs::assembly::{TileSet, rgrow, xgrow};
-use jobs::calibration::{bonds, distances, read_rows};
+use jobs::calibration::{Fitted, bonds, distances, read_rows};
 use jobs::design::{DesignError, WordSet};
+use jobs::pipeline::{self, Settings};
 use jobs::query::poses;
 use jobs::sweep::Plan;
-use jobs::table::{About, read_start};
+use jobs::table::{About, Ensemble, read_start};
 use jobs::text::with_commas;
 use physics::Configuration;
+use physics::budget::Allowance;
 use physics::observer::Silent;
+use physics::potential::MagnetModel;
+use physics::table::run::Start;
 
 pub use check_bounds::bounds;
 
@@ -157,4 +161,164 @@ pub fn table(text: &str, pair: &Design) {
     let (about, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
     let read = read_start(text, (&crowd, &about.named), &Silent).map_err(|error| error.to_string());
     tell(read.map(|_| String::new()));
+}
+
+/// Checks that the reader of starting tiles has an answer, and that tiles that were read lie apart on
+/// their table.
+///
+/// # Panics
+/// Where it has not, or they do not.
+pub fn start(text: &str, pair: &Design) {
+    let (about, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
+    let read = read_start(&with_commas(text), (&crowd, &about.named), &Silent);
+    if let Ok(movers) = &read {
+        physics::table::start::check(&crowd, movers, true).expect("they were moved apart");
+    }
+    keep_short(&read.map_or_else(|error| error.to_string(), |_| String::new()));
+}
+
+/// Checks that any file has an answer as a part of a table, also if its checksum is right, and that
+/// a part that is taken is the same after writing and reading.
+///
+/// # Panics
+/// Where it has not, or is not.
+pub fn part(text: &str, pair: &Design) {
+    let (about, crowd) = About::of_designs(std::slice::from_ref(pair)).expect("a shipped design");
+    let request = [("count", "1,1"), ("time", "0.1")];
+    let request = request.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]));
+    let Ok(request) = jobs::request::of_keywords::<jobs::table::Request>(request) else {
+        panic!("a request");
+    };
+    let whole = Ensemble::of(&about, &crowd, &request, Start::Random(vec![1, 1]));
+    let parts = |text: String| [("part.json".to_owned(), text)];
+    let given = whole.merge(&crowd, &parts(text.to_owned()));
+    let summed = serde_json::from_str(text).map(|runs: Vec<_>| whole.part(&runs));
+    let summed = summed.map(|part| String::from_utf8(part).expect("a part is text"));
+    let summed = summed.map(|part| whole.merge(&crowd, &parts(part)));
+    for merged in [Ok(given), summed].into_iter().flatten() {
+        if let Ok(runs) = &merged {
+            let part = |runs: &[_]| String::from_utf8(whole.part(runs)).expect("a part is text");
+            let again = whole.merge(&crowd, &parts(part(runs)));
+            assert_eq!(again.map(|runs| part(&runs)), Ok(part(runs)));
+        }
+        keep_short(&merged.map_or_else(|error| error, |_| String::new()));
+    }
+}
+
+/// Checks that any table of gaps and forces has an answer, and that a fit is finite.
+///
+/// # Panics
+/// Where it has not, or is not.
+pub fn gaps(text: &str, pair: &Design) {
+    match Fitted::of_gaps(pair, &with_commas(text)) {
+        Ok(Fitted::Strength(found)) => {
+            let told = format!("{found:?}");
+            assert!(!told.contains("NaN"), "{told}");
+        }
+        Ok(_) => panic!("gaps are fitted by a strength"),
+        Err(error) => keep_short(&error.to_string()),
+    }
+}
+
+/// Checks that small designs of any kind are analysed, that their bounds are in order, and that all
+/// far starts are counted. Each byte is one choice; missing ones are 0.
+///
+/// # Panics
+/// Where one is not, or they are not.
+pub fn analyse(bytes: &[u8]) {
+    let Ok(design) = Design::parse_with(&small_design(bytes), "fuzz.toml", &BTreeMap::new()) else {
+        return;
+    };
+    let seed = u64::from(bytes.last().copied().unwrap_or_default());
+    let mut settings = Settings::without_proofs(1 + seed);
+    settings.milestones = 300;
+    settings.far_starts = 20;
+    settings.certify = Allowance::of(0.05);
+    settings.completeness.allowed = Allowance::of(0.05);
+    let found = pipeline::analyse(&design, &settings, &Silent);
+    let states = &found.catalogue.states;
+    let deepest = states.iter().map(|it| it.energy.abs()).fold(0.0, f64::max);
+    for state in states {
+        assert!(state.energy.is_finite());
+    }
+    for barrier in &found.catalogue.barriers {
+        if let Some((lower, upper)) = barrier.bounds.both() {
+            assert!(lower <= upper + 1e-9 * deepest, "{lower} above {upper}");
+        }
+        for point in &barrier.pathway {
+            let clearance = point.clearance;
+            assert!(point.energy.is_finite() && clearance > -1e-6, "{point:?}");
+        }
+    }
+    let caught: usize = states
+        .iter()
+        .filter_map(|it| it.capture)
+        .map(|it| it.count)
+        .sum();
+    assert_eq!(caught + found.uncaptured.all().count, settings.far_starts);
+    let _ = found.contradicted();
+}
+
+/// A design with a few faces, shapes and magnets, as the bytes choose.
+fn small_design(bytes: &[u8]) -> String {
+    let mut bytes = bytes.iter().copied();
+    let mut next = |count: usize| usize::from(bytes.next().unwrap_or_default()) % count;
+    let side = [0.04, 0.08, 0.43][next(3)];
+    let model = [MagnetModel::Dipole, MagnetModel::Cuboid][next(2)].name();
+    let sides = 3 + next(4);
+    let form = ["", "shape = \"disc\"", "axis = \"up\""][next(3)];
+    let letters = if next(2) == 1 && form.contains("up") {
+        "UD"
+    } else {
+        "NS."
+    };
+    let letters: Vec<char> = letters.chars().collect();
+    let size = match form.contains("disc") {
+        true => "diameter = 0.004\nheight = 0.002".to_owned(),
+        false => format!("size = [{}, 0.004, 0.003]", [0.002, 0.004, 0.008][next(3)]),
+    };
+    let mut text = format!(
+        "name = \"fuzz\"\n[table]\nsize = [2.0, 2.0]\n[magnet]\n{size}\n{form}\nremanence = 1.2\n\
+         pitch = {}\ninset = {}\n[potential]\nmodel = \"{model}\"\n",
+        side / [4.0, 6.0][next(2)],
+        [0.0, 0.001, 0.0001][next(3)],
+    );
+    let target = next(sides);
+    for tile in ["fixed", "moving"] {
+        text += &format!(
+            "[{tile}]\nsides = {sides}\nside = {side}\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n"
+        );
+        for face in 0..sides {
+            let code: String = (0..next(4)).map(|_| letters[next(letters.len())]).collect();
+            let profile = match next(6) {
+                0 => format!(
+                    "profile = {{ shape = \"tab\", width = {}, depth = {}, draft = {} }}",
+                    side / [2.0, 3.0][next(2)],
+                    side / [20.0, -20.0, 8.0][next(3)],
+                    [0.3, 0.0, -0.2][next(3)],
+                ),
+                1 => format!(
+                    "profile = {{ shape = \"teeth\", count = {}, depth = {}, form = \"{}\" }}",
+                    1 + next(3),
+                    side / [20.0, 40.0][next(2)],
+                    ["sine", "triangle", "square"][next(3)],
+                ),
+                _ => String::new(),
+            };
+            let code = match code.is_empty() {
+                true => String::new(),
+                false => format!("code = \"{code}\""),
+            };
+            let entry = match (tile, face == target) {
+                ("moving", true) => "mates = \"0\"".to_owned(),
+                _ => [code, profile]
+                    .into_iter()
+                    .filter(|it| !it.is_empty())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            };
+            text += &format!("{face} = {{ {entry} }}\n");
+        }
+    }
+    text + &format!("[target]\nfixed = 0\nmoving = {target}\n")
 }

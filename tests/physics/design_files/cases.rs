@@ -65,6 +65,34 @@ fn every_table_of_the_fuzzer_has_an_answer() {
     }
 }
 
+#[test]
+fn every_start_part_and_gap_of_the_fuzzer_has_an_answer() {
+    let pair = Design::load("shapes/tab-20mm.toml".as_ref()).unwrap();
+    for text in cases("start").iter().chain(&cases("table")) {
+        answers::start(text, &pair);
+    }
+    cases("part")
+        .iter()
+        .for_each(|text| answers::part(text, &pair));
+    cases("gaps")
+        .iter()
+        .for_each(|text| answers::gaps(text, &pair));
+}
+
+/// Whole analyses of small designs, on the fuzzer's findings and on bytes by chance.
+#[test]
+fn small_designs_of_all_kinds_are_analysed() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/cases/analyse");
+    for entry in std::fs::read_dir(folder).into_iter().flatten() {
+        answers::analyse(&std::fs::read(entry.unwrap().path()).unwrap());
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    for _ in 0..6 {
+        let bytes: [u8; 60] = std::array::from_fn(|_| rng.random());
+        answers::analyse(&bytes);
+    }
+}
+
 /// The fuzzer's check of bounds of energies over cells, on bytes by chance.
 #[test]
 fn energies_in_plain_intervals_lie_within_their_bounds() {
