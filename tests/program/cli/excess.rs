@@ -132,6 +132,26 @@ fn tables_and_manifests_that_never_end_are_refused() {
 }
 
 #[test]
+fn tables_and_manifests_of_more_than_256_mb_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let large = folder.path().join("large.csv");
+    // Without blocks on the disk.
+    let file = std::fs::File::create(&large).expect("a file");
+    file.set_len((256 << 20) + 1).expect("a length");
+    let large = large.to_str().expect("a name");
+    for arguments in [
+        &["sweep", "--run", large][..],
+        &["energy", "shapes/paper-tile.toml", "--poses", large],
+        &["calibrate", "shapes/paper-tile.toml", large],
+    ] {
+        let output = tilebind(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let told = stderr(&output);
+        assert!(told.contains("larger than 256 MB"), "{told}");
+    }
+}
+
+#[test]
 fn kinds_that_are_left_out_are_told_of() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
