@@ -116,8 +116,9 @@
 //!
 //! `tests/fuzz/run.sh 3600 design` fuzzes the reader of designs for an hour; `drawing`, `tileset`,
 //! `words`, `plan` and `table` fuzz those of drawings, tile sets, sets of words, manifests of
-//! sweeps and tables, and `bounds` compares the bounds of energies over cells with plain interval
-//! arithmetic. It is built separately, with its own compiler flags. `cargo mutants
+//! sweeps and tables, `start` and `part` those of starts and parts of tables, `gaps` fits of magnets,
+//! `analyse` whole analyses of small designs, and `bounds` compares the bounds of energies over cells
+//! with plain interval arithmetic. It is built separately, with its own compiler flags. `cargo mutants
 //! --file 'src/physics/roadmap/**'` finds changes of the code that no test notices
 //! (`.cargo/mutants.toml`). `.ci/deny` checks the dependencies against `.ci/deny.toml`.
 //! `rust-version` in `Cargo.toml` is what the dependencies state; a compiler that old has not been
@@ -147,7 +148,7 @@
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
     docking, inspection, matching, memory, output, pipeline, query, rates, request, start, sweep,
-    table, text, word_sets, workshop, yields,
+    table, text, verification, word_sets, workshop, yields,
 };
 pub use physics::table as many_bodies;
 pub use physics::{

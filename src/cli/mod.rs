@@ -28,6 +28,7 @@ mod style;
 mod sweep;
 mod sweep_progress;
 mod table;
+mod verify;
 mod words;
 mod workload;
 mod yields;
@@ -82,6 +83,7 @@ pub enum Command {
     Energy(energy::Energy),
     Barrier(barrier::Barrier),
     Bond(bond::BondCommand),
+    Verify(verify::Verify),
     Compare(compare::Compare),
     Sweep(sweep::Sweep),
     Dock(dock::Dock),
@@ -107,6 +109,7 @@ impl Command {
             Self::Energy(command) => command.run(),
             Self::Barrier(command) => command.run(),
             Self::Bond(command) => command.run(),
+            Self::Verify(command) => command.run(),
             Self::Compare(command) => command.run(),
             Self::Sweep(command) => command.run(),
             Self::Dock(command) => command.run(),

@@ -11,6 +11,7 @@
 //! | [`table`] | many tiles on one table |
 //! | [`word_sets`] | sets of barcodes: searches, magnets anywhere along the face, files |
 //! | [`assembly`] | tile sets whose glues are words, for tile assembly engines |
+//! | [`verification`] | a second reader, which checks results folders with other code than made them |
 //! | [`memory`] | checks that the machine has enough memory |
 //! | [`request`] | options with their limits and help, for the command line and Python |
 //! | [`output`] | output files: a set is written completely or not at all, and replaces only its own files |
@@ -38,6 +39,7 @@ pub mod start;
 pub mod sweep;
 pub mod table;
 pub mod text;
+pub mod verification;
 pub mod word_sets;
 pub mod workshop;
 pub mod yields;

@@ -15,7 +15,7 @@ use super::plots::style::minus;
 use super::plots::{self, PictureError, Scene, Sheet};
 use super::summary::{self, ended_by, left_out};
 use super::values::{pose, positive_zero, proportion};
-use super::{csv, dynamics, states, topsearch};
+use super::{csv, dynamics, geometry, states, topsearch};
 use jobs::design::Design;
 use jobs::output::Command;
 use jobs::pipeline::Analysis;
@@ -166,6 +166,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
     Entries::default()
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity(design))
+        .data("tiles", geometry::tiles(design))
         .data("seed", analysis.settings.seed)
         .data("settings", settings(design, analysis))
         // The configuration in which the target faces coincide, and the state in which the tiles are

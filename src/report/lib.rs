@@ -13,6 +13,7 @@
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
 //! - [`barrier`], [`energies`] - one barrier between two poses, energies and forces at given poses;
 //! - [`matching`] - how two outlines fit; [`calibration`] - fits to measurements;
+//! - [`verification`] - checks of analyses by a second reader;
 //! - [`inspection`] - the bond of a design without a search; [`workshop`] - workshop files.
 //!
 //! Below these: [`document`], whose tables are made in `columns`; [`plots`] (pictures) and [`page`] (`report.html`); [`names`],
@@ -37,6 +38,7 @@ pub mod dynamics;
 pub mod energies;
 pub mod figures;
 pub mod files;
+mod geometry;
 pub mod gsd;
 pub mod hoomd;
 pub mod inspection;
@@ -59,6 +61,7 @@ mod terminal;
 mod tiles;
 pub mod topsearch;
 mod values;
+pub mod verification;
 pub mod words;
 pub mod workshop;
 pub mod yields;

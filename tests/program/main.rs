@@ -21,3 +21,4 @@ mod results;
 mod snapshots;
 mod structure;
 mod sweep;
+mod verification;

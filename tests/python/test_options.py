@@ -13,7 +13,7 @@ SHOWN = {"out", "force", "figure_width", "figure_font", "figure_panels", "json",
          "help", "version", "compact", "no_pictures", "pathway"}
 # The design is an object, its model a keyword of energies; tile sets, words and tables are read from
 # their places; a bar is Python's own.
-OBJECTS = {"self", "design", "designs", "tiles", "progress", "model", "name", "table"}
+OBJECTS = {"self", "design", "designs", "tiles", "progress", "model", "name", "table", "folders"}
 # Called otherwise: a flag with a number, poses by their place, several files.
 NAMES = {"dynamics": "dynamics_runs", "from": "start", "to": "end"}
 
@@ -32,6 +32,7 @@ CALLS = {
     "rates": "Design.exits Analysis.rates",
     "sweep": "sweep",
     "table": "_AirTable.__call__",
+    "verify": "verify",
     "words": "words",
     "yield": "Design.yields",
 }

@@ -2,8 +2,8 @@
 //!
 //! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
 //!   configurations;
-//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`] - the results of
-//!   jobs;
+//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`], [`verification`] -
+//!   the results of jobs;
 //! - [`request`] - options as keyword arguments; [`job`] - long work: progress, ctrl-C, faults;
 //! - [`shown`] - display of results; [`table`] - structured arrays; [`convert`] - conversion of
 //!   Python values to values of a design file;
@@ -23,6 +23,7 @@ mod request;
 mod shown;
 mod sweep;
 mod table;
+mod verification;
 mod words;
 
 use pyo3::exceptions::PyImportError;
@@ -43,5 +44,6 @@ fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dock::dock, module)?)?;
     module.add_function(wrap_pyfunction!(words::words, module)?)?;
     module.add_function(wrap_pyfunction!(words::crosstalk, module)?)?;
-    module.add_function(wrap_pyfunction!(assembly::assemble, module)?)
+    module.add_function(wrap_pyfunction!(assembly::assemble, module)?)?;
+    module.add_function(wrap_pyfunction!(verification::verify, module)?)
 }

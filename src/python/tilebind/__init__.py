@@ -27,6 +27,7 @@ from ._tilebind import (
     crosstalk,
     dock,
     sweep,
+    verify,
     words,
 )
 
@@ -47,5 +48,6 @@ __all__ = [
     "crosstalk",
     "dock",
     "sweep",
+    "verify",
     "words",
 ]

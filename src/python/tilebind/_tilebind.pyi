@@ -415,3 +415,7 @@ def assemble(
     seed: int = 1,
     progress: bool | None = None,
 ) -> dict[str, bytes]: ...
+def verify(
+    *folders: str | PathLike[str],
+    progress: bool | None = None,
+) -> dict[str, Any]: ...
