@@ -70,7 +70,7 @@ fn work(problem: &Problem) -> [f64; 2] {
     };
     let search = Search::run(problem, &survey, &looked_for, &Silent).unwrap();
     survey.add(&search.missed());
-    let mut catalogue = Catalogue::of_survey(&survey, 1e-4);
+    let mut catalogue = Catalogue::of_survey(&survey, 1e-4, &Silent);
     let complete = search.conclude(&survey, &catalogue).work;
     let asked = CertificationSettings {
         tolerance: None,

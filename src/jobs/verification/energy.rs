@@ -309,7 +309,7 @@ fn spread([fixed, moving]: [&Source; 2], [first, second]: [&Placed; 2], way: Fla
     let pieces = if distance > 4.0 * (fixed.radius + moving.radius) {
         1
     } else {
-        4
+        2
     };
     let (of_fixed, of_moving) = (fixed.places(first, pieces), moving.places(second, pieces));
     let height = 0.5 * (fixed.size[2] + moving.size[2]);

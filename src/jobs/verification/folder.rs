@@ -12,7 +12,7 @@ use physics::parallel;
 /// Overlap (m) that pathways may have: they are proved free to half a micrometre.
 const OVERLAP: f64 = 5e-7;
 /// Largest number of parts of a segment.
-const MOST_PARTS: usize = 4000;
+const MOST_PARTS: usize = 400;
 
 /// How far numbers may be off.
 struct Allowed {
@@ -404,7 +404,7 @@ impl Folder<'_> {
             }
             parts += 1;
             // Blocks that touch have no largest bend.
-            if parts > MOST_PARTS || bend == f64::NEG_INFINITY && width < 1.0 / 64.0 {
+            if parts > MOST_PARTS || bend == f64::NEG_INFINITY && width < 0.5 {
                 return Segment::Open;
             }
             let middle = 0.5 * (from + to);
