@@ -92,7 +92,7 @@ pub(super) fn check(given: &Given) -> Checked {
         allowed,
         gyration: distance::gyration(&tiles.moving.outline_m),
     }
-    .check(&mut book, &mut unchecked);
+    .check(&mut book);
     Checked { book, unchecked }
 }
 
@@ -184,7 +184,7 @@ struct Folder<'a> {
 }
 
 impl Folder<'_> {
-    fn check(&self, book: &mut Book, unchecked: &mut Vec<String>) {
+    fn check(&self, book: &mut Book) {
         self.states(book);
         let limits = self.limits();
         let ways = Vec::from_iter(&self.given.pathways);
@@ -204,7 +204,7 @@ impl Folder<'_> {
                 }
                 Err(why) => {
                     let why: String = why;
-                    unchecked.push(format!("a pathway: {why}"));
+                    book.note(Subject::Ends, false, || format!("no pathway: {why}"));
                 }
             }
         }
@@ -237,7 +237,8 @@ impl Folder<'_> {
 
     fn free(&self, what: &str, pose: Pose, book: &mut Book) {
         let clearance = self.clearance(pose);
-        book.note(Subject::Clearances, clearance >= -OVERLAP, || {
+        let holds = clearance >= -OVERLAP && clearance.is_finite();
+        book.note(Subject::Clearances, holds, || {
             format!("{what}: the tiles overlap by {:e} m", -clearance)
         });
     }
@@ -302,7 +303,7 @@ impl Folder<'_> {
             let least = own.min(point.clearance);
             let off = (own - point.clearance).abs();
             let holds = least >= -OVERLAP && off <= OVERLAP.max(1e-9 * own.abs());
-            let holds = holds && (own < OVERLAP || off <= 1e-8 + 1e-9 * own);
+            let holds = holds && own.is_finite() && (own < OVERLAP || off <= 1e-8 + 1e-9 * own);
             book.note(Subject::Clearances, holds, || {
                 format!(
                     "{}: clearance_m {:e} is {own:e} here",
