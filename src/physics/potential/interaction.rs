@@ -104,6 +104,17 @@ impl Interaction {
         Energy { potential, bounds }
     }
 
+    /// The energy for motions: where it is much faster, each pair of magnets may err by this fraction of
+    /// its dipoles' energy (see [`BodyPotential::within`]).
+    pub fn in_motion(&self, error: f64, fixed: &Tile, moving: &Tile) -> Box<dyn Potential + Send> {
+        let (model, first, second) = (self.model, &fixed.magnets, &moving.magnets);
+        let is_of_bodies = model.is_of_bodies(first) || model.is_of_bodies(second);
+        match is_of_bodies && self.shields.is_none() {
+            true => Box::new(BodyPotential::within(error, model, first, second)),
+            false => self.between(fixed, moving).potential,
+        }
+    }
+
     /// Whether U is the plain sum over pairs of point dipoles that lie flat.
     pub fn is_sum_of_dipoles(&self, pair: &Pair) -> bool {
         let tiles = [&pair.fixed, &pair.moving];

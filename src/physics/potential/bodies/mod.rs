@@ -33,12 +33,15 @@ mod face;
 mod limits;
 mod line;
 mod near;
+mod nearby;
 mod panels;
 mod rectangle;
 mod series;
 mod sum;
 #[cfg(test)]
 mod tests;
+
+use std::sync::Arc;
 
 use nalgebra::{Vector2, Vector3};
 
@@ -49,6 +52,7 @@ use crate::tile::Magnet;
 use crate::tile::magnet::{Form, Shape};
 use crate::units::MU0_OVER_4PI;
 use limits::Limits;
+use nearby::Nearby;
 use series::Series;
 use sum::Members;
 
@@ -146,6 +150,8 @@ struct Pairs {
     squares: Vec<f64>,
     /// For moments of 1 A m^2; `None` for point dipoles.
     limits: Option<Limits>,
+    /// The energy of near pairs, if it is interpolated.
+    nearby: Option<Arc<Nearby>>,
 }
 
 /// Directions that differ by less than this (rad) count as equal.
@@ -180,7 +186,7 @@ fn groups(magnets: &[Magnet]) -> Vec<Group> {
 }
 
 impl Pairs {
-    fn new(model: MagnetModel, first: &Body, second: &Body) -> Option<Self> {
+    fn new(model: MagnetModel, first: &Body, second: &Body, error: f64) -> Option<Self> {
         if first.stands != second.stands {
             return None;
         }
@@ -189,12 +195,16 @@ impl Pairs {
             MagnetModel::Dipole => (vec![0.0], None),
             MagnetModel::Cuboid => (
                 (1..=series::TERMS)
-                    .map(|terms| series.radius(terms, HAND_OVER).powi(2))
+                    .map(|terms| series.radius(terms, error).powi(2))
                     .collect(),
                 Some(Limits::new(first, second)),
             ),
         };
+        let squares: Vec<f64> = squares;
+        let reach = squares.last().copied().unwrap_or(0.0).sqrt();
+        let is_coarse = error > HAND_OVER && reach > 0.0;
         Some(Self {
+            nearby: is_coarse.then(|| Arc::new(Nearby::new(first, second, reach, error))),
             series,
             squares,
             limits,
@@ -205,13 +215,20 @@ impl Pairs {
 impl BodyPotential {
     /// The potential of two tiles' magnets.
     pub fn new(model: MagnetModel, fixed: &[Magnet], moving: &[Magnet]) -> Self {
+        Self::within(HAND_OVER, model, fixed, moving)
+    }
+
+    /// The same, faster and with a larger error: as a fraction of `mu0 m1 m2 / (4 pi r^3)` for each pair,
+    /// r its distance, or that at which pairs count as near if it is nearer. Energies of near pairs are
+    /// interpolated.
+    pub fn within(error: f64, model: MagnetModel, fixed: &[Magnet], moving: &[Magnet]) -> Self {
         let lever = Lever::of(moving.iter().flat_map(Magnet::corners));
         let all = fixed.iter().chain(moving);
         let sides = all.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
         let feature = sides.fold(f64::INFINITY, f64::min) / 2.0;
         let (fixed, moving) = (groups(fixed), groups(moving));
         let of = |first: &Group| {
-            let pairs = |second: &Group| Pairs::new(model, &first.like, &second.like);
+            let pairs = |second: &Group| Pairs::new(model, &first.like, &second.like, error);
             moving.iter().map(pairs).collect()
         };
         Self {

@@ -69,11 +69,17 @@ pub fn of<const SLOPE: bool>(
     for [i, j] in near {
         let ((from, m1), (place, m2)) = (first.members.at(i), second.members.at(j));
         let arm = Vector2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y);
-        let other = Body {
-            position: arm + q.position() - from,
-            ..*turned
+        let place = arm + q.position() - from;
+        let found = match &pairs.nearby {
+            Some(nearby) => nearby.at(first.like.direction, place, turned.direction),
+            None => {
+                let other = Body {
+                    position: place,
+                    ..*turned
+                };
+                exact(&first.like, &other)
+            }
         };
-        let found = exact(&first.like, &other);
         let moments = m1 * m2;
         let force = found.gradient * moments;
         energy += moments * found.energy;
