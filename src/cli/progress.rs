@@ -107,6 +107,10 @@ impl Observer for Progress {
         self.bar.set_prefix(what.to_owned());
     }
 
+    fn expect(&self, what: &str) {
+        self.bar.suspend(|| tell(format!("note: {what}")));
+    }
+
     fn warn(&self, what: &str) {
         self.bar.suspend(|| tell(format!("warning: {what}")));
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use tilebind::assembly::lattice;
 use tilebind::design::MagnetModel;
+use tilebind::many_bodies::usual_step;
 use tilebind::report::files::TABLE;
 use tilebind::report::hoomd;
 use tilebind::report::table::document;
@@ -33,8 +34,16 @@ with half the step.
 Several designs share one table, the first design's. Their kinds are `NAME fixed` and `NAME moving`;
 any contact that holds between tiles of different designs is a trap.
 
+Tiles lie on an air table without friction, or rub on the table with --table-friction, which --orbital and
+--linear move. Drag is relative to the table, not to the room. [table] in the design can be round.
+
+With --out, OVITO (ovito.org) opens trajectory.gsd; ends.png shows the table at the end of every run; with
+--frames, trajectory.png is the first run as an animated picture, which browsers play.
+
 Examples:
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --shaking 3e-3 --drag 0.5
+  tilebind table shapes/ring-of-eight.toml --count 16 --time 20 --runs 40 --drag 0 --table-friction 0.2 \\
+    --orbital \"10 mm,200 rpm\" --target ring:8 --out target/shaker
   tilebind table shapes/paper-tile.toml --count 5,5 --time 60 --runs 20 --shaking 3e-3 --drag 0.5 \\
     --out target/table
   tilebind table lattice --lattice 2x2 --count 3,3,3,3 --time 60 --shaking 5e-3 --drag 0.5 --compare
@@ -129,7 +138,7 @@ impl TableCommand {
             &progress,
         );
         let start = start.map_err(Failure::Usage)?;
-        let workload = Workload::of(&self.request, &start);
+        let workload = Workload::of(&self.request, usual_step(&crowd), &start);
         workload.check().map_err(Failure::Usage)?;
         let long = workload.long(self.threads.count());
         if let Some(time) = long.filter(|_| self.merge.is_empty()) {

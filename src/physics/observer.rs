@@ -11,6 +11,9 @@ pub trait Observer: Sync {
     /// An intermediate result, in a sentence, that remains valid if the work is interrupted.
     fn known(&self, _what: &str) {}
 
+    /// How long the work will take, and what would shorten it, in a sentence; told once.
+    fn expect(&self, _what: &str) {}
+
     /// A change of what was asked for, in a sentence.
     fn warn(&self, _what: &str) {}
 }

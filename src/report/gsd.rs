@@ -3,7 +3,7 @@
 //! Version 2.0 of the format (gsd.readthedocs.io/en/stable/file-layer.html), schema `hoomd` 1.4: a
 //! header of 256 bytes; the chunks of data; an index with an entry of 32 bytes for each chunk, by
 //! frame and name; and the list of names. All numbers are little-endian. Lengths are in m, masses
-//! in kg, times in steps of a frame; quaternions rotate tiles about the z axis.
+//! in kg, times in steps of a frame; places are of centres of mass, as HOOMD-blue has them; quaternions rotate tiles about the z axis.
 
 /// The first bytes of every file.
 const MAGIC: u64 = 0x65DF_65DF_65DF_65DF;
@@ -22,13 +22,13 @@ enum Kind {
     F32 = 9,
 }
 
-/// An outline as a polygon (m).
+/// An outline as a polygon (m) about the centre of mass.
 pub type Polygon = Vec<[f64; 2]>;
 
 /// A tile in a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Particle {
-    /// Its reference point (m).
+    /// Its centre of mass (m).
     pub place: [f64; 2],
     /// Its orientation (rad).
     pub theta: f64,

@@ -18,7 +18,8 @@ pub fn files(about: &About, found: &Found) -> Files {
     let told = json!({
         "model": about.model.name(),
         "seed": found.ensemble.seed,
-        "table_m": found.crowd.half_size.map(|half| 2.0 * half),
+        "table_m": found.crowd.rim.half_size().map(|half| 2.0 * half),
+        "round": found.crowd.rim.radius().is_some(),
         "cut_off_m": cut_off.fold(0.0, f64::max),
         "shaking_J": settings.shaking,
         "drag_per_s": settings.drag,

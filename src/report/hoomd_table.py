@@ -1,7 +1,11 @@
-"""Continues the last frame of trajectory.gsd in HOOMD-blue 4 or later, on several processors or a GPU.
+"""Continues the last frame of trajectory.gsd in HOOMD-blue, on several processors or a GPU.
 
     python3 hoomd_table.py SECONDS [--device cpu|gpu] [--frames DT] [--step S]
     mpirun -n 16 python3 hoomd_table.py SECONDS
+
+Checked with HOOMD-blue 4.8.2; not with other versions. It needs HOOMD-blue 4.0 or later with its gsd. Of
+HOOMD-blue 7 take 7.1 or later, which keeps rigid bodies in the plane, with gsd 5 or later: since 7.0
+hoomd.gsd has the schema 2, which OVITO reads from 3.15.2 on.
 
 Reads hoomd_table.json and trajectory.gsd from its own folder and writes hoomd.gsd there: tiles by their centres
 of mass, which OVITO opens. Units: m, kg, s, J, A m^2.
@@ -12,7 +16,7 @@ Tiles are rigid bodies of point dipoles and of discs along the inside of the out
 - discs repel each other like springs, so that contact has no friction and loses no energy, corners are
   rounded and edges uneven by a few hundredths of a disc;
 - shaking is white noise in every step, not a kick every few milliseconds;
-- there are no shields, no fans, no moving table, no bonds.csv and no energy balance.
+- there are no shields, no fans, no moving table and no friction on it, no bonds.csv and no energy balance.
 """
 
 import argparse
@@ -121,10 +125,6 @@ def start(told, model):
     with gsd.hoomd.open(FOLDER / "trajectory.gsd") as frames:
         frame = frames[-1]
     particles = frame.particles
-    centres = np.array([kind["centre"] for kind in told["kinds"]])
-    for tile, kind in enumerate(particles.typeid):
-        w, _, _, z = particles.orientation[tile].astype(float)
-        particles.position[tile, :2] += turned(centres[[kind]], 2.0 * math.atan2(z, w))[0]
     particles.body = np.arange(particles.N)
     particles.types = [kind["name"] for kind in told["kinds"]] + ["disc", *model.types.values()]
     particles.type_shapes = None
@@ -159,8 +159,10 @@ def forces(told, model):
     half = [0.5 * side for side in told["table_m"]]
     planes = [((-half[0], 0, 0), (1, 0, 0)), ((half[0], 0, 0), (-1, 0, 0)),
               ((0, -half[1], 0), (0, 1, 0)), ((0, half[1], 0), (0, -1, 0))]
-    rim = hoomd.md.external.wall.ForceShiftedLJ(
-        walls=[hoomd.wall.Plane(origin=origin, normal=normal) for origin, normal in planes])
+    walls = [hoomd.wall.Plane(origin=origin, normal=normal) for origin, normal in planes]
+    if told["round"]:
+        walls = [hoomd.wall.Cylinder(radius=half[0], axis=(0, 0, 1), inside=True)]
+    rim = hoomd.md.external.wall.ForceShiftedLJ(walls=walls)
     for name in everything:
         rim.params[name] = {"epsilon": 0.0, "sigma": 1.0, "r_cut": 0.0}
     energy = 0.02 * model.stiffness * model.diameter**2

@@ -7,6 +7,7 @@ use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
+use crate::plots::crowd::{ends, film};
 use jobs::assembly::kinetic::Growth;
 use jobs::output::Files;
 use jobs::request::Shard;
@@ -63,6 +64,11 @@ pub fn document<'a>(
 /// The recording of the first run, and the file of a part.
 fn files(found: &Found, request: &Request) -> Files {
     let mut files = Files::from([("trajectory.gsd".to_owned(), trajectory(found))]);
+    if request.keeps_frames()
+        && let Ok(Some(film)) = film(found)
+    {
+        files.insert("trajectory.png".to_owned(), film);
+    }
     if request.shard.is_some() {
         files.insert(PART.to_owned(), found.ensemble.part(&found.runs));
     }
@@ -113,8 +119,31 @@ fn meaning(about: &About, found: &Found) -> String {
         ),
         (Verdict::Driven, Some(has)) => format!("(driven: {has})"),
         (Verdict::Frozen, None) => "(frozen: nothing drives the tiles)".to_owned(),
-        (_, None) => "(driven, but not shaken: there is no temperature)".to_owned(),
+        (_, None) => format!(
+            "({} the tiles; kT does not apply)",
+            drivers(&found.ensemble.settings)
+        ),
     }
+}
+
+/// What drives the tiles, with its verb.
+fn drivers(settings: &TableSettings) -> String {
+    let fans = match settings.fans.len() {
+        0 => None,
+        1 => Some("the fan"),
+        _ => Some("the fans"),
+    };
+    let all = [
+        settings.orbital.map(|_| "the orbit"),
+        settings.linear.map(|_| "the linear motion"),
+        fans,
+    ];
+    let all: Vec<&str> = all.into_iter().flatten().collect();
+    let verb = match &all[..] {
+        [one] if !one.ends_with('s') => "drives",
+        _ => "drive",
+    };
+    format!("{} {verb}", all.join(" and "))
 }
 
 /// The prediction of another command.
@@ -279,7 +308,7 @@ fn share(share: f64) -> String {
 }
 
 fn interval(interval: &Interval) -> Value {
-    json!({"mean": interval.mean, "low": interval.low, "high": interval.high})
+    json!({"mean": interval.mean, "sd": interval.sd, "low": interval.low, "high": interval.high})
 }
 
 // One line an entry.
@@ -370,10 +399,19 @@ fn lasting(lifetime: &Lifetime, found: &Found) -> String {
 /// The share of the target, for people.
 fn reached(about: &About, found: &Found) -> String {
     let percent = |x: f64| plain(100.0 * x.clamp(0.0, 1.0), 3);
-    let Interval { mean, low, high } = found.target.share;
+    let Interval {
+        mean,
+        sd,
+        low,
+        high,
+    } = found.target.share;
     let within = low
         .zip(high)
         .map(|(low, high)| format!(" ({} to {})", percent(low), percent(high)));
+    let spread = sd.map(|sd| {
+        let runs = found.runs.len();
+        format!("; {} % standard deviation over {runs} runs", percent(sd))
+    });
     let wrong = found
         .target
         .defects
@@ -387,11 +425,12 @@ fn reached(about: &About, found: &Found) -> String {
     let outside = found.target.outside.as_ref();
     let outside = outside.map(|it| format!(", {} tiles outside", told(it)));
     format!(
-        "{} %{}{what}{}{}",
+        "{} %{}{what}{}{}{}",
         percent(mean),
         within.unwrap_or_default(),
         wrong.unwrap_or_default(),
-        outside.unwrap_or_default()
+        outside.unwrap_or_default(),
+        spread.unwrap_or_default()
     )
 }
 
@@ -412,7 +451,7 @@ fn settings(settings: &TableSettings) -> Value {
         "time_s": settings.duration, "drag_per_s": settings.drag, "friction": settings.friction,
         "restitution": settings.restitution, "shaking_J": settings.shaking,
         "correlation_s": settings.shaking.map(|_| settings.kicks), "orbital": settings.orbital,
-        "fans": settings.fans, "step_s": settings.step, "sampling_s": settings.sampling,
+        "linear": settings.linear, "table_friction": settings.table_friction, "fans": settings.fans, "step_s": settings.step, "sampling_s": settings.sampling,
         "walls": settings.walls,
     })
 }
@@ -502,10 +541,11 @@ fn energy(found: &Found) -> Table {
         .column("run", "", "", |(run, _)| run.index)
         .column("time_s", "", "", |(_, at)| at.time)
         .column("kinetic_J", "", "", |(_, at)| at.kinetic)
-        .column("potential_J", "", "", |(_, at)| at.potential)
+        .column("potential_J", "", "of magnets, and of steady fans", |(_, at)| at.potential)
         .column("work_J", "", "", |(_, at)| at.account.work)
         .column("contact_loss_J", "", "", |(_, at)| at.account.contact_loss)
         .column("drag_loss_J", "", "", |(_, at)| at.account.drag_loss)
+        .column("table_loss_J", "", "lost to friction on the table", |(_, at)| at.account.table_loss)
         .table("energy")
         .in_csv("energy")
 }
@@ -574,11 +614,10 @@ fn places(found: &Found) -> Table {
 fn trajectory(found: &Found) -> Vec<u8> {
     let crowd = &found.crowd;
     let particle = |mover: &Mover| {
-        let motion = mover.motion(crowd);
         let body = &crowd.kinds[mover.kind].body;
         Particle {
-            place: [motion.configuration.x, motion.configuration.y],
-            theta: motion.configuration.theta,
+            place: [mover.place.x, mover.place.y],
+            theta: mover.place.z,
             velocity: mover.velocity.into(),
             kind: mover.kind,
             mass: body.mass,
@@ -595,13 +634,18 @@ fn trajectory(found: &Found) -> Vec<u8> {
         .iter()
         .map(|kind| {
             let corners = kind.tile.outline.vertices().iter();
+            let corners = corners.map(|it| it - kind.body.centre);
             (kind.name.clone(), corners.map(|it| [it.x, it.y]).collect())
         })
         .collect();
-    gsd::file(&kinds, crowd.half_size.map(|half| 2.0 * half), &frames)
+    gsd::file(
+        &kinds,
+        crowd.rim.half_size().map(|half| 2.0 * half),
+        &frames,
+    )
 }
 
-fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
+fn pictures(found: &Found) -> Vec<Drawing<'_>> {
     let moments = &found.statistics.moments;
     let chart = |name, title: &str, y: Dimension| Chart {
         name,
@@ -661,10 +705,16 @@ fn pictures<'a>(found: &Found) -> Vec<Drawing<'a>> {
         mean(|it| it.account.contact_loss),
     )
     .with("lost to drag", Look::Line, mean(|it| it.account.drag_loss));
-    [held, largest, energy]
-        .into_iter()
-        .map(Into::into)
-        .collect()
+    let energy = match found.ensemble.settings.table_friction > 0.0 {
+        true => energy.with(
+            "lost to friction on the table",
+            Look::Line,
+            mean(|it| it.account.table_loss),
+        ),
+        false => energy,
+    };
+    let charts = [held, largest, energy].into_iter().map(Into::into);
+    charts.chain(ends(found)).collect()
 }
 
 /// The number of bonds or traps of a run at its end.

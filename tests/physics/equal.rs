@@ -79,6 +79,8 @@ fn found(crowd: &Crowd, places: &[(usize, [f64; 3])]) -> ([usize; 3], Vec<Struct
         shaking: None,
         kicks: 5e-3,
         orbital: None,
+        linear: None,
+        table_friction: 0.0,
         fans: Vec::new(),
         step: 1e-3,
         sampling: 1e-3,

@@ -132,6 +132,9 @@ pub struct Design {
     pub sha256: String,
     /// Size of the air table (m) along x and along y.
     pub table: [f64; 2],
+    /// Whether it is round; its diameter is its size along x and along y. Analyses of pairs of tiles use
+    /// the square around it.
+    pub is_round: bool,
     /// The two tiles and their intended bond.
     pub pair: Arc<Pair>,
     /// The magnet model, and the shields behind the magnets.
@@ -250,7 +253,7 @@ impl Design {
         let contents = tile::resolve(&entries, keys.clone().unwrap_or_default());
         // From here on parts are combined, each of which is valid by itself.
         faults.check()?;
-        let (table, keys, contents, target) = (table?, keys?, contents?, target?);
+        let ((table, is_round), keys, contents, target) = (table?, keys?, contents?, target?);
         let [fixed, moving] = [0, 1].map(|i| build::build(&entries[i], &contents[i]));
         let mut built = [fixed?, moving?];
         let (bound, too_near) = bound(&target, &entries, &contents, &mut built)?;
@@ -280,6 +283,7 @@ impl Design {
             description: description?.unwrap_or_default().to_owned(),
             sha256: sha256(source.text),
             table,
+            is_round,
             pair: Arc::new(Pair {
                 bound,
                 target: target.faces,
@@ -335,7 +339,7 @@ impl Design {
         let entry = root
             .require("table", TABLE_HELP)?
             .section("[table]")?
-            .require("size", TABLE_HELP)?;
+            .require(if self.is_round { "diameter" } else { "size" }, TABLE_HELP)?;
         let [x, y] = space.half_size;
         if !space.contains(&self.pair.bound) {
             return Err(entry.error(
@@ -403,16 +407,44 @@ fn sold(built: &[BuiltTile; 2]) -> Vec<(Strength, Magnet)> {
     sold
 }
 
-const TABLE_HELP: &str = "give the size of the table: [table] with size = [2.0, 2.0] (m)";
+const TABLE_HELP: &str = "give the size of the table: [table] with size = [2.0, 2.0] (m), or with shape = \
+                          \"disc\" and diameter = 0.25 (m)";
 
-const TABLE_KEYS: [&str; 1] = ["size"];
+const TABLE_KEYS: [&str; 3] = ["size", "shape", "diameter"];
 
-fn table(root: &Section) -> Result<[f64; 2]> {
+/// The size of the table (m) along x and y, and whether it is round.
+fn table(root: &Section) -> Result<([f64; 2], bool)> {
     let section = root.require("table", TABLE_HELP)?.section("[table]")?;
     section.allow(&TABLE_KEYS);
-    section
-        .require("size", TABLE_HELP)?
-        .numbers::<2>(quantity::TABLE_SIZE, "along x and along y")
+    let is_round = match section.get("shape") {
+        None => false,
+        Some(shape) => match shape.string()? {
+            "rectangle" => false,
+            "disc" => true,
+            _ => {
+                let help = "write shape = \"rectangle\" (the default) with size, or shape = \"disc\" with diameter";
+                return Err(shape.error("a table has no such shape", help));
+            }
+        },
+    };
+    let [wanted, other] = if is_round {
+        ["diameter", "size"]
+    } else {
+        ["size", "diameter"]
+    };
+    if let Some(odd) = section.get(other) {
+        let help = "a round table has shape = \"disc\" and a diameter, a rectangular one a size";
+        return Err(odd.error(
+            format!("`{other}` does not fit the shape of the table"),
+            help,
+        ));
+    }
+    let entry = section.require(wanted, TABLE_HELP)?;
+    let size = match is_round {
+        true => [entry.number(quantity::TABLE_SIZE)?; 2],
+        false => entry.numbers::<2>(quantity::TABLE_SIZE, "along x and along y")?,
+    };
+    Ok((size, is_round))
 }
 
 fn magnet_keys(root: &Section) -> Result<MagnetKeys> {

@@ -23,7 +23,7 @@ pub struct ContactOptions {
 /// Drag, contact and fans.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct MotionOptions {
-    /// Drag rate (1/s)
+    /// Drag rate (1/s), relative to the table or the fixed tile, not to the room
     #[arg(long, value_name = "C", default_value_t = MotionSettings::default().drag,
           value_parser = drag)]
     pub drag: f64,

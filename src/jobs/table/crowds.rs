@@ -11,7 +11,7 @@ use physics::dynamics::docking::MatchRule;
 use physics::potential::Interaction;
 use physics::potential::shielding::Shields;
 use physics::problem::Problem;
-use physics::table::{Crowd, Kind};
+use physics::table::{Crowd, Kind, Rim};
 use physics::tile::{Pair, Tile};
 
 /// Largest number of tiles on a table.
@@ -124,7 +124,11 @@ pub fn of_designs(designs: &[Design]) -> Result<(Crowd, Named), String> {
     let depths = problems.iter().map(Problem::depth);
     let tolerance = CUT_OFF * depths.fold(f64::INFINITY, f64::min);
     let half = problems[0].space.half_size;
-    let crowd = Crowd::new(kinds, half, tolerance, &interaction, bonds);
+    let rim = match first.is_round {
+        true => Rim::Disc(half[0]),
+        false => Rim::Rectangle(half),
+    };
+    let crowd = Crowd::new(kinds, rim, tolerance, &interaction, bonds);
     Ok((crowd.map_err(|error| error.to_string())?, named))
 }
 
@@ -174,8 +178,8 @@ pub fn of_assembly(assembly: &Assembly, table: [f64; 2]) -> Result<Crowd, Refuse
         }
         rules
     };
-    let half = table.map(|size| 0.5 * size);
-    let crowd = Crowd::new(kinds, half, tolerance, &|_, _| interaction.clone(), bonds);
+    let rim = Rim::Rectangle(table.map(|size| 0.5 * size));
+    let crowd = Crowd::new(kinds, rim, tolerance, &|_, _| interaction.clone(), bonds);
     crowd.map_err(|error| error.to_string().into())
 }
 

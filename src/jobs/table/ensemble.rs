@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{About, Request};
 use crate::checksum::sha256;
 use physics::table::run::{HALVINGS, Run, Sample, Start};
-use physics::table::{Crowd, Mover, TableSettings};
+use physics::table::{Crowd, Mover, TableSettings, usual_step};
 
 /// The file of a part.
 pub const PART: &str = "part.json";
@@ -39,7 +39,7 @@ impl Ensemble {
         Self {
             tilebind: env!("CARGO_PKG_VERSION").to_owned(),
             tiles: Self::checksum(about, crowd),
-            settings: request.settings(),
+            settings: request.settings(usual_step(crowd)),
             seed: request.seed,
             runs: request.runs,
             start,
@@ -52,7 +52,7 @@ impl Ensemble {
         let tiles: Vec<_> = crowd.kinds.iter().map(|it| (&it.name, &it.tile)).collect();
         sha256(format!(
             "{about:?} {:?} {:?} {tiles:?}",
-            crowd.half_size, crowd.goal
+            crowd.rim, crowd.goal
         ))
     }
 
@@ -142,7 +142,7 @@ impl Ensemble {
         let is_kinetic = |energy: f64| (0.0..=MOST_ENERGY).contains(&energy);
         let are_movers = |movers: &[Mover]| {
             let is_here = |it: &Mover| {
-                let [x, y] = crowd.half_size;
+                let [x, y] = crowd.rim.half_size();
                 let place = it.place;
                 place.x.abs() <= x
                     && place.y.abs() <= y

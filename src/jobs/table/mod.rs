@@ -3,6 +3,7 @@
 mod comparison;
 mod crowds;
 mod ensemble;
+mod forecast;
 mod goal;
 mod request;
 mod start_file;
@@ -23,13 +24,15 @@ pub use subject::About;
 pub use target::Target;
 pub use workload::Workload;
 
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
 
 use crate::request::Unanswered;
+use forecast::Forecast;
 use physics::observer::Observer;
 use physics::parallel;
-use physics::table::Crowd;
-use physics::table::run::{Run, RunError, Start, run};
+use physics::table::run::{Run, RunError, Start, watched};
+use physics::table::{Crowd, usual_step};
 
 /// The result of a table.
 pub struct Found {
@@ -85,7 +88,7 @@ pub fn table(
     progress: &dyn Observer,
 ) -> Result<Found, TableError> {
     let clock = Instant::now();
-    let workload = Workload::of(request, &start);
+    let workload = Workload::of(request, usual_step(&crowd), &start);
     workload.check().map_err(TableError::Memory)?;
     let ensemble = Ensemble::of(about, &crowd, request, start);
     let runs = match parts.is_empty() {
@@ -111,15 +114,18 @@ fn simulated(
     progress: &dyn Observer,
 ) -> Result<Vec<Run>, TableError> {
     progress.stage("runs", 0.0);
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let one = |&index: &usize| {
+    let done = AtomicUsize::new(0);
+    let forecast = Forecast::new(made.len(), progress);
+    let one = |(number, &index): (usize, &usize)| {
         let frames = index == made[0] || ensemble.frames;
         let (settings, seed, start) = (&ensemble.settings, ensemble.seed, &ensemble.start);
-        let found = run(crowd, settings, (seed, index), start, frames);
-        let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        let watch = |share: f64| forecast.done(number, share);
+        let found = watched(crowd, settings, (seed, index), start, (frames, &watch));
+        let done = 1 + done.fetch_add(1, Relaxed);
         progress.part("runs", done, made.len());
         found.map_err(|error| TableError::Run { index, error })
     };
-    let runs = parallel::inside(|| parallel::map(made, one));
+    let made: Vec<(usize, &usize)> = made.iter().enumerate().collect();
+    let runs = parallel::inside(|| parallel::map(&made, |it| one(*it)));
     runs.into_iter().collect()
 }

@@ -3,9 +3,9 @@
 use clap::Args;
 
 use super::Wanted;
-use crate::design::{frequency, length};
+use crate::design::{angle, frequency, length};
 use crate::request::{self, MotionOptions, Shard};
-use physics::table::{Orbital, TableSettings};
+use physics::table::{Linear, Orbital, TableSettings};
 
 /// Largest radius of the table's circle (m).
 const WIDEST_CIRCLE: f64 = 1.0;
@@ -53,14 +53,27 @@ pub struct Request {
     pub correlation: Option<f64>,
 
     /// Move the table in a circle of radius A (m) at F revolutions per second, or with units: "10 mm,300 rpm"
+    ///
+    /// Places, velocities and drag are relative to the moving table.
     #[arg(long, value_name = "A,F", value_parser = orbital)]
     pub orbital: Option<Orbital>,
+
+    /// Shake the table along a line: amplitude A (m), F periods per second, at ANGLE (rad) from the x axis, or
+    /// with units: "5 mm,10,90 deg"
+    #[arg(long, value_name = "A,F,ANGLE", allow_hyphen_values = true, value_parser = linear)]
+    pub linear: Option<Linear>,
+
+    /// Dry friction of tiles on the table they lie on: Coulomb's coefficient, 0 for an air table
+    ///
+    /// A tile's weight presses evenly over its area. --orbital and --linear move the table beneath it.
+    #[arg(long, value_name = "MU", default_value_t = 0.0, value_parser = request::not_negative)]
+    pub table_friction: f64,
 
     /// How tiles move.
     #[command(flatten)]
     pub motion: MotionOptions,
 
-    /// Longest step (s) [default: 0.0025, or less for fast drives]
+    /// Longest step (s) [default: 0.0025 for tiles of 43 cm, less in proportion to smaller ones, or for fast drives]
     ///
     /// Steps in contact are shorter in proportion.
     #[arg(long, value_name = "S", value_parser = step)]
@@ -86,37 +99,36 @@ pub struct Request {
 }
 
 impl Request {
-    /// The settings of the runs.
-    pub fn settings(&self) -> TableSettings {
-        let usual = TableSettings::USUAL_STEP;
+    /// The settings of the runs, for tiles with this usual step (s).
+    pub fn settings(&self, usual: f64) -> TableSettings {
         let kicks = self
             .correlation
             .unwrap_or_else(|| KICKS.min(DRAG_A_KICK / self.motion.drag));
-        let fastest = self.motion.fan.iter().map(|fan| fan.frequency);
-        let fastest = fastest
-            .chain(self.orbital.map(|it| it.frequency))
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
-        let mut step = self
+        let mut settings = TableSettings {
+            duration: self.time,
+            drag: self.motion.drag,
+            friction: self.motion.contact.friction,
+            table_friction: self.table_friction,
+            restitution: self.motion.contact.restitution,
+            shaking: self.shaking,
+            kicks,
+            orbital: self.orbital,
+            linear: self.linear,
+            fans: self.motion.fan.clone(),
+            step: usual,
+            sampling: self.frames.unwrap_or(self.time / MOMENTS),
+            walls: true,
+        };
+        let fastest = settings.frequencies().fold(0.0, |a: f64, b| a.max(b.abs()));
+        settings.step = self
             .step
             .unwrap_or(usual.min(0.02 / fastest))
             .min(self.time);
         if self.shaking.is_some() {
             // A whole number of steps between kicks.
-            step = kicks / (kicks / step - 1e-9).ceil().max(1.0);
+            settings.step = kicks / (kicks / settings.step - 1e-9).ceil().max(1.0);
         }
-        TableSettings {
-            duration: self.time,
-            drag: self.motion.drag,
-            friction: self.motion.contact.friction,
-            restitution: self.motion.contact.restitution,
-            shaking: self.shaking,
-            kicks,
-            orbital: self.orbital,
-            fans: self.motion.fan.clone(),
-            step,
-            sampling: self.frames.unwrap_or(self.time / MOMENTS),
-            walls: true,
-        }
+        settings
     }
 
     /// The indices of the runs to compute, from 0.
@@ -135,24 +147,52 @@ fn orbital(text: &str) -> Result<Orbital, String> {
     const FORM: &str =
         "a circle is A,F in m and Hz or with units, such as 0.005,2 or \"10 mm,300 rpm\"";
     let (radius, turns) = text.split_once(',').ok_or(FORM)?;
-    let amplitude = length(radius).filter(|it| *it >= 0.0).ok_or(FORM)?;
-    let frequency = frequency(turns).filter(|it| *it > 0.0).ok_or(FORM)?;
-    if amplitude > WIDEST_CIRCLE {
-        let meant = match radius.trim().parse::<f64>() {
-            Ok(number) => format!(": did you mean \"{number} mm,{}\"?", turns.trim()),
-            Err(_) => String::new(),
-        };
-        return Err(format!(
-            "a circle has a radius of at most {WIDEST_CIRCLE} m, not {amplitude} m{meant}"
-        ));
-    }
-    if frequency > FASTEST_CIRCLE {
-        return Err(format!("a circle has at most {FASTEST_CIRCLE} Hz"));
-    }
+    let [amplitude, frequency] = swing(["a circle", "a radius"], [radius, turns], turns, FORM)?;
     Ok(Orbital {
         amplitude,
         frequency,
     })
+}
+
+fn linear(text: &str) -> Result<Linear, String> {
+    const FORM: &str = "linear shaking is A,F,ANGLE in m, Hz and rad or with units, such as 0.005,10,0 or \
+                        \"5 mm,10,90 deg\"";
+    let parts: Vec<&str> = text.split(',').collect();
+    let [distance, periods, way] = parts[..] else {
+        return Err(FORM.to_owned());
+    };
+    let after = format!("{},{}", periods.trim(), way.trim());
+    let what = ["linear shaking", "an amplitude"];
+    let [amplitude, frequency] = swing(what, [distance, periods], &after, FORM)?;
+    Ok(Linear {
+        amplitude,
+        frequency,
+        angle: angle(way).ok_or(FORM)?,
+    })
+}
+
+/// A length (m) and a frequency (Hz) of the table's motion; `after` is the text after the length.
+fn swing(
+    [what, has]: [&str; 2],
+    [distance, turns]: [&str; 2],
+    after: &str,
+    form: &str,
+) -> Result<[f64; 2], String> {
+    let amplitude = length(distance).filter(|it| *it >= 0.0).ok_or(form)?;
+    let frequency = frequency(turns).filter(|it| *it > 0.0).ok_or(form)?;
+    if amplitude > WIDEST_CIRCLE {
+        let meant = match distance.trim().parse::<f64>() {
+            Ok(number) => format!(": did you mean \"{number} mm,{}\"?", after.trim()),
+            Err(_) => String::new(),
+        };
+        return Err(format!(
+            "{what} has {has} of at most {WIDEST_CIRCLE} m, not {amplitude} m{meant}"
+        ));
+    }
+    if frequency > FASTEST_CIRCLE {
+        return Err(format!("{what} has at most {FASTEST_CIRCLE} Hz"));
+    }
+    Ok([amplitude, frequency])
 }
 
 fn step(text: &str) -> Result<f64, String> {

@@ -15,6 +15,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub struct Interval {
     /// The mean.
     pub mean: f64,
+    /// The standard deviation of single runs; `None` for one run.
+    pub sd: Option<f64>,
     /// The lower end; `None` for a single run.
     pub low: Option<f64>,
     /// The upper end.
@@ -37,6 +39,7 @@ impl Interval {
         });
         Self {
             mean,
+            sd: (counts.len() > 1).then(|| (squares / (n - 1.0)).sqrt()),
             low: half.map(|half| (mean - half.max(below)).max(0.0)),
             high: half.map(|half| mean + half.max(above)),
         }
@@ -47,6 +50,7 @@ impl Interval {
         let share = |count: f64| (count / most.max(1) as f64).min(1.0);
         Self {
             mean: share(self.mean),
+            sd: self.sd.map(|sd| sd / most.max(1) as f64),
             low: self.low.map(share),
             high: self.high.map(share),
         }
@@ -194,12 +198,11 @@ impl Statistics {
         };
         let kinetic = runs.iter().map(|run| run.kinetic).sum::<f64>() / runs.len() as f64;
         let kinetic_kt = settings.shaking.map(|kt| kinetic / kt);
-        let is_driven = !settings.fans.is_empty() || settings.orbital.is_some();
         let kinetic_error = chance(runs, settings);
         let verdict = match kinetic_kt {
             Some(share) if off(share) <= THERMAL.max(kinetic_error) => Verdict::Thermal,
             Some(share) if share < 0.5 => Verdict::Frozen,
-            None if !is_driven => Verdict::Frozen,
+            None if !settings.is_driven() => Verdict::Frozen,
             _ => Verdict::Driven,
         };
         Self {

@@ -2,6 +2,7 @@
 
 use super::Request;
 use crate::memory;
+use physics::table::TableSettings;
 use physics::table::run::Start;
 
 /// Largest number of steps of a run.
@@ -37,9 +38,9 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// That of a request for these starts.
-    pub fn of(request: &Request, start: &Start) -> Self {
-        let settings = request.settings();
+    /// That of a request for tiles with this usual step (s) and these starts.
+    pub fn of(request: &Request, usual: f64, start: &Start) -> Self {
+        let settings = request.settings(usual);
         let tiles = match start {
             Start::Random(counts) => counts.iter().sum(),
             Start::Given(movers) => movers.len(),
@@ -102,7 +103,7 @@ impl Workload {
 /// # Errors
 /// If there are too many, or they are too short, also for what is to be recorded.
 pub fn check_steps(request: &Request) -> Result<(), String> {
-    let settings = request.settings();
+    let settings = request.settings(TableSettings::USUAL_STEP);
     let (time, step) = (settings.duration, settings.step);
     if step < LEAST_STEP {
         return Err(format!(
@@ -159,11 +160,19 @@ mod tests {
     fn memory_and_time_are_known() {
         let start = Start::Random(vec![50_000, 50_000]);
         let asked = request(&[("time", "2"), ("frames", "0.0025")]);
-        let much = Workload::of(&asked, &start);
+        let much = Workload::of(&asked, TableSettings::USUAL_STEP, &start);
         assert!(much.bytes() > 1e11 && much.check().is_err());
-        let few = Workload::of(&asked, &Start::Random(vec![1, 1]));
+        let few = Workload::of(
+            &asked,
+            TableSettings::USUAL_STEP,
+            &Start::Random(vec![1, 1]),
+        );
         assert!(few.bytes() < 1e7 && few.check() == Ok(()) && few.long(1).is_none());
-        let long = Workload::of(&request(&[("time", "1e6")]), &Start::Random(vec![1, 1]));
+        let long = Workload::of(
+            &request(&[("time", "1e6")]),
+            TableSettings::USUAL_STEP,
+            &Start::Random(vec![1, 1]),
+        );
         assert!(long.long(1).is_some_and(|time| (time - 800.0).abs() < 1.0));
     }
 }

@@ -3,6 +3,8 @@
 use nalgebra::Vector2;
 
 use super::goal::Goal;
+use super::rest::supports;
+use super::rim::Rim;
 use crate::configuration::Configuration;
 use crate::contact::Contact;
 use crate::dynamics::Body;
@@ -21,6 +23,8 @@ pub struct Kind {
     pub body: Body,
     /// Largest distance of a point of the tile from its centre of mass (m).
     pub reach: f64,
+    /// The points at which it lies on the table, about its centre of mass (m).
+    pub supports: Vec<Vector2<f64>>,
 }
 
 impl Kind {
@@ -32,6 +36,7 @@ impl Kind {
         Self {
             name: name.into(),
             reach: reach.fold(0.0, f64::max),
+            supports: supports(&tile.outline),
             body,
             tile,
         }
@@ -51,6 +56,9 @@ pub struct Cutoff {
     /// times as many orientations, at `from`.
     pub left_out: f64,
 }
+
+/// The error of each pair of discs or upright magnets, as a share of their dipoles' energy.
+const INTERPOLATED: f64 = 1e-5;
 
 /// Number of directions and of orientations sampled for the cut-off.
 pub const BEARINGS: usize = 18;
@@ -131,8 +139,8 @@ pub struct Crowd {
     pub kinds: Vec<Kind>,
     /// The couple of the kinds i <= j has the index `j (j + 1) / 2 + i`.
     couples: Vec<Couple>,
-    /// Half the table's size along x and y (m).
-    pub half_size: [f64; 2],
+    /// The rim of the table.
+    pub rim: Rim,
     /// What the tiles are to build, if it is stated.
     pub goal: Option<Goal>,
     /// The number of faces of each kind by which it can bind.
@@ -160,7 +168,7 @@ impl Crowd {
     /// If the forces are not the gradients of energies.
     pub fn new(
         kinds: Vec<Kind>,
-        half_size: [f64; 2],
+        rim: Rim,
         tolerance: f64,
         interaction: &dyn Fn(usize, usize) -> Interaction,
         mut bonds: impl FnMut(usize, usize) -> Vec<MatchRule>,
@@ -173,7 +181,7 @@ impl Crowd {
                     return Err(CrowdError::NearestFace);
                 }
                 let [first, second] = [&kinds[i].tile, &kinds[j].tile];
-                let potential = acts.between(first, second).potential;
+                let potential = acts.in_motion(INTERPOLATED, first, second);
                 let radii = first.outline.circumradius() + second.outline.circumradius();
                 let magnets = first.magnets.iter().chain(&second.magnets);
                 let length = magnets.map(|magnet| magnet.size[0]).fold(0.0, f64::max);
@@ -201,7 +209,7 @@ impl Crowd {
             goal: None,
             kinds,
             couples,
-            half_size,
+            rim,
         };
         crowd.binding_faces = (0..crowd.kinds.len())
             .map(|kind| crowd.count_faces(kind))
@@ -259,7 +267,7 @@ impl Crowd {
 
     /// The table's area (m^2).
     pub fn area(&self) -> f64 {
-        4.0 * self.half_size[0] * self.half_size[1]
+        self.rim.area()
     }
 }
 

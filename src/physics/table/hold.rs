@@ -18,12 +18,15 @@
 //! Newton steps on the set of active points cycle among points that carry little.) The impulses on
 //! two tiles act at the same point and are equal and opposite.
 //!
+//! Where tiles rub on the table they lie on, the points of [`super::rest`] belong to the same sweeps.
+//!
 //! A point waits for the one before it if they share a tile. So points from both halves of the list
 //! take turns: the processor works on several at a time.
 
 use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 
+use super::rest::{Four, Rest, RestPoint};
 use crate::contact::TurnsWith;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
@@ -54,6 +57,8 @@ pub struct Hold {
     pub gap: f64,
     /// What the normal turns with.
     pub turns_with: TurnsWith,
+    /// The radius (m) of a round rim, if it is one with this.
+    pub rim: Option<f64>,
     /// Least velocity (m/s) along the normal.
     pub least: f64,
     /// Guesses of the forces (N) along normal and tangent.
@@ -83,6 +88,7 @@ impl Hold {
             axis,
             gap,
             turns_with,
+            rim: None,
             least: 0.0,
             forces: [0.0; 2],
             impulses: [0.0; 2],
@@ -118,6 +124,10 @@ impl Hold {
             let (sin, half) = (libm::sin(angle), libm::sin(0.5 * angle));
             Vector2::new(-of.y, of.x) * sin - of * (2.0 * half * half)
         };
+        if let Some(radius) = self.rim {
+            let now = self.point + steps[1].xy() + turned(self.arms[1], steps[1].z);
+            return radius - now.norm();
+        }
         // The point behind lies on the outline of its tile.
         let arms = [self.arms[0] - between, self.arms[1]];
         let [behind, front] =
@@ -218,9 +228,6 @@ impl Response {
     }
 }
 
-/// A velocity, or a point's row for one tile, as (x, y, turn, 0): a vector of the processor.
-type Four = [f64; 4];
-
 #[inline(always)]
 fn four(v: Vector3<f64>) -> Four {
     [v.x, v.y, v.z, 0.0]
@@ -309,27 +316,29 @@ impl Point {
 
 /// Changes the velocities by the impulses of all points; returns whether they were found. The
 /// impulses are stored in the holds; the solver starts from the stored ones. Sweeps end when the
-/// velocities are known to `error` (m/s), judged by how fast they converge.
+/// velocities are known to `error` (m/s), judged by how fast they converge. `rests` are the points at
+/// which tiles lie on the table.
 pub fn hold_back(
     inverse: &[Vector3<f64>],
     velocities: &mut [Vector3<f64>],
-    holds: &mut [Hold],
+    (holds, rests): (&mut [Hold], &mut [Rest]),
     [friction, error]: [f64; 2],
 ) -> bool {
     let mut is_found = true;
-    if holds.is_empty() {
+    if holds.is_empty() && rests.is_empty() {
         return is_found;
     }
     let mut local = vec![usize::MAX; velocities.len()];
-    for cluster in clusters(velocities.len(), holds) {
+    for (cluster, lying) in clusters(velocities.len(), holds, rests) {
         let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - error;
-        if cluster.iter().all(is_right) {
+        if lying.is_empty() && cluster.iter().all(is_right) {
             cluster.iter().for_each(|k| holds[*k].impulses = [0.0; 2]);
             continue;
         }
         // The cluster's own tiles in a row.
         let mut tiles: Vec<usize> = Vec::new();
-        for tile in cluster.iter().flat_map(|k| holds[*k].tiles).flatten() {
+        let touching = cluster.iter().flat_map(|k| holds[*k].tiles).flatten();
+        for tile in touching.chain(lying.iter().map(|k| rests[*k].tile)) {
             if tiles.get(local[tile]) != Some(&tile) {
                 local[tile] = tiles.len();
                 tiles.push(tile);
@@ -346,6 +355,11 @@ pub fn hold_back(
         };
         let cluster = from_both_halves(&cluster);
         let mut points: Vec<Point> = cluster.iter().map(point).collect();
+        let lie = |k: &usize| {
+            let tile = local[rests[*k].tile];
+            RestPoint::new(&rests[*k], tile, &roots[tile])
+        };
+        let mut lie: Vec<RestPoint> = lying.iter().map(lie).collect();
         let own = tiles.iter().zip(&roots);
         let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
         let mut own: Vec<Four> = own.collect();
@@ -353,11 +367,15 @@ pub fn hold_back(
             roots: &roots,
             velocities: &mut own,
             points: &mut points,
+            rests: &mut lie,
             error,
         });
         is_found &= sweeps.is_some();
         for (k, point) in cluster.iter().zip(&points) {
             holds[*k].impulses = point.impulses;
+        }
+        for (k, point) in lying.iter().zip(&lie) {
+            rests[*k].impulse = point.impulse.into();
         }
         for ((tile, [x, y, turn, _]), root) in tiles.iter().zip(own).zip(&roots) {
             velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
@@ -377,26 +395,34 @@ fn from_both_halves(list: &[usize]) -> Vec<usize> {
     both
 }
 
-/// The clusters of points that share tiles, by index.
-fn clusters(tiles: usize, holds: &[Hold]) -> Vec<Vec<usize>> {
+/// The clusters of points that share tiles, by the indices of points of contact and of those on the
+/// table.
+fn clusters(tiles: usize, holds: &[Hold], rests: &[Rest]) -> Vec<(Vec<usize>, Vec<usize>)> {
     let mut sets = UnionFind::<usize>::new(tiles);
     for hold in holds {
         if let [Some(a), Some(b)] = hold.tiles {
             sets.union(a, b);
         }
     }
-    let mut found: Vec<Vec<usize>> = Vec::new();
+    let mut found: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
     let mut number = vec![usize::MAX; tiles];
-    for (k, hold) in holds.iter().enumerate() {
-        let Some(tile) = hold.tiles.into_iter().flatten().next() else {
-            continue;
-        };
+    let mut of = |tile: usize, found: &mut Vec<(Vec<usize>, Vec<usize>)>| {
         let top = sets.find_mut(tile);
         if number[top] == usize::MAX {
             number[top] = found.len();
-            found.push(Vec::new());
+            found.push(Default::default());
         }
-        found[number[top]].push(k);
+        number[top]
+    };
+    for (k, hold) in holds.iter().enumerate() {
+        if let Some(tile) = hold.tiles.into_iter().flatten().next() {
+            let cluster = of(tile, &mut found);
+            found[cluster].0.push(k);
+        }
+    }
+    for (k, rest) in rests.iter().enumerate() {
+        let cluster = of(rest.tile, &mut found);
+        found[cluster].1.push(k);
     }
     found
 }
@@ -407,6 +433,7 @@ struct Solution<'a> {
     roots: &'a [Vector3<f64>],
     velocities: &'a mut [Four],
     points: &'a mut [Point],
+    rests: &'a mut [RestPoint],
     error: f64,
 }
 
@@ -419,16 +446,23 @@ impl Task for Solution<'_> {
             roots,
             velocities,
             points,
+            rests,
             error,
         } = self;
         for point in points.iter() {
             point.push(point.impulses, velocities);
+        }
+        for point in rests.iter() {
+            point.push(point.impulse, velocities);
         }
         let mut before = velocities.to_vec();
         let mut swept = before.clone();
         let mut last = f64::INFINITY;
         for sweep in 0..SWEEPS {
             for point in points.iter_mut() {
+                point.solve(velocities);
+            }
+            for point in rests.iter_mut() {
                 point.solve(velocities);
             }
             // Nearly redundant points may keep correcting each other, so the change over a whole
@@ -456,6 +490,9 @@ impl Task for Solution<'_> {
                     }
                 }
                 for point in points.iter_mut() {
+                    point.go_on(share, velocities);
+                }
+                for point in rests.iter_mut() {
                     point.go_on(share, velocities);
                 }
             }
@@ -567,13 +604,14 @@ mod tests {
                         roots: &roots,
                         velocities: &mut scaled.clone(),
                         points: &mut points,
+                        rests: &mut [],
                         error: ERROR,
                     })
                 };
                 let sweeps = solve().unwrap();
                 all += sweeps;
                 let mut now = start.clone();
-                hold_back(&inverse, &mut now, &mut holds, [friction, ERROR]);
+                hold_back(&inverse, &mut now, (&mut holds, &mut []), [friction, ERROR]);
                 for hold in &holds {
                     let [push, rub] = hold.impulses;
                     assert!(hold.rate(&now) > -50.0 * ERROR, "{}", hold.rate(&now));

@@ -23,20 +23,22 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use super::account::Account;
 use super::crowd::Crowd;
-use super::drive::Rider;
+use super::drive::{Drive, Rider, longest_step};
 use super::hold::{Hold, hold_back, kinetic, share_within};
 use super::margins::Margins;
-use super::mover::Mover;
+use super::motion::{
+    Forces, State, Strength, Unsolved, Way, closes, fastest, put_right, put_right_held,
+};
 use super::near::{NearPair, Touch, at_rim};
 use super::pair::{Pose, Two};
+use super::rest::{GRAVITY, Rest};
 use super::settings::TableSettings;
 use crate::contact::TurnsWith;
 
 /// The relative error of the travel of touching tiles in a step.
 const TRAVEL_ERROR: f64 = 0.01;
-/// A usual step as a share of the time in which forces change.
-const SHARE: f64 = 0.05;
 /// Tiles that friction holds and that travel less than this share of the travel of touching tiles
 /// in a step of the table need no short steps.
 const RESTING: f64 = 1.0 / 32.0;
@@ -68,59 +70,25 @@ const PRECISE: f64 = 0.1;
 pub struct Island<'a> {
     pub crowd: &'a Crowd,
     pub settings: &'a TableSettings,
+    pub drive: Drive<'a>,
+    /// The time (s) at the start of the step.
+    pub time: f64,
     pub margins: &'a Margins,
     /// The tiles.
     pub riders: Vec<Rider>,
     /// Their poses.
     pub poses: Vec<Pose>,
-    /// Their accelerations by other tiles, fans and the table's motion (m/s^2, m/s^2, rad/s^2).
+    /// Their accelerations by other tiles and the table's motion (m/s^2, m/s^2, rad/s^2).
     pub steady: Vec<Vector3<f64>>,
     /// Pairs, by indices of this island's tiles.
     pub pairs: Vec<(Two, &'a mut NearPair)>,
-    /// Kinetic energy lost in contact (J).
-    pub contact_loss: f64,
+    /// What became of the energy.
+    pub account: Account,
+    /// The number of steps made.
+    pub steps: u64,
     /// Whether contact was solved.
     pub is_solved: bool,
 }
-
-/// The own force of a pair of tiles.
-#[derive(Clone, Copy)]
-struct Strength {
-    /// The relative acceleration (m/s^2) of the tiles' fastest points by it.
-    acceleration: f64,
-    /// On the second tile, in the frame of the first (N).
-    force: Vector2<f64>,
-}
-
-/// The motion at one time.
-struct State {
-    velocities: Vec<Vector3<f64>>,
-    accelerations: Vec<Vector3<f64>>,
-    pulls: Vec<Strength>,
-    /// The potential energy of the pairs (J).
-    potential: f64,
-    /// The correction of kinetic energy that is still outstanding (J).
-    debt: f64,
-    /// The longest step (s) from here.
-    longest: f64,
-    /// The points that touch or may come into contact within it.
-    holds: Vec<Hold>,
-}
-
-impl State {
-    /// The velocities after half a step (s) without contact.
-    fn halfway(&self, h: f64) -> Vec<Vector3<f64>> {
-        let each = self.velocities.iter().zip(&self.accelerations);
-        each.map(|(v, a)| v + a * (0.5 * h)).collect()
-    }
-}
-
-/// The impulses of contact were not found.
-struct Unsolved;
-
-/// The mean velocities in a step, the points that last with their impulses, and the length (s) of the
-/// step.
-type Way = (Vec<Vector3<f64>>, Vec<Hold>, f64);
 
 impl Island<'_> {
     /// Advances by one step of the table.
@@ -131,18 +99,12 @@ impl Island<'_> {
             .map(|it| self.crowd.kinds[it.mover.kind].body.masses())
             .collect();
         let inverse: Vec<_> = masses.iter().map(|it| it.map(|mass| 1.0 / mass)).collect();
-        let (accelerations, pulls, potential) = self.accelerations(&masses);
-        let mut state = State {
-            velocities: self.riders.iter().map(|it| it.mover.velocity).collect(),
-            accelerations,
-            pulls,
-            potential,
-            debt: self.riders.iter().map(|it| it.debt).sum(),
-            longest: 0.0,
-            holds: Vec::new(),
-        };
+        let forces = self.forces(&masses, 0.0);
+        let velocities = self.riders.iter().map(|it| it.mover.velocity).collect();
+        let mut state = State::new(0.0, velocities, forces);
+        state.debt = self.riders.iter().map(|it| it.debt).sum();
         match self.go_on(&mut state, [&masses, &inverse], self.settings.step) {
-            Ok(lost) => self.contact_loss = lost,
+            Ok(lost) => self.account.contact_loss += lost,
             Err(Unsolved) => self.is_solved = false,
         }
         for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
@@ -170,16 +132,15 @@ impl Island<'_> {
             lost += self.knock(state, masses)?;
             let left = duration - time;
             let longest = state.longest.min(left) * libm::ldexp(1.0, -halvings);
-            let moved = self
-                .way(state, masses[1], longest)
-                .and_then(|(way, holds, h)| {
-                    let after = if h < left {
-                        duration - (time + h)
-                    } else {
-                        self.settings.step
-                    };
-                    Ok((self.step(state, (&way, holds), masses, [h, after])?, h))
-                });
+            let moved = self.way(state, masses[1], longest).and_then(|way| {
+                let h = way.h;
+                let after = if h < left {
+                    duration - (time + h)
+                } else {
+                    self.settings.step
+                };
+                Ok((self.step(state, way, masses, after)?, h))
+            });
             let (loss, h) = match moved {
                 Ok(moved) => moved,
                 Err(Unsolved) if halvings == HALVINGS => return Err(Unsolved),
@@ -196,11 +157,9 @@ impl Island<'_> {
         Ok(lost)
     }
 
-    /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and their energy (J).
-    fn accelerations(
-        &mut self,
-        masses: &[Vector3<f64>],
-    ) -> (Vec<Vector3<f64>>, Vec<Strength>, f64) {
+    /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and the potential energy (J) at a
+    /// time (s) since the start of the step of the table.
+    fn forces(&mut self, masses: &[Vector3<f64>], time: f64) -> Forces {
         let mut all = self.steady.clone();
         let mut strengths = Vec::with_capacity(self.pairs.len());
         let mut potential = 0.0;
@@ -222,7 +181,21 @@ impl Island<'_> {
                 force,
             });
         }
-        (all, strengths, potential)
+        let mut winds = Vec::new();
+        if !self.settings.fans.is_empty() {
+            let places = riders.iter().map(|it| it.mover.place.xy());
+            winds.extend(places.map(|place| self.drive.wind(place, self.time + time)));
+            for ((acceleration, wind), masses) in all.iter_mut().zip(&winds).zip(masses) {
+                *acceleration += wind.whole().push(0.0) / masses.x;
+                potential += wind.energy;
+            }
+        }
+        Forces {
+            accelerations: all,
+            pulls: strengths,
+            winds,
+            potential,
+        }
     }
 
     fn travel(&self) -> f64 {
@@ -270,7 +243,13 @@ impl Island<'_> {
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
         let limits = pairs.map(|(pair, pull)| limit(pair, pull));
-        self.fineness() * limits.fold(f64::INFINITY, f64::min)
+        let limits = limits.fold(f64::INFINITY, f64::min);
+        let winds = self.riders.iter().zip(&state.velocities).zip(inverse);
+        let winds = winds.map(|((it, v), inverse)| {
+            let place = it.mover.place.xy();
+            self.drive.longest(1.0 / inverse.x, place, v.xy().norm())
+        });
+        self.fineness() * winds.fold(limits, f64::min)
     }
 
     /// The time (s) in which touching tiles travel as far as contact allows in a step.
@@ -334,7 +313,9 @@ impl Island<'_> {
                     margin(own[tile]),
                     &mut |point, axis, gap| {
                         let normal = (axis, TurnsWith::Behind);
-                        holds.push(Hold::new([None, Some(tile)], point, normal, gap, centre));
+                        let mut hold = Hold::new([None, Some(tile)], point, normal, gap, centre);
+                        hold.rim = crowd.rim.radius();
+                        holds.push(hold);
                     },
                 );
             }
@@ -386,7 +367,11 @@ impl Island<'_> {
                 hold.impulses = hold.forces.map(|force| force * 0.5 * h);
                 holds.push(hold);
             }
-            let way = self.forecast(state, &mut holds, inverse, h)?;
+            let mut rests = self.rests(inverse, 0.5 * h);
+            for (rest, rub) in rests.iter_mut().zip(&state.rubs) {
+                rest.impulse = rub * (0.5 * h);
+            }
+            let way = self.forecast(state, (&mut holds, &mut rests), inverse, h)?;
             // By the velocity in the middle of the step: the step is then as long as the one back from
             // its end, and errors of energy do not add up.
             let share = self.time_to_travel(&way, &state.holds) / h;
@@ -413,7 +398,12 @@ impl Island<'_> {
                 }
             }
             if !is_new && first == h {
-                return Ok((way, holds, h));
+                return Ok(Way {
+                    velocities: way,
+                    holds,
+                    rests,
+                    h,
+                });
             }
             if !is_new {
                 h = first;
@@ -427,7 +417,7 @@ impl Island<'_> {
     fn forecast(
         &self,
         state: &State,
-        holds: &mut [Hold],
+        (holds, rests): (&mut [Hold], &mut [Rest]),
         inverse: &[Vector3<f64>],
         h: f64,
     ) -> Result<Vec<Vector3<f64>>, Unsolved> {
@@ -440,7 +430,7 @@ impl Island<'_> {
                 hold.least = -(hold.gap.max(0.0) + bend) / h;
             }
             let mut way = free.clone();
-            if !hold_back(inverse, &mut way, holds, self.law(h)) {
+            if !hold_back(inverse, &mut way, (holds, rests), self.law(h)) {
                 return Err(Unsolved);
             }
             let mut change: f64 = 0.0;
@@ -459,42 +449,50 @@ impl Island<'_> {
         Err(Unsolved)
     }
 
-    /// Makes a step along a way, with the points that last in it; the time of the step and the time after
-    /// it (s). Returns the energy lost in contact (J).
+    /// Makes a step, with `after` (s) left after it. Returns the energy lost in contact (J).
     fn step(
         &mut self,
         state: &mut State,
-        (way, held): (&[Vector3<f64>], Vec<Hold>),
+        way: Way,
         [masses, inverse]: [&[Vector3<f64>]; 2],
-        [h, after]: [f64; 2],
+        after: f64,
     ) -> Result<f64, Unsolved> {
+        let Way {
+            velocities: way,
+            holds: held,
+            rests,
+            h,
+        } = way;
         let before: Vec<_> = self.riders.iter().map(|it| it.mover.place).collect();
         let mut lost: f64 = -held
             .iter()
-            .map(|it| it.work(&state.velocities, way))
+            .map(|it| it.work(&state.velocities, &way))
             .sum::<f64>();
+        let mut rubbed: f64 = rests
+            .iter()
+            .map(|it| it.work(&state.velocities, &way))
+            .sum();
         for (tile, way) in way.iter().enumerate() {
             self.put(tile, before[tile] + way * h);
         }
-        let (accelerations, pulls, potential) = self.accelerations(masses);
+        let forces = self.forces(masses, state.time + h);
         let velocities = way
             .iter()
-            .zip(&accelerations)
+            .zip(&forces.accelerations)
             .map(|(v, a)| v + a * (0.5 * h));
-        let mut next = State {
-            velocities: velocities.collect(),
-            accelerations,
-            pulls,
-            potential,
-            debt: state.debt,
-            longest: 0.0,
-            holds: Vec::new(),
-        };
-        if held.is_empty() {
-            let steady = self.steady.iter().zip(masses).zip(way);
-            let work = steady.map(|((a, mass), way)| mass.component_mul(a).dot(way) * h);
-            let energy = kinetic(masses, &state.velocities) + work.sum::<f64>();
-            let energy = energy + state.potential - potential;
+        let mut next = State::new(state.time + h, velocities.collect(), forces);
+        next.debt = state.debt;
+        // The oscillation of fans does work.
+        let swings = state.winds.iter().zip(&next.winds).zip(&way);
+        let swung: f64 = swings
+            .map(|((from, to), way)| 0.5 * h * (from.swing + to.swing).dot(&way.xy()))
+            .sum();
+        let steady = self.steady.iter().zip(masses).zip(&way);
+        let work = steady.map(|((a, mass), way)| mass.component_mul(a).dot(way) * h);
+        let energy = kinetic(masses, &state.velocities) + work.sum::<f64>();
+        let energy = energy + swung + state.potential - next.potential;
+        let is_free = held.is_empty() && rests.is_empty();
+        if is_free {
             put_right(&mut next, (masses, &self.steady), energy, h);
         }
         self.look(&mut next, inverse, after);
@@ -503,7 +501,7 @@ impl Island<'_> {
         let lasts = |hold: &Hold| {
             let slow = self.slow(&next, hold);
             held.iter().any(|it| it.is_like(hold))
-                && hold.rate(way) >= -slow
+                && hold.rate(&way) >= -slow
                 && hold.rate(&state.velocities) <= slow
         };
         let mut holds: Vec<Hold> = next.holds.clone();
@@ -513,16 +511,25 @@ impl Island<'_> {
             // What is apart by less than the force moves it in half a step meets in that time.
             hold.least = -2.0 * hold.gap.max(0.0) / h;
         }
-        if !hold_back(inverse, &mut next.velocities, &mut holds, self.law(h)) {
+        let found = self.stop(&mut next, &way, (&mut holds, rests), inverse, h);
+        let Ok(rests) = found else {
             for (tile, place) in before.into_iter().enumerate() {
                 self.put(tile, place);
             }
             return Err(Unsolved);
-        }
+        };
         lost -= holds
             .iter()
-            .map(|it| it.work(way, &next.velocities))
+            .map(|it| it.work(&way, &next.velocities))
             .sum::<f64>();
+        rubbed += rests
+            .iter()
+            .map(|it| it.work(&way, &next.velocities))
+            .sum::<f64>();
+        self.account.table_loss -= rubbed;
+        self.account.work += swung;
+        let rubs = rests.iter().map(|it| it.impulse / (0.5 * h));
+        next.rubs = rubs.collect();
         // Where a point moves apart and comes back within the step, the forces act at rest, and the
         // mean velocities give them work that they do not do.
         let error = self.law(h)[1];
@@ -530,7 +537,7 @@ impl Island<'_> {
             |hold: &Hold| hold.is_held() && hold.rate(&state.velocities) > RETURNED * error;
         if held.iter().any(returns) {
             let halves = [&*state, &next].map(|at| {
-                let each = at.velocities.iter().zip(way).zip(&at.accelerations);
+                let each = at.velocities.iter().zip(&way).zip(&at.accelerations);
                 let works = each.zip(masses);
                 works
                     .map(|(((v, way), a), mass)| mass.component_mul(a).dot(&(v - way)))
@@ -538,9 +545,79 @@ impl Island<'_> {
             });
             lost -= 0.25 * h * (halves[0] + halves[1]);
         }
+        // Not where tiles are shaken: the correction changes volumes in phase space, which makes bonds
+        // rarer than in equilibrium, and the kicks level errors of energy anyway.
+        let is_at_rim = |hold: &Hold| hold.tiles[0].is_none() && hold.is_held();
+        let is_mechanical = self.settings.shaking.is_none() && rests.is_empty();
+        if !is_free && is_mechanical && !holds.iter().any(is_at_rim) {
+            let places: Vec<_> = self.riders.iter().map(|it| it.mover.place).collect();
+            put_right_held(&mut next, (masses, &places), energy - lost);
+        }
         self.remember(&holds, h);
+        self.steps += 1;
         *state = next;
         Ok(lost)
+    }
+
+    /// Stops the velocities at the end of a step (s) into the contact, and lets the table rub. A point that
+    /// slid on the table in the first half of the step slides in the same direction in the second, so
+    /// that the step is symmetric in time; unless this would turn its sliding round.
+    fn stop(
+        &self,
+        next: &mut State,
+        way: &[Vector3<f64>],
+        (holds, rests): (&mut [Hold], Vec<Rest>),
+        inverse: &[Vector3<f64>],
+        h: f64,
+    ) -> Result<Vec<Rest>, Unsolved> {
+        let mut now = self.rests(inverse, 0.5 * h);
+        for (now, first) in now.iter_mut().zip(&rests) {
+            now.impulse = first.impulse;
+            now.is_given = first.slides();
+        }
+        let free = next.velocities.clone();
+        loop {
+            if !hold_back(
+                inverse,
+                &mut next.velocities,
+                (holds, &mut now),
+                self.law(h),
+            ) {
+                return Err(Unsolved);
+            }
+            let is_turned = |it: &Rest| {
+                it.is_given && it.velocity(&next.velocities).dot(&it.velocity(way)) <= 0.0
+            };
+            let turned: Vec<bool> = now.iter().map(is_turned).collect();
+            if turned.iter().all(|it| !it) {
+                return Ok(now);
+            }
+            for (rest, is_turned) in now.iter_mut().zip(turned) {
+                rest.is_given &= !is_turned;
+            }
+            next.velocities.clone_from(&free);
+        }
+    }
+
+    /// The points at which the tiles lie on the table, with what friction may do in a time (s).
+    fn rests(&self, inverse: &[Vector3<f64>], time: f64) -> Vec<Rest> {
+        let friction = self.settings.table_friction;
+        let mut rests = Vec::new();
+        if friction == 0.0 {
+            return rests;
+        }
+        for (tile, pose) in self.poses.iter().enumerate() {
+            let supports = &self.crowd.kinds[self.riders[tile].mover.kind].supports;
+            let weight = GRAVITY / (inverse[tile].x * supports.len() as f64);
+            rests.extend(supports.iter().map(|arm| Rest {
+                tile,
+                arm: pose.rotation * arm,
+                limit: friction * weight * time,
+                impulse: Vector2::zeros(),
+                is_given: false,
+            }));
+        }
+        rests
     }
 
     /// Moves overlapping tiles apart, as little as possible and without friction, where they use up
@@ -565,7 +642,7 @@ impl Island<'_> {
         if !hold_back(
             inverse,
             &mut shifts,
-            &mut holds,
+            (&mut holds, &mut []),
             [0.0, PRECISE * self.margins.rounding],
         ) {
             return Err(Unsolved);
@@ -578,7 +655,12 @@ impl Island<'_> {
         for (tile, shift) in shifts.into_iter().enumerate() {
             self.put(tile, self.riders[tile].mover.place + shift);
         }
-        (state.accelerations, state.pulls, state.potential) = self.accelerations(masses);
+        let forces = self.forces(masses, state.time);
+        *state = State {
+            debt: state.debt,
+            rubs: std::mem::take(&mut state.rubs),
+            ..State::new(state.time, std::mem::take(&mut state.velocities), forces)
+        };
         self.look(state, inverse, time);
         Ok(lost)
     }
@@ -620,7 +702,7 @@ impl Island<'_> {
             hold.impulses = [0.0; 2];
         }
         let mut stopped = before.clone();
-        if !hold_back(inverse, &mut stopped, &mut holds, law) {
+        if !hold_back(inverse, &mut stopped, (&mut holds, &mut []), law) {
             return Err(Unsolved);
         }
         if bounces {
@@ -629,7 +711,7 @@ impl Island<'_> {
                 hold.least = back;
             }
             let mut bounced = before.clone();
-            if !hold_back(inverse, &mut bounced, &mut holds, law) {
+            if !hold_back(inverse, &mut bounced, (&mut holds, &mut []), law) {
                 return Err(Unsolved);
             }
             let each = bounced.iter().zip(&stopped);
@@ -667,69 +749,4 @@ impl Island<'_> {
             }
         }
     }
-}
-
-/// The longest step (s) in which a force changes little over `feature` (m), by the acceleration
-/// (m/s^2) of the pair by its own force.
-pub fn longest_step(feature: f64, pull: f64) -> f64 {
-    SHARE * (feature / pull.max(f64::MIN_POSITIVE)).sqrt()
-}
-
-/// An upper bound of the speed or acceleration of a tile's fastest point.
-pub fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
-    of.xy().norm() + crowd.kinds[mover.kind].reach * of.z.abs()
-}
-
-/// Corrects the velocities along the forces of the pairs, by less than a step (s) changed them, so
-/// that the kinetic energy (J) matches the change of the potential; what cannot be corrected now is
-/// carried over.
-fn put_right(
-    state: &mut State,
-    (masses, steady): (&[Vector3<f64>], &[Vector3<f64>]),
-    energy: f64,
-    h: f64,
-) {
-    let velocities = &mut state.velocities;
-    let now = kinetic(masses, velocities);
-    let wanted = energy + state.debt - now;
-    let pulls = state.accelerations.iter().zip(steady);
-    let pulls: Vec<Vector3<f64>> = pulls.map(|(all, steady)| all - steady).collect();
-    let square = 2.0 * kinetic(masses, &pulls);
-    if square == 0.0 {
-        state.debt = wanted;
-        return;
-    }
-    let each = masses.iter().zip(velocities.iter()).zip(&pulls);
-    let along: f64 = each
-        .map(|((mass, v), a)| mass.component_mul(v).dot(a))
-        .sum();
-    // The root closest to 0 of `along x + square x^2 / 2 = wanted`.
-    let root = (along * along + 2.0 * square * wanted).max(0.0).sqrt();
-    let x = 2.0 * wanted / (along + root.copysign(along));
-    let most = 0.5 * h;
-    let x = if x.is_finite() {
-        x.clamp(-most, most)
-    } else {
-        0.0
-    };
-    for (v, a) in state.velocities.iter_mut().zip(&pulls) {
-        *v += a * x;
-    }
-    state.debt = energy + state.debt - kinetic(masses, &state.velocities);
-}
-
-/// The time at which a gap (m) that changes as `gap + u t + a t^2 / 2` closes, and its velocity
-/// then (m/s).
-fn closes(gap: f64, u: f64, a: f64) -> Option<(f64, f64)> {
-    let gap = gap.max(0.0);
-    let square = u * u - 2.0 * a * gap;
-    if square < 0.0 || (u >= 0.0 && a >= 0.0) {
-        return None;
-    }
-    let speed = square.sqrt();
-    let time = match u < 0.0 {
-        true => 2.0 * gap / (speed - u),
-        false => (u + speed) / -a,
-    };
-    Some((time, speed))
 }

@@ -60,3 +60,8 @@ impl Margins {
         }
     }
 }
+
+/// The longest step (s) for which the limits of steps in contact are stated, for tiles of this size.
+pub fn usual_step(crowd: &Crowd) -> f64 {
+    Margins::of(crowd).usual_step
+}

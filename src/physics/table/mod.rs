@@ -40,6 +40,7 @@
 //! right for single collisions, but bound tiles bounce some hundred times a second. So bound tiles
 //! on an elastic table would freeze. Here elastic tiles in a bond keep their energy.
 
+mod account;
 pub mod contacts;
 pub mod crowd;
 mod drive;
@@ -47,10 +48,13 @@ pub mod goal;
 mod hold;
 mod island;
 mod margins;
+mod motion;
 mod mover;
 mod near;
 mod neighbours;
 mod pair;
+mod rest;
+mod rim;
 pub mod run;
 pub mod settings;
 pub mod settle;
@@ -59,8 +63,11 @@ mod stepper;
 pub mod structures;
 
 pub use crowd::{Crowd, CrowdError, Kind};
+pub use margins::usual_step;
 pub use mover::Mover;
+pub use rest::GRAVITY;
+pub use rim::Rim;
 pub use run::{Run, Sample};
-pub use settings::{Orbital, TableSettings};
+pub use settings::{Linear, Orbital, TableSettings};
 pub use start::StartError;
 pub use stepper::{BlowUp, StepError, Stepper};

@@ -3,7 +3,10 @@
 use nalgebra::Vector3;
 
 use super::crowd::Crowd;
+use super::rim::Rim;
+use crate::configuration::Configuration;
 use crate::dynamics::Motion;
+use crate::tile::Outline;
 
 /// A tile on the table.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -15,6 +18,13 @@ pub struct Mover {
     pub place: Vector3<f64>,
     /// Its velocity and angular velocity (m/s, m/s, rad/s).
     pub velocity: Vector3<f64>,
+}
+
+/// How far (m) an outline extends beyond a rim when it is placed there; negative if it does not.
+pub(super) fn beyond(outline: &Outline, rim: Rim, q: &Configuration) -> f64 {
+    let corners = outline.vertices().iter();
+    let beyond = corners.map(|corner| -rim.room(q.transform(*corner)));
+    beyond.fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// A tile in files: kind, place and velocity.
@@ -77,6 +87,6 @@ impl Mover {
     pub(super) fn beyond(&self, crowd: &Crowd) -> f64 {
         let kind = &crowd.kinds[self.kind];
         let q = kind.body.configuration(&self.place);
-        kind.tile.outline.beyond_rim(&q, crowd.half_size)
+        beyond(&kind.tile.outline, crowd.rim, &q)
     }
 }

@@ -150,20 +150,13 @@ pub fn at_rim(
     }
     for corner in kind.tile.outline.vertices() {
         let p = pose.transform(*corner);
-        for axis in 0..2 {
-            let gap = crowd.half_size[axis] - p[axis].abs();
-            if gap <= margin {
-                let mut normal = Vector2::zeros();
-                normal[axis] = -p[axis].signum();
-                found(p, normal, gap);
-            }
+        for (normal, gap) in crowd.rim.sides(p).filter(|it| it.1 <= margin) {
+            found(p, normal, gap);
         }
     }
 }
 
 /// A lower bound of a tile's distance (m) from the rim.
 pub fn rim_room(crowd: &Crowd, mover: &Mover) -> f64 {
-    let [x, y] = crowd.half_size;
-    let p = mover.place.xy();
-    (x - p.x.abs()).min(y - p.y.abs()) - crowd.kinds[mover.kind].reach
+    crowd.rim.room(mover.place.xy()) - crowd.kinds[mover.kind].reach
 }

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use super::account::Account;
 use super::contacts::{Held, Tie, clusters, held};
 use super::crowd::Crowd;
 use super::mover::Mover;
 use super::settings::TableSettings;
 use super::start::{StartError, at_random, check};
-use super::stepper::{Account, StepError, Stepper};
+use super::stepper::{StepError, Stepper};
 use super::structures::{Structure, structures};
 
 /// Largest allowed share of missing energy, relative to the largest term of the balance; beyond it
@@ -26,7 +27,7 @@ pub struct Sample {
     pub time: f64,
     /// Kinetic energy (J).
     pub kinetic: f64,
-    /// Magnetic energy (J).
+    /// Magnetic energy, and that of tiles in fans without their oscillation (J).
     pub potential: f64,
     /// The other terms of the energy balance.
     pub account: Account,
@@ -51,6 +52,7 @@ impl Sample {
         self.kinetic + self.potential - self.account.work
             + self.account.contact_loss
             + self.account.drag_loss
+            + self.account.table_loss
             - start.kinetic
             - start.potential
     }
@@ -61,10 +63,13 @@ impl Sample {
             work,
             contact_loss,
             drag_loss,
+            table_loss,
         } = self.account;
-        [self.kinetic, self.potential, work, contact_loss, drag_loss]
-            .map(f64::abs)
+        let losses = [contact_loss, drag_loss, table_loss];
+        [self.kinetic, self.potential, work]
             .into_iter()
+            .chain(losses)
+            .map(f64::abs)
             .fold(0.0, f64::max)
     }
 }
@@ -84,6 +89,8 @@ pub struct Run {
     pub energy_error: f64,
     /// The step (s) after any halving.
     pub step: f64,
+    /// The number of steps that tiles near each other, the rim or a fan have made within those.
+    pub steps: u64,
     /// The lifetimes of bonds and traps, ended or not.
     pub lives: Vec<Life>,
 }
@@ -135,9 +142,24 @@ pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
 pub fn run(
     crowd: &Crowd,
     settings: &TableSettings,
-    (seed, index): (u64, usize),
+    which: (u64, usize),
     start: &Start,
     frames: bool,
+) -> Result<Run, RunError> {
+    watched(crowd, settings, which, start, (frames, &|_| ()))
+}
+
+/// The same; calls `watch` with the share of the run that is done after every sample, again from 0 if
+/// the run is repeated with shorter steps.
+///
+/// # Errors
+/// As [`run`].
+pub fn watched(
+    crowd: &Crowd,
+    settings: &TableSettings,
+    (seed, index): (u64, usize),
+    start: &Start,
+    (frames, watch): (bool, &dyn Fn(f64)),
 ) -> Result<Run, RunError> {
     let mut rng = stream(seed, index);
     let movers = match start {
@@ -147,7 +169,7 @@ pub fn run(
     check(crowd, &movers, settings.walls)?;
     let mut settings = settings.clone();
     for halving in 0.. {
-        let run = once(crowd, &settings, index, (&movers, &rng), frames);
+        let run = once(crowd, &settings, index, (&movers, &rng), (frames, watch));
         let is_sound = run.as_ref().is_ok_and(|run| run.energy_error <= ACCOUNTED);
         if is_sound || halving == HALVINGS {
             return Ok(run?);
@@ -162,7 +184,7 @@ fn once(
     settings: &TableSettings,
     index: usize,
     (movers, rng): (&[Mover], &ChaCha8Rng),
-    frames: bool,
+    (frames, watch): (bool, &dyn Fn(f64)),
 ) -> Result<Run, StepError> {
     let random = |tile: usize| {
         let mut rng = rng.clone();
@@ -185,6 +207,7 @@ fn once(
         if step % between == 0 || step == steps {
             samples.push(sample(crowd, &mut stepper, frames));
             follow(&mut lives, &mut open, &samples[samples.len() - 1]);
+            watch(step as f64 / steps as f64);
         }
     }
     let missing = samples.iter().map(|it| it.missing(&samples[0]).abs());
@@ -199,6 +222,7 @@ fn once(
             0.0
         },
         step: settings.step,
+        steps: stepper.steps,
         movers: stepper.movers(),
         samples,
         lives,

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::crowd::Crowd;
-use super::mover::Mover;
+use super::mover::{Mover, beyond};
 use super::neighbours::Neighbours;
 use super::pair::{Pose, Two};
 use crate::configuration::{Configuration, wrap_angle};
@@ -12,8 +12,9 @@ use crate::tile::rounded_overlap;
 
 /// Rounds over all pairs; tiles that are put apart may meet others.
 const ROUNDS: usize = 100;
-/// Largest movement (m) of a tile; more is left to the check.
-const FARTHEST: f64 = 1e-3;
+/// Largest movement of a tile, relative to the largest overlap that counts as slight; more is left to the
+/// check.
+const FARTHEST: f64 = 20.0;
 
 /// Moves tiles that overlap by less than [`rounded_overlap`] apart, and tiles that extend as little
 /// beyond the rim onto the table; returns the largest movement of a tile (m), 0 if none is moved.
@@ -24,7 +25,9 @@ pub fn settle(crowd: &Crowd, movers: &mut [Mover], walls: bool) -> f64 {
     let kinds: Vec<usize> = movers.iter().map(|it| it.kind).collect();
     let positions: Vec<Vector2<f64>> = given.iter().map(Configuration::position).collect();
     let widest = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
-    let widest = 2.0 * (widest.fold(0.0, f64::max) + FARTHEST);
+    let tiles = crowd.kinds.iter().map(|it| rounded_overlap([&it.tile; 2]));
+    let most = FARTHEST * tiles.fold(0.0, f64::max);
+    let widest = 2.0 * (widest.fold(0.0, f64::max) + most);
     let mut neighbours = Neighbours::default();
     let pairs = neighbours.within(widest, &positions);
     for _ in 0..ROUNDS {
@@ -49,7 +52,7 @@ pub fn settle(crowd: &Crowd, movers: &mut [Mover], walls: bool) -> f64 {
     let mut farthest: f64 = 0.0;
     for ((mover, given), place) in movers.iter_mut().zip(&given).zip(&places) {
         let by = (place.position() - given.position()).norm();
-        if place == given || by > FARTHEST {
+        if place == given || by > most {
             continue;
         }
         farthest = farthest.max(by);
@@ -102,19 +105,19 @@ fn apart(crowd: &Crowd, kinds: [usize; 2], places: [Configuration; 2]) -> Option
 /// Where a tile that extends slightly beyond the rim touches it.
 fn inside(crowd: &Crowd, kind: usize, q: &Configuration) -> Option<Configuration> {
     let tile = &crowd.kinds[kind].tile;
-    let beyond = tile.outline.beyond_rim(q, crowd.half_size);
+    let beyond = beyond(&tile.outline, crowd.rim, q);
     if beyond <= 0.0 || beyond >= rounded_overlap([tile, tile]) {
         return None;
     }
-    let corners = tile.outline.vertices().iter();
-    let corners: Vec<_> = corners.map(|it| q.transform(*it)).collect();
-    let [x, y] = [0, 1].map(|axis| {
-        let half = crowd.half_size[axis];
-        let over = |sign: f64| {
-            let reached = corners.iter().map(|corner| sign * corner[axis] - half);
-            reached.fold(0.0, f64::max)
-        };
-        over(-1.0) - over(1.0)
-    });
-    Some(Configuration::new(q.x + x, q.y + y, q.theta))
+    // By as much as the farthest corner needs, to each side.
+    let (mut low, mut high) = (Vector2::zeros(), Vector2::zeros());
+    for corner in tile.outline.vertices() {
+        for (inwards, gap) in crowd.rim.sides(q.transform(*corner)) {
+            let by: Vector2<f64> = inwards * (-gap).max(0.0);
+            low = low.inf(&by);
+            high = high.sup(&by);
+        }
+    }
+    let by = low + high;
+    Some(Configuration::new(q.x + by.x, q.y + by.y, q.theta))
 }

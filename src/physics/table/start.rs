@@ -184,7 +184,7 @@ fn in_rows<'a>(crowd: &'a Crowd, kinds: &[usize], rng: &mut ChaCha8Rng) -> Optio
     let count_along = |axis: usize| {
         let widths = boxes.iter().map(|it| it.high[axis] - it.low[axis]);
         let cell = widths.fold(0.0, f64::max) + 1.01 * placed.room;
-        let side = 2.0 * crowd.half_size[axis] - placed.room;
+        let side = 2.0 * crowd.rim.half_size()[axis] - placed.room;
         (side / cell).floor() as usize
     };
     let counts = [0, 1].map(count_along);
@@ -193,19 +193,24 @@ fn in_rows<'a>(crowd: &'a Crowd, kinds: &[usize], rng: &mut ChaCha8Rng) -> Optio
         return None;
     }
     cells.shuffle(rng);
-    for (&kind, cell) in kinds.iter().zip(cells) {
-        let at = [cell % counts[0], cell / counts[0]];
-        let theta = if rng.random() { 0.0 } else { PI };
-        let [x, y] = [0, 1].map(|axis| {
-            let half = crowd.half_size[axis] - 0.5 * placed.room;
-            let share = (at[axis] as f64 + 0.5) / counts[axis] as f64;
-            let middle = 0.5 * (boxes[kind].low[axis] + boxes[kind].high[axis]);
-            half * (2.0 * share - 1.0) - middle * libm::cos(theta)
-        });
-        let q = Configuration::new(x, y, theta);
-        if !placed.is_free((kind, q), None) {
-            return None;
-        }
+    let mut cells = cells.into_iter();
+    for &kind in kinds {
+        let place = |cell: usize, rng: &mut ChaCha8Rng| {
+            let at = [cell % counts[0], cell / counts[0]];
+            let theta = if rng.random() { 0.0 } else { PI };
+            let [x, y] = [0, 1].map(|axis| {
+                let half = crowd.rim.half_size()[axis] - 0.5 * placed.room;
+                let share = (at[axis] as f64 + 0.5) / counts[axis] as f64;
+                let middle = 0.5 * (boxes[kind].low[axis] + boxes[kind].high[axis]);
+                half * (2.0 * share - 1.0) - middle * libm::cos(theta)
+            });
+            Configuration::new(x, y, theta)
+        };
+        // On a round table some places of the grid lie beyond the rim.
+        let q = cells.find_map(|cell| {
+            let q = place(cell, rng);
+            placed.is_free((kind, q), None).then_some(q)
+        })?;
         placed.add((kind, q));
     }
     // Small steps, too, as there is little room.
@@ -234,7 +239,8 @@ impl<'a> Placed<'a> {
         let room = ROOM * radii.clone().fold(f64::INFINITY, f64::min);
         let widest = 2.0 * radii.fold(0.0, f64::max) + room;
         let squares = crowd
-            .half_size
+            .rim
+            .half_size()
             .map(|half| (2.0 * half / widest).floor().clamp(1.0, MOST_SQUARES) as usize);
         Self {
             crowd,
@@ -248,7 +254,7 @@ impl<'a> Placed<'a> {
     /// The indices along x and y of the square that contains a point.
     fn square(&self, q: &Configuration) -> [usize; 2] {
         [0, 1].map(|axis| {
-            let (half, count) = (self.crowd.half_size[axis], self.squares[axis]);
+            let (half, count) = (self.crowd.rim.half_size()[axis], self.squares[axis]);
             let share = (q.position()[axis] + half) / (2.0 * half);
             (share * count as f64).clamp(0.0, count as f64 - 1.0) as usize
         })
@@ -297,7 +303,7 @@ fn free_place(placed: &Placed, kind: usize, rng: &mut ChaCha8Rng) -> Option<Conf
     (0..TRIES).find_map(|_| {
         crate::interruption::check();
         let mut even = |half: f64| half * (2.0 * rng.random::<f64>() - 1.0);
-        let [x, y] = placed.crowd.half_size;
+        let [x, y] = placed.crowd.rim.half_size();
         let q = Configuration::new(even(x), even(y), wrap_angle(even(0.5 * TAU)));
         placed.is_free((kind, q), None).then_some(q)
     })

@@ -4,10 +4,12 @@ use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 use rand_chacha::ChaCha8Rng;
 
+use super::account::Account;
 use super::crowd::Crowd;
-use super::drive::{Drive, Rider};
-use super::island::{Island, SHORTEST_TRIED, fastest, longest_step};
+use super::drive::{Drive, Rider, longest_step};
+use super::island::{Island, SHORTEST_TRIED};
 use super::margins::Margins;
+use super::motion::fastest;
 use super::mover::Mover;
 use super::near::{NearPair, rim_room};
 use super::neighbours::Neighbours;
@@ -19,22 +21,13 @@ use crate::parallel;
 const TOGETHER: usize = 8;
 /// Pairs apart per task of a thread.
 const APART_TOGETHER: usize = 64;
-/// Largest travel of a tile in a step, as a share of the distance that counts as near.
+/// Usual travel of a tile in a step, as a share of the distance that counts as near; faster tiles are
+/// near each other from farther on.
 const SHARE_OF_NEAR: f64 = 0.25;
+/// Largest travel, as a share of the same distance.
+const MOST_OF_NEAR: f64 = 2.0;
 /// Pairs are tied if their tiles may come this near in a step, as a share of the same distance.
 const SHARE_TIED: f64 = 0.1;
-
-/// The energy balance since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Account {
-    /// Work by shaking, fans and the table's motion.
-    pub work: f64,
-    /// Lost in contact: less the work of all impulses, each times the mean of the velocities before and
-    /// after it.
-    pub contact_loss: f64,
-    /// Lost to drag.
-    pub drag_loss: f64,
-}
 
 /// Why a run cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -73,6 +66,8 @@ pub struct Stepper<'a> {
     pub time: f64,
     /// The energy balance.
     pub account: Account,
+    /// The number of steps that islands have made within those of the table.
+    pub steps: u64,
     since_kick: usize,
     neighbours: Neighbours,
     near: Vec<NearPair>,
@@ -90,8 +85,8 @@ struct Scratch {
     positions: Vec<Vector2<f64>>,
     /// The tiles in the middle of the step, if nothing acted on them.
     halfway: Vec<(Mover, Pose)>,
-    /// Their accelerations by drives.
-    driven: Vec<Vector2<f64>>,
+    /// Their acceleration by the table's motion.
+    carried: Vector2<f64>,
     /// The same, and by pairs apart.
     steady: Vec<Vector3<f64>>,
     apart: Vec<Apart>,
@@ -147,6 +142,7 @@ impl<'a> Stepper<'a> {
             random,
             time: 0.0,
             account: Account::default(),
+            steps: 0,
             since_kick: 0,
             neighbours: Neighbours::default(),
             near: Vec::new(),
@@ -170,7 +166,7 @@ impl<'a> Stepper<'a> {
             .sum()
     }
 
-    /// Magnetic energy of all pairs (J).
+    /// Magnetic energy of all pairs, and the energy of all tiles in fans without their oscillation (J).
     pub fn potential(&mut self) -> f64 {
         let (crowd, movers) = (self.crowd, self.movers());
         let poses: Vec<_> = movers.iter().map(|it| Pose::of(crowd, it)).collect();
@@ -182,7 +178,10 @@ impl<'a> Stepper<'a> {
             let couple = crowd.couple(movers[first].kind, movers[second].kind).0;
             couple.pull(&poses[first].to(&poses[second].at)).0
         };
-        pairs.iter().map(energy).sum()
+        let magnetic: f64 = pairs.iter().map(energy).sum();
+        let places = movers.iter().map(|it| it.place.xy());
+        let winds = places.map(|place| self.drive.wind(place, self.time).energy);
+        magnetic + winds.sum::<f64>()
     }
 
     /// Pairs of tiles that are near each other, with their poses.
@@ -203,12 +202,11 @@ impl<'a> Stepper<'a> {
         }
         let mut scratch = std::mem::take(&mut self.scratch);
         self.prepare(h, &mut scratch);
-        self.account.contact_loss += self.move_all(&scratch.poses, &scratch.steady)?;
-        let befores = scratch.movers.iter().zip(&scratch.driven);
-        for ((rider, masses), (before, driven)) in self.riders.iter().zip(&self.masses).zip(befores)
-        {
+        self.move_all(&scratch)?;
+        let tiles = self.riders.iter().zip(&self.masses);
+        for ((rider, masses), before) in tiles.zip(&scratch.movers) {
             let way = rider.mover.place - before.place;
-            self.account.work += masses.x * driven.dot(&way.xy());
+            self.account.work += masses.x * scratch.carried.dot(&way.xy());
         }
         self.scratch = scratch;
         self.time += h;
@@ -240,7 +238,7 @@ impl<'a> Stepper<'a> {
             let mover = &rider.mover;
             let reach = self.crowd.kinds[mover.kind].reach;
             let speed = mover.velocity.xy().norm() + reach * mover.velocity.z.abs();
-            let may_go = speed * step <= SHARE_OF_NEAR * self.least_near;
+            let may_go = speed * step <= MOST_OF_NEAR * self.least_near;
             if !(may_go && mover.place.iter().all(|x| x.is_finite())) {
                 return Err(BlowUp {
                     time: self.time,
@@ -254,7 +252,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Prepares a step of length h (s): finds the near pairs, ties those that may touch, and
-    /// computes the poses and the accelerations by drives and by pairs apart.
+    /// computes the poses and the accelerations by the table's motion and by pairs apart.
     fn prepare(&mut self, h: f64, scratch: &mut Scratch) {
         let crowd = self.crowd;
         let Scratch { movers, poses, .. } = scratch;
@@ -266,12 +264,9 @@ impl<'a> Stepper<'a> {
             (mover, Pose::of(crowd, &mover))
         });
         refill(&mut scratch.halfway, halfway);
-        let time = self.time + 0.5 * h;
-        let tiles = scratch.halfway.iter().zip(&self.masses);
-        let driven = tiles.map(|((it, _), masses)| self.drive.push(masses.x, it.place.xy(), time));
-        refill(&mut scratch.driven, driven);
-        let steady = scratch.driven.iter().map(|push| push.push(0.0));
-        refill(&mut scratch.steady, steady);
+        scratch.carried = self.drive.carry(self.time + 0.5 * h);
+        let steady = scratch.carried.push(0.0);
+        refill(&mut scratch.steady, movers.iter().map(|_| steady));
         self.sort_pairs(scratch);
         self.pull_apart(scratch);
     }
@@ -282,7 +277,11 @@ impl<'a> Stepper<'a> {
         let Scratch { movers, poses, .. } = scratch;
         let positions = &mut scratch.positions;
         refill(positions, poses.iter().map(|pose| pose.at.position()));
-        let pairs = self.neighbours.within(crowd.range(), positions);
+        let speeds = movers.iter().map(|it| fastest(crowd, it, &it.velocity));
+        let travel = 2.0 * speeds.fold(0.0, f64::max) * self.settings.step;
+        let touching = crowd.couples().iter().map(|it| it.radii() + it.near);
+        let range = crowd.range().max(touching.fold(0.0, f64::max) + travel);
+        let pairs = self.neighbours.within(range, positions);
         std::mem::swap(&mut self.near, &mut scratch.known);
         let mut known = scratch.known.drain(..).peekable();
         let apart = &mut scratch.apart;
@@ -295,7 +294,10 @@ impl<'a> Stepper<'a> {
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
             let couple = crowd.couple(first.kind, second.kind).0;
             let distance = (positions[i] - positions[j]).norm();
-            let near = (1.0 + 2.0 * SHARE_OF_NEAR) * couple.near;
+            let speed =
+                fastest(crowd, first, &first.velocity) + fastest(crowd, second, &second.velocity);
+            let travel = speed * self.settings.step;
+            let near = couple.near + travel.max(2.0 * SHARE_OF_NEAR * couple.near);
             let room = match distance <= couple.radii() + near {
                 true => {
                     let q = poses[two.first].to(&poses[two.second].at);
@@ -304,11 +306,7 @@ impl<'a> Stepper<'a> {
                 false => f64::INFINITY,
             };
             let is_near = room <= near;
-            let is_tied = is_near && {
-                let speed = fastest(crowd, first, &first.velocity)
-                    + fastest(crowd, second, &second.velocity);
-                room <= speed * self.settings.step + SHARE_TIED * couple.near
-            };
+            let is_tied = is_near && { room <= travel + SHARE_TIED * couple.near };
             if is_near {
                 let mut pair = kept.unwrap_or_else(|| NearPair::new(two));
                 pair.is_tied = is_tied;
@@ -352,8 +350,14 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Advances every island independently; returns the energy lost in contact (J).
-    fn move_all(&mut self, poses: &[Pose], steady: &[Vector3<f64>]) -> Result<f64, StepError> {
+    /// Advances every island independently.
+    fn move_all(&mut self, scratch: &Scratch) -> Result<(), StepError> {
+        let Scratch {
+            poses,
+            steady,
+            halfway,
+            ..
+        } = scratch;
         let n = self.riders.len();
         let margins = self.margins;
         let mut tied = UnionFind::<usize>::new(n);
@@ -368,8 +372,8 @@ impl<'a> Stepper<'a> {
         let mut members: Vec<Vec<usize>> = Vec::new();
         let mut local = vec![0; n];
         for k in 0..n {
-            if !is_tied[k] && self.is_off_the_rim(k, &steady[k]) {
-                self.glide(k, &steady[k]);
+            if !is_tied[k] && self.is_alone(k, &halfway[k].0, &steady[k]) {
+                self.glide(k, &halfway[k].0, &steady[k]);
                 continue;
             }
             let top = tied.find_mut(k);
@@ -379,12 +383,15 @@ impl<'a> Stepper<'a> {
                 islands.push(Island {
                     crowd: self.crowd,
                     settings: self.settings,
+                    drive: self.drive,
+                    time: self.time,
                     margins: &margins,
                     riders: Vec::new(),
                     poses: Vec::new(),
                     steady: Vec::new(),
                     pairs: Vec::new(),
-                    contact_loss: 0.0,
+                    account: Account::default(),
+                    steps: 0,
                     is_solved: true,
                 });
             }
@@ -403,11 +410,11 @@ impl<'a> Stepper<'a> {
             };
             islands[number[top]].pairs.push((two, near));
         }
-        let mut lost = 0.0;
         let mut parts: Vec<&mut [Island]> = islands.chunks_mut(TOGETHER).collect();
         parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
         for (island, members) in islands.into_iter().zip(members) {
-            lost += island.contact_loss;
+            self.account.add(&island.account);
+            self.steps += island.steps;
             if !island.is_solved {
                 return Err(StepError::Unsolved {
                     time: self.time,
@@ -420,14 +427,45 @@ impl<'a> Stepper<'a> {
                 self.riders[k] = rider;
             }
         }
-        Ok(lost)
+        Ok(())
     }
 
-    /// Advances a tile that meets nothing.
-    fn glide(&mut self, tile: usize, a: &Vector3<f64>) {
+    /// Whether a tile meets nothing in a step: neither the rim nor a fan that needs shorter steps, nor
+    /// friction on the table.
+    fn is_alone(&self, tile: usize, halfway: &Mover, steady: &Vector3<f64>) -> bool {
+        let speed = halfway.velocity.xy().norm();
+        let longest = self
+            .drive
+            .longest(self.masses[tile].x, halfway.place.xy(), speed);
+        self.settings.table_friction == 0.0
+            && longest >= self.settings.step
+            && self.is_off_the_rim(tile, steady)
+    }
+
+    /// Advances a tile that meets nothing, by the forces in the middle of the step.
+    fn glide(&mut self, tile: usize, halfway: &Mover, steady: &Vector3<f64>) {
         let h = self.settings.step;
+        let mut a = *steady;
+        let mut swing = Vector2::zeros();
         let mover = &mut self.riders[tile].mover;
-        mover.place += (mover.velocity + a * (0.5 * h)) * h;
+        if !self.settings.fans.is_empty() {
+            let wind = self.drive.wind(halfway.place.xy(), self.time + 0.5 * h);
+            a += wind.whole().push(0.0) / self.masses[tile].x;
+            swing = wind.swing;
+        }
+        // Half of the drag has been applied, half of it follows: v0 goes as far as (1 - exp(-c h)) v0 / c.
+        let half = match self.settings.shaking {
+            None => 0.5 * self.settings.drag * h,
+            Some(_) => 0.0,
+        };
+        let stretch = if half > 0.0 {
+            libm::sinh(half) / half
+        } else {
+            1.0
+        };
+        let way = (mover.velocity * stretch + a * (0.5 * h)) * h;
+        mover.place += way;
+        self.account.work += swing.dot(&way.xy());
         mover.velocity += a * h;
     }
 

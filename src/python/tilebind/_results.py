@@ -39,6 +39,10 @@ class AirTable(tuple):  # type: ignore[type-arg]
             Time between random kicks of the shaking (s).
         orbital : tuple of float, optional
             Move the table in a circle: radius (m) and revolutions per second (Hz).
+        linear : tuple of float, optional
+            Shake the table along a line: amplitude (m), periods per second (Hz) and angle (rad) from the x axis.
+        table_friction : float, optional
+            Coefficient of dry friction of tiles on the table; 0 is an air table.
         drag, friction, restitution : float, optional
             Drag rate (1/s), coefficient of friction, coefficient of restitution.
         fan : sequence, optional

@@ -34,6 +34,8 @@ class _AirTable(tuple[float, float]):
         shaking: float | None = None,
         correlation: float | None = None,
         orbital: tuple[float | str, float | str] | str | None = None,
+        linear: tuple[float | str, float | str, float | str] | str | None = None,
+        table_friction: float = 0.0,
         drag: float = 0.005,
         friction: float = 0.3,
         restitution: float = 0.01,

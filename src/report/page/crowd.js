@@ -14,7 +14,10 @@ function drawCrowd() {
   const { scale, at } = fitting([-wide / 2, -high / 2, wide / 2, high / 2], width, height, 6);
   pen.strokeStyle = theme.ink;
   pen.lineWidth = 2;
-  line(pen, [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => at([x * wide / 2, y * high / 2])), true);
+  const sides = crowd.round ? 120 : 4;
+  const around = Array.from({ length: sides }, (_, k) => (k + 0.5) / sides * 2 * Math.PI);
+  const out = crowd.round ? 1 : Math.SQRT2;
+  line(pen, around.map((angle) => [out * Math.cos(angle), out * Math.sin(angle)]).map(([x, y]) => at([x * wide / 2, y * high / 2])), true);
   const poses = frame.poses;
   crowd.tiles.forEach((kind, k) => {
     const own = kind % 2 ? theme.moving : theme.fixed;

@@ -18,6 +18,8 @@ pub struct Crowd {
     note: String,
     /// The table's size (m).
     size: [f64; 2],
+    /// Whether it is a disc.
+    round: bool,
     /// The kinds of tiles.
     kinds: Vec<Kind>,
     /// The index of each tile's kind.
@@ -88,7 +90,8 @@ impl Crowd {
                  the target, have one colour each.",
                 run.map_or(0, |run| run.index)
             ),
-            size: crowd.half_size.map(|half| 2.0 * half),
+            size: crowd.rim.half_size().map(|half| 2.0 * half),
+            round: crowd.rim.radius().is_some(),
             kinds: crowd
                 .kinds
                 .iter()

@@ -21,6 +21,7 @@ pub mod chart;
 pub(crate) mod committor;
 pub(crate) mod composition;
 mod contour;
+pub mod crowd;
 mod decimals;
 pub(crate) mod disconnectivity;
 pub mod dock;

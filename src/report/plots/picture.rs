@@ -119,8 +119,60 @@ fn svg(
     Ok(document)
 }
 
+/// An animated PNG of pictures of one size, played for ever; `delay` is the time (s) of each.
+///
+/// # Errors
+/// If something could not be drawn or encoded.
+pub(super) fn animated(
+    count: usize,
+    delay: f64,
+    canvases: impl Iterator<Item = Canvas>,
+) -> Result<Vec<u8>, PictureError> {
+    let mut bytes = Vec::new();
+    let mut canvases = canvases.map(|canvas| {
+        let shapes = canvas.shapes().map_err(PictureError::Layout)?;
+        pixels(&canvas, &shapes, 1.0 / UNITS)
+    });
+    let Some(first) = canvases.next() else {
+        return Ok(bytes);
+    };
+    let (size, first) = first?;
+    let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(3));
+    encoder.set_animated(count as u32, 0)?;
+    let milliseconds = (1e3 * delay).round().clamp(1.0, f64::from(u16::MAX)) as u16;
+    encoder.set_frame_delay(milliseconds, 1000)?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&first)?;
+    for next in canvases {
+        writer.write_image_data(&next?.1)?;
+    }
+    writer.finish()?;
+    Ok(bytes)
+}
+
 /// The bitmap with a number of dots per unit, anti-aliased.
 fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureError> {
+    let ([width, height], rgb) = pixels(canvas, shapes, dots)?;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    // For drawings with few colours, filters and longer searches take time and do not reduce the
+    // size.
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(3));
+    encoder.write_header()?.write_image_data(&rgb)?;
+    Ok(bytes)
+}
+
+/// Width and height in pixels, and the pixels' red, green and blue.
+fn pixels(
+    canvas: &Canvas,
+    shapes: &[Shape],
+    dots: f64,
+) -> Result<([u32; 2], Vec<u8>), PictureError> {
     let size = canvas.root.dim_in_pixel();
     let [width, height] = [size.0, size.1].map(|side| (f64::from(side) * dots).round() as u32);
     let none = || PictureError::Layout(format!("no {width} x {height} pixels"));
@@ -156,15 +208,7 @@ fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureE
         .iter()
         .flat_map(|p| [p.red(), p.green(), p.blue()])
         .collect();
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    // For drawings with few colours, filters and longer searches take time and do not reduce the
-    // size.
-    encoder.set_filter(png::Filter::NoFilter);
-    encoder.set_deflate_compression(png::DeflateCompression::Level(3));
-    encoder.write_header()?.write_image_data(&rgb)?;
-    Ok(bytes)
+    Ok(([width, height], rgb))
 }
 
 /// Draws an image stretched over a rectangle.

@@ -72,10 +72,9 @@ fn a_wedged_pair_that_spins_keeps_its_kinetic_energy() {
     }
 }
 
-/// Tiles that slide on each other without friction keep their energy: it oscillates by what the
-/// integrator errs, to second order in the step, and does not drift.
+/// Tiles that slide on each other without friction keep their energy, which does not drift.
 #[test]
-fn sliding_without_friction_keeps_energy_to_second_order() {
+fn sliding_without_friction_keeps_energy() {
     let (_, crowd) = one_face(MagnetModel::Dipole);
     let slid = || {
         Start::Given(vec![
@@ -83,11 +82,8 @@ fn sliding_without_friction_keeps_energy_to_second_order() {
             mover(1, [0.215001, 0.004, 0.0], [0.0; 3]),
         ])
     };
-    let off = |duration: f64, step: f64| {
-        let settings = TableSettings {
-            step,
-            ..settings(duration, [0.0, 0.0])
-        };
+    let off = |duration: f64| {
+        let settings = settings(duration, [0.0, 0.0]);
         let found = run(&crowd, &settings, (1, 0), &slid(), false).unwrap();
         let totals = totals(&found);
         let there = found
@@ -95,17 +91,16 @@ fn sliding_without_friction_keeps_energy_to_second_order() {
             .iter()
             .map(|it| it.kinetic)
             .fold(0.0, f64::max);
-        let late = totals[totals.len() / 2..].iter().sum::<f64>() / (totals.len() / 2) as f64;
+        let late = &totals[totals.len() / 2..];
+        let late = late.iter().sum::<f64>() / late.len() as f64;
         let worst = totals
             .iter()
             .map(|it| (it - totals[0]).abs())
             .fold(0.0, f64::max);
         [worst / there, (late - totals[0]).abs() / there]
     };
-    let [worst, drift] = off(8.0, TableSettings::USUAL_STEP);
-    assert!(worst < 0.015 && drift < 0.01, "{worst} {drift}");
-    let [finer, _] = off(1.0, 0.25 * TableSettings::USUAL_STEP);
-    assert!(finer < worst / 4.0, "{worst} {finer}");
+    let [worst, drift] = off(20.0);
+    assert!(worst < 2e-3 && drift < 1e-3, "{worst} {drift}");
 }
 
 /// Ten tiles without drives: their energy never rises, and contact never gives any.
@@ -171,12 +166,16 @@ fn a_scaled_table_moves_alike() {
             .collect();
         let found = run(&crowd, &settings, (1, 0), &Start::Given(thrown), false).unwrap();
         let last = found.samples.last().unwrap();
-        [last.kinetic, last.potential, last.account.contact_loss].map(|it| it / (s * s * s))
+        let energies = [last.kinetic, last.potential, last.account.contact_loss];
+        let held: Vec<_> = found.samples.iter().map(|it| it.held.len()).collect();
+        (energies.map(|it| it / (s * s * s)), held, found.steps)
     };
-    let whole = ends(1.0);
-    assert!(whole[2] > 0.0, "{whole:?}");
+    let (whole, held, steps) = ends(1.0);
+    assert!(whole[2] > 0.0 && steps > 10, "{whole:?} {steps}");
     for s in [1.0 / 64.0, 2.0] {
-        for (a, b) in whole.iter().zip(ends(s)) {
+        let (scaled, held_there, steps_there) = ends(s);
+        assert_eq!((&held, steps), (&held_there, steps_there), "{s}");
+        for (a, b) in whole.iter().zip(scaled) {
             assert!(
                 (a - b).abs() < 1e-6 * whole[0].abs().max(a.abs()),
                 "{s} {a} {b}"

@@ -1,6 +1,8 @@
 //! Many tiles on a table, by the laws of mechanics and of thermodynamics.
 
 mod contact;
+mod discs;
+mod drives;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -18,7 +20,7 @@ use tilebind::many_bodies::contacts::Tie;
 use tilebind::many_bodies::run::{Run, RunError, Start, run};
 use tilebind::many_bodies::start::check;
 use tilebind::many_bodies::{
-    Crowd, Kind, Mover, Orbital, Sample, StartError, StepError, Stepper, TableSettings,
+    Crowd, Kind, Linear, Mover, Orbital, Rim, Sample, StartError, StepError, Stepper, TableSettings,
 };
 use tilebind::potential::{Interaction, MagnetModel};
 use tilebind::roadmap::Point;
@@ -101,7 +103,7 @@ fn crowd(problem: &Problem, model: MagnetModel) -> Crowd {
         (0, 1) => MatchRule::new(problem, None).into_iter().collect(),
         _ => Vec::new(),
     };
-    let size = problem.space.half_size;
+    let size = Rim::Rectangle(problem.space.half_size);
     let tolerance = 1e-4 * problem.depth();
     Crowd::new(kinds, size, tolerance, &|_, _| of(model), bonds).unwrap()
 }
@@ -139,10 +141,12 @@ fn ideal(duration: f64) -> TableSettings {
         duration,
         drag: 0.0,
         friction: 0.0,
+        table_friction: 0.0,
         restitution: 1.0,
         shaking: None,
         kicks: 5e-3,
         orbital: None,
+        linear: None,
         fans: Vec::new(),
         step: TableSettings::USUAL_STEP,
         sampling: duration / 100.0,

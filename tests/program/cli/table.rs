@@ -379,6 +379,9 @@ fn wrong_tables_are_refused_with_their_fix() {
         (&[TILE, "--step", "1e-9"], "longer --step"),
         (&[TILE, "--orbital", "1,1e9"], "at most 1000 Hz"),
         (&[TILE, "--orbital", "1e300,1e300"], "at most 1 m"),
+        (&[TILE, "--linear", "0.01,5"], "linear shaking is A,F,ANGLE"),
+        (&[TILE, "--linear", "5,5,0"], "did you mean \"5 mm,5,0\"?"),
+        (&[TILE, "--table-friction", "-1"], "--table-friction"),
         (&[TILE, "--frames", "1e-9"], "--frames"),
         (&[TILE, "--fan", "0,0,1,1,1,1e300"], "F is at most 1000 Hz"),
         (&[TILE, "--fan", "0,0,-1,1"], "a fan repels"),
@@ -471,4 +474,100 @@ fn a_table_is_handed_to_hoomd() {
         let moment = |it: &Value| it["moment"].as_f64().unwrap();
         assert!(magnets.iter().all(|it| moment(it) > 0.0 && it["up"] == 0));
     }
+}
+
+/// A round table with dry friction on a linear shaker, as a user would ask for it.
+#[test]
+fn a_round_table_is_shaken() {
+    let folder = tempfile::tempdir().unwrap();
+    let (design, out) = (folder.path().join("round.toml"), folder.path().join("out"));
+    let text = std::fs::read_to_string("shapes/ring-of-eight.toml").unwrap();
+    let round = "[table]\nshape = \"disc\"\ndiameter = \"40 cm\"";
+    std::fs::write(&design, text.replace("[table]\nsize = [1.0, 1.0]", round)).unwrap();
+    let [design, path] = [&design, &out].map(|it| it.to_str().unwrap());
+    let asked = [
+        "--count", "5", "--time", "0.3", "--runs", "3", "--drag", "0",
+    ];
+    let drives = [
+        "--table-friction",
+        "0.2",
+        "--linear",
+        "8 mm,6,30 deg",
+        "--frames",
+        "0.1",
+    ];
+    let command = [&["table", design], &asked[..], &drives, &["--out", path]].concat();
+    let output = tilebind(&command);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        said.contains("the linear motion drives the tiles; kT does not apply"),
+        "{said}"
+    );
+    let report = report(&out);
+    assert_eq!(report["settings"]["table_friction"], 0.2);
+    assert_eq!(report["settings"]["linear"]["frequency"], 6.0);
+    assert!(report["target"]["share"]["sd"].is_number());
+    // The end of every run is a picture, and the first run an animated one.
+    assert!(out.join("pictures/ends.png").exists() || out.join("ends.png").exists());
+    let film = std::fs::read(out.join("trajectory.png")).unwrap();
+    assert!(film.windows(4).any(|it| it == b"acTL"));
+    let energy = std::fs::read_to_string(out.join("energy.csv")).unwrap();
+    assert!(
+        energy
+            .lines()
+            .next()
+            .unwrap()
+            .ends_with("drag_loss_J,table_loss_J")
+    );
+    // Corners stay within the rim.
+    let poses = std::fs::read_to_string(out.join("ends.csv"))
+        .or_else(|_| std::fs::read_to_string(out.join("pictures/ends.csv")));
+    for line in poses.unwrap().lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').filter_map(|it| it.parse().ok()).collect();
+        let [x, y, theta] = cells[cells.len() - 3..] else {
+            panic!("{line}");
+        };
+        let corner = [x + 0.06 * libm::cos(theta), y + 0.06 * libm::sin(theta)];
+        assert!(libm::hypot(corner[0], corner[1]) < 0.2 + 1e-6, "{line}");
+    }
+}
+
+/// The positions (m) in the first frame of a GSD file.
+fn gsd_positions(file: &[u8]) -> Vec<f32> {
+    let word = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
+    let [index, entries, names] = [8, 16, 24].map(word);
+    let name = |number: usize| file[names..].split(|it| *it == 0).nth(number).unwrap();
+    let entry = (0..entries).map(|k| index + 32 * k).find(|at| {
+        let number = u16::from_le_bytes([file[at + 28], file[at + 29]]);
+        word(*at) == 0 && name(number.into()) == b"particles/position"
+    });
+    let entry = entry.expect("positions");
+    let (rows, from) = (word(entry + 8), word(entry + 16));
+    let bytes = file[from..from + 12 * rows].chunks(4);
+    bytes
+        .map(|it| f32::from_le_bytes(it.try_into().unwrap()))
+        .collect()
+}
+
+/// Start files are of the reference point, `trajectory.gsd` of the centre of mass, as HOOMD has it.
+#[test]
+fn a_trajectory_is_of_centres_of_mass() {
+    let folder = tempfile::tempdir().unwrap();
+    let (start, out) = (folder.path().join("start.csv"), folder.path().join("out"));
+    std::fs::write(&start, "tile,x,y,theta,vx,vy,omega\n0,0.1,0.2,0,0,0,0\n").unwrap();
+    let [start, path] = [&start, &out].map(|it| it.to_str().unwrap());
+    let design = "shapes/ring-of-eight.toml";
+    let output = tilebind(&[
+        "table", design, "--start", start, "--time", "0.01", "--out", path,
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let place = gsd_positions(&std::fs::read(out.join("trajectory.gsd")).unwrap());
+    // The centroid of the sector, which is symmetric about 22.5 degrees.
+    let turn = f64::from(place[1] - 0.2).atan2(f64::from(place[0] - 0.1));
+    assert!(
+        (turn - std::f64::consts::FRAC_PI_8).abs() < 1e-3,
+        "{place:?}"
+    );
+    assert!((place[0] - 0.1).hypot(place[1] - 0.2) > 0.03, "{place:?}");
 }
