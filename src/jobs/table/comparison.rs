@@ -41,7 +41,7 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
 /// What another command predicts.
 pub enum Prediction {
     /// For a design: the yield by detailed balance, with its request.
-    Yield(Question, Yields),
+    Yield(Box<Question>, Box<Yields>),
     /// For a tile set: growth from a seed, with a constant supply of tiles.
     Growth(Growth),
 }
@@ -62,5 +62,5 @@ pub fn compared(
     let [design] = designs else { return None };
     let question = question(design, request, found)?;
     let answer = yields(design, &question, progress);
-    Some(answer.map(|yields| Prediction::Yield(question, yields)))
+    Some(answer.map(|yields| Prediction::Yield(Box::new(question), Box::new(yields))))
 }
