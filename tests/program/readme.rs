@@ -86,7 +86,6 @@ fn shortened(command: &str) -> String {
         "compare" | "sweep" => {
             " --milestones 300 --far-starts 10 --certify-cells 300 --complete-cells 0 --quiet"
         }
-        "rates" => " --certify 0.5",
         "assemble" => " --seconds 2",
         "yield" if words.contains(&"--runs") => " --quiet",
         "yield" => " --runs 8 --quiet",

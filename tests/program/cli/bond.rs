@@ -397,9 +397,10 @@ fn no_attachment_is_not_told_as_never() {
     let setting = &found["settings"][0];
     assert!(setting["mean_time_to_bond_s"].is_null());
     let least = setting["mean_time_to_bond_at_least_s"].as_f64().unwrap();
-    // 3.689 attachments are the upper limit of none; each of two tiles has half of the table.
+    // 3.689 attachments are the upper limit of none; each of two tiles has half of the area in which
+    // they meet.
     let [apart, area] = ["apart_s", "free_area_m2"].map(|key| setting[key].as_f64().unwrap());
-    let table = found["table_area_m2"].as_f64().unwrap() / 2.0;
+    let table = found["meeting_area_m2"].as_f64().unwrap() / 2.0;
     assert!(
         (least * 3.689 * area / apart / table - 1.0).abs() < 1e-3,
         "{setting}"

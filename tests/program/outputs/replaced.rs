@@ -277,10 +277,7 @@ fn what_is_in_the_way_is_refused_before_the_computation() {
         (format!("{COMPARE} {much}"), "R/compare.md"),
         (format!("{SWEEP} {much}"), "R/designs/a.toml"),
         (format!("{DOCK} --runs 1000000"), "R/map.csv"),
-        (
-            format!("{RATES} --certify 1e-3"),
-            "R/pictures/committor.svg",
-        ),
+        (RATES.to_owned(), "R/pictures/committor.svg"),
         (format!("{YIELD} --runs 10000000"), "R/course.csv"),
         (
             format!("{WORDS} --length 20 --seconds 10000"),
