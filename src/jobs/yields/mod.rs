@@ -5,7 +5,7 @@
 //! [`physics::kinetics::bond`]. Both are valid only if the table has a temperature: contact that
 //! dissipates energy, which shaking does not return, violates detailed balance, and drag determines
 //! how fast tiles meet. The table's rim and the other tiles take room: see
-//! [`Crowd`](physics::kinetics::population::Crowd). Pairs go from trap to bond only through free.
+//! [`Crowd`]. Pairs go from trap to bond only through free.
 
 pub mod attachment;
 mod outcome;

@@ -24,7 +24,7 @@ pub struct Crowd {
     pub tiles: [usize; 2],
     /// Whether both kinds are one, so that any two tiles can bind.
     pub one_kind: bool,
-    /// The area (m^2) by which rates are divided: that in which tiles meet, see [`meeting_area`].
+    /// The area (m^2) by which rates are divided: that in which tiles meet, see `room.rs`.
     pub area: f64,
     /// The table's own area (m^2).
     pub table: f64,
