@@ -32,7 +32,7 @@ impl Distances {
     pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
         let ground = problem.energy(bond);
         let mut field = Field::new(problem, kt, end, ground, &[*bond]);
-        field.settle(&[*bond]);
+        field.settle(&[*bond], &[]);
         let mut known: Option<Vec<f64>> = None;
         let mut settled = 0;
         loop {

@@ -39,9 +39,7 @@ pub fn exit_on(
     let ground = problem.energy(&start);
     let mut field = Field::new(problem, settings.kt, settings.free_at, ground, &seeds);
     let way = field.open_way(&start);
-    field.settle(&seeds);
-    // Cells that were divided may have cut the path that was found.
-    field.open_way(&start);
+    field.settle(&seeds, &[start]);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();
     let mut grows = true;

@@ -22,11 +22,14 @@ const LEFT: f64 = 0.5;
 
 impl Field<'_> {
     /// Divides the cells around the wells of states until their integrals converge. This leaves
-    /// cells without free configurations that are too small to prove anything by: paths are sought
-    /// before.
-    pub(super) fn settle(&mut self, states: &[Configuration]) {
+    /// cells without free configurations that are too small to prove anything by: whether there are
+    /// paths is to be known before. It may also cut paths, so those from `starts` are opened again.
+    pub(super) fn settle(&mut self, states: &[Configuration], starts: &[Configuration]) {
         if self.problem.contact.is_some() {
             states.iter().for_each(|state| self.settle_one(state));
+        }
+        for start in starts {
+            self.open_way(start);
         }
     }
 

@@ -46,11 +46,7 @@ pub fn rates_on(
     let mut field = Field::new(problem, kt, free_at, ground, &all_seeds);
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
-    field.settle(&all_seeds);
-    // Cells that were divided may have cut the paths that were found.
-    for seed in &seeds {
-        field.open_way(seed);
-    }
+    field.settle(&all_seeds, &seeds);
     let beyond = outside * TAU * libm::exp(ground / kt);
     let mut earlier: Option<Earlier> = None;
     let mut meshes = Vec::new();

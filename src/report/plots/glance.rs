@@ -12,6 +12,7 @@ use super::{Figure, Sheet};
 use crate::tiles::{energy, letter, magnets, models, pull, without_wall, wrong};
 use jobs::design::Design;
 use jobs::inspection::Inspection;
+use jobs::workshop::{Kind, Subject};
 use physics::configuration::Configuration;
 use physics::tile::{Magnet, Tile};
 
@@ -66,11 +67,8 @@ pub fn draw(
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn kinds(
-    title: &str,
-    kinds: Vec<(&str, &Tile)>,
-    sheet: &Sheet,
-) -> Result<Figure, PictureError> {
+pub fn kinds(subject: &Subject, sheet: &Sheet) -> Result<Figure, PictureError> {
+    let (title, kinds) = (&*subject.name, &subject.kinds);
     let columns = (kinds.len() as f64).sqrt().ceil().max(1.0);
     let rows = (kinds.len() as f64 / columns).ceil();
     let width = sheet.width(SIZE[0]);
@@ -81,12 +79,12 @@ pub fn kinds(
         let at = (width / 2.0, HEAD / 2.0);
         canvas.write(TITLE.bold(), title, at, Anchor::Middle);
     }
-    let widest = kinds.iter().map(|(_, tile)| spread(tile));
+    let widest = kinds.iter().map(|kind| spread(&kind.tile));
     let widest = widest.fold([0.0, 0.0], |a, [low, high]| {
         let size = high - low;
         [f64::max(a[0], size.x), f64::max(a[1], size.y)]
     });
-    for (k, (name, tile)) in kinds.iter().enumerate() {
+    for (k, Kind { name, tile, .. }) in kinds.iter().enumerate() {
         let (column, row) = (k as f64 % columns, (k as f64 / columns).floor());
         let (left, top) = (column * side + EDGE, head + row * side + EDGE);
         let room = [left, top, left + side - 2.0 * EDGE, top + side - 2.0 * EDGE];
@@ -102,7 +100,7 @@ pub fn kinds(
     }
     let rows = kinds
         .iter()
-        .map(|(name, tile)| format!("{name},{}\n", tile.magnets.len()));
+        .map(|kind| format!("{},{}\n", kind.name, kind.tile.magnets.len()));
     let data = ["tile,magnets\n".to_owned()]
         .into_iter()
         .chain(rows)

@@ -87,19 +87,10 @@ pub fn document<'a>(design: Option<&'a Design>, subject: &'a Subject, made: &Mad
             .data("tilebind", env!("CARGO_PKG_VERSION"))
             .data("name", &made.name[..]),
     };
-    let picture = match design {
-        Some(design) => Drawing::new("Outward pole of each magnet", |sheet| {
-            glance::draw(design, &Inspection::new(design), sheet)
-        }),
-        None => Drawing::new("Outward pole of each magnet", |sheet| {
-            let kinds = subject.kinds.iter();
-            glance::kinds(
-                &subject.name,
-                kinds.map(|kind| (&*kind.name, &kind.tile)).collect(),
-                sheet,
-            )
-        }),
-    };
+    let picture = Drawing::new("Outward pole of each magnet", move |sheet| match design {
+        Some(design) => glance::draw(design, &Inspection::new(design), sheet),
+        None => glance::kinds(subject, sheet),
+    });
     let mut document = Document {
         title: format!("{}: to be made", made.name),
         answer: format!(

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 
 use super::plain;
 use crate::dxf::{Dxf, Layer};
-use jobs::workshop::{Corner, Part, extent};
+use jobs::workshop::{Corner, Part, Pocket, extent};
 
 /// What happens along a line. The names are those of layers in DXF and groups in SVG.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -41,6 +41,16 @@ enum Shape {
     Text(String, Vector2<f64>, f64, f64),
 }
 
+impl Shape {
+    /// The line of a pocket.
+    fn of_pocket(pocket: &Pocket) -> Self {
+        match pocket.circle() {
+            Some((middle, radius)) => Self::Circle(middle, radius),
+            None => Self::Closed(pocket.corners.clone()),
+        }
+    }
+}
+
 /// A drawing for the cutter.
 #[derive(Clone, Default)]
 pub struct Plan {
@@ -54,13 +64,7 @@ impl Plan {
         let mut plan = Self::default();
         let pockets = part.pockets.iter().filter(|_| with_pockets);
         for pocket in pockets.filter(|pocket| !pocket.is_notch) {
-            plan.add(
-                Work::CutInside,
-                match pocket.circle() {
-                    Some((middle, radius)) => Shape::Circle(middle, radius),
-                    None => Shape::Closed(pocket.corners.clone()),
-                },
-            );
+            plan.add(Work::CutInside, Shape::of_pocket(pocket));
         }
         let marks = part.marks.pockets.iter().flatten();
         let marks = marks.filter(|_| with_pockets).chain(&part.marks.tile);
@@ -90,13 +94,7 @@ impl Plan {
         let mut plan = Self::default();
         plan.add(Work::CutOutside, Shape::Closed(part.outline.clone()));
         for pocket in &part.pockets {
-            plan.add(
-                Work::CutInside,
-                match pocket.circle() {
-                    Some((middle, radius)) => Shape::Circle(middle, radius),
-                    None => Shape::Closed(pocket.corners.clone()),
-                },
-            );
+            plan.add(Work::CutInside, Shape::of_pocket(pocket));
             let [low, high] = extent(&pocket.corners);
             let reach = (high[0] - low[0]).min(high[1] - low[1]);
             let (north, pole) = (pocket.north, pocket.pole.letter().to_string());
