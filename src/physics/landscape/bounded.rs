@@ -54,8 +54,9 @@ impl<'a> Bounded<'a> {
 
     /// Encloses the energy over the free configurations of a cell.
     pub fn enclose(&self, cell: &Cell) -> Enclosure {
-        self.count(self.bounds.work());
-        self.bounds.enclose(cell)
+        let known = self.bounds.enclose(cell);
+        self.count(self.work_of(&known));
+        known
     }
 
     /// The energy (J) of one configuration, to rounding.
@@ -79,14 +80,22 @@ impl<'a> Bounded<'a> {
         found
     }
 
-    /// Approximate units of work to assess a cell.
+    /// Approximate units of work to assess a usual cell.
     pub fn work(&self) -> u64 {
         self.work_of_bounds() + self.work_of_contact()
     }
 
-    /// Approximate units of work to bound the energy over a cell, or to compute it.
+    /// Approximate units of work to bound the energy over a usual cell, or to compute it.
     pub fn work_of_bounds(&self) -> u64 {
         self.bounds.work()
+    }
+
+    /// Approximate units of work that an enclosure took.
+    pub fn work_of(&self, known: &Enclosure) -> u64 {
+        match known.work {
+            0 => self.bounds.work(),
+            work => work,
+        }
     }
 
     /// Approximate units of work to find the contacts of a configuration.

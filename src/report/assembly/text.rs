@@ -282,6 +282,9 @@ fn growing(assembly: &Assembly, growing: &Growing) -> Vec<String> {
 fn slid(assembly: &Assembly) -> Option<String> {
     let shaken = assembly.growing.as_ref().map(|it| &it.shaken);
     let slid = slides::summary(&assembly.built, shaken, &assembly.slides)?;
+    if slid.deepest >= 0.0 {
+        return Some("no two faces slid by whole positions attract each other".into());
+    }
     let deepest = si(slid.deepest, "J", 4);
     let whose = match shaken {
         Some(_) => "not in the engines' model: faces slid by whole positions bind with up to",

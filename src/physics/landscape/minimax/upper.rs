@@ -302,7 +302,7 @@ impl Bounded<'_> {
             let halved = part.iter().filter(|stretch| stretch.halvings > 0);
             sharpening.spend(halved.count() as u64 * of_a_stretch);
             let bounds = parallel::map(&part, |stretch| {
-                let highest = self.highest_on(stretch);
+                let (highest, work) = self.highest_on(stretch);
                 let middle = stretch.middle();
                 let is_close = highest <= level + tolerance;
                 let value = || match stretch.halvings < COARSE {
@@ -312,14 +312,15 @@ impl Bounded<'_> {
                         (energy, upper)
                     }
                 };
-                (highest, middle, (!is_close).then(value))
+                (highest, middle, (!is_close).then(value), work)
             });
-            for (_, middle, value) in &bounds {
+            for (_, middle, value, work) in &bounds {
+                sharpening.spend(work.saturating_sub(self.work_of_bounds()));
                 if let Some((energy, _)) = value.filter(|(energy, _)| *energy > level) {
                     (level, peak) = (energy, *middle);
                 }
             }
-            for (stretch, (highest, middle, value)) in part.iter().zip(bounds) {
+            for (stretch, (highest, middle, value, _)) in part.iter().zip(bounds) {
                 let is_sharp = value.is_some_and(|(_, upper)| highest <= upper + tolerance);
                 let is_last = highest <= level + tolerance
                     || is_sharp
@@ -338,10 +339,12 @@ impl Bounded<'_> {
         Ok((upper, peak))
     }
 
-    /// The proved highest energy (J) on a stretch, its ends included.
-    fn highest_on(&self, Stretch { ends: [a, b], .. }: &Stretch) -> f64 {
+    /// The proved highest energy (J) on a stretch, its ends included, and the units of work of
+    /// this bound.
+    fn highest_on(&self, Stretch { ends: [a, b], .. }: &Stretch) -> (f64, u64) {
         let known = self.enclose(&Cell::spanned_by(a, b));
-        known.form.greatest_along(&a.step_to(b).into()) + known.high
+        let highest = known.form.greatest_along(&a.step_to(b).into()) + known.high;
+        (highest, self.work_of(&known))
     }
 }
 

@@ -25,6 +25,9 @@ pub struct Enclosure {
     /// point, if the same also holds for motions that move no magnet, and turn, by more than the
     /// fraction s of the cell's own extent.
     pub levers: Option<[f64; 2]>,
+    /// Approximate units of work, as [budgets](crate::budget) count it, that this took; 0 if it is
+    /// that of [any cell](CellBounds::work).
+    pub work: u64,
 }
 
 impl Enclosure {
@@ -96,7 +99,7 @@ pub trait CellBounds: Sync {
         self.enclose(&Cell::at(q)).form.value
     }
 
-    /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a cell.
+    /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a usual cell.
     fn work(&self) -> u64 {
         FEW_UNITS
     }

@@ -38,6 +38,8 @@ const SUMS: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     count: usize,
+    /// The number of nodes pushed since the beginning, those cleared included.
+    pub all: u64,
     blocks: Vec<[[f64; WIDTH]; COLUMNS]>,
 }
 
@@ -48,6 +50,7 @@ impl Nodes {
     pub fn new() -> Self {
         Self {
             count: 0,
+            all: 0,
             blocks: Vec::with_capacity(ROOM),
         }
     }
@@ -66,6 +69,7 @@ impl Nodes {
             self.blocks.push(empty);
         }
         self.count += 1;
+        self.all += 1;
         let [u, v] = node.arm;
         let entries = [
             node.v,

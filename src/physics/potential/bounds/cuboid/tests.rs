@@ -60,3 +60,25 @@ fn what_is_unknown_of_blocks_in_contact_falls_as_the_square_of_the_cell() {
         }
     }
 }
+
+#[test]
+fn blocks_that_nearly_touch_count_as_more_work_than_those_far_apart_on_every_kernel() {
+    let problem = sample::paper_tile();
+    let pair = problem.pair.as_ref().unwrap();
+    let work = |level: Level, x: f64| {
+        let bounds = CuboidBounds::with_level(&pair.fixed, &pair.moving, level);
+        let centre = Configuration::new(x, 0.0, 0.0);
+        bounds
+            .enclose(&Cell {
+                centre,
+                half: [1e-3, 1e-3, 5e-3],
+            })
+            .work
+    };
+    let [near, far] = [0.43, 0.8].map(|x| work(Level::best(), x));
+    assert_eq!(far, A_CELL + A_PAIR * 256);
+    assert!(near > 2 * far, "{near} {far}");
+    for level in Level::available() {
+        assert_eq!(work(level, 0.43), near, "{level:?}");
+    }
+}

@@ -77,6 +77,7 @@ impl CellBounds for ShieldedBlockBounds {
             out.high += pair.high;
             out.slope += pair.slope;
             out.jump += pair.jump;
+            out.work += pair.work;
         }
         out
     }
@@ -128,5 +129,6 @@ fn product(bare: &Enclosure, factor: &FactorForm, half: &[f64; 3]) -> Enclosure 
         slope,
         jump: bare.jump * factor.size,
         levers: None,
+        work: bare.work,
     }
 }
