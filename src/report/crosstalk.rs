@@ -135,10 +135,15 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     let places = magnets.iter().map(|magnet| place(magnet.position));
     let carrier = Carrier::of_magnets(face.length(), face.normal(), magnets, places.collect());
     let m = found.words.len();
-    let named = found.faces().enumerate();
-    let faces: Vec<_> = named
-        .map(|(k, word)| (face_name(set, found, k), word))
-        .collect();
+    let codes: Vec<_> = found.faces().collect();
+    // Without mates, if every word is its own.
+    let shown = if (0..m).all(|k| found.binds_itself(k)) {
+        0..m
+    } else {
+        0..2 * m
+    };
+    let named = shown.map(|k| (face_name(set, found, k), codes[k]));
+    let faces: Vec<_> = named.collect();
     let met = |i: usize, j: usize| {
         let worst = found.worst(i, j)?;
         Some(Met {
@@ -152,9 +157,18 @@ pub(super) fn map(set: &WordSet, found: &Crosstalk) -> Option<Meetings> {
     let map = || {
         Meetings::new(&carrier, &faces, bond, met).titled(
             "Strongest wrong attraction between every two faces, over all poses",
-            "Rows and columns are words and their mates. Numbers are attractions relative to the \
-         weakest bond, over slid, tilted and separated poses. Framed: a word and its own mate, \
-         in their deepest trap. Click a cell to see the tiles.",
+            match faces.len() == m {
+                true => {
+                    "Rows and columns are words. Numbers are attractions relative to the weakest bond, over \
+                     slid, tilted and separated poses. Framed: a word and its own kind, in their deepest trap. \
+                     Click a cell to see the tiles."
+                }
+                false => {
+                    "Rows and columns are words and their mates. Numbers are attractions relative to the \
+                     weakest bond, over slid, tilted and separated poses. Framed: a word and its own mate, \
+                     in their deepest trap. Click a cell to see the tiles."
+                }
+            },
         )
     };
     (1..=MOST_DRAWN).contains(&m).then(map)
@@ -210,10 +224,11 @@ pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &Meeting) -> String
     format!("{a} on {b}{trap}")
 }
 
-/// The name of a face: `A`, or `A*` for a mate.
+/// The name of a face: `A`, or `A*` for a mate that is another word.
 pub(super) fn face_name(set: &WordSet, found: &Crosstalk, face: usize) -> String {
     let word = |k: usize| set.names.get(k).cloned().unwrap_or_else(|| name(k));
     match face.checked_sub(found.words.len()) {
+        Some(mate) if found.binds_itself(mate) => word(mate),
         Some(mate) => word(mate) + "*",
         None => word(face),
     }

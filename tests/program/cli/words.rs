@@ -521,3 +521,44 @@ fn words_longer_than_the_face_are_remarked_on() {
         assert!(!told.contains("of face"), "{told}");
     }
 }
+
+/// A word that is its own mate binds its own kind: that is no wrong meeting, and the gap is the one that
+/// `words --self` finds.
+#[test]
+fn words_that_bind_their_own_kind_are_no_wrong_meetings() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("own").display().to_string();
+    let sought = json(&[
+        "words", "--self", "--length", "6", "--gap", "0.3", "--out", &out, "--json",
+    ]);
+    let set = format!("{out}/words.toml");
+    let found = json(&["crosstalk", &set, "--json"]);
+    let [of_words, of_poses] = [&sought, &found].map(|it| it["gap"].as_f64().unwrap());
+    assert!(of_words >= 0.3, "{of_words}");
+    // Tilted and separated faces attract a little more than slid ones.
+    assert!(
+        of_poses <= of_words + 1e-6 && of_poses > of_words - 0.1,
+        "{of_poses} {of_words}"
+    );
+
+    // Beside words that have other mates.
+    let mixed = folder.path().join("mixed.toml");
+    std::fs::write(&mixed, "words = [\"NSNS\", \"NNNS\"]\n").unwrap();
+    let mixed = mixed.display().to_string();
+    let out = folder.path().join("out").display().to_string();
+    assert!(
+        tilebind(&["crosstalk", &mixed, "--out", &out])
+            .status
+            .success()
+    );
+    let table = std::fs::read_to_string(format!("{out}/crosstalk.csv")).unwrap();
+    let of = |faces: &str| {
+        let rows = table.lines().filter(|row| row.starts_with(faces));
+        rows.map(|row| row.rsplit(',').next().unwrap())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(of("A,A,"), ["bond", "trap"], "{table}");
+    assert_eq!(of("B,B,"), ["wrong"], "{table}");
+    assert_eq!(of("B,B*,")[0], "bond", "{table}");
+    assert_eq!(of("A,B*,"), ["wrong"], "{table}");
+}

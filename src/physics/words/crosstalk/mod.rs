@@ -8,7 +8,8 @@
 //! finds the strongest attraction from them, and `certified` bounds it from one subdivision.
 //!
 //! Around the bond of a word and its own mate everything lies on the bond's slope; the wrong
-//! contacts of these two are their `traps`, other stable contacts.
+//! contacts of these two are their `traps`, other stable contacts. A word that is its own mate (NS,
+//! NNSS, UD) binds its own kind: there a word on itself is the bond, too.
 //!
 //! Exchanging the two tiles exchanges the words; a mirror exchanges every word for its mate. So two
 //! pairs of two words and their mates are computed, and the others follow.
@@ -79,7 +80,7 @@ pub struct Crosstalk {
 /// The kind of contact of two faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A word on its own mate.
+    /// A word on its own mate, which may be the word itself.
     Bond,
     /// Faces other than a word and its own mate.
     Wrong,
@@ -281,6 +282,24 @@ impl Crosstalk {
         bonds.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// Whether the faces of a row and a column are meant to bind: a word and its own mate, or, if a word
+    /// is its own mate, any two of them.
+    pub fn binds(&self, row: usize, column: usize) -> bool {
+        let m = self.words.len();
+        row.abs_diff(column) == m || row % m == column % m && self.binds_itself(row % m)
+    }
+
+    /// Whether a word is its own mate.
+    pub fn binds_itself(&self, word: usize) -> bool {
+        self.words[word] == self.words[word].mate()
+    }
+
+    /// The rows and columns of different faces: mates that are their own words are left out.
+    pub fn distinct(&self) -> impl Iterator<Item = usize> {
+        let m = self.words.len();
+        (0..2 * m).filter(move |face| *face < m || !self.binds_itself(face - m))
+    }
+
     /// All faces, in the order of rows and columns.
     pub fn faces(&self) -> impl Iterator<Item = Word> {
         let mates = self.words.iter().map(|word| word.mate());
@@ -289,10 +308,16 @@ impl Crosstalk {
 
     /// The strongest contacts of all pairs of faces, followed by the traps.
     pub fn meetings(&self) -> impl Iterator<Item = Meeting> {
-        let (m, n) = (self.words.len(), self.strongest.len());
-        let pairs = (0..n).flat_map(move |i| (i..n).map(move |j| [i, j]));
+        let m = self.words.len();
+        let pairs = self.distinct().flat_map(move |i| {
+            let from_here = self.distinct().filter(move |j| *j >= i);
+            from_here.map(move |j| [i, j])
+        });
         let pairs = pairs.map(move |[i, j]| Meeting {
-            kind: if j - i == m { Kind::Bond } else { Kind::Wrong },
+            kind: match self.binds(i, j) {
+                true => Kind::Bond,
+                false => Kind::Wrong,
+            },
             ..self.wrong_of([i, j])
         });
         pairs.chain((0..m).filter_map(move |i| self.worst(i, m + i)))
@@ -313,8 +338,8 @@ impl Crosstalk {
     pub fn worst(&self, row: usize, column: usize) -> Option<Meeting> {
         let m = self.words.len();
         let faces = [row, column];
-        if row.abs_diff(column) == m {
-            let (energy, pose) = self.traps[row.min(column)]?;
+        if self.binds(row, column) {
+            let (energy, pose) = self.traps[row.min(column) % m]?;
             return Some(Meeting {
                 faces,
                 kind: Kind::Trap,
