@@ -26,8 +26,11 @@ pub struct YieldCommand {
 }
 
 const NOTES: &str = "\
-Half of the tiles are of the fixed tile's kind, half of the moving tile's kind. Each tile binds at most
-one partner.
+Half of the tiles are of the fixed tile's kind, half of the moving tile's kind, unless both are one kind.
+Each tile binds at most one partner. Equal tiles that bind with two faces also make chains and rings:
+their numbers by size are simulated (--simulations), with the rates of a pair for every two free ends.
+A chain closes where the bond's turn brings its ends together, such as eight sectors of 45 degrees. The
+rows named `bound` still say which pairs there would be if a tile bound one other at most.
 
 Attachment rates are counted in docking runs of shaken tiles. These start in equilibrium anywhere on
 the design's table where the tiles are apart (|U| below kT), and end once the tiles are bound: matched,

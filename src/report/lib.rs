@@ -27,6 +27,7 @@ pub mod barrier;
 pub mod bond;
 mod braille;
 pub mod calibration;
+mod chains;
 mod columns;
 pub mod comparison;
 pub mod crosstalk;

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::assembly::grown_with_errors;
+use crate::chains;
 use crate::document::{Document, Drawing, Entries, Part, Table, rows};
 use crate::gsd::{self, Particle};
 use crate::page::Crowd;
@@ -14,7 +15,7 @@ use jobs::request::Shard;
 use jobs::table::{
     About, Found, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics, Verdict,
 };
-use jobs::yields::{Question, StateRates, YieldError, Yields};
+use jobs::yields::{Question, Rows, StateRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -203,7 +204,8 @@ fn of_yield(question: &Question, yields: &Yields) -> Entries {
                 "trap lifetime (yield)",
                 mean_lifetime(traps),
             )
-            .noted("by detailed balance; the mean of all attachments"),
+            .noted("by detailed balance; the mean of all attachments")
+            .data("rows", best.rows.as_ref().map(chains::of_setting)),
     )
 }
 
@@ -244,6 +246,9 @@ fn against(about: &About, found: &Found, beside: &Beside) -> String {
 
 fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String {
     let best = yields.best();
+    if let Some(built) = &best.rows {
+        return against_rows(found, built);
+    }
     let here = &found.target.share;
     let verdict = match (here.low, here.high) {
         (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
@@ -266,6 +271,24 @@ fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String 
         "`tilebind yield` predicts that {} are bound ({}){verdict}{trapped}",
         share(best.bound),
         in_pairs(question, best.interval)
+    )
+}
+
+/// The bonds of chains and rings beside those on the table.
+fn against_rows(found: &Found, built: &Rows) -> String {
+    let (here, there) = (&found.statistics.bonds, &built.bonds);
+    let verdict = match (here.low, here.high) {
+        (Some(low), Some(high)) if high < there.low || low > there.high => {
+            "; the two results differ by more than both intervals"
+        }
+        (Some(_), Some(_)) => "; the two results agree within their intervals",
+        _ => "",
+    };
+    format!(
+        "`tilebind yield` predicts {} bonds ({} to {}) in chains and rings{verdict}",
+        plain(there.mean, 3),
+        plain(there.low, 3),
+        plain(there.high, 3)
     )
 }
 

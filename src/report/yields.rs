@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::chains;
 use crate::columns::{Unit, told};
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
@@ -27,8 +28,10 @@ pub const FILES: Command = Command {
         "yield.csv",
         "course.csv",
         "rates.csv",
+        "structures.csv",
+        "growth.csv",
     ],
-    pictures: &["course", "yield", "shaking"],
+    pictures: &["course", "yield", "shaking", "structures"],
 };
 
 /// The document of a yield.
@@ -38,6 +41,7 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
         Source::Docking => "95 %, from the attachment rate",
         Source::Overdamped => "difference between the two finest meshes",
     };
+    let built = found.best().rows.as_ref();
     let mixture = found.mixture.as_ref();
     let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
     let without = found.without.iter().map(|(_, why)| why.to_string());
@@ -65,12 +69,18 @@ pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yield
                 lifetimes(question),
             ])
             .chain(dissipation(question))
-            .chain([left_out(found)])
+            .chain(built.map(chains::notes).unwrap_or_default())
+            .chain([left_out(found, built.is_some())])
             .collect(),
         origin: format!(
-            "{} magnets; {told}, detachment {}; a tile binds at most one partner",
+            "{} magnets; {told}, detachment {}; a tile binds at most {}",
             design.interaction.model.name(),
             detachment(question),
+            if built.is_some() {
+                "two partners"
+            } else {
+                "one partner"
+            },
         ),
         ..Document::default()
     }
@@ -86,8 +96,11 @@ fn tiles(crowd: &Crowd) -> String {
 }
 
 /// Which contacts are left out.
-fn left_out(found: &Yields) -> String {
+fn left_out(found: &Yields, has_rows: bool) -> String {
     let contacts = match found.crowd.one_kind {
+        true if has_rows => {
+            "contacts of tiles that are not neighbours in a chain are left out, and traps on rings"
+        }
         true => "here a tile binds one other tile at most, so chains and rings are left out",
         false => {
             "here a tile binds one tile of the other kind at most: bonds and traps of tiles of the same kind, \
@@ -105,8 +118,7 @@ fn dissipation(question: &Question) -> Option<String> {
     (takes && is_docking).then(|| {
         format!(
             "warning: collisions lose energy here (restitution {}, friction {}), so the table has no \
-             exact temperature: tiles may freeze in traps. Each tile binds at most one partner here; \
-             `tilebind table` simulates all tiles on one table",
+             exact temperature: tiles may freeze in traps",
             motion.restitution, motion.friction
         )
     })
@@ -114,6 +126,9 @@ fn dissipation(question: &Question) -> Option<String> {
 
 fn answer(design: &Design, question: &Question, found: &Yields) -> String {
     let best = found.best();
+    if let Some(built) = &best.rows {
+        return chains::answer(&design.name, question, best, built);
+    }
     let among = match (found.outcomes.len(), found.without.len()) {
         (1, _) => String::new(),
         (n, 0) => format!(", the best of {n} kT"),
@@ -134,7 +149,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
     let (best, effort) = (found.best(), &question.effort);
     let motion = effort.motion();
     let at_best = format!("States at kT = {}", si(best.kt, "J", 3));
-    entries(design)
+    let all = entries(design)
         .data("seed", question.seed)
         .fact("tiles", "", question.tiles)
         .fact("time_s", "", question.time)
@@ -154,7 +169,11 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
             "drag_per_s": motion.drag, "restitution": motion.restitution,
             "friction": motion.friction,
         }))
-        .table(states(best).titled(at_best, "").in_view())
+        .table(states(best).titled(at_best, "").in_view());
+    match &best.rows {
+        Some(built) => all.and(chains::entries(built)),
+        None => all,
+    }
 }
 
 /// The best schedule of kT in equal slots, without observing the tiles; no schedule yields more
@@ -209,6 +228,7 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
         .column("free_area_m2", "", "area of a pair that is apart, by which rates are multiplied", of(|it| it.attached.area)).in_json()
         .column("over_time", "", "", inner(course)).in_json()
         .column("table", "", "", inner(crowds)).in_json()
+        .column("rows", "", "", |(_, at)| at.ok().and_then(|it| it.rows.as_ref()).map(chains::of_setting)).in_json()
         .table("settings")
         .in_file("settings")
 }
@@ -359,6 +379,7 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
         crowds = crowds.with(name, Look::Line, rows.map(|row| [row.0 as f64, row.2]));
     }
     let mut all = vec![course, crowds];
+    all.extend(best.rows.as_ref().map(chains::chart));
     if found.outcomes.len() > 1 {
         let mut by_kt: Vec<&Outcome> = found.outcomes.iter().collect();
         by_kt.order_by(|a, b| a.kt.total_cmp(&b.kt));

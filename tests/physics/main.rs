@@ -19,6 +19,7 @@ mod narrow;
 #[path = "../shared/plain.rs"]
 mod plain;
 mod potentials;
+mod rows;
 mod strength;
 mod table;
 mod tiles;

@@ -6,9 +6,13 @@
 //! dissipates energy, which shaking does not return, violates detailed balance, and drag determines
 //! how fast tiles meet. The table's rim and the other tiles take room: see
 //! [`Crowd`]. Pairs go from trap to bond only through free.
+//!
+//! Each tile binds one partner at most, except for equal tiles with two binding faces: beside the pairs,
+//! their chains and rings are simulated ([`physics::kinetics::rows`]).
 
 pub mod attachment;
 mod outcome;
+mod rows;
 mod schedule;
 
 use clap::Args;
@@ -26,9 +30,11 @@ use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
 use physics::kinetics::mixture::Mixture;
 use physics::kinetics::population::Crowd;
 use physics::kinetics::rates::RatesError;
+use physics::kinetics::rows::Joints;
 use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::{plain, si};
+pub use rows::{Count, Mean, Rows};
 
 /// Largest number of settings.
 const MOST_SETTINGS: usize = 20;
@@ -235,6 +241,7 @@ pub fn yields(
     if crowd.area.is_infinite() {
         return Err(YieldError::NoRoom(crowd.table));
     }
+    let joints = Joints::of(problem);
     let at = |kt: f64| {
         if let Some(why) = refused(kt) {
             return Err(why);
@@ -252,7 +259,15 @@ pub fn yields(
         if states.first().is_none_or(|first| first.name != bond.name) {
             return Err(YieldError::NoPlay);
         }
-        Ok(outcome(kt, states, attached, (&crowd, pair), question))
+        let joints = joints.as_ref().map(|joints| (joints, &bond));
+        Ok(outcome(
+            kt,
+            states,
+            attached,
+            (&crowd, pair),
+            joints,
+            question,
+        ))
     };
     let (mut outcomes, mut without) = (Vec::new(), Vec::new());
     for (k, &kt) in question.kts.iter().enumerate() {

@@ -2,10 +2,12 @@
 
 use super::Question;
 use super::attachment::Attachments;
+use super::rows::{Rows, rows};
 use physics::dynamics::docking::stream;
 use physics::dynamics::exits::mean_and_error;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
 use physics::kinetics::population::{Crowd, MOST_STATES, PairRates, Shares};
+use physics::kinetics::rows::Joints;
 use physics::order::Order;
 use physics::parallel;
 use physics::tile::Pair;
@@ -84,6 +86,8 @@ pub struct Outcome {
     pub course: Vec<[f64; 3]>,
     /// Tiles, coverage, share in the bond at the end, and whether all probabilities were computed.
     pub table: Vec<(usize, f64, f64, bool)>,
+    /// Chains and rings, of equal tiles that bind with two faces.
+    pub rows: Option<Rows>,
 }
 
 /// The rates of one kind of state; `None` for a trap without attachments, and for a state without
@@ -130,6 +134,7 @@ pub(super) fn outcome(
     states: Vec<StateRates>,
     attached: Attachments,
     (crowd, pair): (&Crowd, &Pair),
+    joints: Option<(&Joints, &Hold)>,
     question: &Question,
 ) -> Outcome {
     let rates = PairRates {
@@ -158,6 +163,8 @@ pub(super) fn outcome(
         other
     };
     let [low, high] = [0, 1].map(with_end);
+    let built =
+        joints.and_then(|of| rows(of, kt, (&rates, [&low, &high]), &times, crowd, question));
     let asked = [
         (&rates, &times[..]),
         (&low, &[time][..]),
@@ -221,6 +228,7 @@ pub(super) fn outcome(
         least_times: attached.counts_none(0).then(|| mean_times(&high)),
         course: course.collect(),
         table,
+        rows: built,
         rates,
         attached,
         states,

@@ -79,6 +79,7 @@ mod results;
 mod rim;
 mod room;
 mod root;
+pub mod rows;
 mod sets;
 pub mod stiff;
 pub mod volume;

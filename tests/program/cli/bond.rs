@@ -557,3 +557,50 @@ fn overdamped_motion_is_told_beside_the_rate_of_detachment() {
     // The way from the well to free tiles takes time.
     assert!(0.0 < rate && rate < in_well, "{found}");
 }
+
+/// Equal tiles with two binding faces make chains and rings: bonds, tiles and structures add up, with the
+/// rates of the pair, and a ring of eight sectors is the only one.
+#[test]
+fn a_yield_of_equal_tiles_has_chains_and_rings() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("shapes/ring-of-eight.toml").unwrap();
+    // A small table, on which tiles soon meet.
+    let text = text.replace("size = [1.0, 1.0]", "size = [0.2, 0.2]");
+    let file = folder.path().join("ring.toml");
+    std::fs::write(&file, text).unwrap();
+    let file = file.display().to_string();
+    let asked = "--tiles 16 --time 300 --kt 2e-4 --drag 2 --restitution 0.5 --friction 0 --runs 60 \
+                 --duration 4 --simulations 100 --json";
+    let run = |threads: &str| {
+        let words = ["yield", &file, "--threads", threads].into_iter();
+        json(&words.chain(asked.split_whitespace()).collect::<Vec<_>>())
+    };
+    let found = run("1");
+    assert_eq!(found, run("2"));
+    let rows = &found["settings"][0]["rows"];
+    let of = |value: &Value| value["mean"].as_f64().unwrap();
+    let [single, chains, rings] =
+        ["single", "chains", "rings"].map(|key| of(&rows["tiles_in"][key]));
+    assert!((single + chains + rings - 1.0).abs() < 1e-9);
+    assert!(rings > 0.2 && chains > 0.05, "{rows}");
+    let (mut tiles, mut bonds) = (16.0 * single, 0.0);
+    for it in rows["structures"].as_array().unwrap() {
+        let size = it["size"].as_f64().unwrap();
+        tiles += size * of(it);
+        match it["kind"].as_str().unwrap() {
+            "ring" => {
+                assert_eq!(size, 8.0);
+                bonds += size * of(it);
+            }
+            kind => {
+                assert!(kind == "chain" && (2.0..=8.0).contains(&size), "{it}");
+                bonds += (size - 1.0) * of(it);
+            }
+        }
+    }
+    assert!((tiles - 16.0).abs() < 1e-9, "{tiles}");
+    assert!((bonds - of(&rows["bonds"])).abs() < 1e-9, "{bonds}");
+    assert_eq!(rows["longest_chain"], 8);
+    assert_eq!(rows["closures"].as_array().unwrap().len(), 1);
+    assert_eq!(found["structures"], rows["structures"]);
+}

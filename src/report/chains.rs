@@ -1,0 +1,202 @@
+//! Chains and rings of equal tiles in a yield.
+
+use serde_json::{Value, json};
+
+use crate::document::{Entries, Table, rows};
+use crate::plots::chart::{Chart, Dimension, Look};
+use jobs::yields::{Count, Mean, Outcome, Question, Rows};
+use physics::units::{duration, plain, si};
+
+/// The bonds and the shares of tiles, in a sentence.
+pub(crate) fn answer(name: &str, question: &Question, best: &Outcome, built: &Rows) -> String {
+    let [single, chains, rings] = built.shares.map(|share| percent(share.mean));
+    format!(
+        "{name}: {} bonds of {} equal tiles after {} at kT = {}; {single} of the tiles are single, {chains} in chains \
+         and {rings} in rings",
+        number(&built.bonds),
+        question.tiles,
+        duration(question.time, 3),
+        si(best.kt, "J", 3),
+    )
+}
+
+/// What was built at the best kT.
+pub(crate) fn entries(built: &Rows) -> Entries {
+    let [single, chains, rings] = built.shares;
+    let share = |part: &Mean| {
+        format!(
+            "{} ({} to {})",
+            percent(part.mean),
+            percent(part.low),
+            percent(part.high)
+        )
+    };
+    Entries::default()
+        .data("bonds", interval(&built.bonds))
+        .fact("", "bonds", number(&built.bonds))
+        .in_view()
+        .noted(format!("at the end, mean over {} simulations with its interval", built.runs))
+        .data(
+            "tiles_in",
+            json!({"single": interval(&single), "chains": interval(&chains), "rings": interval(&rings)}),
+        )
+        .fact("", "single tiles", share(&single))
+        .in_view()
+        .fact("", "in chains", share(&chains))
+        .in_view()
+        .fact("", "in rings", share(&rings))
+        .in_view()
+        .data("longest_chain", built.longest)
+        .data("closures", closures(built))
+        .table(structures(built))
+        .table(course(built))
+}
+
+/// The same of one kT, as JSON.
+pub(crate) fn of_setting(built: &Rows) -> Value {
+    json!({
+        "bonds": interval(&built.bonds),
+        "tiles_in": {
+            "single": interval(&built.shares[0]),
+            "chains": interval(&built.shares[1]),
+            "rings": interval(&built.shares[2]),
+        },
+        "longest_chain": built.longest,
+        "closures": closures(built),
+        "structures": built.counts.iter().filter(|it| it.size > 1).map(|it| json!({
+            "kind": kind(it), "size": it.size,
+            "mean": it.number.mean, "low": it.number.low, "high": it.number.high,
+        })).collect::<Vec<Value>>(),
+    })
+}
+
+/// How chains were counted, and what closes.
+pub(crate) fn notes(built: &Rows) -> Vec<String> {
+    let longest = match built.longest {
+        Some(longest) => format!("the longest chain that has room has {longest} tiles; "),
+        None => String::new(),
+    };
+    let closing: Vec<String> = built
+        .closings
+        .iter()
+        .map(|it| {
+            format!(
+                "a chain of {} closes to a ring at {} /s, as its ends are as near as in {}",
+                it.size,
+                plain(it.rate, 2),
+                area(it.area)
+            )
+        })
+        .collect();
+    let closing = match closing.is_empty() {
+        true => "no chain that always turns the same way meets its own end".to_owned(),
+        false => closing.join("; "),
+    };
+    vec![
+        format!("{longest}{closing}"),
+        "chains join, open and close with the rates of a pair for each two free ends; longer ones move more \
+         slowly; the table of kT has the pairs that would form if a tile bound one other at most"
+            .to_owned(),
+    ]
+}
+
+/// An area (m^2) in the unit that suits it.
+fn area(area: f64) -> String {
+    format!("{} mm2", plain(1e6 * area, 2))
+}
+
+/// The share of tiles that are single, in chains and in rings over time.
+pub(crate) fn chart(built: &Rows) -> Chart {
+    let line = |k: usize| built.course.iter().map(move |point| [point[0], point[k]]);
+    Chart {
+        name: "structures",
+        title: "Single tiles, chains and rings over time".to_owned(),
+        x: Dimension::new("time_s", "time").logarithmic(),
+        y: Dimension::share("share", "fraction of all tiles"),
+        series: Vec::new(),
+        remark: String::new(),
+    }
+    .with("single", Look::Line, line(2))
+    .with("in chains", Look::Line, line(3))
+    .with("in rings", Look::Line, line(4))
+}
+
+fn closures(built: &Rows) -> Value {
+    let each = built.closings.iter().map(
+        |it| json!({"size": it.size, "effective_area_m2": it.area, "closures_per_s": it.rate}),
+    );
+    json!(each.collect::<Vec<Value>>())
+}
+
+fn kind(count: &Count) -> &'static str {
+    match count.is_ring {
+        true => "ring",
+        false => "chain",
+    }
+}
+
+fn structures(built: &Rows) -> Table {
+    let listed = built.counts.iter().filter(|it| it.size > 1).cloned();
+    rows(listed)
+        .column("kind", "structure", "", |it: &Count| kind(it))
+        .column("size", "tiles", "", |it| it.size)
+        .column(
+            "mean",
+            "number",
+            "at the end, mean over the simulations",
+            |it| it.number.mean,
+        )
+        .digits(3)
+        .column(
+            "low",
+            "from",
+            "95 % over the simulations and of the attachment rate",
+            |it| it.number.low,
+        )
+        .digits(3)
+        .column(
+            "high",
+            "to",
+            "95 % over the simulations and of the attachment rate",
+            |it| it.number.high,
+        )
+        .digits(3)
+        .table("structures")
+        .titled(
+            "Chains and rings at the end",
+            "rings are closed, chains open",
+        )
+        .in_file("structures")
+}
+
+fn course(built: &Rows) -> Table {
+    rows(&built.course)
+        .column("time_s", "time", "since the start", |it| it[0])
+        .column("bonds", "bonds", "mean number", |it| it[1])
+        .column("single", "single", "fraction of all tiles", |it| it[2])
+        .column("in_chains", "in chains", "fraction of all tiles", |it| {
+            it[3]
+        })
+        .column("in_rings", "in rings", "fraction of all tiles", |it| it[4])
+        .table("structures_over_time")
+        .in_data()
+        .in_file("growth")
+}
+
+fn interval(mean: &Mean) -> Value {
+    json!({"mean": mean.mean, "low": mean.low, "high": mean.high})
+}
+
+/// `5.2 (4.9 to 5.4)`.
+fn number(mean: &Mean) -> String {
+    format!(
+        "{} ({} to {})",
+        plain(mean.mean, 3),
+        plain(mean.low, 3),
+        plain(mean.high, 3)
+    )
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", plain(100.0 * share.min(1.0), 2))
+}
