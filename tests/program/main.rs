@@ -18,6 +18,8 @@ mod pictures;
 mod program;
 mod readme;
 mod results;
+#[path = "../shared/small_design.rs"]
+mod small_design;
 mod snapshots;
 mod structure;
 mod sweep;

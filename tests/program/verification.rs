@@ -1,19 +1,29 @@
 //! The second reader confirms what analyses state, and notices every number that is changed by hand.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 use tempfile::tempdir;
+use tilebind::design::Design;
 
 use crate::program::{command, stderr};
 use crate::readme::with_shapes;
+use crate::small_design;
 
-const EFFORT: &str = "--milestones 300 --far-starts 30 --certify-work 0.2 --complete-work 0.1 \
-                      --no-pictures --quiet --threads 1";
+const EFFORT: &str = "--milestones 300 --far-starts 30 --certify-work 0.2 --complete-work 0.1";
+const LITTLE: &str =
+    "--milestones 150 --far-starts 20 --certify-work 0.05 --complete-work 0.02 --force";
 
 fn analyse(folder: &Path, design: &str, out: &str, more: &str) {
-    let words = format!("analyse {design} --out {out} {EFFORT} {more}");
+    analyse_with(folder, design, out, &format!("{EFFORT} {more}"));
+}
+
+fn analyse_with(folder: &Path, design: &str, out: &str, options: &str) {
+    let words = format!("analyse {design} --out {out} --no-pictures --quiet --threads 1 {options}");
     let words: Vec<&str> = words.split_whitespace().collect();
     let done = command(&words).current_dir(folder).output();
     let done = done.expect("the program");
@@ -54,20 +64,71 @@ fn results_of_dipoles_are_confirmed() {
     }
 }
 
+/// Discs on edge, discs and blocks that stand, and a rule by which energies jump: states and pathways
+/// by formulas of the reader's own; bounds there are none.
 #[test]
-fn what_cannot_be_checked_is_said() {
+fn results_without_bounds_are_confirmed_as_far_as_they_go() {
     let folder = with_shapes();
     let here = folder.path();
-    analyse(
-        here,
-        "shapes/shielded-nearest-face.toml",
-        "rule",
-        "--kinds 2",
-    );
-    let (status, report) = verify(here, &["rule"]);
-    assert_eq!(status, Some(0));
-    let unchecked = report["unchecked"].to_string();
-    assert!(unchecked.contains("nearest-face rule"), "{unchecked}");
+    let discs = fs::read_to_string(here.join("shapes/tab-20mm.toml")).expect("a design");
+    let size = "size = [0.010, 0.010, 0.003]";
+    assert!(discs.contains(size));
+    let changed = |to: &str| discs.replace(size, to);
+    for (name, text) in [
+        (
+            "discs.toml",
+            changed("shape = \"disc\"\ndiameter = 0.01\nheight = 0.003"),
+        ),
+        (
+            "upright.toml",
+            changed("axis = \"up\"\nsize = [0.004, 0.010, 0.003]")
+                .replace('N', "U")
+                .replace('S', "D"),
+        ),
+    ] {
+        fs::write(here.join(name), text).expect("a design");
+    }
+    for (design, kinds) in [
+        ("shapes/self-binding-hexagon.toml", 2),
+        ("shapes/shielded-nearest-face.toml", 2),
+        ("discs.toml", 2),
+        ("upright.toml", 2),
+    ] {
+        let out = design.replace("shapes/", "").replace(".toml", "");
+        let model = if design.contains("shapes") {
+            ""
+        } else {
+            "--model cuboid"
+        };
+        analyse_with(
+            here,
+            design,
+            &out,
+            &format!("{LITTLE} --kinds {kinds} {model}"),
+        );
+        let (status, report) = verify(here, &[&out]);
+        assert_eq!(report["contradictions"], json!([]), "{design}");
+        assert_eq!(status, Some(0), "{design}");
+        let unchecked = report["unchecked"].as_array().expect("a list");
+        assert_eq!(unchecked.len(), 1, "{unchecked:?}");
+        assert!(
+            unchecked[0]
+                .to_string()
+                .contains("bounds of barriers: none are stated")
+        );
+        for check in report["checks"].as_array().expect("checks") {
+            if ["energies of states", "energies on pathways", "saddles"]
+                .contains(&check["check"].as_str().expect("a name"))
+            {
+                assert!(check["confirmed"].as_u64() > Some(0), "{design}: {check}");
+                assert_eq!(check["undecided"], 0, "{design}: {check}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_said() {
     let empty = tempdir().expect("a folder");
     let done = command(&["verify"])
         .arg(empty.path())
@@ -75,6 +136,89 @@ fn what_cannot_be_checked_is_said() {
         .expect("the program");
     assert_eq!(done.status.code(), Some(2));
     assert!(stderr(&done).contains("report.json"), "{}", stderr(&done));
+}
+
+/// Analyses of random small designs by two seeds each, the first this many that are designs, and what
+/// their checks confirm.
+fn random_designs(count: usize) -> BTreeMap<String, u64> {
+    let folder = tempdir().expect("a folder");
+    let here = folder.path();
+    let mut confirmed = BTreeMap::new();
+    let mut found = 0;
+    for seed in 0u64.. {
+        if found == count {
+            break;
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let bytes: [u8; 96] = rng.random();
+        let text = small_design::of(&bytes);
+        if Design::parse(&text, "random.toml").is_err() {
+            continue;
+        }
+        fs::write(here.join("random.toml"), &text).expect("a design");
+        found += 1;
+        for (out, seed) in [("one", 1), ("two", 2)] {
+            analyse_with(here, "random.toml", out, &format!("{LITTLE} --seed {seed}"));
+        }
+        let (status, report) = verify(here, &["one", "two"]);
+        assert_eq!(report["contradictions"], json!([]), "seed {seed}:\n{text}");
+        assert_eq!(status, Some(0), "seed {seed}");
+        for check in report["checks"].as_array().expect("checks") {
+            let name = check["check"].as_str().expect("a name").to_owned();
+            *confirmed.entry(name).or_default() += check["confirmed"].as_u64().unwrap_or_default();
+            *confirmed.entry("undecided".to_owned()).or_default() +=
+                check["undecided"].as_u64().unwrap_or_default();
+        }
+    }
+    confirmed
+}
+
+#[test]
+fn results_of_random_designs_are_confirmed() {
+    let confirmed = random_designs(3);
+    assert!(confirmed["bounds of several runs"] > 0, "{confirmed:?}");
+}
+
+/// `cargo test --release --test program -- --ignored --nocapture hundred` prints the figures.
+#[test]
+#[ignore = "minutes"]
+fn results_of_a_hundred_random_designs_are_confirmed() {
+    println!("{:#?}", random_designs(100));
+}
+
+/// A pathway that is no file of the folder, and outlines that have no distance, are contradictions.
+#[test]
+fn pathways_outside_the_folder_and_empty_outlines_are_noticed() {
+    let folder = with_shapes();
+    let here = folder.path();
+    analyse(here, "shapes/tab-20mm.toml", "R", "--kinds 1");
+    let file = here.join("R/report.json");
+    let text = fs::read_to_string(&file).expect("a report");
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    let barriers = whole["barriers"].as_array().expect("barriers");
+    let number = barriers.iter().position(|it| it["pathway"].is_string());
+    let number = number.expect("a pathway");
+    let name = barriers[number]["pathway"].as_str().expect("a name");
+    let outside = here.join("outside.csv");
+    fs::copy(here.join("R").join(name), &outside).expect("copied");
+    let contradicted = |report: &Value, word: &str| {
+        fs::write(&file, report.to_string()).expect("written");
+        let (status, found) = verify(here, &["R"]);
+        assert_eq!(status, Some(1), "{word}");
+        let told = found["contradictions"].to_string();
+        assert!(told.contains(word), "{told}");
+    };
+    let absolute = outside.display().to_string();
+    for name in ["../outside.csv", &absolute, "pathways/none.csv"] {
+        let mut report = whole.clone();
+        report["barriers"][number]["pathway"] = json!(name);
+        contradicted(&report, "no pathway");
+    }
+    for tile in ["fixed", "moving"] {
+        let mut report = whole.clone();
+        report["tiles"][tile]["outline_m"] = json!([]);
+        contradicted(&report, "overlap");
+    }
 }
 
 /// Every number of report.json that is checked, by its path; a star stands for any place of a list.

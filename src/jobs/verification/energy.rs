@@ -1,11 +1,13 @@
-//! The energy of two tiles' magnets along a straight motion: point dipoles, and blocks as pairs of
-//! charged faces.
+//! The energy of two tiles' magnets along a straight motion: point dipoles, and blocks and discs as
+//! pairs of charged faces.
 //!
 //! Written without the potentials of this crate, by other formulas where there are any: dipoles in
-//! interval arithmetic from the definition; blocks by a closed form of three of the four integrals
-//! over two pole faces and adaptive quadrature of the last, which is estimated, not bounded.
+//! interval arithmetic from the definition; faces by closed forms of some of the four integrals over two
+//! of them and adaptive quadrature of the others, which is estimated, not bounded.
 
-use super::blocks::{self, Sheet};
+use super::charges;
+use super::distance::{clearance, placed};
+use super::faces::{Face, Outline};
 use super::given::{Magnet, Pose, Shield, Tile, Tiles};
 use super::interval::{Interval, Jet};
 
@@ -16,7 +18,7 @@ const MU0_OVER_4PI: f64 = 1e-7;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Model {
     Dipoles,
-    Blocks,
+    Bodies,
 }
 
 /// The magnets of two tiles.
@@ -24,7 +26,16 @@ pub(super) struct Magnets {
     model: Model,
     fixed: Vec<Source>,
     moving: Vec<Source>,
+    /// The middles (m) of both tiles' faces, if only the nearest two act.
+    middles: Option<[Vec<[f64; 2]>; 2]>,
 }
+
+/// Midpoints of faces are equally near if their distances differ by less than this share of the least
+/// and of a metre: poses in files have ten digits.
+const EQUAL: f64 = 1e-9;
+
+/// Discs overlap if they do by more than this (m), which rounding leaves where they touch.
+const OVERLAP: f64 = 1e-9;
 
 /// A magnet with the shield behind it.
 struct Source {
@@ -33,6 +44,10 @@ struct Source {
     moment: [f64; 3],
     angle: f64,
     size: [f64; 3],
+    outline: Outline,
+    stands: bool,
+    /// The number of its face.
+    face: usize,
     /// Distance (m) from its centre to its farthest corner in the plane.
     radius: f64,
     shield: Option<(Shield, [f64; 2])>,
@@ -96,6 +111,13 @@ impl Source {
             },
             angle: magnet.angle,
             size: magnet.size_m,
+            outline: match &magnet.shape[..] {
+                "block" => Outline::Rectangle,
+                "disc" => Outline::Disc,
+                _ => return None,
+            },
+            stands: magnet.up.is_some(),
+            face: magnet.face,
             radius: 0.5 * libm::hypot(l, w),
             shield: face.shield.map(|shield| (shield, face.normal)),
         })
@@ -130,8 +152,26 @@ impl Source {
             .collect()
     }
 
+    /// The area that it covers, seen from above, on a tile at this pose.
+    fn seen(&self, pose: Pose) -> Vec<[f64; 2]> {
+        let [l, w, _] = self.size;
+        let own = [self.position[0], self.position[1], self.angle];
+        let corners = match self.outline {
+            Outline::Disc if self.stands => {
+                let turns = (0..64).map(|k| std::f64::consts::TAU / 64.0 * f64::from(k));
+                turns
+                    .map(|it| [0.5 * l * libm::cos(it), 0.5 * l * libm::sin(it)])
+                    .collect()
+            }
+            _ => [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
+                .map(|[u, v]| [0.5 * u * l, 0.5 * v * w])
+                .to_vec(),
+        };
+        placed(&placed(&corners, own), pose)
+    }
+
     /// Its pole faces, on a tile at this pose, with their charges (A / m).
-    fn sheets(&self, pose: Pose) -> [Sheet; 2] {
+    fn faces(&self, pose: Pose) -> [Face; 2] {
         let [l, w, h] = self.size;
         let turn = pose[2] + self.angle;
         let axis = [libm::cos(turn), libm::sin(turn)];
@@ -141,14 +181,33 @@ impl Source {
             pose[0] + cosine * x - sine * y,
             pose[1] + sine * x + cosine * y,
         ];
-        let strength = libm::hypot(self.moment[0], self.moment[1]) / (l * w * h);
+        let volume = match self.outline {
+            Outline::Rectangle => l * w * h,
+            Outline::Disc => l * w * h * std::f64::consts::FRAC_PI_4,
+        };
+        let [mx, my, mz] = self.moment;
+        let strength = match self.stands {
+            true => mz / volume,
+            false => libm::hypot(mx, my) / volume,
+        };
+        let across = [-axis[1], axis[0]];
         [1.0, -1.0].map(|sign| {
-            let at = |k: usize| centre[k] + 0.5 * sign * l * axis[k];
-            Sheet {
-                middle: [at(0), at(1)],
-                along: [-axis[1], axis[0]],
-                half: [0.5 * w, 0.5 * h],
-                charge: sign * strength,
+            let charge = sign * strength;
+            match self.stands {
+                true => {
+                    let place = (centre, Some(0.5 * sign * h));
+                    Face::new(self.outline, place, axis, [0.5 * l, 0.5 * w], charge)
+                }
+                false => {
+                    let middle = [0, 1].map(|k| centre[k] + 0.5 * sign * l * axis[k]);
+                    Face::new(
+                        self.outline,
+                        (middle, None),
+                        across,
+                        [0.5 * w, 0.5 * h],
+                        charge,
+                    )
+                }
             }
         })
     }
@@ -183,16 +242,15 @@ impl Magnets {
     pub fn new(tiles: &Tiles, model: &str, shields: Option<&str>) -> Result<Self, String> {
         let model = match model {
             "dipole" => Model::Dipoles,
-            "cuboid" => Model::Blocks,
+            "cuboid" => Model::Bodies,
             other => return Err(format!("magnets as {other:?} are unknown here")),
         };
-        if shields.is_some_and(|rule| rule != "smooth") {
-            return Err("the energy of the nearest-face rule is discontinuous".to_owned());
-        }
-        let magnets = || tiles.fixed.magnets.iter().chain(&tiles.moving.magnets);
-        if model == Model::Blocks && magnets().any(|it| it.shape != "block" || it.up.is_some()) {
-            return Err("there is no second formula for discs and upright blocks".to_owned());
-        }
+        let middles = |tile: &Tile| tile.faces.iter().map(|face| face.middle_m).collect();
+        let middles = match shields {
+            None | Some("smooth") => None,
+            Some("nearest-face") => Some([middles(&tiles.fixed), middles(&tiles.moving)]),
+            Some(other) => return Err(format!("shields by the rule {other:?} are unknown here")),
+        };
         let sources = |tile: &Tile| -> Option<Vec<Source>> {
             tile.magnets
                 .iter()
@@ -200,11 +258,13 @@ impl Magnets {
                 .collect()
         };
         let both = sources(&tiles.fixed).zip(sources(&tiles.moving));
-        let (fixed, moving) = both.ok_or("a magnet is on a face that the tile does not have")?;
+        let (fixed, moving) = both
+            .ok_or("a magnet is on a face that the tile does not have, or of an unknown shape")?;
         Ok(Self {
             model,
             fixed,
             moving,
+            middles,
         })
     }
 
@@ -212,21 +272,92 @@ impl Magnets {
         self.model
     }
 
+    /// Whether discs overlap each other or other magnets at a pose, as those that break through a surface
+    /// may: a disc's axis at imaginary heights, by which analyses compute its energy, does not stand for
+    /// it there. Magnets that are there cannot be.
+    pub fn overlap(&self, pose: Pose) -> bool {
+        if self.model == Model::Dipoles {
+            return false;
+        }
+        let fixed: Vec<_> = self.fixed.iter().map(|it| it.seen([0.0; 3])).collect();
+        self.moving.iter().any(|source| {
+            let moving = source.seen(pose);
+            self.fixed.iter().zip(&fixed).any(|(target, fixed)| {
+                let acts = source.stands == target.stands;
+                let both = [source.outline, target.outline];
+                let reach = source.radius + target.radius;
+                let apart = libm::hypot(moving[0][0] - fixed[0][0], moving[0][1] - fixed[0][1]);
+                acts && both.contains(&Outline::Disc)
+                    && apart < 4.0 * reach
+                    && clearance(fixed, &moving) < -OVERLAP
+            })
+        })
+    }
+
     /// The energy (J) at a pose.
     pub fn energy(&self, pose: Pose) -> f64 {
+        match self.nearest_faces(pose).first() {
+            Some(faces) => self.of(pose, Some(*faces)),
+            None => self.of(pose, None),
+        }
+    }
+
+    /// The energy (J) at a pose; where it jumps, so that rounding decides, the one that is nearer to what
+    /// is stated.
+    pub fn energy_beside(&self, stated: f64, pose: Pose) -> f64 {
+        let faces = self.nearest_faces(pose);
+        let all = faces.into_iter().map(|it| self.of(pose, Some(it)));
+        all.min_by(|a, b| (a - stated).abs().total_cmp(&(b - stated).abs()))
+            .unwrap_or_else(|| self.of(pose, None))
+    }
+
+    /// The two faces whose midpoints are nearest, first, and all that are as near; none if all act.
+    fn nearest_faces(&self, [x, y, theta]: Pose) -> Vec<[usize; 2]> {
+        let Some([fixed, moving]) = &self.middles else {
+            return Vec::new();
+        };
+        let (sine, cosine) = (libm::sin(theta), libm::cos(theta));
+        let mut all = Vec::new();
+        for (j, p) in moving.iter().enumerate() {
+            let moved = [
+                x + cosine * p[0] - sine * p[1],
+                y + sine * p[0] + cosine * p[1],
+            ];
+            for (i, q) in fixed.iter().enumerate() {
+                all.push((libm::hypot(moved[0] - q[0], moved[1] - q[1]), [i, j]));
+            }
+        }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = all.first().map_or(0.0, |it| it.0);
+        all.retain(|it| it.0 <= least + EQUAL * (1.0 + least));
+        all.into_iter().map(|it| it.1).collect()
+    }
+
+    fn of(&self, pose: Pose, faces: Option<[usize; 2]>) -> f64 {
         match self.model {
             Model::Dipoles => self
-                .along(&Motion::rest(pose), Interval::of(0.0))
+                .along(&Motion::rest(pose), Interval::of(0.0), faces)
                 .value
                 .middle(),
-            Model::Blocks => self.of_blocks(pose),
+            Model::Bodies => self.of_bodies(pose, faces),
         }
+    }
+
+    /// Whether there are bounds of the energy over parts of a motion: not where it jumps, and of magnets
+    /// with faces only for blocks that lie.
+    fn has_bounds(&self) -> bool {
+        let is_plain = |it: &Source| it.outline == Outline::Rectangle && !it.stands;
+        let mut all = self.fixed.iter().chain(&self.moving);
+        self.middles.is_none() && (self.model == Model::Dipoles || all.all(is_plain))
     }
 
     /// The least second derivative (J) of the energy along a motion over a part of it; minus infinity
     /// where none is known.
     pub fn least_bend(&self, motion: &Motion, part: Interval) -> f64 {
-        let least = self.along(motion, part).second.low;
+        if !self.has_bounds() {
+            return f64::NEG_INFINITY;
+        }
+        let least = self.along(motion, part, None).second.low;
         if least.is_finite() {
             least
         } else {
@@ -234,7 +365,7 @@ impl Magnets {
         }
     }
 
-    fn along(&self, motion: &Motion, t: Interval) -> Jet {
+    fn along(&self, motion: &Motion, t: Interval, faces: Option<[usize; 2]>) -> Jet {
         let [x, y, theta] = motion.along(t);
         let turn = theta.sine_and_cosine();
         let still = [Jet::of(0.0), Jet::of(1.0)];
@@ -244,29 +375,46 @@ impl Magnets {
         for source in &self.moving {
             let moving = source.moved(turn, [x, y]);
             for (target, place) in self.fixed.iter().zip(&fixed) {
+                if faces.is_some_and(|it| it != [target.face, source.face]) {
+                    continue;
+                }
                 let way = minus(moving.place, place.place);
                 let energy = match self.model {
                     Model::Dipoles => dipoles(place, &moving, way, Jet::of(0.0)),
-                    Model::Blocks => spread([target, source], [place, &moving], way),
+                    Model::Bodies => spread([target, source], [place, &moving], way),
                 };
-                sum = sum + energy * factors(place, &moving, way);
+                sum = sum
+                    + match faces {
+                        Some(_) => energy,
+                        None => energy * factors(place, &moving, way),
+                    };
             }
         }
         sum
     }
 
-    fn of_blocks(&self, pose: Pose) -> f64 {
-        let still = [0.0; 3];
+    fn of_bodies(&self, pose: Pose, faces: Option<[usize; 2]>) -> f64 {
+        let fixed = self.fixed.iter().map(|it| it.faces([0.0; 3]));
+        let fixed: Vec<[Face; 2]> = fixed.collect();
         let mut sum = 0.0;
         for source in &self.moving {
-            let moving = source.sheets(pose);
-            for target in &self.fixed {
-                let fixed = target.sheets(still);
-                let energy: f64 = fixed
+            let moving = source.faces(pose);
+            for (target, fixed) in self.fixed.iter().zip(&fixed) {
+                // Of a magnet that stands, one pole is as far from one that lies as the other.
+                if source.stands != target.stands
+                    || faces.is_some_and(|it| it != [target.face, source.face])
+                {
+                    continue;
+                }
+                let pairs = fixed
                     .iter()
-                    .flat_map(|a| moving.iter().map(move |b| blocks::energy(a, b)))
-                    .sum();
-                sum += MU0_OVER_4PI * energy * factor_at(target, source, pose);
+                    .flat_map(|a| moving.iter().map(move |b| (a, b)));
+                let energy: f64 = pairs.map(|(a, b)| charges::energy(a, b)).sum();
+                let factor = match faces {
+                    Some(_) => 1.0,
+                    None => factor_at(target, source, pose),
+                };
+                sum += MU0_OVER_4PI * energy * factor;
             }
         }
         sum

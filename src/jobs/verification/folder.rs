@@ -235,6 +235,12 @@ impl Folder<'_> {
         clearance(&self.tiles.fixed.outline_m, &moving)
     }
 
+    /// The magnets, if there is a formula for them where they are.
+    fn known_at(&self, pose: Option<Pose>) -> Option<&Magnets> {
+        self.magnets
+            .filter(|it| pose.is_none_or(|pose| !it.overlap(pose)))
+    }
+
     fn free(&self, what: &str, pose: Pose, book: &mut Book) {
         let clearance = self.clearance(pose);
         let holds = clearance >= -OVERLAP && clearance.is_finite();
@@ -251,7 +257,10 @@ impl Folder<'_> {
         let blocks = Magnets::new(tiles, "cuboid", shields).ok();
         let bound = &report.bound;
         if let Some(magnets) = self.magnets {
-            let stated = [bound.energy, magnets.energy(bound.pose)];
+            let stated = [
+                bound.energy,
+                magnets.energy_beside(bound.energy, bound.pose),
+            ];
             book.compare(Subject::States, "bound: energy_J", stated, energy);
         }
         let off = apart(bound.pose, tiles.target_pose);
@@ -259,9 +268,15 @@ impl Folder<'_> {
             "bound: the pose is not that of the target faces".to_owned()
         });
         let found = parallel::map(&report.states, |state| {
-            let own = self.magnets.map(|it| it.energy(state.pose));
-            let asked = state.block_energy.and(blocks.as_ref());
-            (own, asked.map(|it| it.energy(state.pose)))
+            let of = |magnets: Option<&Magnets>, stated: f64| {
+                let known = magnets.filter(|it| !it.overlap(state.pose));
+                known.map(|it| it.energy_beside(stated, state.pose))
+            };
+            let asked = state.block_energy;
+            (
+                of(self.magnets, state.energy),
+                asked.and_then(|stated| of(blocks.as_ref(), stated)),
+            )
         });
         let deepest = found
             .iter()
@@ -341,8 +356,15 @@ impl Folder<'_> {
             book.leave(Subject::Upper, usize::from(limit.is_some()));
             return None;
         };
-        let own: Vec<f64> = points.iter().map(|it| magnets.energy(it.pose())).collect();
+        let own: Vec<f64> = points
+            .iter()
+            .map(|it| magnets.energy_beside(it.energy, it.pose()))
+            .collect();
         for (number, (point, own)) in points.iter().zip(&own).enumerate() {
+            if magnets.overlap(point.pose()) {
+                book.leave(Subject::Points, 1);
+                continue;
+            }
             let mut allowed = self.allowed.energy + 1e-9 * own.abs();
             if (point.energy - own).abs() > allowed {
                 allowed += rounding(magnets, point.pose(), *own);
@@ -450,8 +472,8 @@ impl Folder<'_> {
                 stated,
                 rounded,
             );
-            if let (Some(pose), Some(magnets)) = (it.saddle_pose, self.magnets) {
-                let own = magnets.energy(pose);
+            if let (Some(pose), Some(magnets)) = (it.saddle_pose, self.known_at(it.saddle_pose)) {
+                let own = magnets.energy_beside(saddle, pose);
                 let what = format!("{what}: energy at saddle_pose");
                 book.compare(Subject::Saddles, &what, [saddle, own], allowed.energy);
             }

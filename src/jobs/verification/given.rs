@@ -66,6 +66,7 @@ pub(super) struct Magnet {
 
 #[derive(Deserialize)]
 pub(super) struct Face {
+    pub middle_m: [f64; 2],
     pub normal: [f64; 2],
     pub shield: Option<Shield>,
 }

@@ -9,13 +9,15 @@
 //! It does not search: that lower bounds hold for all other paths, and that no state is missing, it
 //! cannot confirm.
 
-mod blocks;
+mod charges;
 mod checks;
 mod distance;
 mod energy;
+mod faces;
 mod folder;
 mod given;
 mod interval;
+mod stacks;
 
 use std::path::PathBuf;
 

@@ -19,6 +19,10 @@
 //! | two upright rectangles | closed forms in lanes | [`super::cuboid`] |
 //! | an upright and a flat one | none: flat faces come in pairs, north and south, at the same distance over and under the tiles' middle plane, which an upright one sees alike | |
 //!
+//! A disc's integral holds where the other face does not meet it. Magnets that break through their tile's
+//! surface may overlap others; no magnets can be there, and the energies of discs are not those of the
+//! overlapping faces.
+//!
 //! Beyond about three times the magnets' size the multipole series is used (`series`), with a bound
 //! of 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
 //! first term of this series, at every distance.
