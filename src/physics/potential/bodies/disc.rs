@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::complex::{Complexes, LEAST, Z};
-use super::elliptic::Complete;
+use super::elliptic::{Complete, LEAST_TILT, at_least};
 use crate::potential::simd::lanes::Lanes;
 
 /// The integral V of `1 / r` (m) over a disc of a radius R (m), at the distance s from its axis and the
@@ -39,6 +39,8 @@ pub fn potential<L: Lanes>(l: L, radius: f64, s: Z<L::F>, h: Z<L::F>) -> (Z<L::F
     let far = l.z_inverse(l.z_sqrt(l.z_mul_add(beyond, beyond, square)));
     let kc = l.z_mul(near, far);
     let q = l.z_times(l.z_div(within, beyond), l.splat(-1.0));
+    // Exactly above the rim, where `q P` is not 0.
+    let q = at_least(l, q, LEAST_TILT);
     // There are two continuations of `q P`, one infinite at q = kc, one at q = -kc; they differ by
     // the jump of the solid angle.
     let over = l.sub(l.z_norm(l.z_add(q, kc)), l.z_norm(l.z_sub(q, kc)));

@@ -18,7 +18,9 @@ pub struct Complete<F> {
 
 /// The smallest complementary modulus and the smallest q, which replace smaller ones: at 0, K and the
 /// third kind are infinite.
-const LEAST: [f64; 2] = [1e-150, 1e-60];
+const LEAST: [f64; 2] = [1e-150, LEAST_TILT];
+/// The smallest q. A product of q and the third kind, which is finite at 0, needs this q in both.
+pub const LEAST_TILT: f64 = 1e-60;
 /// More steps of the algorithm than any modulus takes.
 const MOST_STEPS: usize = 40;
 
@@ -78,7 +80,7 @@ fn integral<L: Lanes>(l: L, m: Z<L::F>, [a, b, p]: [Z<L::F>; 3]) -> Z<L::F> {
 
 /// A number, or the least one where it is smaller in magnitude.
 #[inline(always)]
-fn at_least<L: Lanes>(l: L, a: Z<L::F>, least: f64) -> Z<L::F> {
+pub fn at_least<L: Lanes>(l: L, a: Z<L::F>, least: f64) -> Z<L::F> {
     let enough = l.sub(l.z_norm(a), l.splat(least * least));
     l.z_select(enough, a, l.z_splat(least, 0.0))
 }

@@ -251,3 +251,30 @@ fn series_and_faces_agree_where_they_meet() {
         }
     }
 }
+
+/// Exactly above the rim of a disc, where the third kind is infinite, its potential is that beside it, and
+/// so is the energy of two discs that are aside by their radius.
+#[test]
+fn a_place_above_the_rim_is_no_other() {
+    let body = |x: f64, y: f64, radius: f64| Body {
+        position: Vector2::new(x, y),
+        direction: Vector2::new(1.0, 0.0),
+        moment: 1.0,
+        size: [3e-3, 2.0 * radius, 2.0 * radius],
+        shape: Kind::Disc,
+        stands: false,
+    };
+    for (first, second) in [(1.5e-3, 1.5e-3), (2e-3, 1.5e-3), (1.5e-3, 4e-3)] {
+        let of = |aside: f64| {
+            let pair = [body(0.0, 0.0, first), body(4.2e-3, aside, second)];
+            exact(&pair[0], &pair[1]).energy
+        };
+        for aside in [first, second, -first, -second] {
+            let [here, beside] = [of(aside), of(aside * (1.0 + 1e-9))];
+            assert!(
+                (here - beside).abs() < 1e-7 * beside.abs(),
+                "{here} {beside}"
+            );
+        }
+    }
+}
