@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::docking::{
-    Paths, ReleaseOptions, Request, check_memory, docked, loosening, released,
+    Paths, ReleaseOptions, Request, check_memory, docked, expected, loosening, released,
 };
 use tilebind::report::{docking as report, release};
 
 use super::options::ThreadOption;
 use super::results::ResultOptions;
-use super::{Failure, input};
+use super::{Failure, input, workload};
 
 /// Launch the moving tile at the fixed one many times and count the outcomes
 #[derive(Args)]
@@ -67,6 +67,8 @@ impl Dock {
                 settings.runs
             )));
         }
+        let expected = expected(&problem, &settings).map_err(Failure::of)?;
+        workload::tell_expected(expected, self.threads.count());
         let progress = self.results.progress();
         if self.release.from_bond {
             let posed = (&design, &problem);

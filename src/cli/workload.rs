@@ -2,7 +2,7 @@
 //! sampled less.
 
 use tilebind::potential::MagnetModel;
-use tilebind::units::si;
+use tilebind::units::{duration, si};
 use tilebind::{Design, Settings};
 
 use super::{Failure, tell};
@@ -64,6 +64,18 @@ fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
             ((bounds + list) / 60.0).ceil()
         )
     })
+}
+
+/// Says how long trajectories take that do not end early, if they take long; given the time (s) on one
+/// core.
+pub fn tell_expected(on_one_core: Option<f64>, threads: usize) {
+    let time = on_one_core.map(|time| time / threads as f64);
+    if let Some(time) = time.filter(|time| *time >= SHORT) {
+        tell(format!(
+            "note: expect up to about {}; trajectories that end early take less",
+            duration(time, 2)
+        ));
+    }
 }
 
 /// Reports a check of the memory: an error if the machine does not have it.

@@ -2,11 +2,11 @@
 
 use clap::Args;
 use tilebind::report::yields::{FILES, document};
-use tilebind::yields::{Question, yields};
+use tilebind::yields::{Question, expected, yields};
 
-use super::Failure;
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
+use super::{Failure, workload};
 
 /// Print how many pairs are bound after a time on a shaken table, and which shaking binds most
 #[derive(Args)]
@@ -57,6 +57,8 @@ impl YieldCommand {
         self.threads.use_threads()?;
         let threads = self.threads.count();
         self.question.check_memory(threads).map_err(Failure::of)?;
+        let expected = expected(&design, &self.question).map_err(Failure::of)?;
+        workload::tell_expected(expected, threads);
         let progress = self.results.progress();
         let found = yields(&design, &self.question, &progress).map_err(Failure::of)?;
         let document = document(&design, &self.question, &found);

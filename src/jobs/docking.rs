@@ -127,11 +127,47 @@ pub fn released(
 }
 
 fn counted(settings: &DockingSettings, observer: &dyn Observer) -> impl Fn() + Sync {
-    let (done, runs) = (AtomicUsize::new(0), settings.runs as f64);
+    let (done, runs) = (AtomicUsize::new(0), settings.runs);
+    observer.stage("trajectories", 0.0);
     move || {
         let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-        observer.stage("trajectories", done as f64 / runs);
+        observer.part("trajectories", done, runs);
     }
+}
+
+/// Fewer steps of all trajectories together take seconds.
+const MANY_STEPS: f64 = 1e6;
+/// Steps of the trial that shows how long one takes.
+const OF_A_TRIAL: f64 = 1e3;
+
+/// About how long (s on one core) the trajectories take that do not end early, from the beginning of the
+/// first one; `None` if that are seconds.
+///
+/// # Errors
+/// As [`dock`].
+pub fn expected(
+    problem: &Problem,
+    settings: &DockingSettings,
+) -> Result<Option<f64>, DockingError> {
+    let scale = problem.scale();
+    let step = settings.motion.of_size(scale).step(scale);
+    let whole = settings.runs as f64 * settings.duration;
+    if whole < MANY_STEPS * step {
+        return Ok(None);
+    }
+    let trial = DockingSettings {
+        runs: 1,
+        duration: settings.duration.min(OF_A_TRIAL * step),
+        ..settings.clone()
+    };
+    // The whole is checked as well.
+    settings
+        .motion
+        .of_size(scale)
+        .check_steps(scale, settings.duration)?;
+    let found = dock(problem, &trial, &|| ())?;
+    let simulated: f64 = found.runs.iter().map(|run| run.last.time).sum();
+    Ok(Some(found.wall_s * whole / simulated.max(step)))
 }
 
 /// Checks that the meshes of [`loosening`] fit into memory beside a number of threads.
@@ -210,7 +246,10 @@ const FASTEST_SPIN: f64 = 1e3;
 const LONGEST: f64 = 1e6;
 
 /// The duration (s) of a trajectory.
-fn duration(text: &str) -> Result<f64, String> {
+///
+/// # Errors
+/// If it is none, or too long.
+pub fn duration(text: &str) -> Result<f64, String> {
     match request::time(text)? {
         long if long > LONGEST => Err(format!("a time of at most {LONGEST:e} s is needed")),
         time => Ok(time),

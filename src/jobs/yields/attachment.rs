@@ -35,7 +35,8 @@ pub struct Effort {
     pub runs: usize,
 
     /// Duration of each docking run (s)
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = request::time)]
+    #[arg(long, value_name = "S", default_value_t = 10.0,
+          value_parser = crate::docking::duration)]
     pub duration: f64,
 
     /// Source of attachment rates
@@ -74,6 +75,21 @@ impl Effort {
             restitution: self.contact.restitution,
             friction: self.contact.friction,
             ..usual
+        }
+    }
+
+    /// The docking runs at `kt` (J).
+    pub fn runs_at(&self, kt: f64, seed: u64) -> DockingSettings {
+        DockingSettings {
+            runs: self.runs,
+            seed,
+            duration: self.duration,
+            starts: Starts::default(),
+            motion: MotionSettings {
+                shaking: Some(kt),
+                ..self.motion()
+            },
+            threshold: None,
         }
     }
 
@@ -280,17 +296,7 @@ pub fn count(
     effort: &Effort,
     seed: u64,
 ) -> Result<Attachments, DockingError> {
-    let settings = DockingSettings {
-        runs: effort.runs,
-        seed,
-        duration: effort.duration,
-        starts: Starts::default(),
-        motion: MotionSettings {
-            shaking: Some(kt),
-            ..effort.motion()
-        },
-        threshold: None,
-    };
+    let settings = effort.runs_at(kt, seed);
     let arrivals = docking::arrivals(problem, &settings, &|| ())?;
     Ok(tally(problem, catalogue, &arrivals))
 }

@@ -18,6 +18,7 @@ mod schedule;
 use clap::Args;
 
 use crate::design::Design;
+use crate::docking;
 use crate::memory;
 use crate::pipeline::{self, Settings};
 use crate::request::{self, Unanswered};
@@ -86,6 +87,23 @@ impl Question {
             Source::Docking => Ok(()),
         }
     }
+}
+
+/// About how long (s on one core) the docking runs at all kT take; `None` if that are seconds.
+///
+/// # Errors
+/// As [`yields`].
+pub fn expected(design: &Design, question: &Question) -> Result<Option<f64>, YieldError> {
+    let (effort, kts) = (&question.effort, &question.kts);
+    let Some(hottest) = kts.iter().copied().reduce(f64::max) else {
+        return Ok(None);
+    };
+    if effort.source != Source::Docking {
+        return Ok(None);
+    }
+    let runs = effort.runs_at(hottest, question.seed);
+    let one = docking::expected(&design.problem(), &runs)?;
+    Ok(one.map(|one| one * kts.len() as f64))
 }
 
 /// A number of tiles, half of each kind.

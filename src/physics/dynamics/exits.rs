@@ -56,7 +56,7 @@ impl ExitRuns {
 /// Runs of shaken tiles to the first of two ends.
 ///
 /// # Errors
-/// If a setting is invalid, or the tiles are not shaken.
+/// If a setting is invalid, the tiles are not shaken, or runs would take too many steps.
 pub fn exits(
     problem: &Problem,
     body: Body,
@@ -64,6 +64,8 @@ pub fn exits(
     asked: &ExitRunSettings,
 ) -> Result<ExitRuns, SettingsError> {
     let simulation = Simulation::new(problem, body, motion)?;
+    let scaled = &simulation.settings;
+    scaled.check_steps(problem.scale(), asked.longest)?;
     let kt = motion.shaking.unwrap_or(0.0);
     let one = |number: usize| {
         let mut rng = stream(asked.seed, number);

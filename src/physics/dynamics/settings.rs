@@ -69,9 +69,60 @@ pub enum SettingsError {
     /// Shaking with nothing to damp it.
     #[error("shaking without drag heats the tile without limit: set a drag rate above 0")]
     ShakingWithoutDrag,
+    /// A trajectory would not end in years.
+    #[error(
+        "{steps:.1e} steps of {step:.1e} s for each trajectory are more than {MOST_STEPS:e}: use a shorter \
+         duration, less drag or slower fans"
+    )]
+    TooManySteps {
+        /// Their number.
+        steps: f64,
+        /// The longest of them (s).
+        step: f64,
+    },
 }
 
+/// Largest time between two random kicks (s).
+const KICK_INTERVAL: f64 = 5e-3;
+/// Largest share of the velocity that drag takes between two kicks. Drag acts with the kicks, so
+/// steady motion under a force, and therefore diffusion, is too fast by the factor `x coth x` with
+/// x half of this share: by half a per cent.
+const DRAG_A_KICK: f64 = 0.25;
+/// Steps of a period of a fan, at least.
+const OF_A_PERIOD: f64 = 10.0;
+/// Largest number of steps of a trajectory: hours.
+const MOST_STEPS: f64 = 1e9;
+
 impl MotionSettings {
+    /// The time (s) between two random kicks.
+    pub fn kick_interval(&self, scale: Scale) -> f64 {
+        scale.time(KICK_INTERVAL).min(DRAG_A_KICK / self.drag)
+    }
+
+    /// The longest time (s) that a step can take, of settings that are scaled.
+    pub fn step(&self, scale: Scale) -> f64 {
+        let kicks = self.shaking.map(|_| self.kick_interval(scale));
+        let fans = self.fans.iter().filter(|fan| fan.amplitude != 0.0);
+        let periods = fans.map(|fan| 1.0 / (OF_A_PERIOD * fan.frequency.abs()));
+        kicks
+            .into_iter()
+            .chain(periods)
+            .fold(self.longest_step, f64::min)
+    }
+
+    /// Checks that a trajectory ends.
+    ///
+    /// # Errors
+    /// If a duration (s) takes too many steps.
+    pub fn check_steps(&self, scale: Scale, duration: f64) -> Result<(), SettingsError> {
+        let step = self.step(scale);
+        let steps = duration / step;
+        match steps <= MOST_STEPS {
+            true => Ok(()),
+            false => Err(SettingsError::TooManySteps { steps, step }),
+        }
+    }
+
     /// The settings with the numerics scaled to tiles of another size.
     pub fn of_size(&self, scale: Scale) -> Self {
         Self {

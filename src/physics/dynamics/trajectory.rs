@@ -18,12 +18,6 @@ use super::vicinity::{Ahead, Vicinity};
 const REST_SPEED: f64 = 1e-5;
 /// ... for this long (s).
 const REST_TIME: f64 = 0.02;
-/// Largest time between two random kicks (s).
-const KICK_INTERVAL: f64 = 5e-3;
-/// Largest share of the velocity that drag takes between two kicks. Drag acts with the kicks, so
-/// steady motion under a force, and therefore diffusion, is too fast by the factor `x coth x` with
-/// x half of this share: by half a per cent.
-const DRAG_A_KICK: f64 = 0.25;
 /// Shortest free step (s): no magnetic force changes a path faster.
 const SHORTEST_STEP: f64 = 1e-7;
 /// The first free step (s).
@@ -122,12 +116,8 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     ) -> Stop {
         self.sense_contact();
         let shaken = self.simulation.settings.shaking;
-        let interval = self
-            .simulation
-            .problem
-            .scale()
-            .time(KICK_INTERVAL)
-            .min(DRAG_A_KICK / self.simulation.settings.drag);
+        let scale = self.simulation.problem.scale();
+        let interval = self.simulation.settings.kick_interval(scale);
         let mut stop = None;
         while stop.is_none() && self.time < duration {
             let until = match shaken {

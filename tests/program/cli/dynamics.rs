@@ -1,9 +1,12 @@
 //! Moving tiles: the check of barriers and docking runs.
 
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+
 use serde_json::Value;
 
-use super::{json, tilebind};
-use crate::program::{stderr, stdout};
+use super::{json, refused, tilebind};
+use crate::program::{command, stderr, stdout};
 
 const QUICK: [&str; 8] = [
     "--milestones",
@@ -165,4 +168,76 @@ fn wrong_docking_options_are_refused_with_their_mend() {
     let output = tilebind(&shaken);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("set a drag rate above 0"));
+}
+
+/// A thousand million steps are hours; nothing longer starts.
+#[test]
+fn trajectories_that_would_not_end_are_refused() {
+    const TILE: &str = "shapes/paper-tile.toml";
+    let slow = ["--duration", "1e6", "--drag", "1e4"];
+    let dock = ["dock", TILE, "--runs", "3", "--shaking", "1e-3"];
+    let fan = ["--duration", "1e6", "--fan", "0.6,0.6,1e-3,0.2,0.5,1e3"];
+    let pairs = [
+        "yield", TILE, "--tiles", "10", "--time", "600", "--kt", "3e-3",
+    ];
+    refused(
+        &[&dock[..], &slow].concat(),
+        &["steps of 2.5e-5 s", "less drag"],
+    );
+    refused(
+        &[&dock[..], &["--from-bond"], &slow].concat(),
+        &["steps of"],
+    );
+    refused(
+        &[&dock[..], &fan].concat(),
+        &["steps of 1.0e-4 s", "slower fans"],
+    );
+    refused(&[&pairs[..], &slow].concat(), &["steps of"]);
+    for wrong in ["1e300", "nan", "", "-1", "0"] {
+        let wrong = format!("--duration={wrong}");
+        refused(&[&dock[..], &[&wrong]].concat(), &["--duration"]);
+        refused(&[&pairs[..], &[&wrong]].concat(), &["--duration"]);
+    }
+}
+
+#[test]
+fn an_exit_that_takes_too_long_to_simulate_is_refused() {
+    let exit = [
+        "rates",
+        "shapes/paper-tile.toml",
+        "--kt",
+        "6e-3",
+        "--start",
+        "0.43,-0.04,0",
+    ];
+    refused(
+        &[&exit[..], &["--check", "10", "--drag", "1e9"]].concat(),
+        &["steps of"],
+    );
+}
+
+/// Before the work, by a trial of a few milliseconds.
+#[test]
+fn long_trajectories_are_told_before() {
+    let long = [
+        "dock",
+        "shapes/paper-tile.toml",
+        "--runs",
+        "100000",
+        "--duration",
+        "1e5",
+        "--threads",
+        "1",
+    ];
+    let mut child = command(&[&long[..], &["--shaking", "1e-3", "--drag", "0.5"]].concat())
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program");
+    let mut line = String::new();
+    let told = child.stderr.take().expect("piped");
+    BufReader::new(told).read_line(&mut line).expect("a line");
+    child.kill().expect("it works on");
+    child.wait().expect("ended");
+    assert!(line.starts_with("note: expect up to about "), "{line}");
 }

@@ -38,11 +38,14 @@ impl<'a> Experiment<'a> {
     pub fn new(problem: &'a Problem, settings: &'a DockingSettings) -> Result<Self, DockingError> {
         let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
         let body = Body::of_tile(&pair.moving);
+        let simulation = Simulation::new(problem, body, &settings.motion)?;
+        let scaled = &simulation.settings;
+        scaled.check_steps(problem.scale(), settings.duration)?;
         Ok(Self {
             problem,
             pair,
             settings,
-            simulation: Simulation::new(problem, body, &settings.motion)?,
+            simulation,
             rule: MatchRule::new(problem, settings.threshold)?,
         })
     }
