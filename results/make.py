@@ -22,6 +22,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import re
 import shlex
 import shutil
@@ -185,6 +186,113 @@ def study(model, depths):
             work.keep("study/dipole.png", out / "pictures/curves-3-mm.png")
 
     return make
+
+
+# Searches
+
+DEPTH, WIDTH, SPAN = (f"fixed.faces.east.profile.{key}" for key in ("depth", "width", "span"))
+FAMILIES = {"tab, arc": (["tab-10mm", "arc-20mm"], WIDTH, 24), "teeth": (STUDY[:3], SPAN, 36)}
+AIMS = {"selectivity": "captured > 0.4", "captured": "selectivity > 3"}
+SEARCH = ["--milestones=300", "--far-starts=100", "--certify-cells=0", "--complete-cells=0", "--threads=1"]
+LEVELS = 6
+
+
+def best_of(points, by, condition):
+    """The best of the assessed points that satisfy a condition; without a trap selectivity is infinite."""
+    def value(one, key):
+        found = one[key]
+        if key == "selectivity" and found is None:
+            return math.inf
+        return found["value"] if isinstance(found, dict) else found
+
+    key, least = condition.split(" > ")
+    known = [it["quantities"] for it in points if it.get("quantities") and it["quantities"]["bond_depth_J"]]
+    fit = [it for it in known if value(it, "captured") > 0 and value(it, key) > float(least)]
+    return max(fit, key=lambda it: value(it, by), default=None)
+
+
+def shapes_searched(work):
+    """Grids over depth and width, against searches with a third of the analyses."""
+    rows = [["shapes", "aim", "condition", "grid_analyses", "grid_best", "search_analyses", "search_best", "best"]]
+    for family, (names, key, points) in FAMILIES.items():
+        designs = [f"shapes/{name}.toml" for name in names]
+        folder = f"target/grid-{key.rsplit('.', 1)[1]}"
+        work.run("tilebind", "sweep", *designs, "--vary=magnet.inset=0.003", f"--vary={DEPTH}=0.005:0.05:{LEVELS}",
+                 f"--vary={key}=0.1:0.4:{LEVELS}", *SEARCH, "--out", folder, "--quiet")
+        grid = json.loads((work.folder / folder / "report.json").read_text())["points"]
+        for aim, condition in AIMS.items():
+            folder = f"target/search-{key.rsplit('.', 1)[1]}-{aim}"
+            work.run("tilebind", "sweep", *designs, "--vary=magnet.inset=0.003", f"--vary={DEPTH}=0.005:0.05",
+                     f"--vary={key}=0.1:0.4", f"--maximise={aim}", f"--subject={condition}", f"--points={points}",
+                     *SEARCH, "--out", folder, "--quiet")
+            found = json.loads((work.folder / folder / "report.json").read_text())
+            best, known = found["best"], best_of(grid, aim, condition)
+
+            def shown(one):
+                if one is None:
+                    return "-"
+                value = one[aim]
+                value = value.get("value") if isinstance(value, dict) else value
+                return "infinite" if value is None else f"{value:.4g}"
+
+            values = [f"{name.rsplit('.', 1)[1]} {value:.4g}" for name, value in best["values"].items()][1:]
+            rows.append([family, aim, condition, sum(it["status"] == "done" for it in grid), shown(known),
+                         best["analysed"], shown(best["figures"]), "; ".join([best["design"], *values])])
+            if (key, aim) == (SPAN, "captured"):
+                work.keep("search/history.png", work.folder / folder / "pictures/history.png")
+    work.keep_rows("search/shapes.csv", rows)
+
+
+DISCS = """name = "discs-60mm"
+table = { size = [0.4, 0.4] }
+magnet = { shape = "disc", diameter = 0.006, height = 0.003, remanence = 1.2, pitch = 0.012, inset = 0.0 }
+target = { fixed = "east", moving = "west" }
+fixed = { side = 0.06, thickness = 0.008, mass = 0.02, faces = { east = { code = "NNNS" } } }
+moving = { side = 0.06, thickness = 0.008, mass = 0.02, faces = { west = { mates = "east" } } }
+"""
+
+
+def discs_searched(work):
+    """The pitch and inset of discs: the best selectivity with bonds of at least so many mJ."""
+    (work.folder / "discs.toml").write_text(DISCS)
+    rows = [["least_bond_J", "pitch_m", "inset_m", "selectivity", "bond_J", "analysed", "end"]]
+    for least in (0.005, 0.01, 0.02):
+        work.run("tilebind", "sweep", "discs.toml", "--vary=magnet.pitch=0.007:0.016", "--vary=magnet.inset=0:0.003",
+                 "--maximise=selectivity", f"--subject=bond_depth >= {least}", "--points=16", "--milestones=200",
+                 "--far-starts=30", *SEARCH[2:], "--out", f"target/discs-{least}", "--quiet")
+        best = json.loads((work.folder / f"target/discs-{least}/report.json").read_text())["best"]
+        ends = [it["key"].rsplit(".", 1)[1] for it in best["sensitivity"] if it["at_lower_end"] or it["at_upper_end"]]
+        rows.append([least, *best["values"].values(), *(f"{best['figures'][key]['value']:.4g}" for key in
+                    ("selectivity", "bond_depth_J")), best["analysed"], " ".join(ends)])
+    work.keep_rows("search/discs.csv", rows)
+
+
+def chance_searched(work):
+    """A search against chance with as many analyses, ten times each."""
+    text = (ROOT / "shapes/paper-tile.toml").read_text()
+    quick = ["--milestones=100", "--far-starts=10", *SEARCH[2:]]
+    ends, count = {"pitch": (0.015, 0.08), "inset": (0.0, 0.01)}, 20
+    rows = [["seed", "search", "chance"]]
+    for seed in range(1, 11):
+        vary = [f"--vary=magnet.{key}={low}:{high}" for key, (low, high) in ends.items()]
+        work.run("tilebind", "sweep", "shapes/paper-tile.toml", *vary, "--maximise=selectivity",
+                 "--subject=bond_depth > 0.02", f"--points={count}", f"--seed={seed}", *quick,
+                 "--out", f"target/search-{seed}", "--quiet")
+        found = json.loads((work.folder / f"target/search-{seed}/report.json").read_text())
+        # Names of their own; the same seed for all points.
+        chance, files = random.Random(seed), []
+        for k in range(count):
+            one = text
+            for key, (low, high) in ends.items():
+                one, changed = re.subn(rf"(?m)^{key} = \S+", f"{key} = {chance.uniform(low, high)}", one)
+                if changed != 1:
+                    raise Failed(f"no {key} in the design")
+            files.append(f"chance-{seed}-{k}.toml")
+            (work.folder / files[-1]).write_text(re.sub('(?m)^name = ".*"', f'name = "chance-{k}"', one))
+        points = work.json("tilebind", "compare", *files, *quick, f"--seed={seed}", "--quiet")["designs"]
+        best = best_of(points, "selectivity", "bond_depth_J > 0.02")
+        rows.append([seed, found["best"]["figures"]["selectivity"]["value"], best["selectivity"]])
+    work.keep_rows("search/chance.csv", rows)
 
 
 # Magnets as blocks, over the gap
@@ -488,6 +596,9 @@ PARTS = [
       for name in DESIGNS),
     Part("study-dipole", "study", 3.5, ["study/dipole.csv", "study/dipole.png"], study("dipole", 11)),
     Part("study-cuboid", "study", 1.3, ["study/cuboid.csv"], study("cuboid", 6)),
+    Part("search-shapes", "search", 3, ["search/shapes.csv", "search/history.png"], shapes_searched),
+    Part("search-discs", "search", 1, ["search/discs.csv"], discs_searched),
+    Part("search-chance", "search", 2, ["search/chance.csv"], chance_searched),
     Part("magnets", "magnets", 0.02, ["magnets.csv"], magnets),
     Part("words-uniform", "words", 1.4, ["words/uniform.csv"], uniform),
     Part("words-spaced", "words", 4, ["words/spaced.csv"], spaced),

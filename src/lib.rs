@@ -147,8 +147,8 @@
 
 pub use jobs::{
     Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
-    docking, inspection, matching, memory, output, pipeline, query, rates, request, start, sweep,
-    table, text, verification, word_sets, workshop, yields,
+    docking, inspection, matching, memory, output, pipeline, query, rates, request, search, start,
+    sweep, table, text, verification, word_sets, workshop, yields,
 };
 pub use physics::table as many_bodies;
 pub use physics::{

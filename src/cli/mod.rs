@@ -23,6 +23,7 @@ mod progress;
 mod rates;
 mod results;
 mod schema;
+mod search;
 mod show;
 mod style;
 mod sweep;

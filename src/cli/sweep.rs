@@ -9,12 +9,14 @@ use tilebind::report::files::REPORT;
 use tilebind::report::json;
 use tilebind::report::sweep::{FILES, Sweep as Report, counts};
 use tilebind::request;
+use tilebind::search::{Request as Aims, Search, SearchError};
 use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shard, Source, Store};
 
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{ForceOption, PrintOptions, ThreadOption};
 use super::results::told_of;
+use super::search::Searching;
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, print, tell, workload};
 
@@ -24,6 +26,9 @@ const PLAN: &str = "plan.json";
 /// The command that gives the same results, however the work was divided.
 const AGAIN: &str = "tilebind sweep --run plan.json; tilebind sweep --merge plan.json";
 
+/// Options of a sweep, and of the manifest of a search that has been planned.
+const NOT_IN_A_SEARCH: [&str; 5] = ["refine", "baseline", "run", "merge", "status"];
+
 const THREADS: &str = "\
 Points computed at the same time; results do not depend on it [default: all cores]";
 
@@ -32,6 +37,10 @@ Points computed at the same time; results do not depend on it [default: all core
 #[command(
     mut_arg("refine", |refine| refine.conflicts_with_all(["plan", "run", "merge", "status"])),
     mut_arg("baseline", |baseline| baseline.conflicts_with_all(["run", "merge", "status"])),
+    mut_arg("maximise", |one| one.conflicts_with_all(NOT_IN_A_SEARCH)),
+    mut_arg("minimise", |one| one.conflicts_with_all(NOT_IN_A_SEARCH)),
+    mut_arg("subject", |one| one.conflicts_with_all(NOT_IN_A_SEARCH)),
+    mut_arg("points", |one| one.conflicts_with_all(NOT_IN_A_SEARCH)),
     mut_arg("seed", |seed| seed.help("Random seed of every point, so that all have the same far starts")),
     mut_arg("threads", |threads| threads.help(THREADS)),
     after_help = "\
@@ -47,11 +56,19 @@ Examples:
   tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.04:5 \\
       --baseline depth=0 --refine 6 --out target/depth
 
+With --maximise or --minimise it searches for the best design, with certified bounds, and writes it
+as best.toml. KEY=a:b is then any number from a to b. Figures are those of compare --by. Two
+objectives give their front:
+  tilebind sweep shapes/tab-20mm.toml --vary fixed.faces.east.profile.depth=0:0.05 \\
+      --vary fixed.faces.east.profile.width=0.1:0.3 --maximise selectivity \\
+      --subject 'captured > 0.5' --subject 'bond_depth > 20 mJ' --points 40 --out target/best
+
 In parts, on one or several machines:
   tilebind sweep shapes/tab-20mm.toml --vary magnet.pitch=0.02:0.06:9 --plan target/pitch/plan.json
   tilebind sweep --run target/pitch/plan.json --shard 1/4 --threads 1     # and 2/4, 3/4, 4/4
   tilebind sweep --status target/pitch/plan.json
-  tilebind sweep --merge target/pitch/plan.json"
+  tilebind sweep --merge target/pitch/plan.json
+The parts of a search wait for each other: rerun them until the search is finished."
 )]
 pub struct Sweep {
     /// Design files, usually one
@@ -60,7 +77,8 @@ pub struct Sweep {
 
     /// Key of the design (dotted path) and its values; repeat for a grid
     ///
-    /// KEY=a:b:n for n values from a to b, or KEY=v,w,... for a list.
+    /// KEY=a:b:n for n values from a to b, or KEY=v,w,... for a list. For a search also KEY=a:b, any
+    /// number from a to b.
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<Axis>,
 
@@ -74,6 +92,9 @@ pub struct Sweep {
 
     #[command(flatten)]
     request: Request,
+
+    #[command(flatten)]
+    aim: Aims,
 
     /// Only write the manifest [default: plan.json in the folder of --out]
     #[arg(long, value_name = "PLAN", num_args = 0..=1, conflicts_with_all = ["run", "merge", "status"])]
@@ -111,28 +132,45 @@ impl Sweep {
         // Checked before any work.
         self.figures.sheet()?;
         if let Some(file) = &self.status {
-            let (plan, folder) = self.read(file)?;
-            return self.status(&plan, &folder);
+            let (manifest, folder) = self.read(file)?;
+            return match manifest {
+                Manifest::Sweep(plan) => self.status(&plan, &folder),
+                Manifest::Search(search) => self.searching(&search, &folder).status(),
+            };
         }
         if let Some(file) = &self.merge {
-            let (plan, folder) = self.read(file)?;
-            let output = self.output(&plan, &folder, Some(file))?;
+            let (manifest, folder) = self.read(file)?;
+            let output = self.output(manifest.plan(), &folder, Some(file))?;
             interrupt::is_resumable();
-            return self.merge(&plan, &folder, &output);
+            return match manifest {
+                Manifest::Sweep(plan) => self.merge(&plan, &folder, &output),
+                Manifest::Search(search) => {
+                    self.searching(&search, &folder)
+                        .merge(&output, &self.figures, PLAN)
+                }
+            };
         }
         if let Some(file) = &self.run {
-            let (plan, folder) = self.read(file)?;
+            let (manifest, folder) = self.read(file)?;
             Store::new(&folder).check()?;
             interrupt::is_resumable();
-            workload::tell_memory(plan.check_memory(self.threads.count()))?;
+            workload::tell_memory(manifest.plan().check_memory(self.threads.count()))?;
             let shard = self.shard.unwrap_or(Shard::WHOLE);
-            return self.work(&plan, &folder, shard);
+            return match manifest {
+                Manifest::Sweep(plan) => self.work(&plan, &folder, shard),
+                Manifest::Search(search) => self.searching(&search, &folder).part(shard),
+            };
         }
         let mut designs = Vec::new();
         for file in &self.designs {
             let (source, design) = Source::read(file)?;
             input::tell_doubts(&design);
             designs.push((source, design));
+        }
+        let aim = self.aim.aim().map_err(Failure::Usage)?;
+        if let Some(aim) = aim {
+            let search = Search::asked(&self.request.question, designs, self.vary.clone(), aim);
+            return self.search(&search.map_err(Failure::usage)?);
         }
         let plan = self.request.plan(designs, self.vary.clone());
         let plan = plan.map_err(Failure::usage)?;
@@ -150,7 +188,7 @@ impl Sweep {
         let folder = folder_of(&file);
         let output = self.output(&plan, &folder, None)?;
         workload::tell_memory(plan.check_memory(self.threads.count()))?;
-        begin(&plan, &manifest, &folder)?;
+        begin(plan.to_text(), &manifest, &folder)?;
         self.work(&plan, &folder, Shard::WHOLE)?;
         let store = Store::new(&folder);
         let known = |plan: &Plan| {
@@ -160,7 +198,7 @@ impl Sweep {
                 .collect()
         };
         let (plan, left) = self.request.refined(plan, known, |plan| {
-            begin(plan, &manifest, &folder)?;
+            begin(plan.to_text(), &manifest, &folder)?;
             self.work(plan, &folder, Shard::WHOLE)
         })?;
         if let (1.., Some(asked), false) = (left, self.request.refine, self.print.quiet) {
@@ -170,6 +208,39 @@ impl Sweep {
             ));
         }
         self.merge(&plan, &folder, &output)
+    }
+
+    fn searching<'a>(&'a self, search: &'a Search, folder: &'a Path) -> Searching<'a> {
+        Searching {
+            search,
+            folder,
+            threads: self.threads.count(),
+            print: &self.print,
+        }
+    }
+
+    /// Plans a search, or makes it.
+    fn search(&self, search: &Search) -> Result<(), Failure> {
+        let file = self.plan_file()?;
+        let folder = folder_of(&file);
+        let searching = self.searching(search, &folder);
+        searching.check()?;
+        let manifest = self.force.file(&FILES, &file, inputs(&search.plan, None))?;
+        interrupt::is_resumable();
+        if self.plan.is_some() {
+            interrupt::without(|| manifest.write_file(search.to_text()))?;
+            return match self.print.quiet {
+                true => Ok(()),
+                false => print(&format!("search planned in {}\n", file.display())),
+            };
+        }
+        let output = self.output(&search.plan, &folder, None)?;
+        workload::tell_memory(search.plan.check_memory(self.threads.count()))?;
+        begin(search.to_text(), &manifest, &folder)?;
+        match searching.work(Shard::WHOLE)? {
+            Err(SearchError::NonePossible(error)) => Err(Failure::usage(error)),
+            _ => searching.merge(&output, &self.figures, PLAN),
+        }
     }
 
     /// The destination of tables and pictures; an error if files are in the way.
@@ -199,7 +270,7 @@ impl Sweep {
     }
 
     /// A manifest, and the folder of its results.
-    fn read(&self, file: &Path) -> Result<(Plan, PathBuf), Failure> {
+    fn read(&self, file: &Path) -> Result<(Manifest, PathBuf), Failure> {
         let file = if file.is_dir() {
             file.join(PLAN)
         } else {
@@ -208,9 +279,14 @@ impl Sweep {
         let named = |message: String| Failure::Usage(format!("{}: {message}", file.display()));
         let text = tilebind::text::read(&file)
             .map_err(|error| named(format!("cannot read the manifest: {error}")))?;
-        let plan = Plan::parse(&text).map_err(|error| named(error.to_string()))?;
+        let manifest = match Search::parse(&text) {
+            Ok(Some(search)) => Ok(Manifest::Search(search)),
+            Ok(None) => Plan::parse(&text).map(Manifest::Sweep),
+            Err(error) => Err(error),
+        };
+        let manifest = manifest.map_err(|error| named(error.to_string()))?;
         let folder = self.out.clone().unwrap_or_else(|| folder_of(&file));
-        Ok((plan, folder))
+        Ok((manifest, folder))
     }
 
     fn work(&self, plan: &Plan, folder: &Path, shard: Shard) -> Result<(), Failure> {
@@ -279,6 +355,21 @@ impl Sweep {
     }
 }
 
+/// The two kinds of manifest.
+enum Manifest {
+    Sweep(Plan),
+    Search(Search),
+}
+
+impl Manifest {
+    fn plan(&self) -> &Plan {
+        match self {
+            Self::Sweep(plan) => plan,
+            Self::Search(search) => &search.plan,
+        }
+    }
+}
+
 /// The input files of a sweep.
 fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
     let designs = plan.designs.iter().flat_map(Source::files);
@@ -291,11 +382,11 @@ fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
 
 /// Writes the manifest of a new sweep. The manifest of existing results stays with them until they
 /// are replaced.
-fn begin(plan: &Plan, manifest: &Output, folder: &Path) -> Result<(), Failure> {
+fn begin(plan: String, manifest: &Output, folder: &Path) -> Result<(), Failure> {
     if folder.join(REPORT).exists() {
         return Ok(());
     }
-    Ok(interrupt::without(|| manifest.write_file(plan.to_text()))?)
+    Ok(interrupt::without(|| manifest.write_file(plan))?)
 }
 
 fn folder_of(file: &Path) -> PathBuf {

@@ -26,6 +26,7 @@ pub struct PointBar {
 
 struct State {
     done: usize,
+    known: usize,
     last_told: Instant,
 }
 
@@ -45,24 +46,33 @@ impl PointBar {
             start,
             state: Mutex::new(State {
                 done: 0,
+                known,
                 last_told: start,
             }),
             told: !quiet && !std::io::stderr().is_terminal(),
         }
     }
 
+    /// Notes that further points of the bar are known.
+    pub fn known(&self, count: usize) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.known += count;
+        self.bar.inc(count as u64);
+    }
+
     pub fn finished_one(&self) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.done += 1;
         let elapsed = self.start.elapsed();
-        let left = left(elapsed, state.done, self.missing);
+        let missing = self.missing.saturating_sub(state.known - self.known);
+        let left = left(elapsed, state.done, missing);
         self.bar.inc(1);
         self.bar.set_message(left.clone());
         if self.told && state.done < self.missing && state.last_told.elapsed() >= SILENCE {
             state.last_told = Instant::now();
             tell(format!(
                 "{} of {} points, {}, {left}",
-                self.known + state.done,
+                state.known + state.done,
                 self.known + self.missing,
                 HumanDuration(elapsed)
             ));

@@ -6,7 +6,7 @@
 //! | [`start`] | a design to start from |
 //! | [`inspection`], [`matching`], [`workshop`] | the bond and its forces without a search; how the outlines fit; workshop files: outlines with pockets, the order of the magnets |
 //! | [`pipeline`], [`query`] | the analysis of a design; a single barrier |
-//! | [`comparison`], [`sweep`] | analyses of many designs, compared |
+//! | [`comparison`], [`sweep`], [`search`] | analyses of many designs, compared; the best of them |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | docking experiments; the strength of bonds of shaken tiles; rates of binding and unbinding; the yield of a shaken table |
 //! | [`table`] | many tiles on one table |
 //! | [`word_sets`] | sets of barcodes: searches, magnets anywhere along the face, files |
@@ -34,6 +34,7 @@ pub mod query;
 pub mod rates;
 mod refused;
 pub mod request;
+pub mod search;
 mod seated;
 pub mod start;
 pub mod sweep;

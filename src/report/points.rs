@@ -181,7 +181,7 @@ impl Variable {
 }
 
 /// A value with its unit, if it has one: `3 mm`.
-fn said(key: &str, value: &Value) -> String {
+pub(crate) fn said(key: &str, value: &Value) -> String {
     match value.number().filter(|_| LENGTHS.contains(&key)) {
         Some(metres) => format!("{} mm", number(1e3 * metres)),
         None => value.to_string(),

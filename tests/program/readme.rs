@@ -57,7 +57,7 @@ fn shortened(command: &str) -> String {
         if words[0] == "sweep" && is_design(word) && short.iter().any(|w| is_design(w)) {
             continue;
         }
-        let counts = ["--runs", "--simulations"];
+        let counts = ["--runs", "--simulations", "--points"];
         let fewer = word.parse::<usize>().is_ok()
             && short.last().is_some_and(|w| counts.contains(&w.as_str()));
         short.push(match word {

@@ -179,6 +179,31 @@ def test_sweeps_are_those_of_the_program(tab, program, root, tmp_path):
         tilebind.sweep(tab, {"magnet.colour": [1]})
 
 
+def test_searches_are_those_of_the_program(tab, program, root, tmp_path):
+    key = "fixed.faces.east.profile.depth"
+    few = {"milestones": 300, "far_starts": 30, "certify_cells": 100, "complete_cells": 0}
+    aim = {"maximise": "bond_depth", "subject": ["captured > 0.01", "selectivity > 1"], "points": 4}
+    vary = {key: "0.01:0.02", "magnet.inset": [0.001, 0.002]}
+    found = tilebind.search(tab, vary, **aim, progress=False, **few)
+    options = [f"--{k.replace('_', '-')}={v}" for k, v in few.items()]
+    run = [program, "sweep", str(root / "shapes/tab-20mm.toml"), "--vary", f"{key}=0.01:0.02", "--vary"]
+    run += ["magnet.inset=0.001,0.002", "--maximise", "bond_depth", "--subject", "captured > 0.01"]
+    run += ["--subject", "selectivity > 1", "--points", "4", "--out", str(tmp_path), "--quiet", *options]
+    subprocess.run(run, check=True)
+    assert found.report == json.loads((tmp_path / "report.json").read_text())
+    [best] = found.front
+    assert found.best == found.design(best)
+    assert found.best.to_dict() == tilebind.Design.load(tmp_path / "best.toml").to_dict()
+    assert found.best.to_dict()["magnet"]["inset"] == 0.001
+    assert len(pandas.DataFrame(found.table)) == len(found) == 4
+    again = pickle.loads(pickle.dumps(found))
+    assert again.summary() == found.summary() and again.report == found.report
+    for wrong in ({}, {"maximise": "depth"}, {"maximise": "captured", "subject": "captured"},
+                  {"maximise": "captured", "points": 1}):
+        with pytest.raises(ValueError):
+            tilebind.search(tab, vary, **wrong)
+
+
 def test_docking(design):
     found = design.dock(runs=40, seed=3, progress=False)
     assert len(found) == len(found.runs) == found.bound.of == 40

@@ -30,7 +30,7 @@ CALLS = {
     "make": "Design.make",
     "match": "Design.matches",
     "rates": "Design.exits Analysis.rates",
-    "sweep": "sweep",
+    "sweep": "sweep search",
     "table": "_AirTable.__call__",
     "verify": "verify",
     "words": "words",

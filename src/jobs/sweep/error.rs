@@ -30,6 +30,12 @@ pub enum PlanError {
          number, such as --vary fixed.faces.east.profile.depth=0:0.04:5"
     )]
     NoCurve,
+    /// A range has no number of values.
+    #[error(
+        "`{0}={1}` does not give the number of values: write {0}={1}:11 for 11 of them, or search \
+         all of it with --maximise FIGURE"
+    )]
+    NoCount(String, String),
     /// A key cannot be varied.
     #[error("`{path}` cannot be varied: {reason}")]
     Unknown {
@@ -41,6 +47,9 @@ pub enum PlanError {
     /// No point is a valid design.
     #[error("none of the {0} points is possible; the first: {1}")]
     NonePossible(usize, String),
+    /// No point satisfies the conditions of a search, by energies alone.
+    #[error("none of the {0} points satisfies the conditions; the nearest: {1}")]
+    NoneFit(usize, String),
     /// The text is not a manifest.
     #[error("not a manifest of a sweep: {0}")]
     Malformed(String),

@@ -74,4 +74,5 @@ pub use request::Request;
 pub use run::run;
 pub use source::Source;
 pub use store::{Outcome, Progress, Store};
+pub(crate) use vary::rounded;
 pub use vary::{Axis, Value};

@@ -47,6 +47,23 @@ impl Plan {
     /// points, or none is possible. A key that the design does not have counts as a mistake if none
     /// of its values gives a possible design.
     pub fn of(
+        designs: Vec<Source>,
+        axes: Vec<Axis>,
+        settings: Request,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        let plan = Self::between(designs, axes, settings, seed)?;
+        plan.check_count()?;
+        plan.check_possible()?;
+        Ok(plan)
+    }
+
+    /// Plans a search over designs, in which axes may be ranges. Whether any point is possible is
+    /// not checked.
+    ///
+    /// # Errors
+    /// As [`Plan::of`].
+    pub fn between(
         mut designs: Vec<Source>,
         axes: Vec<Axis>,
         settings: Request,
@@ -65,7 +82,6 @@ impl Plan {
         };
         plan.check()?;
         plan.check_keys()?;
-        plan.check_possible()?;
         Ok(plan)
     }
 
@@ -106,14 +122,19 @@ impl Plan {
         Some(points.iter().find(is_meant)?.index)
     }
 
-    /// Rejects empty, too large and ambiguous plans.
-    fn check(&self) -> Result<(), PlanError> {
+    /// Rejects empty and ambiguous plans.
+    pub(crate) fn check(&self) -> Result<(), PlanError> {
         let malformed = |message: String| Err(PlanError::Malformed(message));
         if self.designs.is_empty() {
             return malformed("it has no design".to_owned());
         }
         if let Some(axis) = self.axes.iter().find(|axis| axis.values.is_empty()) {
             return malformed(format!("`{}` has no values", axis.key));
+        }
+        let is_range = |axis: &&Axis| axis.is_range;
+        let is_wrong = |axis: &&Axis| !matches!(axis.numbers().as_deref(), Some([a, b]) if a < b);
+        if let Some(axis) = self.axes.iter().filter(is_range).find(is_wrong) {
+            return malformed(format!("`{}` has no range", axis.key));
         }
         let mut seen = HashSet::new();
         let mut names = self.designs.iter().map(|design| &design.name);
@@ -125,10 +146,19 @@ impl Plan {
         if let Some(key) = keys.find(|key| !seen.insert(*key)) {
             return Err(PlanError::Twice(key.clone()));
         }
-        let lengths = self.axes.iter().map(|axis| axis.values.len() as u128);
-        if let Err(error) = self.settings.check() {
-            return malformed(error.to_string());
+        match self.settings.check() {
+            Err(error) => malformed(error.to_string()),
+            Ok(()) => Ok(()),
         }
+    }
+
+    /// Rejects ranges, which have no points of their own, and too many points.
+    fn check_count(&self) -> Result<(), PlanError> {
+        if let Some(range) = self.axes.iter().find(|axis| axis.is_range) {
+            let ends: Vec<String> = range.values.iter().map(Value::to_string).collect();
+            return Err(PlanError::NoCount(range.key.clone(), ends.join(":")));
+        }
+        let lengths = self.axes.iter().map(|axis| axis.values.len() as u128);
         let count = lengths.fold(self.designs.len() as u128, u128::saturating_mul);
         match count <= MOST_POINTS as u128 {
             true => Ok(()),
@@ -163,11 +193,18 @@ impl Plan {
     pub fn parse(text: &str) -> Result<Self, PlanError> {
         let plan: Self =
             serde_json::from_str(text).map_err(|error| PlanError::Malformed(error.to_string()))?;
-        if plan.tilebind != env!("CARGO_PKG_VERSION") {
-            return Err(PlanError::Version(plan.tilebind));
-        }
+        plan.check_version()?;
         plan.check()?;
+        plan.check_count()?;
         Ok(plan)
+    }
+
+    /// Rejects manifests of other versions.
+    pub(crate) fn check_version(&self) -> Result<(), PlanError> {
+        match self.tilebind == env!("CARGO_PKG_VERSION") {
+            true => Ok(()),
+            false => Err(PlanError::Version(self.tilebind.clone())),
+        }
     }
 
     /// The number of points.
@@ -181,7 +218,9 @@ impl Plan {
     /// # Errors
     /// If the machine does not have enough memory.
     pub fn check_memory(&self, threads: usize) -> Result<Option<String>, String> {
-        let (survey, at_once) = (&self.settings.survey, threads.min(self.count()));
+        let is_search = self.axes.iter().any(|axis| axis.is_range);
+        let most = if is_search { threads } else { self.count() };
+        let (survey, at_once) = (&self.settings.survey, threads.min(most));
         memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
 
@@ -199,7 +238,7 @@ impl Plan {
     /// would take gigabytes.
     pub fn each<T: Send>(&self, of: impl Fn(Point) -> T + Sync) -> Vec<T> {
         let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
-        let settings = json!({"settings": self.settings, "seed": self.seed}).to_string();
+        let settings = self.named_settings();
         parallel::map(0..self.count(), |index| {
             of(self.point(&documents, &settings, index))
         })
@@ -214,7 +253,27 @@ impl Plan {
             place /= axis.values.len();
         }
         values.reverse();
-        let mut document = documents[design].clone();
+        self.with(&documents[design], settings, (index, design, values))
+    }
+
+    /// A point with given values, one for each axis.
+    pub fn point_of(&self, index: usize, design: usize, values: Vec<Value>) -> Point {
+        let document = self.designs[design].document();
+        self.with(&document, &self.named_settings(), (index, design, values))
+    }
+
+    /// What names contain besides the design.
+    fn named_settings(&self) -> String {
+        json!({"settings": self.settings, "seed": self.seed}).to_string()
+    }
+
+    fn with(
+        &self,
+        document: &Table,
+        settings: &str,
+        (index, design, values): (usize, usize, Vec<Value>),
+    ) -> Point {
+        let mut document = document.clone();
         let mut set = self.axes.iter().zip(&values);
         let text = set
             .try_for_each(|(axis, value)| document::set(&mut document, &axis.key, value.toml()))
@@ -286,12 +345,12 @@ impl Plan {
                 if document::holds(document, &axis.key) {
                     continue;
                 }
-                let reasons: Vec<String> = axis
-                    .values
+                let samples = axis.samples();
+                let reasons: Vec<String> = samples
                     .iter()
                     .map_while(|value| source.fault(document, &axis.key, value))
                     .collect();
-                if reasons.len() == axis.values.len() {
+                if reasons.len() == samples.len() {
                     let mut reason = reasons.into_iter().next().unwrap_or_default();
                     if let Some(meant) = document::paths(document, &axis.key).first() {
                         reason = format!("it needs the full path, such as `{meant}`");

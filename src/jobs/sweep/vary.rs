@@ -60,6 +60,7 @@ impl fmt::Display for Value {
 ///
 /// Written as `KEY=a:b:n`, n evenly spaced numbers from a to b (`0 mm:30 mm:4` too), or as a list `KEY=v,w,...` of
 /// numbers, `true` and `false`, and words; a word that looks like a number goes in double quotes.
+/// `KEY=a:b` is a range, of which a search takes any number.
 ///
 /// ```
 /// use tilebind_jobs::sweep::{Axis, Value};
@@ -74,11 +75,32 @@ impl fmt::Display for Value {
 pub struct Axis {
     /// The dotted path.
     pub key: String,
-    /// In the order of the sweep.
+    /// In the order of the sweep; the two ends of a range.
     pub values: Vec<Value>,
+    /// Whether all numbers between its two values are meant, as in `KEY=a:b`: in a search only.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_range: bool,
 }
 
 impl Axis {
+    /// A key with listed values.
+    pub fn listed(key: String, values: Vec<Value>) -> Self {
+        Self {
+            key,
+            values,
+            is_range: false,
+        }
+    }
+
+    /// Its values; of a range also the middle.
+    pub(super) fn samples(&self) -> Vec<Value> {
+        let mut samples = self.values.clone();
+        if let ([from, to], true) = (&self.numbers().unwrap_or_default()[..], self.is_range) {
+            samples.push(Value::Number(rounded((from + to) / 2.0)));
+        }
+        samples
+    }
+
     /// The last part of its path.
     pub fn name(&self) -> &str {
         self.key.rsplit('.').next().unwrap_or(&self.key)
@@ -104,21 +126,29 @@ impl std::str::FromStr for Axis {
         let values = match values.split(':').collect::<Vec<_>>()[..] {
             [from, to, count] => range(from, to, count)?,
             [from, to] if !values.contains('"') && end(from).is_ok() && end(to).is_ok() => {
-                return Err(format!(
-                    "`{values}` does not give the number of values: write {key}={values}:11 for \
-                     11 of them"
-                ));
+                return between(key, end(from)?, end(to)?);
             }
             _ => values
                 .split(',')
                 .map(|word| value(word.trim()))
                 .collect::<Result<_, _>>()?,
         };
-        Ok(Self {
-            key: key.to_owned(),
-            values,
-        })
+        Ok(Self::listed(key.to_owned(), values))
     }
+}
+
+/// All numbers from one to another.
+fn between(key: &str, from: f64, to: f64) -> Result<Axis, String> {
+    if from >= to {
+        return Err(format!(
+            "the range of `{key}` is empty: write the smaller end first, such as {key}=0:0.05"
+        ));
+    }
+    Ok(Axis {
+        key: key.to_owned(),
+        values: [from, to].map(Value::Number).to_vec(),
+        is_range: true,
+    })
 }
 
 /// `count` evenly spaced numbers; whole ones if all are whole and both ends are written so.
@@ -162,7 +192,7 @@ fn end(text: &str) -> Result<f64, String> {
 }
 
 /// A number to twelve significant digits: 0.03, not 0.030000000000000002. Never -0.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(crate) fn rounded(value: f64) -> f64 {
     let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
     rounded + 0.0
 }

@@ -2,7 +2,7 @@
 //!
 //! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
 //!   configurations;
-//! - [`analysis`], [`comparison`], [`sweep`], [`dock`], [`words`], [`assembly`], [`verification`] -
+//! - [`analysis`], [`comparison`], [`sweep`], [`search`], [`dock`], [`words`], [`assembly`], [`verification`] -
 //!   the results of jobs;
 //! - [`request`] - options as keyword arguments; [`job`] - long work: progress, ctrl-C, faults;
 //! - [`shown`] - display of results; [`table`] - structured arrays; [`convert`] - conversion of
@@ -20,6 +20,7 @@ mod job;
 mod pickle;
 mod poses;
 mod request;
+mod search;
 mod shown;
 mod sweep;
 mod table;
@@ -37,9 +38,11 @@ fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<design::Design>()?;
     module.add_class::<analysis::Analysis>()?;
     module.add_class::<comparison::Comparison>()?;
+    module.add_class::<search::Search>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<dock::Docking>()?;
     module.add_function(wrap_pyfunction!(comparison::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(search::search, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(dock::dock, module)?)?;
     module.add_function(wrap_pyfunction!(words::words, module)?)?;

@@ -16,7 +16,7 @@ use crate::shown::{self, Reduced};
 use crate::{convert, fault, job, pickle, table};
 
 /// A key's values.
-fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
+pub fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
     let key: String = key.extract()?;
     let one = |value: Bound<'_, PyAny>| match convert::toml(&value)? {
         toml::Value::Boolean(truth) => Ok(Value::Truth(truth)),
@@ -29,7 +29,7 @@ fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
     };
     let values = values.try_iter()?.map(|value| one(value?));
     let values = values.collect::<PyResult<Vec<_>>>()?;
-    Ok(Axis { key, values })
+    Ok(Axis::listed(key, values))
 }
 
 /// Vary keys of a design and analyse every resulting design.

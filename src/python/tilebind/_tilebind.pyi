@@ -284,6 +284,22 @@ class Sweep:
     def __len__(self) -> int: ...
 
 @final
+class Search:
+    @property
+    def best(self) -> Design | None: ...
+    @property
+    def front(self) -> list[int]: ...
+    @property
+    def table(self) -> _Table: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def design(self, index: int) -> Design: ...
+    def summary(self) -> str: ...
+    def svg(self) -> list[str]: ...
+    def report_html(self) -> str: ...
+    def __len__(self) -> int: ...
+
+@final
 class Docking:
     @property
     def bound(self) -> Share: ...
@@ -338,6 +354,26 @@ def sweep(
     seed: int = 1,
     progress: bool | None = None,
 ) -> Sweep: ...
+def search(
+    designs: Design | Sequence[Design],
+    vary: Mapping[str, str | Iterable[float | str | bool]],
+    *,
+    maximise: str | Sequence[str] | None = None,
+    minimise: str | Sequence[str] | None = None,
+    subject: str | Sequence[str] | None = None,
+    points: int = 60,
+    milestones: int = 8000,
+    neighbours: int | None = None,
+    settled: float = 0.005,
+    far_starts: int = 1000,
+    kinds: int | None = None,
+    tolerance: float | None = None,
+    certify_cells: int = 200_000,
+    complete_cells: int = 300_000,
+    dynamics_runs: int = 0,
+    seed: int = 1,
+    progress: bool | None = None,
+) -> Search: ...
 def dock(
     design: Design,
     *,

@@ -67,7 +67,7 @@ impl Sweep<'_> {
             .table(self.listed())
     }
 
-    fn entry(&self, point: &Point) -> Json {
+    pub(super) fn entry(&self, point: &Point) -> Json {
         let values: Map<String, Json> = self
             .plan
             .axes

@@ -5,6 +5,7 @@ mod interruptions;
 mod mistakes;
 mod parts;
 mod records;
+mod search;
 mod tables;
 
 use std::collections::BTreeMap;

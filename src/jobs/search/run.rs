@@ -1,0 +1,326 @@
+//! A search from its manifest: which points are tried, in which order.
+
+use std::collections::HashSet;
+
+use ordered_float::OrderedFloat;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::energies;
+use super::manifest::{Search, Stage};
+use super::model::Model;
+use super::race;
+use super::rank::{self, Standing, levels, scores};
+use super::space::{Place, STEP, Space};
+use super::tried::{Found, SearchError, Tried};
+use crate::sweep::{Outcome, Plan, PlanError, Point};
+use physics::order::Order;
+
+/// The share of the points that are spread over the space.
+const SPREAD: f64 = 1.0 / 3.0;
+/// The share of the points of a round, and the limits of their number.
+const ROUND: f64 = 1.0 / 15.0;
+const ROUNDS: [usize; 2] = [4, 32];
+/// Number of places from which the next point is chosen: from everywhere, and near the best.
+const ANYWHERE: usize = 400;
+const NEAR: usize = 200;
+/// The reach of the box about the best, relative to the ranges: at first, and at least.
+const REACH: f64 = 0.25;
+const LEAST_REACH: f64 = 0.002;
+/// Largest number of points that the model follows: the best of them.
+const FOLLOWED: usize = 200;
+/// The steps beside the best are taken if they are at most this share of the points.
+const BESIDE: f64 = 0.25;
+/// Impossible designs that are met for each point, at most.
+const MOST_REFUSED: usize = 20;
+
+impl Search {
+    /// Searches. `work` gives the outcomes of points of a plan, or the number of those that have
+    /// none yet.
+    ///
+    /// # Errors
+    /// The first error of `work`.
+    pub fn run<E>(
+        &self,
+        mut work: impl FnMut(&Plan, &[Point]) -> Result<Result<Vec<Outcome>, usize>, E>,
+    ) -> Result<Result<Found, SearchError>, E> {
+        let mut course = Course::new(self);
+        while let Some(round) = course.next() {
+            let points: Vec<Point> = round.iter().map(|(point, _)| point.clone()).collect();
+            match work(&course.plan, &points)? {
+                Ok(outcomes) => course.take(round, outcomes),
+                Err(missing) => {
+                    let known = course.tried.len();
+                    return Ok(Err(SearchError::Unfinished(missing, known)));
+                }
+            }
+        }
+        if course.analysed == 0 {
+            return Ok(Err(SearchError::NonePossible(course.none_possible())));
+        }
+        let mut found = Found {
+            tried: course.tried,
+        };
+        let known = found.tried.len();
+        let proofs = race::race(self, &mut found.tried, &mut work)?;
+        Ok(match proofs {
+            Ok(()) => Ok(found),
+            Err(missing) => Err(SearchError::Unfinished(missing, known)),
+        })
+    }
+}
+
+/// A search on its way.
+struct Course<'a> {
+    search: &'a Search,
+    /// The plan of the points without proofs.
+    plan: Plan,
+    space: Space,
+    random: ChaCha8Rng,
+    tried: Vec<Tried>,
+    known: HashSet<Place>,
+    analysed: usize,
+    refused: usize,
+    reach: f64,
+    best: Option<usize>,
+    about: Option<usize>,
+}
+
+/// Points that are analysed at the same time, with their places.
+type Round = Vec<(Point, Place)>;
+
+impl<'a> Course<'a> {
+    fn new(search: &'a Search) -> Self {
+        Self {
+            search,
+            plan: search.stage(Stage::States),
+            space: Space::of(&search.plan),
+            random: ChaCha8Rng::seed_from_u64(search.plan.seed),
+            tried: Vec::new(),
+            known: HashSet::new(),
+            analysed: 0,
+            refused: 0,
+            reach: REACH,
+            best: None,
+            about: None,
+        }
+    }
+
+    /// The points of the next round; `None` at the end.
+    fn next(&mut self) -> Option<Round> {
+        let points = self.search.aim.points;
+        let round = if self.space.count() <= points {
+            let places = self.space.all();
+            self.admitted(places, points)
+        } else if self.analysed < self.spread() {
+            self.spreading()
+        } else {
+            // What the steps beside the best did not need is left for the model.
+            let kept = self.about.map_or(self.reserved(), |_| 0);
+            match (points - kept).saturating_sub(self.analysed) {
+                0 if self.about.is_none() => self.beside(),
+                left => {
+                    let usual = (ROUND * points as f64) as usize;
+                    self.improving(usual.clamp(ROUNDS[0], ROUNDS[1]).min(left))
+                }
+            }
+        };
+        Some(round).filter(|round| !round.is_empty())
+    }
+
+    /// Number of points that are spread over the space.
+    fn spread(&self) -> usize {
+        let points = self.search.aim.points;
+        ((SPREAD * points as f64).ceil() as usize)
+            .max(2)
+            .min(points)
+    }
+
+    /// Number of points left for the steps beside the best.
+    fn reserved(&self) -> usize {
+        let numbers = self.space.dimensions.iter().filter(|one| one.is_ordered);
+        let steps = 2 * numbers.count();
+        let few = steps as f64 <= BESIDE * self.search.aim.points as f64;
+        let single = self.search.aim.objectives.len() == 1;
+        if few && single { steps } else { 0 }
+    }
+
+    fn spreading(&mut self) -> Round {
+        let mut round = Vec::new();
+        let wanted = self.spread() - self.analysed;
+        while round.len() < wanted && self.may_go_on() {
+            let places = self.space.spread(wanted, &mut self.random);
+            let left = wanted - round.len();
+            round.extend(self.admitted(places, left));
+        }
+        round
+    }
+
+    fn may_go_on(&self) -> bool {
+        self.refused < MOST_REFUSED * self.search.aim.points
+            && self.known.len() < self.space.count()
+    }
+
+    /// The points to be analysed among new places, at most `most`; impossible ones, and those that
+    /// energies refuse, are noted.
+    fn admitted(&mut self, places: impl IntoIterator<Item = Place>, most: usize) -> Round {
+        let mut round = Vec::new();
+        for place in places {
+            if round.len() == most {
+                break;
+            }
+            round.extend(self.admit(place));
+        }
+        round
+    }
+
+    fn admit(&mut self, place: Place) -> Option<(Point, Place)> {
+        if !self.known.insert(place.clone()) {
+            // Counted, so that a search among few possible designs ends.
+            self.refused += 1;
+            return None;
+        }
+        let (design, values) = self.space.values(&self.plan, &place);
+        let point = self.plan.point_of(self.known.len() - 1, design, values);
+        let refused = match self.plan.design(&point) {
+            Ok(design) => energies::refusal(&self.search.aim, &design)
+                .map(|(violation, reason)| (Some(violation), reason)),
+            Err(reason) => Some((None, reason)),
+        };
+        let Some((refused, reason)) = refused else {
+            return Some((point, place));
+        };
+        self.refused += 1;
+        self.tried.push(Tried {
+            point,
+            place,
+            outcome: Outcome::Impossible { reason },
+            refused,
+            proved: None,
+        });
+        None
+    }
+
+    fn take(&mut self, round: Round, outcomes: Vec<Outcome>) {
+        self.analysed += outcomes.len();
+        let all = round.into_iter().zip(outcomes);
+        self.tried
+            .extend(all.map(|((point, place), outcome)| Tried {
+                point,
+                place,
+                outcome,
+                refused: None,
+                proved: None,
+            }));
+        self.tried.order_by_key(|one| one.point.index);
+        let one = vec![1.0; self.search.aim.objectives.len()];
+        let levels = levels(&self.standings(), &one);
+        let best = rank::first(&levels).map(|best| self.tried[best].point.index);
+        // Impossible points that are met later move the places of others, not their indices.
+        let better = best != self.best;
+        self.reach = match better {
+            true => (1.5 * self.reach).min(REACH),
+            false => (0.5 * self.reach).max(LEAST_REACH),
+        };
+        self.best = best;
+    }
+
+    fn standings(&self) -> Vec<Standing> {
+        let aim = &self.search.aim;
+        self.tried
+            .iter()
+            .map(|one| Standing::of(aim, one))
+            .collect()
+    }
+
+    /// The next points by the model.
+    fn improving(&mut self, count: usize) -> Round {
+        let mut round: Round = Vec::new();
+        while round.len() < count && self.may_go_on() {
+            let waiting: Vec<Place> = round.iter().map(|(_, place)| place.clone()).collect();
+            let is_near = round.len() % 2 == 1;
+            let Some(place) = self.most_promising(&waiting, is_near) else {
+                self.refused += 1;
+                continue;
+            };
+            round.extend(self.admit(place));
+        }
+        round
+    }
+
+    /// The place with the largest expected improvement, while others wait for their results.
+    fn most_promising(&mut self, waiting: &[Place], is_near: bool) -> Option<Place> {
+        let weights = match self.search.aim.objectives.len() {
+            1 => vec![1.0],
+            _ => {
+                let one: f64 = self.random.random();
+                vec![one, 1.0 - one]
+            }
+        };
+        let levels = levels(&self.standings(), &weights);
+        let all = scores(&levels);
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.order_by(|&a, &b| all[b].total_cmp(&all[a]));
+        order.truncate(FOLLOWED);
+        let centre = &self.tried[order[0]].place;
+        let mut places: Vec<Place> = Vec::new();
+        if !is_near {
+            places.extend((0..ANYWHERE).map(|_| self.space.anywhere(&mut self.random)));
+        }
+        let near = |_| self.space.near(centre, self.reach, &mut self.random);
+        places.extend((0..NEAR).map(near));
+        let mut values: Vec<f64> = order.iter().map(|&k| all[k]).collect();
+        let best = values[0];
+        let known = order.iter().map(|&k| &self.tried[k].place).collect();
+        let mut model = Model::fitted(&self.space, known, &values);
+        for place in waiting {
+            model = model.with(place, &mut values);
+        }
+        let mut most: Option<(f64, Place)> = None;
+        for place in places {
+            if self.known.contains(&place) {
+                continue;
+            }
+            let improvement = model.improvement(&place, best);
+            if most.as_ref().is_none_or(|(known, _)| improvement > *known) {
+                most = Some((improvement, place));
+            }
+        }
+        most.map(|(_, place)| place)
+    }
+
+    /// The steps beside the best.
+    fn beside(&mut self) -> Round {
+        let best = self
+            .tried
+            .iter()
+            .find(|one| Some(one.point.index) == self.best);
+        let Some(best) = best.filter(|_| self.reserved() > 0).cloned() else {
+            return Vec::new();
+        };
+        self.about = Some(best.point.index);
+        let places = self.space.beside(&best.place, STEP);
+        self.admitted(places, usize::MAX)
+    }
+
+    /// Why nothing was analysed: the reason of the point that comes nearest to the conditions, or
+    /// else of the first.
+    fn none_possible(&self) -> PlanError {
+        let count = self.tried.len();
+        let violation = |one: &&Tried| OrderedFloat(one.refused.unwrap_or(f64::INFINITY));
+        let Some(nearest) = self.tried.iter().min_by_key(violation) else {
+            return PlanError::NonePossible(count, String::new());
+        };
+        let reason = match &nearest.outcome {
+            Outcome::Impossible { reason } | Outcome::Failed { reason } => reason.as_str(),
+            Outcome::Done { .. } => "",
+        };
+        let values = self.plan.axes.iter().zip(&nearest.point.values);
+        let values = values.map(|(axis, value)| format!("{} = {value}", axis.key));
+        let reason = format!("{}: {reason}", values.collect::<Vec<_>>().join(", "));
+        match nearest.refused {
+            Some(_) => PlanError::NoneFit(count, reason),
+            None => PlanError::NonePossible(count, reason),
+        }
+    }
+}

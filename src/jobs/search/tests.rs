@@ -1,0 +1,274 @@
+//! Searches over functions that are known.
+
+use std::convert::Infallible;
+
+use super::*;
+use crate::comparison::{self, Assessment, Bond, Trap, Way};
+use crate::sweep::{Axis, Outcome, Plan, PlanError, Point, Source};
+use physics::landscape::SaddleBounds;
+
+fn source() -> Source {
+    let file = "../../shapes/tab-20mm.toml";
+    let (source, _) = Source::read(file.as_ref()).unwrap();
+    source
+}
+
+fn search(axes: &[&str], aim: Request) -> Search {
+    let axes: Vec<Axis> = axes.iter().map(|axis| axis.parse().unwrap()).collect();
+    let settings = comparison::Request::default().of([]);
+    let aim = aim.aim().unwrap().unwrap();
+    Search::of(vec![source()], axes, settings, 1, aim).unwrap()
+}
+
+fn aim(maximise: &[&str], subject: &[&str], points: usize) -> Request {
+    let objective = |text: &&str| Objective {
+        quantity: (*text).to_owned(),
+        largest: true,
+    };
+    Request {
+        maximise: maximise.iter().map(objective).collect(),
+        minimise: Vec::new(),
+        subject: subject.iter().map(|text| text.parse().unwrap()).collect(),
+        points: Some(points),
+    }
+}
+
+/// A design with this bond and trap, from which `captured` of 100 starts end in the bond.
+fn design(bond: f64, trap: f64, captured: usize) -> Assessment {
+    Assessment {
+        bond: Some(Bond {
+            pose: [0.0; 3],
+            energy: -bond,
+            way_out: Way::default(),
+            capture_range: None,
+        }),
+        deepest_trap: Some(Trap {
+            pose: [0.0; 3],
+            energy: -trap,
+            escape: Way::default(),
+        }),
+        far_starts: 100,
+        captured,
+        ..Assessment::default()
+    }
+}
+
+/// Searches with a function of the varied numbers instead of analyses; also the number of proofs.
+fn found(search: &Search, of: impl Fn(&[f64]) -> Assessment) -> (Found, usize) {
+    let mut proofs = 0;
+    let work = |plan: &Plan, points: &[Point]| {
+        if plan.settings.complete_cells != Some(0) {
+            proofs += points.len();
+        }
+        let outcome = |point: &Point| {
+            let numbers: Vec<f64> = point
+                .values
+                .iter()
+                .map(|v| v.number().unwrap_or(0.0))
+                .collect();
+            Outcome::Done {
+                result: Box::new(of(&numbers)),
+            }
+        };
+        Ok::<_, Infallible>(Ok(points.iter().map(outcome).collect()))
+    };
+    let Ok(found) = search.run(work);
+    (found.unwrap(), proofs)
+}
+
+/// A hill with its top at a depth of 31 mm and a width of 0.17 m.
+fn hill([depth, width]: [f64; 2]) -> f64 {
+    let (x, y) = ((depth - 0.031) / 0.02, (width - 0.17) / 0.1);
+    0.1 * libm::exp(-x * x - 2.0 * y * y - x * y)
+}
+
+const SQUARE: [&str; 2] = [
+    "fixed.faces.east.profile.depth=0.001:0.05",
+    "fixed.faces.east.profile.width=0.05:0.3",
+];
+
+#[test]
+fn the_top_of_a_hill_is_found_within_a_thousandth_where_chance_misses_it() {
+    let search = search(&SQUARE, aim(&["bond_depth"], &[], 60));
+    let (found, _) = found(&search, |at| design(hill([at[0], at[1]]), 0.001, 50));
+    let value = |one: &Tried| match &one.outcome {
+        Outcome::Done { result } => -result.bond.as_ref().unwrap().energy,
+        _ => 0.0,
+    };
+    let best = found.front(&search)[0];
+    assert!(
+        value(&found.tried[best]) > 0.0999,
+        "{:?}",
+        found.tried[best]
+    );
+    // The places spread first are as good as chance.
+    let spread = found.tried[..20].iter().map(value).fold(0.0, f64::max);
+    assert!(spread < 0.099, "{spread}");
+    let effects = found.effects(&search);
+    assert!(
+        effects.iter().all(|one| one.ends == [false; 2]),
+        "{effects:?}"
+    );
+}
+
+#[test]
+fn a_figure_that_grows_all_along_a_range_leads_to_its_end() {
+    let search = search(&SQUARE[..1], aim(&["bond_depth"], &[], 12));
+    let (found, _) = found(&search, |at| design(at[0], 0.001, 50));
+    let best = found.front(&search)[0];
+    assert_eq!(found.tried[best].point.values[0].number(), Some(0.05));
+    let [effect] = &found.effects(&search)[..] else {
+        panic!("one key")
+    };
+    assert_eq!(effect.ends, [false, true]);
+}
+
+#[test]
+fn the_best_that_satisfies_a_condition_is_at_its_limit() {
+    let aim = aim(&["bond_depth"], &["captured >= 0.4"], 60);
+    let search = search(&SQUARE, aim);
+    // Bonds get deeper towards the top, where fewer tiles are captured.
+    let of = |at: &[f64]| {
+        let depth = hill([at[0], at[1]]);
+        design(depth, 0.001, 90 - (700.0 * depth) as usize)
+    };
+    let (found, _) = found(&search, of);
+    let best = found.front(&search)[0];
+    let Outcome::Done { result } = &found.tried[best].outcome else {
+        panic!("it was analysed")
+    };
+    assert!(result.captured >= 40, "{result:?}");
+    assert!(result.bond.as_ref().unwrap().energy < -0.070, "{result:?}");
+    // Its share of 0.4 is not proved to be above 0.4, nor one slightly below to be below.
+    let standings = found.standings(&search);
+    let unfit = standings
+        .iter()
+        .filter(|one| matches!(one, Standing::Unfit { .. }));
+    assert!(unfit.count() > 3);
+}
+
+#[test]
+fn the_front_of_two_objectives_leads_from_one_top_to_the_other() {
+    let search = search(&SQUARE[..1], aim(&["bond_depth", "selectivity"], &[], 40));
+    // The deepest bond at the upper end, the best selectivity at the lower.
+    let of = |at: &[f64]| design(at[0] + 0.01, 0.02 * (at[0] + 0.01) * (at[0] + 0.001), 50);
+    let (found, proofs) = found(&search, of);
+    let front = found.front(&search);
+    assert_eq!(
+        front.len(),
+        found.tried.len(),
+        "every point is on the front"
+    );
+    let depth = |k: usize| found.tried[k].point.values[0].number().unwrap();
+    assert!(front.windows(2).all(|pair| depth(pair[0]) > depth(pair[1])));
+    assert!(depth(front[0]) > 0.049 && depth(front[front.len() - 1]) < 0.002);
+    assert!(proofs <= search.most_proofs());
+}
+
+#[test]
+fn listed_values_and_designs_are_all_tried_if_there_are_few() {
+    let axes = [
+        "fixed.faces.east.code=NNNS,NNSS,NSNS",
+        "magnet.pitch=0.03:0.05:3",
+    ];
+    let search = search(&axes, aim(&["bond_depth"], &[], 20));
+    let (found, _) = found(&search, |at| design(at[1], 0.001, 50));
+    assert_eq!(found.tried.len(), 9);
+    let best = &found.tried[found.front(&search)[0]];
+    assert_eq!(best.point.values[1].number(), Some(0.05));
+}
+
+#[test]
+fn a_search_without_a_possible_design_says_the_first_reason() {
+    let aim = aim(&["bond_depth"], &[], 4);
+    let search = search(&["magnet.pitch=0.0001:0.001"], aim);
+    let none = |_: &Plan, _: &[Point]| -> Result<Result<Vec<Outcome>, usize>, Infallible> {
+        panic!("nothing to analyse")
+    };
+    let Ok(Err(SearchError::NonePossible(PlanError::NonePossible(tried, reason)))) =
+        search.run(none)
+    else {
+        panic!("no point is possible")
+    };
+    assert!(
+        tried >= 4 && reason.starts_with("magnet.pitch = "),
+        "{tried}: {reason}"
+    );
+}
+
+#[test]
+fn energies_settle_conditions_on_the_bond_before_any_analysis() {
+    // Flush magnets bind with 65 mJ, ones 3 mm behind the surface with 16 mJ.
+    let aim = aim(&["captured"], &["bond_depth > 40 mJ"], 8);
+    let search = search(&["magnet.inset=0:0.01"], aim);
+    let of = |at: &[f64]| {
+        assert!(at[0] < 0.002, "{at:?}");
+        design(0.05, 0.001, (10_000.0 * at[0]) as usize + 10)
+    };
+    let (found, _) = found(&search, of);
+    let verdicts = found.verdicts(&search);
+    let refused = (0..verdicts.len()).filter(|&k| found.tried[k].refused.is_some());
+    let refused: Vec<usize> = refused.collect();
+    assert!(refused.len() > 4 && found.tried.len() == refused.len() + 8);
+    assert!(refused.iter().all(|&k| verdicts[k] == Verdict::Worse));
+}
+
+#[test]
+fn only_points_that_may_still_be_best_are_proved() {
+    let aim = aim(&["unbinding"], &[], 10);
+    let search = search(&["fixed.faces.east.profile.depth=0.01:0.05:5"], aim);
+    // Unbinding barriers from 10 to 50 mJ. Without proofs they are bounded from above; proofs give
+    // lower bounds 5 mJ below, so that only the two highest, 50 and 46 mJ, can be the best.
+    let barriers = [0.010, 0.020, 0.030, 0.046, 0.050];
+    let barrier = |depth: f64| barriers[(100.0 * depth).round() as usize - 1];
+    let mut proved = Vec::new();
+    let work = |plan: &Plan, points: &[Point]| {
+        let is_proof = plan.settings.complete_cells != Some(0);
+        let outcomes = points.iter().map(|point| {
+            let barrier = barrier(point.values[0].number().unwrap());
+            let mut one = design(0.06, 0.001, 50);
+            let way = &mut one.bond.as_mut().unwrap().way_out;
+            way.saddle = Some(barrier - 0.06);
+            way.bounds = SaddleBounds {
+                lower: Some(if is_proof { barrier - 0.065 } else { -0.06 }),
+                upper: Some(barrier - 0.06),
+                ..SaddleBounds::default()
+            };
+            if is_proof {
+                proved.push(barrier);
+            }
+            Outcome::Done {
+                result: Box::new(one),
+            }
+        });
+        Ok::<_, Infallible>(Ok(outcomes.collect()))
+    };
+    let Ok(found) = search.run(work);
+    let found = found.unwrap();
+    assert_eq!(proved, [0.050, 0.046]);
+    let verdicts = found.verdicts(&search);
+    use Verdict::{Best, Undecided, Worse};
+    assert_eq!(verdicts, [Worse, Worse, Worse, Undecided, Best]);
+}
+
+#[test]
+fn a_manifest_holds_the_whole_search() {
+    let search = search(&SQUARE, aim(&["bond"], &["captured > 0.5"], 30));
+    let mut known = Search::parse(&search.to_text()).unwrap().unwrap();
+    assert_eq!(known.aim.objectives[0].quantity, "bond_depth");
+    known.aim.objectives = search.aim.objectives.clone();
+    assert_eq!(known, search);
+    let sweep = r#"{"tilebind": "0", "designs": []}"#;
+    assert_eq!(Search::parse(sweep), Ok(None));
+    for (from, to) in [
+        ("\"bond\"", "\"depth\""),
+        ("\"points\": 30", "\"points\": 0"),
+        ("\"points\": 30", "\"points\": 1000000000"),
+        ("0.001,", "0.1,"),
+        ("\"is_range\": true", "\"is_range\": 1"),
+    ] {
+        let text = search.to_text();
+        assert!(text.contains(from), "{from}");
+        assert!(Search::parse(&text.replace(from, to)).is_err(), "{from}");
+    }
+}
