@@ -1,7 +1,10 @@
 //! Says before an analysis that it takes much memory or time, or, for many magnets, that it is
 //! sampled less.
 
+use std::collections::BTreeSet;
+
 use tilebind::potential::MagnetModel;
+use tilebind::tile::Tile;
 use tilebind::units::{duration, si};
 use tilebind::{Design, Settings};
 
@@ -41,8 +44,44 @@ const A_PAIR: f64 = 0.015;
 /// Shorter proofs (s) are not worth a word.
 const SHORT: f64 = 60.0;
 
-/// For proofs that may take minutes, says how long, and how to do without them.
+/// From so many different pairs of faces on, states take minutes: about a second for each pair.
+const MANY_PAIRS: usize = 100;
+
+/// The number of faces with magnets that differ from each other in these.
+fn different_faces(tile: &Tile) -> usize {
+    let rounded = |x: f64| (1e6 * x).round() as i64;
+    let faces = tile.faces.iter().enumerate().map(|(number, face)| {
+        let (middle, normal) = (face.middle(), face.normal());
+        let on = tile.magnets.iter().filter(|it| it.face == number);
+        let mut magnets: Vec<_> = on
+            .map(|it| {
+                let way = it.position - middle;
+                let pole = it.pole(normal) as u8;
+                (rounded(normal.perp(&way)), rounded(normal.dot(&way)), pole)
+            })
+            .collect();
+        magnets.sort_unstable();
+        magnets
+    });
+    let kinds: BTreeSet<_> = faces.filter(|it| !it.is_empty()).collect();
+    kinds.len()
+}
+
+/// For tiles of very many different faces, whose states take minutes, says so.
+fn tell_faces(design: &Design) {
+    let [fixed, moving] = [&design.pair.fixed, &design.pair.moving].map(different_faces);
+    if fixed * moving >= MANY_PAIRS {
+        tell(format!(
+            "note: {} pairs of faces have different magnets, and each is searched for states: expect \
+             minutes; the progress shows how many are left",
+            fixed * moving
+        ));
+    }
+}
+
+/// For proofs that may take minutes, says how long, and how to do without them; and so for states.
 pub fn tell_time(design: &Design, asked: &Settings, threads: usize) {
+    tell_faces(design);
     if let Some(note) = of_time(design, asked, threads as f64) {
         tell(note);
     }
@@ -90,6 +129,37 @@ pub fn tell_memory(checked: Result<Option<String>, String>) -> Result<(), Failur
 mod tests {
     use super::*;
     use tilebind::budget::Allowance;
+
+    /// Sides with equal codes are one kind; with a code of its own, each is one.
+    #[test]
+    fn faces_with_the_same_magnets_are_one_kind() {
+        let design = |codes: fn(usize) -> String| {
+            let faces = |tile: &str| {
+                let codes = (0..12).map(|k| match (tile, k) {
+                    ("moving", 0) => "0 = { mates = \"0\" }\n".to_owned(),
+                    _ => format!("{k} = {{ code = \"{}\" }}\n", codes(k)),
+                });
+                let codes: String = codes.collect();
+                format!(
+                    "[{tile}]\nsides = 12\nside = 0.08\nthickness = 0.013\nmass = 0.1\n[{tile}.faces]\n{codes}"
+                )
+            };
+            let text = format!(
+                "name = \"many\"\n[table]\nsize = [2.0, 2.0]\n[magnet]\nsize = [0.004, 0.004, 0.003]\n\
+                 remanence = 1.2\npitch = 0.015\n{}{}[target]\nfixed = 0\nmoving = 0\n",
+                faces("fixed"),
+                faces("moving")
+            );
+            Design::parse(&text, "many.toml").unwrap()
+        };
+        let own = |k: usize| -> String {
+            (0..4)
+                .map(|bit| if k >> bit & 1 == 1 { 'N' } else { 'S' })
+                .collect()
+        };
+        assert_eq!(different_faces(&design(own).pair.fixed), 12);
+        assert_eq!(different_faces(&design(|_| "NNS".to_owned()).pair.fixed), 1);
+    }
 
     #[test]
     fn proofs_of_minutes_are_told_before() {

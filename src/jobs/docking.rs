@@ -294,8 +294,9 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
 
 /// Number of paths in one picture.
 const DRAWN: usize = 60;
-/// Time between two points of a path (s).
+/// Time between two points of a path (s), and the number of points from which they are fewer.
 const INTERVAL: f64 = 0.02;
+const POINTS: f64 = 1e4;
 
 /// A run with its recorded points.
 pub type Path = (DockingRun, Vec<Snapshot>);
@@ -320,8 +321,9 @@ impl Paths {
         docking: &Docking,
         asked: Option<usize>,
     ) -> Result<Self, DockingError> {
+        let interval = INTERVAL.max(docking.settings.duration / POINTS);
         let trace = |run: &DockingRun| -> Result<Path, DockingError> {
-            let snapshots = trajectory(problem, &docking.settings, run.index, INTERVAL)?;
+            let snapshots = trajectory(problem, &docking.settings, run.index, interval)?;
             Ok((*run, snapshots))
         };
         Ok(Self {

@@ -10,8 +10,8 @@ const MOST_STEPS: f64 = 1e9;
 /// Shortest step (s): rounding of positions stays far below the path within a step.
 const LEAST_STEP: f64 = 1e-6;
 
-/// Memory (bytes), measured, for each tile and sample: of the numbers ...
-const OF_A_SAMPLE: f64 = 60.0;
+/// Memory (bytes), measured, for each tile and sample: of the numbers, of tiles that are bound, ...
+const OF_A_SAMPLE: f64 = 250.0;
 /// ... of the poses of the first run for its page and its trajectory ...
 const OF_A_POSE: f64 = 300.0;
 /// ... and of all poses in a table.
@@ -65,11 +65,17 @@ impl Workload {
         moments * (OF_A_SAMPLE * self.runs + poses)
     }
 
-    /// Checks that the machine can hold the runs.
+    /// Checks that the machine can hold the runs, and that these end.
     ///
     /// # Errors
-    /// If it does not have enough memory.
+    /// If it does not have enough memory, or there are too many steps.
     pub fn check(&self) -> Result<(), String> {
+        if self.steps > MOST_STEPS {
+            return Err(format!(
+                "{:.1e} steps of these tiles are more than {MOST_STEPS:e}: use a shorter --time or a longer --step",
+                self.steps
+            ));
+        }
         memory::check_bytes(self.bytes()).map_err(|told| {
             let (frames, longer) = match self.frames {
                 true => (" with their poses (--frames)", "longer --frames, "),

@@ -68,10 +68,6 @@ impl Motion {
         Self { from, to }
     }
 
-    pub fn rest(at: Pose) -> Self {
-        Self { from: at, to: at }
-    }
-
     pub fn at(&self, t: f64) -> Pose {
         std::array::from_fn(|k| self.from[k] + t * (self.to[k] - self.from[k]))
     }
@@ -123,6 +119,19 @@ impl Source {
         })
     }
 
+    /// Its place, its moment and the normal of its face on a tile at a pose.
+    fn still(&self, [x, y, theta]: Pose) -> Still {
+        let (sine, cosine) = (libm::sin(theta), libm::cos(theta));
+        let turned = |p: [f64; 2]| [cosine * p[0] - sine * p[1], sine * p[0] + cosine * p[1]];
+        let [a, b] = turned(self.position);
+        let [mx, my] = turned([self.moment[0], self.moment[1]]);
+        Still {
+            place: [x + a, y + b],
+            moment: [mx, my, self.moment[2]],
+            shield: self.shield.map(|(shield, normal)| (shield, turned(normal))),
+        }
+    }
+
     /// Its place, its moment and the normal of its face on a tile that is turned and moved.
     fn moved(&self, turn: [Jet; 2], by: Flat) -> Placed {
         let constant = |v: [f64; 2]| turned(v.map(Jet::of), turn);
@@ -150,6 +159,12 @@ impl Source {
         let all = (0..pieces).flat_map(|i| (0..pieces).map(move |j| (i, j)));
         all.map(|(i, j)| [0, 1].map(|k| offset(i, l) * axis[k] + offset(j, w) * side[k]))
             .collect()
+    }
+
+    /// The magnitude of its moment (A m^2).
+    fn strength(&self) -> f64 {
+        let [x, y, z] = self.moment;
+        (x * x + y * y + z * z).sqrt()
     }
 
     /// The area that it covers, seen from above, on a tile at this pose.
@@ -213,6 +228,29 @@ impl Source {
     }
 }
 
+/// A magnet at a pose.
+struct Still {
+    place: [f64; 2],
+    moment: [f64; 3],
+    shield: Option<(Shield, [f64; 2])>,
+}
+
+impl Still {
+    /// The factor of its shield towards a place `to` away.
+    fn factor(&self, to: [f64; 2]) -> f64 {
+        let Some((shield, normal)) = self.shield else {
+            return 1.0;
+        };
+        let r = libm::hypot(to[0], to[1]);
+        let ratio = r / shield.length_m;
+        let behind = 1.0 - shield.attenuation / (1.0 + ratio * ratio);
+        let cosine = (normal[0] * to[0] + normal[1] * to[1]) / r;
+        let front = 1.0 / (1.0 + libm::exp(-cosine / shield.width));
+        behind + (shield.front_gain - behind) * front
+    }
+}
+
+/// A magnet anywhere on a part of a motion.
 struct Placed {
     place: Flat,
     moment: [Jet; 3],
@@ -335,10 +373,7 @@ impl Magnets {
 
     fn of(&self, pose: Pose, faces: Option<[usize; 2]>) -> f64 {
         match self.model {
-            Model::Dipoles => self
-                .along(&Motion::rest(pose), Interval::of(0.0), faces)
-                .value
-                .middle(),
+            Model::Dipoles => self.of_dipoles(pose, faces),
             Model::Bodies => self.of_bodies(pose, faces),
         }
     }
@@ -357,7 +392,7 @@ impl Magnets {
         if !self.has_bounds() {
             return f64::NEG_INFINITY;
         }
-        let least = self.along(motion, part, None).second.low;
+        let least = self.along(motion, part).second.low;
         if least.is_finite() {
             least
         } else {
@@ -365,7 +400,47 @@ impl Magnets {
         }
     }
 
-    fn along(&self, motion: &Motion, t: Interval, faces: Option<[usize; 2]>) -> Jet {
+    /// A bound of the second derivative (J) of the energy along a motion over a part of it, either way; none
+    /// where magnets have shields or faces. With the n-th derivatives of 1 / r, which are at most
+    /// n! / r^(n + 1) in any directions, the energy's is at most
+    ///
+    /// ```text
+    /// mu0 / (4 pi) m1 m2 (24 v^2 / r^5 + 6 a / r^4 + 12 v w / r^4 + 2 w^2 / r^3)
+    /// ```
+    ///
+    /// of a magnet that moves at the speed v, turns by w and is accelerated by a, all for each whole motion.
+    pub fn most_bend(&self, motion: &Motion, part: Interval) -> Option<f64> {
+        let all = || self.fixed.iter().chain(&self.moving);
+        if self.model != Model::Dipoles
+            || self.middles.is_some()
+            || all().any(|it| it.shield.is_some())
+        {
+            return None;
+        }
+        let [x, y, turn] = [0, 1, 2].map(|k| motion.to[k] - motion.from[k]);
+        let pose = motion.at(part.middle());
+        let mut sum = 0.0;
+        for source in &self.moving {
+            let lever = libm::hypot(source.position[0], source.position[1]);
+            let speed = libm::hypot(x, y) + lever * turn.abs();
+            let moving = source.still(pose);
+            for target in &self.fixed {
+                let way = [0, 1].map(|k| moving.place[k] - target.position[k]);
+                let r = libm::hypot(way[0], way[1]) - 0.5 * (part.high - part.low) * speed;
+                if r <= 0.0 {
+                    return None;
+                }
+                let bend = 24.0 * speed * speed / (r * r)
+                    + (6.0 * lever * turn * turn + 12.0 * speed * turn.abs()) / r
+                    + 2.0 * turn * turn;
+                sum += source.strength() * target.strength() * bend / (r * r * r);
+            }
+        }
+        // More than all roundings of a sum of positive numbers.
+        Some(MU0_OVER_4PI * sum * (1.0 + 1e-9))
+    }
+
+    fn along(&self, motion: &Motion, t: Interval) -> Jet {
         let [x, y, theta] = motion.along(t);
         let turn = theta.sine_and_cosine();
         let still = [Jet::of(0.0), Jet::of(1.0)];
@@ -375,18 +450,37 @@ impl Magnets {
         for source in &self.moving {
             let moving = source.moved(turn, [x, y]);
             for (target, place) in self.fixed.iter().zip(&fixed) {
-                if faces.is_some_and(|it| it != [target.face, source.face]) {
-                    continue;
-                }
                 let way = minus(moving.place, place.place);
                 let energy = match self.model {
                     Model::Dipoles => dipoles(place, &moving, way, Jet::of(0.0)),
                     Model::Bodies => spread([target, source], [place, &moving], way),
                 };
-                sum = sum
-                    + match faces {
-                        Some(_) => energy,
-                        None => energy * factors(place, &moving, way),
+                sum = sum + energy * factors(place, &moving, way);
+            }
+        }
+        sum
+    }
+
+    fn of_dipoles(&self, pose: Pose, faces: Option<[usize; 2]>) -> f64 {
+        let fixed: Vec<Still> = self.fixed.iter().map(|it| it.still([0.0; 3])).collect();
+        let mut sum = 0.0;
+        for source in &self.moving {
+            let moving = source.still(pose);
+            for (target, fixed) in self.fixed.iter().zip(&fixed) {
+                if faces.is_some_and(|it| it != [target.face, source.face]) {
+                    continue;
+                }
+                let way = [0, 1].map(|k| moving.place[k] - fixed.place[k]);
+                let dot = |m: &[f64; 3]| m[0] * way[0] + m[1] * way[1];
+                let square = way[0] * way[0] + way[1] * way[1];
+                let inverse = 1.0 / square.sqrt();
+                let across: f64 = (0..3).map(|k| fixed.moment[k] * moving.moment[k]).sum();
+                let along = 3.0 * dot(&fixed.moment) * dot(&moving.moment) / square;
+                let energy = MU0_OVER_4PI * (across - along) * inverse * inverse * inverse;
+                sum += energy
+                    * match faces {
+                        Some(_) => 1.0,
+                        None => fixed.factor(way) * moving.factor(way.map(|x| -x)),
                     };
             }
         }
@@ -412,7 +506,11 @@ impl Magnets {
                 let energy: f64 = pairs.map(|(a, b)| charges::energy(a, b)).sum();
                 let factor = match faces {
                     Some(_) => 1.0,
-                    None => factor_at(target, source, pose),
+                    None => {
+                        let [target, source] = [target.still([0.0; 3]), source.still(pose)];
+                        let way = [0, 1].map(|k| source.place[k] - target.place[k]);
+                        target.factor(way) * source.factor(way.map(|x| -x))
+                    }
                 };
                 sum += MU0_OVER_4PI * energy * factor;
             }
@@ -430,14 +528,6 @@ fn factors(first: &Placed, second: &Placed, way: Flat) -> Jet {
     let inverse = square.over_root(1);
     let back = [Jet::of(0.0) - way[0], Jet::of(0.0) - way[1]];
     first.factor(way, square, inverse) * second.factor(back, square, inverse)
-}
-
-fn factor_at(fixed: &Source, moving: &Source, [x, y, theta]: Pose) -> f64 {
-    let turn = [Jet::of(libm::sin(theta)), Jet::of(libm::cos(theta))];
-    let moving = moving.moved(turn, [Jet::of(x), Jet::of(y)]);
-    let fixed = fixed.moved([Jet::of(0.0), Jet::of(1.0)], [Jet::of(0.0); 2]);
-    let way = minus(moving.place, fixed.place);
-    factors(&fixed, &moving, way).value.middle()
 }
 
 /// (mu0 / 4 pi) (m1 m2 / r^3 - 3 (m1 r) (m2 r) / r^5), with the square of the difference in height. Only

@@ -420,8 +420,13 @@ impl Folder<'_> {
             if highest > limit {
                 return Segment::Above(highest);
             }
-            let bend = magnets.least_bend(motion, Interval::new(from, to)).min(0.0);
-            let width = to - from;
+            let (part, width) = (Interval::new(from, to), to - from);
+            // The coarse bound is enough for most.
+            let most = magnets.most_bend(motion, part);
+            if most.is_some_and(|most| highest + most * width * width / 8.0 <= limit) {
+                continue;
+            }
+            let bend = magnets.least_bend(motion, part).min(0.0);
             if highest - bend * width * width / 8.0 <= limit {
                 continue;
             }

@@ -161,3 +161,28 @@ fn output_that_cannot_be_written_is_a_failure() {
         assert_eq!(silent.unwrap().code(), Some(1), "{arguments:?}");
     }
 }
+
+/// On a terminal, here one that `script` makes, the search for states shows how many of its parts are
+/// done, and about how long the rest takes.
+#[test]
+fn progress_has_a_share_and_an_estimate() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = command(&[]).get_program().to_owned();
+    let out = folder.path().join("R");
+    let line = format!(
+        "{} analyse {DESIGN} --out {} --quick --no-pictures --threads 1",
+        program.display(),
+        out.display()
+    );
+    let mut script = Command::new("script");
+    let script = script
+        .args(["-qec", &line, "/dev/null"])
+        .stdin(Stdio::null());
+    let Ok(done) = script.env("COLUMNS", "120").output() else {
+        return;
+    };
+    let shown = String::from_utf8_lossy(&done.stdout);
+    assert!(done.status.success(), "{shown}");
+    let parts = ["states, ", " of ", " done"];
+    assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
+}

@@ -380,3 +380,48 @@ fn the_folder_one_is_in_and_folders_behind_links_are_folders_too() {
         assert!(here.join("near").is_symlink() && here.join("far/sheet.md").exists());
     }
 }
+
+/// Links of a results folder to another file system are seen before work that would take minutes, and
+/// what they lead to stays as it was.
+#[test]
+#[cfg(unix)]
+fn links_to_another_device_are_seen_before_the_work() {
+    use std::os::unix::fs::{MetadataExt, symlink};
+    let desk = desk();
+    let Ok(away) = tempfile::tempdir_in("/dev/shm") else {
+        return;
+    };
+    let device = |path: &Path| fs::metadata(path).expect("a folder").dev();
+    if device(away.path()) == device(desk.path()) {
+        return;
+    }
+    let user = away.path().join("user.txt");
+    fs::write(&user, "mine").expect("a file");
+    let is_untouched = || {
+        fs::read(&user).expect("a file") == b"mine"
+            && fs::read_dir(away.path()).expect("a folder").count() == 1
+    };
+    for (name, to, options) in [
+        ("pictures", away.path(), "--force"),
+        ("pathways", away.path(), "--force"),
+        (".tilebind.json", &*user, "--force"),
+        ("report.json", &*user, ""),
+        ("report.html", &*user, ""),
+    ] {
+        let out = format!("R-{}", name.trim_start_matches('.'));
+        fs::create_dir(desk.path().join(&out)).expect("a folder");
+        symlink(to, desk.path().join(&out).join(name)).expect("a link");
+        let line = format!("analyse d.toml --milestones 3000000 --out {out} {options}");
+        let since = std::time::Instant::now();
+        refused(desk.path(), &words(&line), &[name]);
+        assert!(since.elapsed().as_secs() < 20, "{name}");
+        assert!(is_untouched(), "{name}");
+    }
+    // With --force a link in the place of a file gives way itself, and is not followed.
+    done(
+        desk.path(),
+        &words("dock d.toml --runs 2 --out R-report.json --force"),
+    );
+    let report = desk.path().join("R-report.json/report.json");
+    assert!(report.symlink_metadata().expect("a report").is_file() && is_untouched());
+}
