@@ -25,7 +25,9 @@
 
 use std::sync::LazyLock;
 
-use super::bounds::{CellBounds, CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds};
+use super::bounds::{
+    CellBounds, CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
+};
 use super::shielding::{ShieldRule, Shields};
 use super::{
     BodyPotential, CuboidPotential, DipolePotential, MagnetModel, Potential, ShieldedPotential,
@@ -47,8 +49,8 @@ pub struct Interaction {
     Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
 )]
 pub enum Unbounded {
-    /// Discs and upright magnets.
-    #[error("bounds over cells are not available for discs and upright magnets")]
+    /// Discs that lie flat, upright blocks, and either behind shields.
+    #[error("bounds over cells are not available for discs that lie flat and for upright blocks")]
     Bodies,
     /// The nearest-face rule, see [`super::shielding`].
     #[error("the energy is discontinuous where the nearest-face rule changes faces")]
@@ -79,7 +81,19 @@ impl Interaction {
         let (first, second) = (&fixed.magnets, &moving.magnets);
         let bounds: Result<fn(&Tile, &Tile, &Shields) -> BoxedBounds, _> = match model {
             _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
-            _ if model.is_of_bodies(first) || model.is_of_bodies(second) => Err(Unbounded::Bodies),
+            _ if model.is_of_bodies(first) || model.is_of_bodies(second) => {
+                match shields.is_none() && MixedBounds::exist(*model, [fixed, moving]) {
+                    true => Ok(match model {
+                        MagnetModel::Dipole => {
+                            |a, b, _| Box::new(MixedBounds::new(MagnetModel::Dipole, a, b))
+                        }
+                        MagnetModel::Cuboid => {
+                            |a, b, _| Box::new(MixedBounds::new(MagnetModel::Cuboid, a, b))
+                        }
+                    }),
+                    false => Err(Unbounded::Bodies),
+                }
+            }
             MagnetModel::Dipole if shields.is_none() => {
                 Ok(|a, b, _| Box::new(DipoleBounds::new(a, b)))
             }

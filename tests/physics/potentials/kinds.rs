@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::Configuration;
 use tilebind::potential::bounds::{
-    CuboidBounds, DipoleBounds, ShieldedBlockBounds, ShieldedBounds,
+    CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
 };
 use tilebind::potential::shielding::{Shield, ShieldRule, Shields};
 use tilebind::potential::simd::Level;
@@ -148,6 +148,26 @@ pub fn shielded_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn
 
 pub fn shielded_block_bounds([a, b]: [&Tile; 2], s: &Shields, level: Level) -> Box<dyn CellBounds> {
     Box::new(ShieldedBlockBounds::with_level(a, b, s, level))
+}
+
+pub fn bodies_of(model: MagnetModel) -> Make<dyn Potential> {
+    match model {
+        MagnetModel::Dipole => |[a, b], _, _| {
+            let model = MagnetModel::Dipole;
+            Box::new(BodyPotential::new(model, &a.magnets, &b.magnets))
+        },
+        MagnetModel::Cuboid => |[a, b], _, _| {
+            let model = MagnetModel::Cuboid;
+            Box::new(BodyPotential::new(model, &a.magnets, &b.magnets))
+        },
+    }
+}
+
+pub fn mixed_bounds(model: MagnetModel) -> Make<dyn CellBounds> {
+    match model {
+        MagnetModel::Dipole => |[a, b], _, _| Box::new(MixedBounds::new(MagnetModel::Dipole, a, b)),
+        MagnetModel::Cuboid => |[a, b], _, _| Box::new(MixedBounds::new(MagnetModel::Cuboid, a, b)),
+    }
 }
 
 /// Of point dipoles, by whatever is computed in the same way.
@@ -369,27 +389,11 @@ fn bodies(model: MagnetModel) -> Kind {
         let distance = 0.0585 * 1.06f64.powi(i);
         Configuration::new(distance, 0.01 * (1.3 * t).sin(), 0.3 * (0.7 * t).cos())
     };
-    let energy: Make<dyn Potential> = match model {
-        MagnetModel::Dipole => |[a, b], _, _| {
-            Box::new(BodyPotential::new(
-                MagnetModel::Dipole,
-                &a.magnets,
-                &b.magnets,
-            ))
-        },
-        MagnetModel::Cuboid => |[a, b], _, _| {
-            Box::new(BodyPotential::new(
-                MagnetModel::Cuboid,
-                &a.magnets,
-                &b.magnets,
-            ))
-        },
-    };
     Kind {
         name: format!("lying and standing magnets as {}", model.name()),
         tiles: [tile(fixed, 0), tile(moving, 1)],
-        energy,
-        bounds: None,
+        energy: bodies_of(model),
+        bounds: (model == MagnetModel::Dipole).then_some(mixed_bounds(model)),
         poses: (0..30).map(pose).collect(),
         anywhere: Vec::new(),
         ..odd_blocks()

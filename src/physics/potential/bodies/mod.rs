@@ -27,7 +27,8 @@
 //! of 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
 //! first term of this series, at every distance.
 //!
-//! Bounds of derivatives are in `limits`; there are none over whole cells.
+//! Bounds of derivatives are in `limits`; over whole cells there are some for upright discs and
+//! dipoles only, whose energy depends on their distance alone (`radial`).
 
 mod complex;
 mod disc;
@@ -39,6 +40,7 @@ mod line;
 mod near;
 mod nearby;
 mod panels;
+pub(in crate::potential) mod radial;
 mod rectangle;
 mod series;
 mod sum;

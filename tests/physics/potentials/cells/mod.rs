@@ -15,13 +15,14 @@ use tilebind::contact::Contact;
 use tilebind::potential::bounds::Enclosure;
 use tilebind::potential::shielding::{Shield, Shields};
 use tilebind::potential::simd::Level;
-use tilebind::potential::{CellBounds, Potential};
+use tilebind::potential::{CellBounds, MagnetModel, Potential};
 use tilebind::tile::Tile;
+use tilebind::tile::magnet::{Form, Shape, Standing};
 
 use super::any_shields;
 use super::kinds::{
-    Make, block_bounds, blocks, dipole_bounds, dipoles, paper_tile, shielded_block_bounds,
-    shielded_blocks, shielded_bounds, shielded_dipoles,
+    Make, block_bounds, blocks, bodies_of, dipole_bounds, dipoles, mixed_bounds, paper_tile,
+    shielded_block_bounds, shielded_blocks, shielded_bounds, shielded_dipoles,
 };
 use crate::designs;
 
@@ -183,7 +184,45 @@ fn all() -> Vec<Enclosed> {
         )],
         ..behind_shields()
     };
+    let standing = |name, model, inset: f64, lying: bool| Enclosed {
+        name,
+        tiles: ["NNNS", "NSSS"].map(|code| standing_tile(code, inset, lying)),
+        energy: bodies_of(model),
+        bounds: mixed_bounds(model),
+        cell: about_contact,
+        // Energies of pairs are exact to 1e-9 of touching magnets.
+        off: [1e-9, 1e-7],
+        centres: vec![[0.44, -0.07, 0.02], [0.47, 0.01, -0.1], [0.6, 0.2, 2.0]],
+        value: [0.0, 1e-8],
+        gradient: [0.0, 1e-6],
+        hessian: 1e-3,
+        width: 1e-7,
+        shrinking: vec![(
+            [0.46, 0.013, 0.1],
+            [1.0, 1.0, 2.0],
+            [4e-4, 4e-5],
+            [100.0, 1400.0],
+        )],
+        ..of_blocks(paper(), vec![Level::best()], 1200, 6_000)
+    };
+    let lying_too = |inset| Enclosed {
+        hessian: f64::INFINITY,
+        shrinking: Vec::new(),
+        ..standing(
+            "upright discs among blocks",
+            MagnetModel::Cuboid,
+            inset,
+            true,
+        )
+    };
     let mut all = vec![
+        standing("upright discs", MagnetModel::Cuboid, 0.001, false),
+        Enclosed {
+            shrinking: Vec::new(),
+            ..standing("touching upright discs", MagnetModel::Cuboid, 0.0, false)
+        },
+        standing("upright dipoles", MagnetModel::Dipole, 0.001, false),
+        lying_too(0.0005),
         of_dipoles,
         of_blocks(paper(), Level::available(), 1200, 6_000),
         behind_shields(),
@@ -198,6 +237,31 @@ fn all() -> Vec<Enclosed> {
         }
     }));
     all
+}
+
+/// The tile of the paper with upright discs of three sizes, of which blocks may take every third
+/// place.
+fn standing_tile(code: &str, inset: f64, lying: bool) -> Tile {
+    let mut tile = paper_tile(code);
+    for (k, magnet) in tile.magnets.iter_mut().enumerate() {
+        let outwards = magnet.face as f64 * FRAC_PI_2;
+        let normal = Vector2::new(outwards.cos(), outwards.sin());
+        if !(lying && k % 3 == 0) {
+            let north = (magnet.angle - outwards).cos() > 0.0;
+            magnet.size = [
+                [0.02, 0.02, 0.01],
+                [0.012, 0.012, 0.003],
+                [0.006, 0.006, 0.012],
+            ][k % 3];
+            magnet.form = Form {
+                shape: Shape::Disc,
+                stands: Some(if north { Standing::Up } else { Standing::Down }),
+            };
+        }
+        let depth = inset + magnet.size[0] / 2.0;
+        magnet.position += normal * (0.215 - depth - magnet.position.dot(&normal));
+    }
+    tile
 }
 
 /// The tile of the paper with blocks of other shapes at other angles, as deep in the tile as they
