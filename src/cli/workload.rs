@@ -36,10 +36,10 @@ pub fn tell_of(design: &Design, asked: &Settings) {
     ));
 }
 
-/// Pairs of blocks from which on proofs take minutes: two quadrilaterals with one or two magnets on
-/// each face have about 30.
-const MANY_BLOCKS: usize = 30;
-/// Core-seconds of the rest of an analysis for each pair of blocks.
+/// Pairs of blocks or discs from which on proofs take minutes: two quadrilaterals with one or two
+/// magnets on each face have about 30.
+const MANY_BODIES: usize = 30;
+/// Core-seconds of the rest of an analysis for each such pair.
 const A_PAIR: f64 = 0.015;
 /// Shorter proofs (s) are not worth a word.
 const SHORT: f64 = 60.0;
@@ -88,8 +88,10 @@ pub fn tell_time(design: &Design, asked: &Settings, threads: usize) {
 }
 
 fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
-    let pairs = design.pair.fixed.magnets.len() * design.pair.moving.magnets.len();
-    let is_slow = design.interaction.model == MagnetModel::Cuboid && pairs >= MANY_BLOCKS;
+    let (pair, model) = (&design.pair, design.interaction.model);
+    let pairs = pair.fixed.magnets.len() * pair.moving.magnets.len();
+    let is_proved = design.interaction.bounds(&pair.fixed, &pair.moving).is_ok();
+    let is_slow = model == MagnetModel::Cuboid && pairs >= MANY_BODIES && is_proved;
     let [bounds, list] = [asked.certify, asked.completeness.allowed].map(|allowed| {
         let work = allowed.work.unwrap_or(f64::INFINITY) / threads;
         work.min(allowed.seconds.unwrap_or(f64::INFINITY))
@@ -97,9 +99,10 @@ fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
     let survey = (A_PAIR * pairs as f64 / threads).max(1.0);
     (is_slow && bounds + list >= SHORT).then(|| {
         format!(
-            "note: {pairs} pairs of blocks: states and barriers take about {survey:.0} s, and their \
+            "note: {pairs} pairs of {}: states and barriers take about {survey:.0} s, and their \
              proofs up to {:.0} minutes more; --quick leaves the proofs out, --certify-work and \
              --complete-work shorten them",
+            model.plural(pair),
             ((bounds + list) / 60.0).ceil()
         )
     })

@@ -71,44 +71,52 @@ pub struct Energy {
 /// Bounds over cells, built on first use: for blocks this takes longer than many energies.
 pub type LazyBounds = LazyLock<BoxedBounds, Box<dyn FnOnce() -> BoxedBounds + Send>>;
 
+/// Makes bounds for a model of magnets, two tiles and their shields.
+pub type MakeBounds = fn(MagnetModel, &Tile, &Tile, &Shields) -> BoxedBounds;
+
 /// Bounds over cells of any energy.
 pub type BoxedBounds = Box<dyn CellBounds + Send>;
 
 impl Interaction {
-    /// The energy between two tiles.
-    pub fn between(&self, fixed: &Tile, moving: &Tile) -> Energy {
+    /// Makes bounds of the energy between two tiles over cells.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub fn bounds(&self, fixed: &Tile, moving: &Tile) -> Result<MakeBounds, Unbounded> {
         let Self { model, shields } = self;
         let (first, second) = (&fixed.magnets, &moving.magnets);
-        let bounds: Result<fn(&Tile, &Tile, &Shields) -> BoxedBounds, _> = match model {
+        match model {
             _ if shields.rule == ShieldRule::NearestFace => Err(Unbounded::NearestFace),
             _ if model.is_of_bodies(first) || model.is_of_bodies(second) => {
                 match shields.is_none() && MixedBounds::exist(*model, [fixed, moving]) {
-                    true => Ok(match model {
-                        MagnetModel::Dipole => {
-                            |a, b, _| Box::new(MixedBounds::new(MagnetModel::Dipole, a, b))
-                        }
-                        MagnetModel::Cuboid => {
-                            |a, b, _| Box::new(MixedBounds::new(MagnetModel::Cuboid, a, b))
-                        }
-                    }),
+                    true => Ok(|model, a, b, _| Box::new(MixedBounds::new(model, a, b))),
                     false => Err(Unbounded::Bodies),
                 }
             }
             MagnetModel::Dipole if shields.is_none() => {
-                Ok(|a, b, _| Box::new(DipoleBounds::new(a, b)))
+                Ok(|_, a, b, _| Box::new(DipoleBounds::new(a, b)))
             }
-            MagnetModel::Dipole => Ok(|a, b, shields| Box::new(ShieldedBounds::new(a, b, shields))),
+            MagnetModel::Dipole => {
+                Ok(|_, a, b, shields| Box::new(ShieldedBounds::new(a, b, shields)))
+            }
             MagnetModel::Cuboid if shields.is_none() => {
-                Ok(|a, b, _| Box::new(CuboidBounds::new(a, b)))
+                Ok(|_, a, b, _| Box::new(CuboidBounds::new(a, b)))
             }
             MagnetModel::Cuboid => {
-                Ok(|a, b, shields| Box::new(ShieldedBlockBounds::new(a, b, shields)))
+                Ok(|_, a, b, shields| Box::new(ShieldedBlockBounds::new(a, b, shields)))
             }
-        };
-        let bounds = bounds.map(|make| {
+        }
+    }
+
+    /// The energy between two tiles.
+    pub fn between(&self, fixed: &Tile, moving: &Tile) -> Energy {
+        let Self { model, shields } = self;
+        let (first, second) = (&fixed.magnets, &moving.magnets);
+        let bounds = self.bounds(fixed, moving).map(|make| {
+            let model = *model;
             let (fixed, moving, shields) = (fixed.clone(), moving.clone(), shields.clone());
             let make: Box<dyn FnOnce() -> BoxedBounds + Send> =
-                Box::new(move || make(&fixed, &moving, &shields));
+                Box::new(move || make(model, &fixed, &moving, &shields));
             LazyBounds::new(make)
         });
         let potential: Box<dyn Potential + Send> = match shields.is_none() {

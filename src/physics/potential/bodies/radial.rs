@@ -42,9 +42,9 @@ const OF_GAP: f64 = 0.02;
 const OF_DISTANCE: f64 = 0.005;
 /// The last node, in units of the sum of radii and heights; farther magnets are dipoles.
 const LAST: f64 = 300.0;
-/// The relative error of terms left out of values at nodes, and a bound of all errors of slopes.
+/// The relative error of terms left out of values at nodes, and a bound of all errors there.
 const LEFT_OUT: f64 = 1e-12;
-const OF_SLOPES: f64 = 1e-11;
+const AT_NODES: f64 = 1e-11;
 /// The relative error of energies that the potential computes, and the relative size of what dipoles
 /// leave out beyond the last node.
 const ROUNDING: f64 = 4.0 * HAND_OVER;
@@ -227,8 +227,8 @@ fn differences(places: &[f64], slopes: &[f64], order: usize) -> Vec<f64> {
     };
     // Errors of alternating signs add up.
     let worst = |(k, slope): (usize, &f64)| match k % 2 {
-        0 => OF_SLOPES * slope.abs(),
-        _ => -OF_SLOPES * slope.abs(),
+        0 => AT_NODES * slope.abs(),
+        _ => -AT_NODES * slope.abs(),
     };
     let errors = divided(slopes.iter().enumerate().map(worst).collect());
     let found = divided(slopes.to_vec());
@@ -348,12 +348,14 @@ impl Table {
         let slope = rise + (1.0 - 2.0 * t) * middle + t * (1.0 - t) * (b - a);
         let bend = -2.0 * middle + 2.0 * (1.0 - 2.0 * t) * (b - a);
         let (second, fourth) = (step * step, from.fourth);
+        // What the nodes' own errors become in the polynomial's derivatives.
+        let lost = AT_NODES * (from.value + from.slope.abs() * step);
         Value {
             value: [value, slope / step, bend / second],
             error: [
                 second * second * fourth / 384.0 + ROUNDING * value,
-                second * step * fourth / 124.0 + ROUNDING * from.slope.abs(),
-                second * fourth / 12.0 + ROUNDING * from.slope.abs() / step,
+                second * step * fourth / 124.0 + 3.0 * lost / step + ROUNDING * from.slope.abs(),
+                second * fourth / 12.0 + 12.0 * lost / second,
             ],
         }
     }
@@ -374,6 +376,119 @@ impl Table {
                 let deep = (self.radii - r).max(0.0);
                 [value + first * deep, first, f64::INFINITY, f64::INFINITY]
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tile::magnet::Shape;
+
+    /// An upright disc of a diameter and a height (m), 1 A m^2.
+    fn disc(diameter: f64, height: f64) -> Magnet {
+        Magnet {
+            position: Vector2::zeros(),
+            angle: 0.0,
+            moment: 1.0,
+            size: [diameter, diameter, height],
+            form: Form {
+                shape: Shape::Disc,
+                stands: Some(Standing::Up),
+            },
+            face: 0,
+        }
+    }
+
+    fn pairs() -> [[Magnet; 2]; 4] {
+        [
+            [disc(6e-3, 3e-3), disc(6e-3, 3e-3)],
+            [disc(2e-2, 1e-3), disc(5e-3, 1e-3)],
+            [disc(5e-3, 2e-2), disc(8e-3, 4e-3)],
+            [disc(6e-3, 3e-3), disc(6e-3, 3.1e-3)],
+        ]
+    }
+
+    #[test]
+    fn values_are_within_their_errors_and_derivatives_within_their_bounds() {
+        for [first, second] in pairs() {
+            let law = Radial::new(MagnetModel::Cuboid, &first, &second);
+            let exact = BodyPotential::new(
+                MagnetModel::Cuboid,
+                std::slice::from_ref(&first),
+                std::slice::from_ref(&second),
+            );
+            let at = |r: f64| {
+                let (energy, gradient) =
+                    exact.energy_and_gradient(&Configuration::new(r, 0.0, 0.0));
+                [energy, gradient.x]
+            };
+            let radii = (first.size[0] + second.size[0]) / 2.0;
+            let mut widest = 0.0f64;
+            for k in 0..400 {
+                let gap = 3e-6 * 1.04f64.powi(k);
+                let r = radii + gap;
+                let [energy, slope] = at(r);
+                let Value { value, error } = law.at(r);
+                assert!(
+                    (value[0] - energy).abs() <= error[0],
+                    "{r}: {value:?} {energy}"
+                );
+                assert!(
+                    (value[1] - slope).abs() <= error[1],
+                    "{r}: {value:?} {slope}"
+                );
+                let Limits {
+                    value: most,
+                    derivatives: [first, second, third],
+                } = law.from(r);
+                assert!(energy <= most && slope.abs() <= first);
+                let step = 0.01 * gap.min(r / 4.0);
+                let [before, after] = [r - step, r + step].map(|r| at(r)[1]);
+                let bend = (after - before) / (2.0 * step);
+                let turn = (after - 2.0 * slope + before) / (step * step);
+                assert!(bend.abs() <= second * 1.001, "{r}: {bend} {second}");
+                assert!(turn.abs() <= third * 1.01, "{r}: {turn} {third}");
+                assert!(
+                    (bend - value[2]).abs() <= error[2] + 1e-3 * bend.abs(),
+                    "{r} {gap}: {bend} {value:?} {error:?}"
+                );
+                if gap > radii {
+                    widest = widest.max(third / turn.abs());
+                }
+            }
+            // The bounds are as good as bounds from one distance to infinity can be.
+            assert!(widest < 3.0, "{widest}");
+        }
+    }
+
+    #[test]
+    fn small_discs_are_dipoles() {
+        let small = disc(1e-3, 1e-3);
+        let law = Radial::new(MagnetModel::Cuboid, &small, &small);
+        for r in [0.1, 0.3, 2.0] {
+            let (disc, dipole) = (law.at(r), Radial::Dipoles.at(r));
+            for n in 0..3 {
+                assert!((disc.value[n] / dipole.value[n] - 1.0).abs() < 1e-3);
+            }
+            let [disc, dipole] = [law.from(r), Radial::Dipoles.from(r)];
+            for n in 0..3 {
+                let ratio = disc.derivatives[n] / dipole.derivatives[n];
+                assert!((0.999..1.2).contains(&ratio), "{r} {n}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_steepest_direction_is_found() {
+        for (a, b) in [(1.0, 0.0), (1.0, 1.5), (1.0, 2.0), (0.1, 5.0), (60.0, 45.0)] {
+            let along = |k: i32| {
+                let c = f64::from(k) / 1000.0;
+                a * c * c * c + b * c * (1.0 - c * c)
+            };
+            let dense = (0..=1000).map(along).fold(0.0, f64::max);
+            let found = steepest(a, b);
+            assert!(found >= dense && found < dense + 1e-5 * b.max(a), "{a} {b}");
         }
     }
 }

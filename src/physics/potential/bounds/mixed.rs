@@ -1,6 +1,7 @@
 //! Bounds of the sum of the energies of magnets that lie flat and of those that stand upright: no
 //! magnet of one kind acts on one of the other.
 
+use super::near::{SLACK, depths};
 use super::{CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
@@ -16,7 +17,7 @@ pub struct MixedBounds {
 
 impl MixedBounds {
     /// Whether there are bounds for these magnets: those that lie must be blocks and those that stand
-    /// discs, unless all are point dipoles.
+    /// discs that cannot overlap while the tiles do not, unless all are point dipoles.
     pub fn exist(model: MagnetModel, tiles: [&Tile; 2]) -> bool {
         let usual = |magnet: &Magnet| match magnet.form.stands {
             Some(_) => magnet.form.shape == Shape::Disc,
@@ -26,7 +27,8 @@ impl MixedBounds {
             let both = tiles.map(|tile| only(tile, stands).magnets);
             both.iter().any(Vec::is_empty) || both.iter().flatten().all(usual)
         };
-        model == MagnetModel::Dipole || is_of(true) && is_of(false)
+        let room: f64 = tiles.map(room).iter().sum();
+        model == MagnetModel::Dipole || is_of(true) && is_of(false) && room >= -SLACK
     }
 
     /// Their bounds, if they [exist](Self::exist).
@@ -46,6 +48,14 @@ impl MixedBounds {
             parts: [false, true].into_iter().filter_map(make).collect(),
         }
     }
+}
+
+/// How far (m) the discs that stand in a tile stay behind its surface; negative if one sticks out.
+fn room(tile: &Tile) -> f64 {
+    let all = tile.magnets.iter().zip(depths(tile));
+    let standing = all.filter(|(magnet, _)| magnet.form.stands.is_some());
+    let rooms = standing.map(|(magnet, depth)| depth - magnet.size[0] / 2.0);
+    rooms.fold(f64::INFINITY, f64::min)
 }
 
 /// A tile with those of its magnets that stand, or those that lie.
