@@ -52,8 +52,9 @@ impl Plan {
         settings: Request,
         seed: u64,
     ) -> Result<Self, PlanError> {
-        let plan = Self::between(designs, axes, settings, seed)?;
+        let plan = Self::new(designs, axes, settings, seed)?;
         plan.check_count()?;
+        plan.check_keys()?;
         plan.check_possible()?;
         Ok(plan)
     }
@@ -64,6 +65,17 @@ impl Plan {
     /// # Errors
     /// As [`Plan::of`].
     pub fn between(
+        designs: Vec<Source>,
+        axes: Vec<Axis>,
+        settings: Request,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        let plan = Self::new(designs, axes, settings, seed)?;
+        plan.check_keys()?;
+        Ok(plan)
+    }
+
+    fn new(
         mut designs: Vec<Source>,
         axes: Vec<Axis>,
         settings: Request,
@@ -81,7 +93,6 @@ impl Plan {
             baseline: None,
         };
         plan.check()?;
-        plan.check_keys()?;
         Ok(plan)
     }
 
