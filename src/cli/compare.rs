@@ -31,7 +31,7 @@ pub struct Compare {
           hide_possible_values = true)]
     model: Option<MagnetModel>,
 
-    /// Rank by selectivity, bond_depth, unbinding, captured, ...; largest first
+    /// Rank by selectivity, bond_depth, unbinding, captured, robust, ...; largest first
     #[arg(long, value_name = "WHAT", default_value = "selectivity", value_parser = quantity(),
           hide_possible_values = true)]
     by: &'static Quantity,
@@ -56,6 +56,10 @@ impl Compare {
             request: self.question.request.of(&designs),
             ..self.question
         };
+        question
+            .request
+            .check_ranking(self.by)
+            .map_err(Failure::usage)?;
         let settings = question.request.settings(question.seed);
         workload::tell_memory(settings.check_memory())?;
         self.threads.use_threads()?;

@@ -29,6 +29,7 @@ mod style;
 mod sweep;
 mod sweep_progress;
 mod table;
+mod tolerance;
 mod verify;
 mod words;
 mod workload;
@@ -97,6 +98,7 @@ pub enum Command {
     Calibrate(calibrate::Calibrate),
     Rates(rates::Rates),
     Show(show::Show),
+    Tolerance(tolerance::ToleranceCommand),
     Make(make::Make),
     Init(init::Init),
     Schema(schema::Schema),
@@ -123,6 +125,7 @@ impl Command {
             Self::Calibrate(command) => command.run(),
             Self::Rates(command) => command.run(),
             Self::Show(command) => command.run(),
+            Self::Tolerance(command) => command.run(),
             Self::Make(command) => command.run(),
             Self::Init(command) => command.run(),
             Self::Schema(command) => command.run(),

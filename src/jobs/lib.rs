@@ -9,6 +9,7 @@
 //! | [`comparison`], [`sweep`], [`search`] | analyses of many designs, compared; the best of them |
 //! | [`docking`], [`bond`], [`rates`], [`yields`] | docking experiments; the strength of bonds of shaken tiles; rates of binding and unbinding; the yield of a shaken table |
 //! | [`table`] | many tiles on one table |
+//! | [`tolerance`] | what errors of making do to a design |
 //! | [`word_sets`] | sets of barcodes: searches, magnets anywhere along the face, files |
 //! | [`assembly`] | tile sets whose glues are words, for tile assembly engines |
 //! | [`verification`] | a second reader, which checks results folders with other code than made them |
@@ -40,6 +41,7 @@ pub mod start;
 pub mod sweep;
 pub mod table;
 pub mod text;
+pub mod tolerance;
 pub mod verification;
 pub mod word_sets;
 pub mod workshop;

@@ -34,7 +34,10 @@ pub fn quantities(design: &Assessment) -> Value {
         };
         (quantity.name(""), entry)
     };
-    QUANTITIES.iter().map(entry).collect()
+    let known = QUANTITIES
+        .iter()
+        .filter(|it| !it.is_left_out([design].into_iter()));
+    known.map(entry).collect()
 }
 
 /// A figure and its bounds, `None` if not known or not finite.
@@ -50,6 +53,9 @@ pub fn numbers<'a, Row>(
     of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
 ) -> Rows<'a, Row> {
     for quantity in QUANTITIES {
+        if quantity.is_left_out(rows.rows().iter().filter_map(of)) {
+            continue;
+        }
         let bounds = quantity.bounds.into_iter().flatten();
         let parts = [String::new()].into_iter();
         let parts = parts.chain(bounds.map(|bound| format!("_{bound}")));
@@ -80,6 +86,9 @@ pub fn view<'a, Row>(
     of: impl Fn(&Row) -> Option<&'a Assessment> + Copy + 'a,
 ) -> Rows<'a, Row> {
     let first = of_place[0];
+    if first.is_left_out(rows.rows().iter().filter_map(of)) {
+        return rows;
+    }
     let known = rows.rows().iter().filter_map(|row| first.of(of(row)?));
     // Proved absences have no size.
     let told = known.filter(|it| it.value.is_finite() && it.high.is_none_or(|high| high > 0.0));

@@ -181,6 +181,7 @@ impl Comparison {
     /// The main figures, and for each the design with the largest value.
     fn firsts(&self) -> Vec<(String, String, String)> {
         let best = QUANTITIES.iter().filter(|quantity| quantity.most.is_some());
+        let best = best.filter(|it| !it.is_left_out(self.designs.iter()));
         let mut firsts: Vec<(String, String, String)> = Vec::new();
         for quantity in std::iter::once(self.by).chain(best) {
             let highest = || format!("highest {}", quantity.label);

@@ -8,6 +8,7 @@
 //! - [`comparison`], [`sweep`] - comparisons and variations of designs;
 //! - [`docking`], [`release`] - docking experiments, and bound tiles that are shaken loose;
 //! - [`bond`], [`rates`], [`yields`] - strength, rates and yield of bonds of shaken tiles;
+//! - [`tolerance`] - what errors of making do to a design;
 //! - [`table`], [`gsd`], [`hoomd`] - many tiles on one table, their trajectory for OVITO, and a script
 //!   that continues it in HOOMD-blue;
 //! - [`words`], [`crosstalk`], [`assembly`] - sets of barcodes, and tile sets whose glues are words;
@@ -60,6 +61,7 @@ pub mod sweep;
 pub mod table;
 mod terminal;
 mod tiles;
+pub mod tolerance;
 pub mod topsearch;
 mod values;
 pub mod verification;

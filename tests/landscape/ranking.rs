@@ -22,6 +22,7 @@ fn design(model: &str, energy: f64, way_out: Way) -> Assessment {
             capture_range: None,
         }),
         trap_kinds: 0,
+        robust: None,
         unlisted_above: None,
         deepest_trap: None,
         far_starts: 0,

@@ -23,6 +23,7 @@ mod rows;
 mod strength;
 mod table;
 mod tiles;
+mod tolerance;
 mod units;
 mod wells;
 mod word_sets;

@@ -32,6 +32,7 @@ CALLS = {
     "rates": "Design.exits Analysis.rates",
     "sweep": "sweep search",
     "table": "_AirTable.__call__",
+    "tolerance": "tolerance",
     "verify": "verify",
     "words": "words",
     "yield": "Design.yields",

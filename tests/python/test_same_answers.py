@@ -38,6 +38,12 @@ REQUESTS = {
             [6e-3], tiles=4, time=60, runs=20, simulations=20, progress=False
         ),
     ),
+    "tolerance": (
+        ["tolerance", HEXAGON, "--strength", "5%", "--place", "0.2 mm", "--draws", "50", "--checks", "0"],
+        lambda root: tilebind.tolerance(
+            loaded(root, HEXAGON), strength=0.05, place="0.2 mm", draws=50, checks=0, progress=False
+        ),
+    ),
     "words": (
         ["words", "--length", "5", "--gap", "0.4"],
         lambda root: tilebind.words(length=5, gap=0.4, progress=False),

@@ -10,6 +10,7 @@
 //! - *Selectivity* is the depth of the bond over that of the deepest trap.
 //! - *Unlisted* is the largest possible depth of a state that is not listed: it is proved that
 //!   below this depth no other state has an escape barrier above half a hundredth of the bond.
+//! - *Robust* is the share of pairs made with the stated errors that work ([`crate::tolerance`]).
 //! - The *capture range* is defined in [`capture_range`].
 
 pub mod capture_range;
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Design, Drawing};
 use crate::pipeline::{self, Analysis};
+use crate::tolerance;
 use physics::dynamics::check::BarrierCheck;
 use physics::landscape::minimum::Known;
 use physics::landscape::{Barrier, Completeness, Proportion, SaddleBounds, State, StateKind};
@@ -71,6 +73,9 @@ pub struct Assessment {
     pub captured: usize,
     /// Number of far starts that end in no state.
     pub uncaptured: usize,
+    /// How many of the pairs made with the stated errors work; `None` if no errors are stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robust: Option<Proportion>,
     /// Number of barriers checked by moving tiles; `None` without the check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub barriers_checked: Option<usize>,
@@ -160,7 +165,11 @@ pub fn assess(
         settings.completeness.cells /= CELLS_OF_BLOCKS;
     }
     let analysis = pipeline::analyse(design, &settings, observer);
-    Assessment::new(design, &analysis)
+    let states = (&*analysis.problem, &analysis.catalogue);
+    Assessment {
+        robust: tolerance::robust(design, states, &request.making, seed),
+        ..Assessment::new(design, &analysis)
+    }
 }
 
 /// Assesses designs one after another.
@@ -270,6 +279,7 @@ impl Assessment {
                 .map(captured)
                 .sum(),
             uncaptured: analysis.uncaptured.all().count,
+            robust: None,
             barriers_checked: analysis.dynamics.as_ref().map(Vec::len),
             contradictions: analysis
                 .contradicted()

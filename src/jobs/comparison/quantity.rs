@@ -137,6 +137,8 @@ pub struct Quantity {
     pub most: Option<&'static str>,
     /// Whether the page shows it for the point under the pointer.
     pub in_readout: bool,
+    /// Whether it is computed only on request: left out where no design has it.
+    pub is_asked_for: bool,
     /// Reads its value, or the reason why there is none.
     pub read: fn(&Assessment) -> Result<Reading, &'static str>,
 }
@@ -145,7 +147,7 @@ pub struct Quantity {
 #[rustfmt::skip]
 const PLAIN: Quantity = Quantity {
     key: "", label: "", measure: Count, bounds: None, column: None, panel: None, mapped: false,
-    ranking: None, most: None, in_readout: false, read: |_| Err("not known"),
+    ranking: None, most: None, in_readout: false, is_asked_for: false, read: |_| Err("not known"),
 };
 
 /// All quantities, in the order of files.
@@ -180,7 +182,7 @@ pub static QUANTITIES: &[Quantity] = &[
         key: "unbinding", label: "unbinding barrier", measure: Energy, bounds: CERTIFIED,
         column: at(1, 0, "unbinding barrier"), panel: at(1, 0, "unbinding barrier"), mapped: true,
         ranking: at(1, 0, "unbinding"), most: Some("highest unbinding barrier"), in_readout: true,
-        read: |a| climb(bond(a)?.way_out.climb(bond(a)?.energy)),
+        read: |a| climb(bond(a)?.way_out.climb(bond(a)?.energy)), ..PLAIN
     },
     Quantity {
         key: "binding", label: "binding barrier", measure: Energy, bounds: CERTIFIED,
@@ -192,7 +194,7 @@ pub static QUANTITIES: &[Quantity] = &[
         key: "captured", label: "captured", measure: Share, bounds: INTERVAL,
         column: at(0, 3, "captured"), panel: at(2, 0, "captured far starts"), mapped: true,
         ranking: at(2, 0, "captured"), most: Some("most captured"), in_readout: true,
-        read: |a| share(a.captured, a.far_starts),
+        read: |a| share(a.captured, a.far_starts), ..PLAIN
     },
     Quantity {
         key: "capture_offset_low", label: "offset \u{2212}", measure: Length,
@@ -227,6 +229,11 @@ pub static QUANTITIES: &[Quantity] = &[
         key: "unlisted_depth", label: "unlisted at most", measure: Energy,
         column: at(1, 4, "unlisted"),
         read: unlisted, ..PLAIN
+    },
+    Quantity {
+        key: "robust", label: "work as made", measure: Share, bounds: INTERVAL, is_asked_for: true,
+        column: at(0, 7, "work as made"), most: Some("most robust"),
+        read: |a| a.robust.map(Reading::Share).ok_or("no errors stated"), ..PLAIN
     },
 ];
 
@@ -271,6 +278,11 @@ fn reach(amount: f64, limit: f64) -> Reading {
 }
 
 impl Quantity {
+    /// Whether it is left out of the tables of designs.
+    pub fn is_left_out<'a>(&self, mut of: impl Iterator<Item = &'a Assessment>) -> bool {
+        self.is_asked_for && !of.any(|one| self.of(one).is_some())
+    }
+
     /// The figure; `None` if there is none, such as the depth of a bond that does not hold.
     pub fn of(&self, assessment: &Assessment) -> Option<Estimate> {
         Some((self.read)(assessment).ok()?.estimate())

@@ -4,9 +4,11 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::Quantity;
 use crate::design::Design;
 use crate::pipeline::{Check, Settings, Survey};
 use crate::request::{self, Misused, of_keywords};
+use crate::tolerance::{Making, NO_ERRORS};
 use physics::budget::Allowance;
 use physics::landscape::{Claims, CompletenessSettings};
 
@@ -55,6 +57,11 @@ pub struct Request {
     #[command(flatten)]
     #[serde(flatten)]
     pub check: Check,
+
+    /// The errors of making, for the share of pairs that work with them.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub making: Making,
 }
 
 /// The options of assessments, with the seed.
@@ -86,6 +93,20 @@ impl Request {
         }
     }
 
+    /// Checks that what designs are ranked by is computed.
+    ///
+    /// # Errors
+    /// If it needs errors of making, and none is stated.
+    pub fn check_ranking(&self, by: &Quantity) -> Result<(), Misused> {
+        match by.is_asked_for && !self.making.is_stated() {
+            false => Ok(()),
+            true => Err(Misused::Wrong(format!(
+                "{} cannot be computed: {NO_ERRORS}",
+                by.key
+            ))),
+        }
+    }
+
     /// Checks the limits of the command line, since the request may come from a file.
     ///
     /// # Errors
@@ -99,6 +120,10 @@ impl Request {
             let option = match &key[..] {
                 "tolerance_J" => "tolerance",
                 "most_kinds" => "kinds",
+                "place_m" => "place",
+                "turn_rad" => "turn",
+                "gap_m" => "gap",
+                "least_selectivity" => "selectivity",
                 other => other,
             };
             (option.to_owned(), vec![value.to_string()])

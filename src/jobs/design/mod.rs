@@ -37,7 +37,8 @@
 //! - Faces that meet may differ by less than a cutter resolves, up to 50 um or a thousandth of
 //!   their length: see `tolerance` for how they are treated.
 //! - `axis` turns a magnet counter-clockwise from the face's outward normal (`N`) or from its
-//!   opposite (`S`).
+//!   opposite (`S`). It also moves the magnet's centre along the normal, so that its outermost corner
+//!   keeps the inset.
 
 mod base;
 mod blocks;

@@ -30,6 +30,8 @@ fn quantity(key: &str) -> PyResult<&'static Quantity> {
 /// complete_cells, dynamics_runs, seed
 ///     As for :meth:`Design.analyse`, except `certify_cells`: most cells for the bounds of one
 ///     barrier; 0 for no bounds.
+/// strength, place, turn, gap, flip, batch, draws, selectivity
+///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
 /// progress : bool, optional
 ///
 /// Returns
@@ -55,6 +57,8 @@ pub fn compare(
         request: asked.request.of(designs()),
         ..asked
     };
+    let ranking = question.request.check_ranking(by);
+    ranking.map_err(|error| fault::value(error.to_string()))?;
     job::check_memory(question.request.settings(question.seed).check_memory())?;
     let found = job::run(py, progress, |told| assess_all(designs(), &question, told))?;
     Ok(Comparison(Compared::new(&found, by, question.request)))

@@ -2,7 +2,7 @@
 //!
 //! - [`design`] - a pair of tiles, with the jobs that take one; [`poses`] - energies of many
 //!   configurations;
-//! - [`analysis`], [`comparison`], [`sweep`], [`search`], [`dock`], [`words`], [`assembly`], [`verification`] -
+//! - [`analysis`], [`comparison`], [`sweep`], [`search`], [`dock`], [`words`], [`assembly`], [`tolerance`], [`verification`] -
 //!   the results of jobs;
 //! - [`request`] - options as keyword arguments; [`job`] - long work: progress, ctrl-C, faults;
 //! - [`shown`] - display of results; [`table`] - structured arrays; [`convert`] - conversion of
@@ -24,6 +24,7 @@ mod search;
 mod shown;
 mod sweep;
 mod table;
+mod tolerance;
 mod verification;
 mod words;
 
@@ -48,5 +49,6 @@ fn _tilebind(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(words::words, module)?)?;
     module.add_function(wrap_pyfunction!(words::crosstalk, module)?)?;
     module.add_function(wrap_pyfunction!(assembly::assemble, module)?)?;
+    module.add_function(wrap_pyfunction!(tolerance::tolerance, module)?)?;
     module.add_function(wrap_pyfunction!(verification::verify, module)?)
 }

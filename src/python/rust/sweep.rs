@@ -47,6 +47,8 @@ pub fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axi
 /// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
 /// complete_cells, dynamics_runs, seed
 ///     As for :func:`compare`.
+/// strength, place, turn, gap, flip, batch, draws, selectivity
+///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
 /// progress : bool, optional
 ///
 /// Returns

@@ -29,6 +29,7 @@ from ._tilebind import (
     dock,
     search,
     sweep,
+    tolerance,
     verify,
     words,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "dock",
     "search",
     "sweep",
+    "tolerance",
     "verify",
     "words",
 ]

@@ -64,8 +64,7 @@ impl Charts {
         Self {
             points: points.collect(),
             axes: variables.iter().map(|axis| axis.shown().1).collect(),
-            figures: QUANTITIES
-                .iter()
+            figures: drawn()
                 .map(|quantity| ChartFigure {
                     label: quantity.label,
                     unit: match quantity.measure {
@@ -78,6 +77,11 @@ impl Charts {
             baseline: sweep.baseline(),
         }
     }
+}
+
+/// The figures of the charts.
+fn drawn() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().filter(|quantity| !quantity.is_asked_for)
 }
 
 /// Removes rounding errors of a change of unit.
@@ -112,9 +116,11 @@ fn point(
     let lacks = |quantity: &Quantity| (quantity.read)(assessment).err() == Some(NO_TRAPS);
     ChartPoint {
         readout: format!("{}: {}", plain.name, readout(assessment)),
-        figures: QUANTITIES.iter().map(|q| figure(q, assessment)).collect(),
-        without: (0..QUANTITIES.len())
-            .filter(|&k| lacks(&QUANTITIES[k]))
+        figures: drawn().map(|q| figure(q, assessment)).collect(),
+        without: drawn()
+            .enumerate()
+            .filter(|(_, quantity)| lacks(quantity))
+            .map(|(k, _)| k)
             .collect(),
         tiles: Thumbnail::of(sweep, point).map(|thumbnail| {
             let known = tiles.iter().position(|known| *known == thumbnail);
