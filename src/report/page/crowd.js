@@ -3,8 +3,8 @@
 const crowd = page.crowd;
 /** Longest playing time (s); a shorter run plays in real time. */
 const LONGEST = 40;
-/** The colours of tiles in structures. */
-const STRUCTURES = { ring: "#7cc4a4", chain: "#a9c3e8", sheet: "#d9c27a", target: "#e59ad0" };
+/** Structures, whose tiles have a colour of the theme each; also told apart without red and green. */
+const STRUCTURES = ["ring", "chain", "sheet", "target"];
 const moment = { frame: 0, playing: false };
 
 function drawCrowd() {
@@ -21,15 +21,17 @@ function drawCrowd() {
   const poses = frame.poses;
   crowd.tiles.forEach((kind, k) => {
     const own = kind % 2 ? theme.moving : theme.fixed;
-    drawTile(pen, crowd.kinds[kind], poses[k], at, STRUCTURES[frame.built[k]] ?? own);
+    drawTile(pen, crowd.kinds[kind], poses[k], at, STRUCTURES.includes(frame.built[k]) ? theme[frame.built[k]] : own);
     if (crowd.kinds.length > 2) label(pen, crowd.kinds[kind], at(poses[k]), scale);
   });
   const middle = (k) => at(placed(crowd.kinds[crowd.tiles[k]].centre, poses[k]));
-  for (const [ties, colour] of [[frame.bonds, theme.certified], [frame.traps, theme.here]]) {
+  for (const [ties, colour, dashes] of [[frame.bonds, theme.certified, []], [frame.traps, theme.here, [5, 3]]]) {
     pen.strokeStyle = colour;
     pen.lineWidth = 3;
+    pen.setLineDash(dashes);
     for (const [i, j] of ties) line(pen, [middle(i), middle(j)]);
   }
+  pen.setLineDash([]);
   // Inside the rim.
   const [right, bottom] = at([wide / 2, -high / 2]);
   scaleBar(pen, scale, right - 8, bottom - 8);
@@ -73,6 +75,13 @@ function playCrowd() {
 function showCrowd() {
   element("crowd").hidden = false;
   element("crowd-note").textContent = crowd.note;
+  const built = STRUCTURES.filter((kind) => crowd.frames.some((frame) => frame.built.includes(kind)));
+  for (const kind of built) {
+    const key = document.createElement("span");
+    key.className = `key ${kind}`;
+    key.textContent = kind;
+    element("crowd-built").append(key, " ");
+  }
   element("crowd-step").max = crowd.frames.length - 1;
   element("crowd-step").addEventListener("input", (event) => {
     moment.playing = false;

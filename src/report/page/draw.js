@@ -22,7 +22,8 @@ function bring(id) {
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["page", "ink", "soft", "line", "panel", "accent", "fixed", "moving", "edge", "hatch",
-    "hatch-line", "north", "south", "certified", "here"]) {
+    "hatch-line", "north", "south", "certified", "here",
+    "ring", "chain", "sheet", "target"]) {
     theme[name] = style.getPropertyValue(`--${name}`).trim();
   }
 }

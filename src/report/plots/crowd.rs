@@ -32,10 +32,10 @@ const LONGEST: f64 = 40.0;
 const ROUND: usize = 120;
 /// The colours of tiles in structures.
 const STRUCTURES: [(&str, RGBColor); 4] = [
-    ("ring", RGBColor(124, 196, 164)),
-    ("chain", RGBColor(169, 195, 232)),
-    ("sheet", RGBColor(217, 194, 122)),
-    ("target", RGBColor(229, 154, 208)),
+    ("ring", RGBColor(63, 159, 216)),
+    ("chain", RGBColor(207, 227, 247)),
+    ("sheet", RGBColor(243, 211, 91)),
+    ("target", RGBColor(209, 116, 159)),
 ];
 
 /// The end of every computed run, in pictures of some runs each.
