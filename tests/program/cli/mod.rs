@@ -9,6 +9,7 @@ mod completions;
 mod consistency;
 mod dynamics;
 mod energy;
+mod equal;
 mod excess;
 mod excuses;
 mod first_hour;

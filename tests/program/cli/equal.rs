@@ -1,0 +1,143 @@
+//! Designs of one kind of tile, written in several ways, in every command.
+
+use serde_json::Value;
+
+use super::tilebind;
+use crate::program::{stderr, stdout};
+
+/// A design and the same one with `[fixed]` and `[moving]`, with `moving = "fixed"`, and with its target
+/// faces exchanged.
+fn written() -> [String; 4] {
+    let new = std::fs::read_to_string("shapes/ring-of-eight.toml").unwrap();
+    let (head, rest) = new.split_at(new.find("[tile]").unwrap());
+    let (tile, target) = rest.split_at(rest.find("[target]").unwrap());
+    let called = |name: &str| tile.replace("[tile", &format!("[{name}"));
+    let two = format!("{head}{}{}", called("fixed"), called("moving"));
+    let same = format!("moving = \"fixed\"\n{head}{}{target}", called("fixed"));
+    [
+        new.clone(),
+        format!("{two}[target]\nfixed = \"0\"\nmoving = \"2\"\n"),
+        same,
+        format!("{two}[target]\nfixed = \"2\"\nmoving = \"0\"\n"),
+    ]
+}
+
+/// What stays of a report: without the checksum of the design and times.
+fn kept(mut value: Value) -> Value {
+    for key in ["design", "designs", "wall_s", "timing"] {
+        if let Some(entry) = value.get_mut(key) {
+            *entry = Value::Null;
+        }
+    }
+    value
+}
+
+const ASKED: [&str; 8] = [
+    "show --json",
+    "energy --pose 0.05,0,0.3 --pose 0.1,0.02,-2",
+    "match --json",
+    "bond --kt 2e-4 --coverage 0.1 --json",
+    "dock --runs 4 --duration 1 --json",
+    "table --count 8 --time 0.3 --shaking 2e-4 --threads 1 --json",
+    "yield --tiles 4 --time 60 --kt 2e-4 --runs 4 --duration 1 --simulations 20 --json",
+    "make --json",
+];
+
+#[test]
+fn every_way_to_write_one_kind_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let [new, others @ ..] = written();
+    let file = folder.path().join("ring.toml").display().to_string();
+    let answers = |text: &str| -> Vec<String> {
+        std::fs::write(&file, text).unwrap();
+        let answer = |asked: &&str| {
+            let mut words = asked.split(' ');
+            let command = [words.next().unwrap(), &file].into_iter();
+            let mut all: Vec<String> = command.chain(words).map(str::to_owned).collect();
+            if asked.starts_with("make") {
+                let out = folder.path().join("made").display().to_string();
+                all.extend(["--out".to_owned(), out, "--force".to_owned()]);
+            }
+            let all: Vec<&str> = all.iter().map(String::as_str).collect();
+            let output = tilebind(&all);
+            assert!(output.status.success(), "{asked}: {}", stderr(&output));
+            let printed = stdout(&output);
+            match serde_json::from_str(&printed) {
+                Ok(value) => kept(value).to_string(),
+                Err(_) => printed,
+            }
+        };
+        ASKED.iter().map(answer).collect()
+    };
+    let first = answers(&new);
+    for other in &others[..2] {
+        for ((asked, one), two) in ASKED.iter().zip(&first).zip(answers(other)) {
+            assert!(*one == two, "{asked}");
+        }
+    }
+    // With the target faces exchanged the bond is the other of the two: figures stay, poses are turned.
+    let exchanged = answers(&others[2]);
+    let of = |text: &str, path: &str| {
+        let value: Value = serde_json::from_str(text).unwrap();
+        value.pointer(path).and_then(Value::as_f64).unwrap()
+    };
+    for (number, path) in [
+        (0, "/bound/energy_J"),
+        (0, "/pull_off_N"),
+        (3, "/bond_kT"),
+        (3, "/docking_cost_kT"),
+        (5, "/bonds/mean"),
+        (5, "/traps/mean"),
+        (6, "/settings/0/yield_equilibrium"),
+    ] {
+        let [one, two] = [&first, &exchanged].map(|all| of(&all[number], path));
+        assert!((one - two).abs() <= 2e-3 * one.abs(), "{path}: {one} {two}");
+    }
+    assert_eq!(first[1], exchanged[1]);
+}
+
+#[test]
+fn keys_of_the_one_tile_are_varied() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").display().to_string();
+    let sweep = |vary: &str| {
+        tilebind(&[
+            "sweep",
+            "shapes/ring-of-eight.toml",
+            "--vary",
+            vary,
+            "--milestones",
+            "300",
+            "--out",
+            &out,
+            "--force",
+        ])
+    };
+    let output = sweep("tile.faces.0.magnet.remanence=1.0,1.2");
+    assert!(output.status.success(), "{}", stderr(&output));
+    let table = std::fs::read_to_string(format!("{out}/sweep.csv")).unwrap();
+    let head: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let bond = head
+        .iter()
+        .position(|name| *name == "bond_depth_J")
+        .unwrap();
+    let values = table
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').nth(bond).unwrap().parse().unwrap());
+    let values: Vec<f64> = values.collect();
+    // Both tiles have the changed face: the bond is that of one changed and one unchanged magnet, but for
+    // the far ones.
+    assert!(
+        (values[0] / values[1] * 1.2 - 1.0).abs() < 1e-3,
+        "{values:?}"
+    );
+    for (vary, told) in [
+        ("tile.nothing=1,2", "no key `nothing`"),
+        ("fixed.mass=0.01,0.02", "[tile]"),
+    ] {
+        let output = sweep(vary);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    }
+}
