@@ -22,6 +22,11 @@
 //! are far nearer to each other than to other tiles, and close at once. Traps hold two
 //! chains, which take part in nothing else meanwhile. Not included: forces between tiles that are not
 //! neighbours, traps on rings, and how chains hide their ends from each other.
+//!
+//! Compared with `tilebind table` (elastic, without friction, drag 2 /s, bonds of 19 kT, 95 % intervals):
+//! 12 sectors of 45 degrees that cover 8 % of a table have 1.4 (0.6 to 2.4) bonds after 30 s, on the table
+//! 1.6 (0.7 to 2.5); 8 sectors of 90 degrees that cover 12 % have 2.3 (1.8 to 3.0) after 100 s, on the table
+//! 3.3 (2.3 to 4.3), with 0.1 and 0.3 (0 to 0.9) closed rings.
 
 mod closing;
 mod growth;
