@@ -39,7 +39,7 @@ average. No magnet sticks out of its face: it stops at the surface. Turns do not
 magnets do not tip out of the tiles' plane.
 
 States are searched once, without errors, and followed to each draw: strengths and poles exactly, places
-and turns by second-order expansions of each pair of magnets and two Newton steps of the pose. The
+and turns by second-order expansions of each pair of magnets and at most three Newton steps of the pose. The
 report has the error of that, from draws minimised with exact energies, and --checks draws with their
 own search of states.
 

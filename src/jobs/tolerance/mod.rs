@@ -38,7 +38,8 @@ use physics::problem::Problem;
 use physics::tile::Tile;
 use well::Well;
 
-/// Traps are followed that are at least this share of the deepest one's depth deep ...
+/// Traps are followed that are at least this share of the deepest one's depth deep, or all that attract if
+/// magnets may be flipped, which can make any of them deep, ...
 const FOLLOWED: f64 = 0.3;
 /// ... as long as this many pairs of magnets and states are expanded.
 const MOST_TERMS: usize = 1_000_000;
@@ -426,9 +427,13 @@ impl<'a> Study<'a> {
         let tiles = [&design.pair.fixed, &design.pair.moving];
         let terms: usize = tiles.map(|tile| tile.magnets.len()).iter().product();
         let deepest = traps.first().map_or(0.0, |state| state.energy);
+        let share = match making.flip {
+            Some(flip) if flip > 0.0 => 0.0,
+            _ => FOLLOWED,
+        };
         let is_deep = |state: &&_| {
             let state: &physics::landscape::State = state;
-            state.energy <= FOLLOWED * deepest
+            state.energy <= share * deepest && state.energy < 0.0
         };
         let followed = traps.into_iter().filter(|it| is_deep(it));
         let followed: Vec<_> = followed.take((MOST_TERMS / terms.max(1)).max(1)).collect();

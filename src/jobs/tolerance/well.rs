@@ -25,7 +25,7 @@ const STIFF: f64 = 10.0;
 /// Step of the differences of contacts' gradients (m; rad times the radius of gyration).
 const STEP: f64 = 1e-5;
 /// Number of Newton steps.
-const STEPS: usize = 2;
+const STEPS: usize = 3;
 
 /// A followed state.
 pub struct Well<'a> {

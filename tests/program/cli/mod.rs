@@ -22,6 +22,7 @@ mod table;
 #[cfg(unix)]
 mod terminal;
 mod tile_sets;
+mod tolerance;
 mod words;
 
 use std::process::Output;
