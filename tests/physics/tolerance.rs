@@ -183,8 +183,6 @@ fn states_are_followed_for_every_kind_of_magnet() {
         ("discs", design(disc, "")),
     ];
     let mut cases: Vec<(&str, Design)> = cases.into();
-    let text = "NNSN";
-    let _ = text;
     let standing = {
         let tile = "side = 0.06\nthickness = 0.011\nmass = 0.02\n";
         format!(

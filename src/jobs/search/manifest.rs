@@ -46,13 +46,17 @@ impl Search {
     /// A search over designs with the settings of a question.
     ///
     /// # Errors
-    /// As [`Search::of`].
+    /// As [`Search::of`], and if errors of making are needed and none is stated.
     pub fn asked(
         question: &Question,
         designs: Vec<(Source, Design)>,
         axes: Vec<Axis>,
         aim: Aim,
     ) -> Result<Self, PlanError> {
+        let sought = aim.objectives.iter().map(|it| it.quantity());
+        for quantity in sought.chain(aim.subject.iter().map(|it| it.quantity())) {
+            question.request.check_ranking(quantity)?;
+        }
         let (sources, designs): (Vec<Source>, Vec<Design>) = designs.into_iter().unzip();
         let settings = question.request.of(&designs);
         Self::of(sources, axes, settings, question.seed, aim)

@@ -1,7 +1,7 @@
 //! Errors of sweeps that cannot be planned.
 
 use crate::design::DesignError;
-use crate::request::Unanswered;
+use crate::request::{Misused, Unanswered};
 
 /// Largest number of points of a sweep.
 pub(super) const MOST_POINTS: usize = 1_000_000;
@@ -50,6 +50,9 @@ pub enum PlanError {
     /// No point satisfies the conditions of a search, by energies alone.
     #[error("none of the {0} points satisfies the conditions; the nearest: {1}")]
     NoneFit(usize, String),
+    /// A figure that the search needs is not computed.
+    #[error(transparent)]
+    Unasked(#[from] Misused),
     /// The text is not a manifest.
     #[error("not a manifest of a sweep: {0}")]
     Malformed(String),

@@ -19,6 +19,8 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::made::{Change, Draw};
+use super::request::Making;
+use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::potential::interaction::bare;
 use physics::potential::shielding::ShieldRule;
@@ -63,9 +65,11 @@ fn kinds(magnets: &[Magnet]) -> (Vec<usize>, Vec<Magnet>) {
 }
 
 impl<'a> Pairs<'a> {
-    /// The pairs of a design's magnets; `typical` is how far (m) errors typically move a point of a
-    /// magnet, and turn a magnet (rad).
-    pub fn new(pair: &'a Pair, interaction: &'a Interaction, typical: [f64; 2]) -> Self {
+    /// The pairs of a design's magnets, for these errors.
+    pub fn new(design: &'a Design, making: &Making) -> Self {
+        let (pair, interaction) = (&*design.pair, &design.interaction);
+        let sizes = [&pair.fixed, &pair.moving].map(Tile::largest_magnet);
+        let typical = making.typical(sizes[0].max(sizes[1]));
         let (first, of_fixed) = kinds(&pair.fixed.magnets);
         let (second, of_moving) = kinds(&pair.moving.magnets);
         let between = |a: &Magnet, b: &Magnet| {
@@ -78,7 +82,7 @@ impl<'a> Pairs<'a> {
             interaction,
             kinds: [first, second],
             potentials: of_fixed.iter().map(row).collect(),
-            typical,
+            typical: [typical, making.turn.unwrap_or_default()],
         }
     }
 

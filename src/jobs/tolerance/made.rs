@@ -204,7 +204,7 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// The tiles of a pair with changed magnets. Nothing is equal by symmetry any more.
+/// The tiles of a pair with changed magnets. Nothing counts as equal by symmetry any more.
 fn made(pair: &Pair, draw: &Draw) -> Pair {
     let tile = |tile: &Tile, changes: &[Change]| Tile {
         magnets: changes

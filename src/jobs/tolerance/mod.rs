@@ -35,7 +35,6 @@ use physics::observer::Observer;
 use physics::order::Order;
 use physics::parallel;
 use physics::problem::Problem;
-use physics::tile::Tile;
 use well::Well;
 
 /// Traps are followed that are at least this share of the deepest one's depth deep, or all that attract if
@@ -437,10 +436,7 @@ impl<'a> Study<'a> {
         };
         let followed = traps.into_iter().filter(|it| is_deep(it));
         let followed: Vec<_> = followed.take((MOST_TERMS / terms.max(1)).max(1)).collect();
-        let size = tiles.map(Tile::largest_magnet);
-        let typical = making.typical(size[0].max(size[1]));
-        let turn = making.turn.unwrap_or_default();
-        let pairs = Pairs::new(&design.pair, &design.interaction, [typical, turn]);
+        let pairs = Pairs::new(design, making);
         Some(Self {
             design,
             problem,

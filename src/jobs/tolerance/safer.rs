@@ -98,10 +98,7 @@ fn followed<'a>(
         End::Minimum(found) => Some(found.point.q),
         _ => None,
     };
-    let tiles = [&design.pair.fixed, &design.pair.moving].map(Tile::largest_magnet);
-    let typical = making.typical(tiles[0].max(tiles[1]));
-    let turn = making.turn.unwrap_or_default();
-    let pairs = Pairs::new(&design.pair, &design.interaction, [typical, turn]);
+    let pairs = Pairs::new(design, making);
     let bond = rest(&study.bond.expansion.q)?;
     let near = problem.scaled(5e-3);
     let traps = &study.traps[..study.traps.len().min(MOST_TRAPS)];
