@@ -514,8 +514,18 @@ def validation(work):
         work.keep(f"validation/{name}", out / name)
 
 
-def validation_table(name):
-    return lambda: json.loads((HERE / "validation/tables.json").read_text())[name]
+PREDICTIONS = ["rings.csv", "panels.csv", "predictions.svg", "predictions.json"]
+
+
+def predictions(work):
+    out = work.folder / "validation"
+    work.run(sys.executable, str(HERE / "predictions.py"), work.program, str(out))
+    for name in PREDICTIONS:
+        work.keep(f"validation/{name}", out / name)
+
+
+def validation_table(name, file="tables"):
+    return lambda: json.loads((HERE / f"validation/{file}.json").read_text())[name]
 
 
 # Many tiles on a table
@@ -612,6 +622,8 @@ PARTS = [
          [f"paper-tile-docking/{file}" for file in ("report.json", "map.csv", "chances.svg")], docking),
     Part("validation", "validation", 0.2, [f"validation/{name}" for name in VALIDATION], validation,
          "NumPy, SciPy and Matplotlib"),
+    Part("predictions", "validation", 15, [f"validation/{name}" for name in PREDICTIONS], predictions,
+         "NumPy, SciPy and Matplotlib"),
     Part("assembly-lattice", "assembly", 2, ["assembly/lattice.csv"], assembly_table("lattice")),
     Part("assembly-repulsion", "grown", 10, ["assembly/repulsion.csv"], assembly_table("repulsion"),
          f"{GROWN}; git, cc and libX11's headers for xgrow"),
@@ -621,7 +633,7 @@ PARTS = [
     Part("scale", "times", 8, ["scale.csv", "scale.svg"], scale, "6 GB of memory"),
     Part("bench", "times", 5, ["bench.csv"], bench),
 ]
-OWN = ["README.md", "make.py", "figure6.py", "validation.py", "validation/README.md", *MEASURED]
+OWN = ["README.md", "make.py", "figure6.py", "validation.py", "predictions.py", "validation/README.md", *MEASURED]
 
 
 # Tables of the READMEs, each made only from files of this folder.
@@ -780,7 +792,8 @@ SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": un
          "words-mismatches": mismatches_table, "words-elongated": elongated_table,
          "assembly-builds": builds_table, "assembly-blocks": blocks_table,
          "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen,
-         **{f"validation-{name}": validation_table(name) for name in ("sets", "field", "pulls", "barcodes", "blocks")}}
+         **{f"validation-{name}": validation_table(name) for name in ("sets", "field", "pulls", "barcodes", "blocks")},
+         **{f"predicted-{name}": validation_table(name, "predictions") for name in ("rings", "panels", "matters", "assumed")}}
 
 
 def write_tables():
