@@ -190,56 +190,49 @@ def study(model, depths):
 
 # Searches
 
-DEPTH, WIDTH, SPAN = (f"fixed.faces.east.profile.{key}" for key in ("depth", "width", "span"))
-FAMILIES = {"tab, arc": (["tab-10mm", "arc-20mm"], WIDTH, 24), "teeth": (STUDY[:3], SPAN, 36)}
+DEPTH, WIDTH = (f"fixed.faces.east.profile.{key}" for key in ("depth", "width"))
 AIMS = {"selectivity": "captured > 0.4", "captured": "selectivity > 3"}
 SEARCH = ["--milestones=300", "--far-starts=100", "--certify-cells=0", "--complete-cells=0", "--threads=1"]
-LEVELS = 6
+
+
+def figure(one, key):
+    """A figure of an assessed point; without a trap selectivity is infinite."""
+    found = one[key]["value"] if isinstance(one[key], dict) else one[key]
+    return math.inf if key == "selectivity" and found is None else found
 
 
 def best_of(points, by, condition):
-    """The best of the assessed points that satisfy a condition; without a trap selectivity is infinite."""
-    def value(one, key):
-        found = one[key]
-        if key == "selectivity" and found is None:
-            return math.inf
-        return found["value"] if isinstance(found, dict) else found
-
+    """The best figure of the assessed points that satisfy a condition; 0 if none does."""
     key, least = condition.split(" > ")
     known = [it["quantities"] for it in points if it.get("quantities") and it["quantities"]["bond_depth_J"]]
-    fit = [it for it in known if value(it, "captured") > 0 and value(it, key) > float(least)]
-    return max(fit, key=lambda it: value(it, by), default=None)
+    fit = [it for it in known if figure(it, "captured") > 0 and figure(it, key) > float(least)]
+    return max((figure(it, by) for it in fit), default=0)
+
+
+def by_chance(points, count, by, condition):
+    """The median of the best of as many points of a grid, drawn a thousand and one times."""
+    chance = random.Random(1)
+    return sorted(best_of(chance.sample(points, count), by, condition) for _ in range(1001))[500]
 
 
 def shapes_searched(work):
-    """Grids over depth and width, against searches with a third of the analyses."""
-    rows = [["shapes", "aim", "condition", "grid_analyses", "grid_best", "search_analyses", "search_best", "best"]]
-    for family, (names, key, points) in FAMILIES.items():
-        designs = [f"shapes/{name}.toml" for name in names]
-        folder = f"target/grid-{key.rsplit('.', 1)[1]}"
-        work.run("tilebind", "sweep", *designs, "--vary=magnet.inset=0.003", f"--vary={DEPTH}=0.005:0.05:{LEVELS}",
-                 f"--vary={key}=0.1:0.4:{LEVELS}", *SEARCH, "--out", folder, "--quiet")
-        grid = json.loads((work.folder / folder / "report.json").read_text())["points"]
-        for aim, condition in AIMS.items():
-            folder = f"target/search-{key.rsplit('.', 1)[1]}-{aim}"
-            work.run("tilebind", "sweep", *designs, "--vary=magnet.inset=0.003", f"--vary={DEPTH}=0.005:0.05",
-                     f"--vary={key}=0.1:0.4", f"--maximise={aim}", f"--subject={condition}", f"--points={points}",
-                     *SEARCH, "--out", folder, "--quiet")
-            found = json.loads((work.folder / folder / "report.json").read_text())
-            best, known = found["best"], best_of(grid, aim, condition)
-
-            def shown(one):
-                if one is None:
-                    return "-"
-                value = one[aim]
-                value = value.get("value") if isinstance(value, dict) else value
-                return "infinite" if value is None else f"{value:.4g}"
-
-            values = [f"{name.rsplit('.', 1)[1]} {value:.4g}" for name, value in best["values"].items()][1:]
-            rows.append([family, aim, condition, sum(it["status"] == "done" for it in grid), shown(known),
-                         best["analysed"], shown(best["figures"]), "; ".join([best["design"], *values])])
-            if (key, aim) == (SPAN, "captured"):
-                work.keep("search/history.png", work.folder / folder / "pictures/history.png")
+    """A grid over depth and width of the tab and the arc, against searches with a third of the analyses, and chance."""
+    rows = [["aim", "condition", "grid_analyses", "grid_best", "chance_best", "search_analyses", "search_best", "best"]]
+    given = ["shapes/tab-10mm.toml", "shapes/arc-20mm.toml", "--vary=magnet.inset=0.003"]
+    work.run("tilebind", "sweep", *given, f"--vary={DEPTH}=0.005:0.05:6", f"--vary={WIDTH}=0.1:0.4:6", *SEARCH,
+             "--out", "target/grid-width", "--quiet")
+    grid = json.loads((work.folder / "target/grid-width/report.json").read_text())["points"]
+    grid = [it for it in grid if it["status"] == "done"]
+    for aim, condition in AIMS.items():
+        out = f"target/search-width-{aim}"
+        work.run("tilebind", "sweep", *given, f"--vary={DEPTH}=0.005:0.05", f"--vary={WIDTH}=0.1:0.4",
+                 f"--maximise={aim}", f"--subject={condition}", "--points=24", *SEARCH, "--out", out, "--quiet")
+        best = json.loads((work.folder / out / "report.json").read_text())["best"]
+        values = [f"{name.rsplit('.', 1)[1]} {1e3 * value:.4g} mm" for name, value in best["values"].items()][1:]
+        known = best_of(grid, aim, condition), by_chance(grid, best["analysed"], aim, condition)
+        rows.append([aim, condition, len(grid), *(f"{it:.4g}" for it in known), best["analysed"],
+                     f"{figure(best['figures'], aim):.4g}", "; ".join([best["design"], *values])])
+    work.keep("search/history.png", work.folder / out / "pictures/history.png")
     work.keep_rows("search/shapes.csv", rows)
 
 
@@ -256,7 +249,7 @@ def discs_searched(work):
     """The pitch and inset of discs: the best selectivity with bonds of at least so many mJ."""
     (work.folder / "discs.toml").write_text(DISCS)
     rows = [["least_bond_J", "pitch_m", "inset_m", "selectivity", "bond_J", "analysed", "end"]]
-    for least in (0.005, 0.01, 0.02):
+    for least in (0.02, 0.03):
         work.run("tilebind", "sweep", "discs.toml", "--vary=magnet.pitch=0.007:0.016", "--vary=magnet.inset=0:0.003",
                  "--maximise=selectivity", f"--subject=bond_depth >= {least}", "--points=16", "--milestones=200",
                  "--far-starts=30", *SEARCH[2:], "--out", f"target/discs-{least}", "--quiet")
@@ -265,34 +258,6 @@ def discs_searched(work):
         rows.append([least, *best["values"].values(), *(f"{best['figures'][key]['value']:.4g}" for key in
                     ("selectivity", "bond_depth_J")), best["analysed"], " ".join(ends)])
     work.keep_rows("search/discs.csv", rows)
-
-
-def chance_searched(work):
-    """A search against chance with as many analyses, ten times each."""
-    text = (ROOT / "shapes/paper-tile.toml").read_text()
-    quick = ["--milestones=100", "--far-starts=10", *SEARCH[2:]]
-    ends, count = {"pitch": (0.015, 0.08), "inset": (0.0, 0.01)}, 20
-    rows = [["seed", "search", "chance"]]
-    for seed in range(1, 11):
-        vary = [f"--vary=magnet.{key}={low}:{high}" for key, (low, high) in ends.items()]
-        work.run("tilebind", "sweep", "shapes/paper-tile.toml", *vary, "--maximise=selectivity",
-                 "--subject=bond_depth > 0.02", f"--points={count}", f"--seed={seed}", *quick,
-                 "--out", f"target/search-{seed}", "--quiet")
-        found = json.loads((work.folder / f"target/search-{seed}/report.json").read_text())
-        # Names of their own; the same seed for all points.
-        chance, files = random.Random(seed), []
-        for k in range(count):
-            one = text
-            for key, (low, high) in ends.items():
-                one, changed = re.subn(rf"(?m)^{key} = \S+", f"{key} = {chance.uniform(low, high)}", one)
-                if changed != 1:
-                    raise Failed(f"no {key} in the design")
-            files.append(f"chance-{seed}-{k}.toml")
-            (work.folder / files[-1]).write_text(re.sub('(?m)^name = ".*"', f'name = "chance-{k}"', one))
-        points = work.json("tilebind", "compare", *files, *quick, f"--seed={seed}", "--quiet")["designs"]
-        best = best_of(points, "selectivity", "bond_depth_J > 0.02")
-        rows.append([seed, found["best"]["figures"]["selectivity"]["value"], best["selectivity"]])
-    work.keep_rows("search/chance.csv", rows)
 
 
 # Magnets as blocks, over the gap
@@ -608,7 +573,6 @@ PARTS = [
     Part("study-cuboid", "study", 1.3, ["study/cuboid.csv"], study("cuboid", 6)),
     Part("search-shapes", "search", 3, ["search/shapes.csv", "search/history.png"], shapes_searched),
     Part("search-discs", "search", 1, ["search/discs.csv"], discs_searched),
-    Part("search-chance", "search", 2, ["search/chance.csv"], chance_searched),
     Part("magnets", "magnets", 0.02, ["magnets.csv"], magnets),
     Part("words-uniform", "words", 1.4, ["words/uniform.csv"], uniform),
     Part("words-spaced", "words", 4, ["words/spaced.csv"], spaced),
@@ -658,6 +622,22 @@ def designs_table():
 
     head = ["design", "bond", "captured", "kinds of trap", "deepest trap", "its escape", "out of the bond", "list of states"]
     return markdown(head, [row(it) for it in table("designs.csv")])
+
+
+def search_shapes_table():
+    def shown(it, of):
+        value = float(it[f"{of}_best"])
+        return "no trap" if math.isinf(value) else f"{100 * value:.0f} %" if it["aim"] == "captured" else f"{value:.4g}"
+
+    rows = [[f"{it['aim']}, {it['condition']}", f"{shown(it, 'grid')} ({it['grid_analyses']})", shown(it, "chance"),
+             f"{shown(it, 'search')} ({it['search_analyses']})", it["best"]] for it in table("search/shapes.csv")]
+    return markdown(["largest", "grid (analyses)", "by chance", "search (analyses)", "the search's best"], rows)
+
+
+def search_discs_table():
+    rows = [[f"{milli(it['least_bond_J'])} mJ", f"{milli(it['pitch_m'])} mm", f"{milli(it['inset_m'])} mm", it["selectivity"],
+             f"{milli(it['bond_J'])} mJ", it["analysed"], it["end"] or "-"] for it in table("search/discs.csv")]
+    return markdown(["bond at least", "pitch", "inset", "selectivity", "bond", "analyses", "at the end of its range"], rows)
 
 
 def magnets_table():
@@ -788,7 +768,8 @@ def screen():
     return "```text\n" + (HERE / "paper-tile/summary.txt").read_text() + "```\n"
 
 
-SHOWN = {"designs": designs_table, "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
+SHOWN = {"designs": designs_table, "search-shapes": search_shapes_table, "search-discs": search_discs_table,
+         "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
          "words-mismatches": mismatches_table, "words-elongated": elongated_table,
          "assembly-builds": builds_table, "assembly-blocks": blocks_table,
          "yield": yields_table, "rates": rates_table, "table": crowds_table, "growth": growth_table, "paper-tile": screen,

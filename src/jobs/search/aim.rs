@@ -251,12 +251,25 @@ impl Condition {
         if self.admits(value) {
             return 0.0;
         }
-        let scale = match self.value {
+        // At the limit itself `>` is violated, though by nothing.
+        ((value - self.value).abs() / self.scale()).max(f64::MIN_POSITIVE)
+    }
+
+    /// By how much a design satisfies the condition (negative: violates it), relative to its value.
+    ///
+    /// # Errors
+    /// As [`Condition::violation`].
+    pub fn margin(&self, design: &Assessment) -> Result<f64, &'static str> {
+        let value = Interval::of(self.quantity(), design)?.value;
+        let above = (value - self.value) / self.scale();
+        Ok(if self.above { above } else { -above })
+    }
+
+    fn scale(&self) -> f64 {
+        match self.value {
             0.0 => 1.0,
             value => value.abs(),
-        };
-        // At the limit itself `>` is violated, though by nothing.
-        ((value - self.value).abs() / scale).max(f64::MIN_POSITIVE)
+        }
     }
 
     fn admits(&self, value: f64) -> bool {

@@ -9,11 +9,12 @@
 //! 1. A third of the points are spread over the space: the widest of several Latin hypercubes
 //!    (McKay, Beckman and Conover 1979).
 //! 2. The others follow in rounds. A Gaussian process (Jones, Schonlau and Welch 1998) is fitted to
-//!    the *ranks* of the points so far, and the points with the largest expected improvement are
-//!    next: by turns from everywhere, and from a box about the best, which shrinks while nothing
-//!    better is found. Ranks make no difference between a selectivity of 50 and an infinite one,
-//!    and give every failure its place: points that violate a condition rank below all others by
-//!    how much they violate it, and impossible designs below these.
+//!    the *ranks* of the points so far, whether they satisfy the conditions or not, and another to
+//!    the margins of the conditions, which are negative where they are violated, and where a design
+//!    is impossible. The points with the largest expected improvement times the chance that they are
+//!    fit are next (Gardner and others 2014): by turns from everywhere, and from a box about the
+//!    best, which shrinks while nothing better is found. Ranks make no difference between a
+//!    selectivity of 50 and an infinite one.
 //! 3. The last points lie beside the best, one step along each number: they say which key matters.
 //! 4. Conditions on the bond's depth are settled by energies, before any analysis. All other points
 //!    are analysed without proofs, except for the paths that bound barriers from above. Proofs are for contenders only: a race
@@ -48,7 +49,7 @@ mod verdict;
 pub use aim::{Aim, Condition, Objective, Request};
 pub use interval::Interval;
 pub use manifest::{Search, Stage};
-pub use rank::Standing;
+pub use rank::{Figures, Standing};
 pub use space::{Dimension, Space};
 pub use tried::{Found, SearchError, Tried};
 pub use verdict::{Effect, Verdict};

@@ -135,6 +135,12 @@ impl<'a> Model<'a> {
         (mean - best) * share + deviation * density
     }
 
+    /// The chance that the value at a place is above 0.
+    pub fn chance(&self, place: &Place) -> f64 {
+        let (mean, deviation) = self.predict(place);
+        0.5 * libm::erfc(-mean / (deviation.max(1e-12) * libm::sqrt(2.0)))
+    }
+
     /// The same process with another place, at which the value is as expected: the next place is
     /// then sought elsewhere.
     #[must_use]

@@ -74,7 +74,7 @@ fn contenders(search: &Search, tried: &[Tried], most: usize) -> Vec<usize> {
         Some(bar.map_or(low, |bar| bar.max(low)))
     });
     let key = |k: usize| match &standings[k] {
-        Standing::Fit { gains, depth } => (gains[0], *depth),
+        Standing::Fit { figures, .. } => (figures.gains[0], figures.depth),
         _ => unreachable!("only fit points are left"),
     };
     match bar {

@@ -3,7 +3,6 @@
 use super::aim::Aim;
 use super::interval::Interval;
 use super::tried::Tried;
-use crate::comparison::Assessment;
 use crate::sweep::Outcome;
 use physics::order::Order;
 
@@ -21,13 +20,17 @@ const BOND: f64 = 1e-6;
 pub enum Standing {
     /// All conditions hold.
     Fit {
-        /// The objectives' figures: more is better.
-        gains: Vec<Interval>,
-        /// The depth of the bond (J), which decides between equals.
-        depth: f64,
+        /// Its figures.
+        figures: Figures,
+        /// See [`Standing::margin`].
+        margin: f64,
     },
     /// A condition does not hold, or tiles do not reach the bond.
     Unfit {
+        /// Its figures, if they are known nevertheless.
+        figures: Option<Figures>,
+        /// See [`Standing::margin`].
+        margin: f64,
         /// By how much.
         shortfall: f64,
         /// Why, as a message to the designer.
@@ -39,30 +42,52 @@ pub enum Standing {
     Impossible,
 }
 
+/// The figures by which points are ranked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Those of the objectives: more is better.
+    pub gains: Vec<Interval>,
+    /// The depth of the bond (J), which decides between equals.
+    pub depth: f64,
+}
+
 impl Standing {
     /// How a point stands.
     pub fn of(aim: &Aim, tried: &Tried) -> Self {
         let result = match (tried.known(), tried.refused) {
             (Outcome::Done { result }, _) => result,
             (Outcome::Impossible { reason }, Some(violation)) => {
-                let reasons = vec![reason.clone()];
-                return Self::unfit(violation / (1.0 + violation), reasons, true);
+                return Self::Unfit {
+                    figures: None,
+                    margin: -squashed(violation),
+                    shortfall: squashed(violation),
+                    reason: reason.clone(),
+                    is_proved: true,
+                };
             }
             _ => return Self::Impossible,
         };
         let (mut reasons, mut shortfall, mut is_proved) = (Vec::new(), 0.0, false);
+        let mut margin: f64 = 1.0;
         if let Some((degree, reason)) = result.obstacle() {
             shortfall += OBSTACLE * f64::from(degree);
+            margin = -1.0;
             is_proved |= result.bond.is_none() || result.is_caged();
             reasons.push(reason);
         }
         for condition in &aim.subject {
-            match condition.violation(result) {
-                Ok(0.0) => continue,
-                // At most 1 for each.
-                Ok(violation) => shortfall += violation / (1.0 + violation),
-                Err(_) => shortfall += NO_FIGURE,
+            let Ok(own) = condition.margin(result) else {
+                shortfall += NO_FIGURE;
+                margin = -1.0;
+                reasons.push(format!("not {condition}"));
+                continue;
+            };
+            margin = margin.min(squashed(own));
+            if condition.violation(result) == Ok(0.0) {
+                continue;
             }
+            // At most 1 for each.
+            shortfall += squashed(own.abs()).max(f64::MIN_POSITIVE);
             is_proved |= condition.is_proved(result) == Some(false);
             reasons.push(format!("not {condition}"));
         }
@@ -70,30 +95,51 @@ impl Standing {
             let missing = |reason: &str| format!("{} is not known: {reason}", one.quantity);
             one.gain(result).map_err(missing)
         });
-        match gains.collect::<Result<Vec<_>, _>>() {
-            Ok(gains) if reasons.is_empty() => Self::Fit {
-                gains,
-                depth: depth(result),
-            },
-            Ok(_) => Self::unfit(shortfall, reasons, is_proved),
+        let gains = gains.collect::<Result<Vec<_>, _>>();
+        if let Err(reason) = &gains {
             // An obstacle has said so already.
-            Err(reason) if reasons.is_empty() => Self::unfit(NO_FIGURE, vec![reason], is_proved),
-            Err(_) => Self::unfit(shortfall + NO_FIGURE, reasons, is_proved),
+            if reasons.is_empty() {
+                reasons.push(reason.clone());
+            }
+            shortfall += NO_FIGURE;
+            margin = -1.0;
+        }
+        let depth = result.bond.as_ref().map_or(0.0, |bond| -bond.energy);
+        let figures = gains.ok().map(|gains| Figures { gains, depth });
+        match figures {
+            Some(figures) if reasons.is_empty() => Self::Fit { figures, margin },
+            figures => Self::Unfit {
+                figures,
+                margin,
+                shortfall,
+                reason: reasons.join("; "),
+                is_proved,
+            },
         }
     }
 
-    fn unfit(shortfall: f64, reasons: Vec<String>, is_proved: bool) -> Self {
-        Self::Unfit {
-            shortfall,
-            reason: reasons.join("; "),
-            is_proved,
+    /// By how much the conditions hold, the least of them: from 1 for far on the right side to -1,
+    /// also for a design without a figure, and one that is impossible.
+    pub fn margin(&self) -> f64 {
+        match self {
+            Self::Fit { margin, .. } | Self::Unfit { margin, .. } => *margin,
+            Self::Impossible => -1.0,
+        }
+    }
+
+    /// The figures, also of a point that is not fit.
+    pub fn figures(&self) -> Option<&Figures> {
+        match self {
+            Self::Fit { figures, .. } => Some(figures),
+            Self::Unfit { figures, .. } => figures.as_ref(),
+            Self::Impossible => None,
         }
     }
 
     /// The gains of a point that is fit.
     pub fn gains(&self) -> Option<&[Interval]> {
         match self {
-            Self::Fit { gains, .. } => Some(gains),
+            Self::Fit { figures, .. } => Some(&figures.gains),
             Self::Unfit { .. } | Self::Impossible => None,
         }
     }
@@ -108,8 +154,12 @@ impl Standing {
     }
 }
 
-fn depth(design: &Assessment) -> f64 {
-    design.bond.as_ref().map_or(0.0, |bond| -bond.energy)
+/// A number between -1 and 1.
+fn squashed(value: f64) -> f64 {
+    match value.is_infinite() {
+        true => value.signum(),
+        false => value / (1.0 + value.abs()),
+    }
 }
 
 /// The share of numbers below each number, from 0 to 1.
@@ -122,31 +172,36 @@ fn shares(values: &[f64]) -> Vec<f64> {
 /// A level for each point: larger is better, with these weights of the objectives. The order alone
 /// determines the levels of fit points.
 pub fn levels(standings: &[Standing], weights: &[f64]) -> Vec<f64> {
-    let fit = || standings.iter().filter_map(Standing::gains);
-    let of_objective = |k: usize| shares(&fit().map(|gains| gains[k].value).collect::<Vec<_>>());
-    let objectives: Vec<Vec<f64>> = (0..weights.len()).map(of_objective).collect();
-    let depths = standings.iter().filter_map(|one| match one {
-        Standing::Fit { depth, .. } => Some(*depth),
+    let fit = standings.iter().filter_map(|one| match one {
+        Standing::Fit { figures, .. } => Some(figures),
         _ => None,
     });
-    let depths = shares(&depths.collect::<Vec<_>>());
-    let mut next = 0..;
+    let mut fit = weighted(&fit.collect::<Vec<_>>(), weights).into_iter();
     let level = |one: &Standing| match one {
-        Standing::Fit { .. } => {
-            let at = next.next().unwrap_or_default();
-            let weighted = || {
-                objectives
-                    .iter()
-                    .zip(weights)
-                    .map(|(all, weight)| weight * all[at])
-            };
-            let least = weighted().fold(f64::INFINITY, f64::min);
-            least + SUM * weighted().sum::<f64>() + BOND * depths[at]
-        }
+        Standing::Fit { .. } => fit.next().unwrap_or_default(),
         Standing::Unfit { shortfall, .. } => -shortfall,
         Standing::Impossible => f64::NEG_INFINITY,
     };
     standings.iter().map(level).collect()
+}
+
+/// A level for each of several figures, by their order alone.
+pub fn weighted(all: &[&Figures], weights: &[f64]) -> Vec<f64> {
+    let of_objective =
+        |k: usize| shares(&all.iter().map(|one| one.gains[k].value).collect::<Vec<_>>());
+    let objectives: Vec<Vec<f64>> = (0..weights.len()).map(of_objective).collect();
+    let depths = shares(&all.iter().map(|one| one.depth).collect::<Vec<_>>());
+    let level = |at: usize| {
+        let weighted = || {
+            objectives
+                .iter()
+                .zip(weights)
+                .map(|(all, weight)| weight * all[at])
+        };
+        let least = weighted().fold(f64::INFINITY, f64::min);
+        least + SUM * weighted().sum::<f64>() + BOND * depths[at]
+    };
+    (0..all.len()).map(level).collect()
 }
 
 /// Levels as numbers for a model: the logistic quantiles of their ranks, equal ones with the mean of
@@ -187,8 +242,21 @@ mod tests {
             high: value,
         };
         Standing::Fit {
-            gains: vec![gain],
-            depth: 0.0,
+            figures: Figures {
+                gains: vec![gain],
+                depth: 0.0,
+            },
+            margin: 1.0,
+        }
+    }
+
+    fn unfit(shortfall: f64) -> Standing {
+        Standing::Unfit {
+            figures: None,
+            margin: -shortfall,
+            shortfall,
+            reason: "a".to_owned(),
+            is_proved: false,
         }
     }
 
@@ -197,9 +265,9 @@ mod tests {
         let all = [
             Standing::Impossible,
             fit(-5.0),
-            Standing::unfit(0.2, vec!["a".into()], false),
+            unfit(0.2),
             fit(f64::INFINITY),
-            Standing::unfit(0.1, vec!["b".into()], false),
+            unfit(0.1),
             fit(2.0),
         ];
         let levels = levels(&all, &[1.0]);

@@ -10,7 +10,7 @@ use super::energies;
 use super::manifest::{Search, Stage};
 use super::model::Model;
 use super::race;
-use super::rank::{self, Standing, levels, scores};
+use super::rank::{self, Figures, Standing, levels, scores, weighted};
 use super::space::{Place, STEP, Space};
 use super::tried::{Found, SearchError, Tried};
 use crate::sweep::{Outcome, Plan, PlanError, Point};
@@ -248,7 +248,8 @@ impl<'a> Course<'a> {
         round
     }
 
-    /// The place with the largest expected improvement, while others wait for their results.
+    /// The place with the largest expected improvement times the chance that it is fit, while others
+    /// wait for their results.
     fn most_promising(&mut self, waiting: &[Place], is_near: bool) -> Option<Place> {
         let weights = match self.search.aim.objectives.len() {
             1 => vec![1.0],
@@ -257,36 +258,58 @@ impl<'a> Course<'a> {
                 vec![one, 1.0 - one]
             }
         };
-        let levels = levels(&self.standings(), &weights);
-        let all = scores(&levels);
-        let mut order: Vec<usize> = (0..all.len()).collect();
-        order.order_by(|&a, &b| all[b].total_cmp(&all[a]));
+        let standings = self.standings();
+        let levels = levels(&standings, &weights);
+        let mut order: Vec<usize> = (0..levels.len()).collect();
+        order.order_by(|&a, &b| levels[b].total_cmp(&levels[a]));
         order.truncate(FOLLOWED);
-        let centre = &self.tried[order[0]].place;
+        let centre = &self.tried[*order.first()?].place;
         let mut places: Vec<Place> = Vec::new();
         if !is_near {
             places.extend((0..ANYWHERE).map(|_| self.space.anywhere(&mut self.random)));
         }
         let near = |_| self.space.near(centre, self.reach, &mut self.random);
         places.extend((0..NEAR).map(near));
-        let mut values: Vec<f64> = order.iter().map(|&k| all[k]).collect();
-        let best = values[0];
-        let known = order.iter().map(|&k| &self.tried[k].place).collect();
-        let mut model = Model::fitted(&self.space, known, &values);
-        for place in waiting {
-            model = model.with(place, &mut values);
-        }
-        let mut most: Option<(f64, Place)> = None;
-        for place in places {
-            if self.known.contains(&place) {
-                continue;
+
+        let model = |known: Vec<usize>, mut values: Vec<f64>| {
+            let known = known.iter().map(|&k| &self.tried[k].place).collect();
+            let mut model = Model::fitted(&self.space, known, &values);
+            for place in waiting {
+                model = model.with(place, &mut values);
             }
-            let improvement = model.improvement(&place, best);
-            if most.as_ref().is_none_or(|(known, _)| improvement > *known) {
-                most = Some((improvement, place));
+            model
+        };
+        // What is not fit teaches its figures as well.
+        let known = order
+            .iter()
+            .filter_map(|&k| Some((k, standings[k].figures()?)));
+        let (known, figures): (Vec<usize>, Vec<&Figures>) = known.unzip();
+        let values = scores(&weighted(&figures, &weights));
+        let fit = known
+            .iter()
+            .zip(&values)
+            .filter(|(k, _)| standings[**k].gains().is_some());
+        let best = fit.map(|(_, value)| *value).max_by(f64::total_cmp);
+        let gain = (!known.is_empty()).then(|| model(known, values));
+        let margins: Vec<f64> = order.iter().map(|&k| standings[k].margin()).collect();
+        let is_free = margins.iter().all(|margin| *margin == 1.0);
+        let margin = (!is_free).then(|| model(order.clone(), margins));
+        let promise = |place: &Place| {
+            let chance = margin.as_ref().map_or(1.0, |model| model.chance(place));
+            match (&gain, best) {
+                (Some(model), Some(best)) => chance * model.improvement(place, best),
+                // Nothing is fit so far.
+                _ => chance,
+            }
+        };
+        let mut most: Option<(f64, &Place)> = None;
+        for place in places.iter().filter(|place| !self.known.contains(*place)) {
+            let promise = promise(place);
+            if most.is_none_or(|(known, _)| promise > known) {
+                most = Some((promise, place));
             }
         }
-        most.map(|(_, place)| place)
+        most.map(|(_, place)| place.clone())
     }
 
     /// The steps beside the best.

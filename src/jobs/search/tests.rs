@@ -2,6 +2,9 @@
 
 use std::convert::Infallible;
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
 use super::*;
 use crate::comparison::{self, Assessment, Bond, Trap, Way};
 use crate::sweep::{Axis, Outcome, Plan, PlanError, Point, Source};
@@ -88,7 +91,7 @@ const SQUARE: [&str; 2] = [
 ];
 
 #[test]
-fn the_top_of_a_hill_is_found_within_a_thousandth_where_chance_misses_it() {
+fn the_top_of_a_hill_is_found_within_a_hundredth_where_the_first_points_miss_it() {
     let search = search(&SQUARE, aim(&["bond_depth"], &[], 60));
     let (found, _) = found(&search, |at| design(hill([at[0], at[1]]), 0.001, 50));
     let value = |one: &Tried| match &one.outcome {
@@ -96,11 +99,7 @@ fn the_top_of_a_hill_is_found_within_a_thousandth_where_chance_misses_it() {
         _ => 0.0,
     };
     let best = found.front(&search)[0];
-    assert!(
-        value(&found.tried[best]) > 0.0999,
-        "{:?}",
-        found.tried[best]
-    );
+    assert!(value(&found.tried[best]) > 0.099, "{:?}", found.tried[best]);
     // The places spread first are as good as chance.
     let spread = found.tried[..20].iter().map(value).fold(0.0, f64::max);
     assert!(spread < 0.099, "{spread}");
@@ -145,6 +144,47 @@ fn the_best_that_satisfies_a_condition_is_at_its_limit() {
         .iter()
         .filter(|one| matches!(one, Standing::Unfit { .. }));
     assert!(unfit.count() > 3);
+}
+
+/// Against as many points by chance, ten times each: a hill with a second, lower top, whose highest
+/// part violates a condition.
+#[test]
+fn ten_searches_come_closer_to_the_best_than_chance() {
+    let height = |at: [f64; 2]| {
+        let second = [(at[0] - 0.008) / 0.006, (at[1] - 0.26) / 0.03];
+        hill(at) + 0.05 * libm::exp(-second[0] * second[0] - second[1] * second[1])
+    };
+    let of = |at: &[f64]| {
+        let depth = height([at[0], at[1]]);
+        design(depth, 0.001, 90 - (700.0 * depth) as usize)
+    };
+    let (mut searches, mut chances) = (Vec::new(), Vec::new());
+    for seed in 1..=10 {
+        let aim = aim(&["bond_depth"], &["captured >= 0.4"], 40);
+        let mut search = search(&SQUARE, aim);
+        search.plan.seed = seed;
+        let (found, _) = found(&search, of);
+        let best = found.front(&search)[0];
+        searches.push(found.standings(&search)[best].gains().unwrap()[0].value);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let heights = (0..40).map(|_| {
+            let (x, y): (f64, f64) = (random.random(), random.random());
+            let at = [0.001 + 0.049 * x, 0.05 + 0.25 * y];
+            Some(height(at)).filter(|_| of(&at).captured >= 40)
+        });
+        chances.push(heights.flatten().fold(0.0, f64::max));
+    }
+    let median = |all: &mut Vec<f64>| {
+        all.sort_by(f64::total_cmp);
+        (all[4] + all[5]) / 2.0
+    };
+    // No point that is fit is higher than 51/700, about 72.8 mJ.
+    let [search, chance] = [&mut searches, &mut chances].map(median);
+    println!("best of 40 points, median of ten: {search} with a search, {chance} by chance");
+    assert!(
+        search > 0.0725 && chance < 0.0715,
+        "{searches:?} {chances:?}"
+    );
 }
 
 #[test]

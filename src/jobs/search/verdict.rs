@@ -76,10 +76,7 @@ impl Found {
                 .gains()
                 .map_or(f64::NEG_INFINITY, |all| all[0].value)
         };
-        let depth = |k: usize| match standings[k] {
-            Standing::Fit { depth, .. } => depth,
-            _ => 0.0,
-        };
+        let depth = |k: usize| standings[k].figures().map_or(0.0, |figures| figures.depth);
         let mut fit: Vec<usize> = (0..standings.len())
             .filter(|&k| standings[k].gains().is_some())
             .collect();
@@ -131,7 +128,7 @@ impl Found {
                 },
                 _,
             ) => Verdict::Worse,
-            (Standing::Fit { gains, .. }, _) if is_worse(gains) => Verdict::Worse,
+            (Standing::Fit { figures, .. }, _) if is_worse(&figures.gains) => Verdict::Worse,
             _ => Verdict::Undecided,
         };
         (0..standings.len()).map(verdict).collect()

@@ -57,6 +57,8 @@ fn all(texts: Option<Texts>) -> Vec<String> {
 /// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
 /// complete_cells, dynamics_runs, seed
 ///     As for :func:`compare`.
+/// strength, place, turn, gap, flip, batch, draws, selectivity
+///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
 /// progress : bool, optional
 ///
 /// Returns
