@@ -12,12 +12,14 @@ use physics::order::Order;
 /// Largest number of points in the table.
 const LISTED: usize = 12;
 /// The columns of the table.
-const COLUMNS: [&str; 5] = [
+const COLUMNS: [&str; 6] = [
     "bond_depth",
     "trap_depth",
     "selectivity",
     "unbinding",
     "captured",
+    // Where errors of making are stated.
+    "robust",
 ];
 
 fn quantity(key: &str) -> &'static Quantity {
