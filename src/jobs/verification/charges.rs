@@ -55,7 +55,7 @@ mod tests {
             let part = |k: i32| (2.0 * f64::from(k) + 1.0) / 40.0 - 1.0;
             let all = (0..40).flat_map(|i| (0..40).map(move |j| [part(i), part(j)]));
             let is_inside =
-                |p: &[f64; 2]| it.outline == Outline::Rectangle || p[0].hypot(p[1]) < 1.0;
+                |p: &[f64; 2]| it.outline == Outline::Rectangle || libm::hypot(p[0], p[1]) < 1.0;
             let place = |[u, v]: [f64; 2]| {
                 let ([u, v], [c, s]) = ([u * it.half[0], v * it.half[1]], it.along);
                 let [x, y] = it.middle;
