@@ -26,7 +26,7 @@
 use std::sync::LazyLock;
 
 use super::bounds::{
-    CellBounds, CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
+    BoxedBounds, CuboidBounds, DipoleBounds, MixedBounds, ShieldedBlockBounds, ShieldedBounds,
 };
 use super::shielding::{ShieldRule, Shields};
 use super::{
@@ -73,9 +73,6 @@ pub type LazyBounds = LazyLock<BoxedBounds, Box<dyn FnOnce() -> BoxedBounds + Se
 
 /// Makes bounds for a model of magnets, two tiles and their shields.
 pub type MakeBounds = fn(MagnetModel, &Tile, &Tile, &Shields) -> BoxedBounds;
-
-/// Bounds over cells of any energy.
-pub type BoxedBounds = Box<dyn CellBounds + Send>;
 
 impl Interaction {
     /// Makes bounds of the energy between two tiles over cells.

@@ -55,12 +55,12 @@ pub mod simd;
 
 pub use batch::DipolePotential;
 pub use bodies::BodyPotential;
-pub use bounds::CellBounds;
+pub use bounds::{BoxedBounds, CellBounds};
 pub use cuboid::CuboidPotential;
 pub use flux_density::flux_density;
 pub use function::Potential;
 use function::finite;
 pub use groups::MANY_PAIRS;
-pub use interaction::{BoxedBounds, Energy, Interaction, LazyBounds, Unbounded};
+pub use interaction::{Energy, Interaction, LazyBounds, Unbounded};
 pub use model::MagnetModel;
 pub use shielding::ShieldedPotential;

@@ -88,6 +88,9 @@ pub fn ends(levers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     both.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }
 
+/// Bounds over cells of any energy.
+pub type BoxedBounds = Box<dyn CellBounds + Send>;
+
 /// An energy that can be bounded over cells.
 pub trait CellBounds: Sync {
     /// Encloses U over the free configurations of a cell. If nothing is known, `low` is minus

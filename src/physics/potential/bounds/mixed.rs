@@ -2,11 +2,10 @@
 //! magnet of one kind acts on one of the other.
 
 use super::near::{SLACK, depths};
-use super::{CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds};
+use super::{BoxedBounds, CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::potential::MagnetModel;
-use crate::potential::interaction::BoxedBounds;
 use crate::tile::magnet::Shape;
 use crate::tile::{Magnet, Tile};
 

@@ -14,7 +14,7 @@ mod upright;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
 use enclosure::ends;
-pub use enclosure::{CellBounds, Enclosure};
+pub use enclosure::{BoxedBounds, CellBounds, Enclosure};
 pub use mixed::MixedBounds;
 use near::{Interval, NearPair, depths};
 pub use shielded::{ShieldedBlockBounds, ShieldedBounds};
