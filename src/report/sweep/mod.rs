@@ -8,12 +8,14 @@ mod document;
 mod pictures;
 mod search;
 mod search_pictures;
+mod searched;
 
 use crate::files::{PAGE, REPORT};
 pub use crate::points::{DESIGNS, Sweep};
 pub use document::counts;
 use jobs::output::Command;
-pub use search::{BEST, Searched};
+pub use search::BEST;
+pub use searched::Searched;
 
 /// The files of the command. Its points are files of their own, see
 /// [`jobs::sweep::Store`].

@@ -1,6 +1,6 @@
 //! The pictures of a search: its course, and the front of two objectives.
 
-use super::search::Searched;
+use super::searched::Searched;
 use crate::plots::Drawing;
 use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::comparison::Quantity;
