@@ -218,6 +218,9 @@ fn pathways_outside_the_folder_and_empty_outlines_are_noticed() {
         let mut report = whole.clone();
         report["tiles"][tile]["outline_m"] = json!([]);
         contradicted(&report, "overlap");
+        let mut report = whole.clone();
+        report["tiles"][tile]["faces"] = json!([]);
+        contradicted(&report, "a face that it does not have");
     }
 }
 

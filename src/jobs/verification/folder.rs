@@ -75,6 +75,12 @@ pub(super) fn check(given: &Given) -> Checked {
         );
         return Checked { book, unchecked };
     };
+    for (tile, name) in [(&tiles.fixed, "fixed"), (&tiles.moving, "moving")] {
+        let holds = tile.magnets.iter().all(|it| it.face < tile.faces.len());
+        book.note(Subject::Lists, holds, || {
+            format!("the {name} tile has a magnet on a face that it does not have")
+        });
+    }
     let shields = report.settings.shields.as_deref();
     let magnets = Magnets::new(tiles, &report.settings.model, shields);
     if let Err(why) = &magnets {
