@@ -147,8 +147,29 @@ def analyse(name):
             work.keep(f"{name}/{file}", path.read_bytes() if path.exists() else None)
         row = design_row(name, json.loads((out / "report.json").read_text()))
         work.keep_row("designs.csv", DESIGN_COLUMNS, row, DESIGNS)
+        work.keep_row("verified.csv", VERIFIED_COLUMNS, verified(work, name), DESIGNS)
 
     return make
+
+
+# What `tilebind verify` counts together.
+VERIFIED = {
+    "states": ["energies of states", "energies as blocks"],
+    "clearances": ["clearances"],
+    "pathway_points": ["energies on pathways"],
+    "upper_bounds": ["upper bounds"],
+    "lower_bounds": ["lower bounds"],
+    "others": ["ends of pathways", "saddles", "heights of barriers", "lengths and work", "captures", "lists of states"],
+}
+VERIFIED_COLUMNS = ["design", *VERIFIED, "undecided", "contradicted"]
+
+
+def verified(work, name):
+    """What the second reader confirms of the results of a design. A contradiction is a failure."""
+    checks = {it["check"]: it for it in work.json("tilebind", "verify", f"target/{name}")["checks"]}
+    counts = [sum(checks[it]["confirmed"] for it in those) for those in VERIFIED.values()]
+    of = [sum(it[key] for it in checks.values()) for key in ("undecided", "contradicted")]
+    return [name, *counts, *of]
 
 
 def pictures(name):
@@ -567,7 +588,7 @@ GROWN = "rgrow, NumPy and Matplotlib, in this Python or to be installed from PyP
 
 PARTS = [
     *(Part(name, "designs", 1.2 if name.startswith("square") else 0.05,
-           [f"{name}/{file}" for file in ["summary.txt", *TABLES, *pictures(name)]] + ["designs.csv"], analyse(name))
+           [f"{name}/{file}" for file in ["summary.txt", *TABLES, *pictures(name)]] + ["designs.csv", "verified.csv"], analyse(name))
       for name in DESIGNS),
     Part("study-dipole", "study", 3.5, ["study/dipole.csv", "study/dipole.png"], study("dipole", 11)),
     Part("study-cuboid", "study", 1.3, ["study/cuboid.csv"], study("cuboid", 6)),
@@ -638,6 +659,15 @@ def search_discs_table():
     rows = [[f"{milli(it['least_bond_J'])} mJ", f"{milli(it['pitch_m'])} mm", f"{milli(it['inset_m'])} mm", it["selectivity"],
              f"{milli(it['bond_J'])} mJ", it["analysed"], it["end"] or "-"] for it in table("search/discs.csv")]
     return markdown(["bond at least", "pitch", "inset", "selectivity", "bond", "analyses", "at the end of its range"], rows)
+
+
+def verified_table():
+    found = table("verified.csv")
+    rows = [[f"`{it['design']}`", *list(it.values())[1:]] for it in found]
+    sums = [sum(int(it[key]) for it in found) for key in VERIFIED_COLUMNS[1:]]
+    head = ["design", "energies of states", "clearances", "points of pathways", "upper bounds", "lower bounds", "others",
+            "undecided", "contradicted"]
+    return markdown(head, [*rows, ["all", *sums]])
 
 
 def magnets_table():
@@ -769,6 +799,7 @@ def screen():
 
 
 SHOWN = {"designs": designs_table, "search-shapes": search_shapes_table, "search-discs": search_discs_table,
+         "verified": verified_table,
          "magnets": magnets_table, "words-uniform": uniform_table, "words-spaced": spaced_table,
          "words-mismatches": mismatches_table, "words-elongated": elongated_table,
          "assembly-builds": builds_table, "assembly-blocks": blocks_table,

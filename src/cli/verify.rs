@@ -17,9 +17,10 @@ states, saddles and every point of a pathway. No pathway may exceed its upper bo
 (interval arithmetic), or stay below a lower bound. Counts must add up. Bounds of one design's barriers in
 several folders must overlap. That lower bounds hold for all other paths is not proved again.
 
-Exit status 1 if something is contradicted. Discs, upright magnets and the nearest-face rule have no bounds:
-their states and pathways alone are checked. Blocks and discs are integrated numerically; where blocks
-touch, segments between points are undecided, and so are energies where discs overlap.
+Exit status 1 if something is contradicted. Where there are no bounds, as of discs on edge and of the
+nearest-face rule, states and pathways alone are checked. Blocks and discs are integrated numerically;
+segments between points are undecided where blocks touch and for discs, and so are energies where discs
+overlap.
 
 Examples:
   tilebind verify target/paper-tile
