@@ -89,7 +89,7 @@ fn results_of_other_magnets_and_rules_are_confirmed_as_far_as_they_go() {
         fs::write(here.join(name), text).expect("a design");
     }
     for (design, has_bounds) in [
-        ("shapes/self-binding-hexagon.toml", true),
+        ("shapes/upright-discs.toml", true),
         ("shapes/shielded-nearest-face.toml", false),
         ("discs.toml", false),
         ("upright.toml", false),
