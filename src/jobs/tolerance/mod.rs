@@ -1,12 +1,12 @@
 //! What making does to a design: tiles drawn about their nominal values, and how many of them work.
 //!
-//! [`made`] says what is drawn. A draw *works* if its bond is its deepest state and at least
+//! `made` says what is drawn. A draw *works* if its bond is its deepest state and at least
 //! [`Making::least_selectivity`] times as deep as its deepest trap. The bond is the stated contact;
 //! contacts that are equal to it in the nominal design, by symmetry or because other faces carry the
 //! same magnets, count neither as bond nor as trap.
 //!
 //! The states of the nominal design are found by a search; those of a draw are followed from them
-//! ([`well`]). The energy near a state is a sum over pairs of magnets ([`expansion`]): exact in the
+//! (`well`). The energy near a state is a sum over pairs of magnets (`expansion`): exact in the
 //! magnets' strengths and poles, of second order in their places, their turns and the moving tile's
 //! motion. Two things are not followed: states that only a draw has, and states that a draw does not
 //! have any more, which count with the energy at their nominal place. Both are checked: some draws
