@@ -73,7 +73,7 @@ fn all(texts: Option<Texts>) -> Vec<String> {
 /// >>> print(found.best.text)
 #[pyfunction]
 #[pyo3(signature = (
-    designs, vary, *, maximise = None, minimise = None, subject = None, points = None,
+    designs, vary, *, maximise = None, minimise = None, subject = None, points = 60,
     progress = None, **settings
 ))]
 // Its keywords.
@@ -85,7 +85,7 @@ pub fn search(
     maximise: Option<Texts>,
     minimise: Option<Texts>,
     subject: Option<Texts>,
-    points: Option<usize>,
+    points: usize,
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Search> {
@@ -104,12 +104,11 @@ pub fn search(
     let items = vary.items()?;
     let axes = items.iter().map(|item| range(item.extract()?));
     let axes = axes.collect::<PyResult<Vec<_>>>()?;
-    let points = points.map(|count| count.to_string());
     let given = [
         ("maximise", all(maximise)),
         ("minimise", all(minimise)),
         ("subject", all(subject)),
-        ("points", points.into_iter().collect()),
+        ("points", vec![points.to_string()]),
     ];
     let given = given.map(|(key, values)| (key.to_owned(), values));
     let aim: Aims = of_keywords(given).map_err(fault::value)?;
