@@ -12,11 +12,12 @@ import csv
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy
+
+from validation import Program
 
 GRAVITY = 9.80665  # m/s2
 MAGNET = 7500  # kg/m3
@@ -62,22 +63,6 @@ def drawn(ranges, count, seed):
         places = (generator.permutation(count) + generator.random(count)) / count
         columns[name] = low + (high - low) * places
     return [{name: float(f"{columns[name][k]:.4g}") for name in ranges} for k in range(count)]
-
-
-class Program:
-    def __init__(self, path, folder):
-        self.path, self.folder = str(path), pathlib.Path(folder)
-
-    def json(self, *command):
-        done = subprocess.run([self.path, *map(str, command)], capture_output=True, text=True)
-        if done.returncode != 0:
-            sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-        return json.loads(done.stdout)
-
-    def file(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
 
 
 # Rings

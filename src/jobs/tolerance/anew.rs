@@ -1,7 +1,7 @@
 //! Checks of followed states: exact energies, and full searches.
 
 use super::made::{Draw, Maker};
-use super::{Outcome, Request, Study};
+use super::{Outcome, Request, Study, working};
 use crate::design::Design;
 use crate::pipeline::{self, Settings};
 use ordered_float::OrderedFloat;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 const EXACT: usize = 40;
 /// A state of a draw this close (m, metric of the space, for the paper's tile) to a contact that
 /// counts as the bond is one.
-const SAME_BOND: f64 = 5e-3;
+pub(super) const SAME_BOND: f64 = 5e-3;
 
 /// Followed energies beside exact ones of the same draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -123,10 +123,6 @@ pub(super) fn anew(
             ..outcomes[k]
         }
     });
-    let working = |all: &[Outcome]| {
-        let count = all.iter().filter(|it| it.works(least)).count();
-        Proportion::new(count, all.len())
-    };
     let followed = &outcomes[..count];
     let both = || followed.iter().zip(&found);
     let largest = |of: &dyn Fn(&Outcome) -> f64| {
@@ -134,8 +130,8 @@ pub(super) fn anew(
         relative.fold(0.0, f64::max)
     };
     Some(Anew {
-        works: working(&found),
-        followed: working(followed),
+        works: working(&found, least),
+        followed: working(followed, least),
         agree: both()
             .filter(|(a, b)| a.works(least) == b.works(least))
             .count(),

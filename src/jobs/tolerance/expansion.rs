@@ -23,7 +23,7 @@ use super::request::Making;
 use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::potential::interaction::bare;
-use physics::potential::shielding::ShieldRule;
+use physics::potential::shielding::{ShieldRule, nearest_faces};
 use physics::potential::{Interaction, MagnetModel, Potential};
 use physics::tile::{Magnet, Pair, Tile};
 
@@ -165,8 +165,10 @@ impl<'a> Pairs<'a> {
             return None;
         }
         let [fixed, moving] = [&self.pair.fixed, &self.pair.moving];
-        let nearest =
-            (shields.rule == ShieldRule::NearestFace).then(|| nearest_faces(self.pair, q));
+        let middles = [fixed, moving]
+            .map(|tile| -> Vec<_> { tile.faces.iter().map(|face| face.middle()).collect() });
+        let nearest = (shields.rule == ShieldRule::NearestFace)
+            .then(|| nearest_faces(middles.each_ref().map(Vec::as_slice), q));
         let factor = |first: &Magnet, second: &Magnet, shift: Vector3<f64>| {
             if let Some(nearest) = nearest {
                 return f64::from(u8::from((first.face, second.face) == nearest));
@@ -199,23 +201,6 @@ impl<'a> Pairs<'a> {
         }
         Some(all)
     }
-}
-
-/// The faces, one of each tile, whose midpoints are nearest to each other; the first of equal ones.
-fn nearest_faces(pair: &Pair, q: &Configuration) -> (usize, usize) {
-    let mut nearest = (f64::INFINITY, (0, 0));
-    for (j, moving) in pair.moving.faces.iter().enumerate() {
-        for (i, fixed) in pair.fixed.faces.iter().enumerate() {
-            let found = (
-                (q.transform(moving.middle()) - fixed.middle()).norm(),
-                (i, j),
-            );
-            if found < nearest {
-                nearest = found;
-            }
-        }
-    }
-    nearest.1
 }
 
 /// The draw without errors.

@@ -304,7 +304,7 @@ impl Request {
         observer.stage("exact energies", 0.85);
         let exact = anew::exact(study, maker, draws, &outcomes);
         let anew = anew::anew(study, maker, draws, &outcomes, (self, least), observer);
-        let safer = safer::safer(study, (&self.making, self.seed));
+        let safer = safer::safer(study, (&self.making, self.seed), &outcomes);
         Tolerance {
             making: self.making,
             seed: self.seed,
@@ -314,7 +314,7 @@ impl Request {
                     outcomes.iter().map(Outcome::selectivity),
                 )
             }),
-            works: share(&|it| it.works(least)),
+            works: working(&outcomes, least),
             reasons: reasons
                 .into_iter()
                 .map(|(name, label, share)| Reason { name, label, share })
@@ -346,9 +346,13 @@ pub fn robust(
     let study = Study::new(design, problem, catalogue, making).filter(|_| making.is_stated())?;
     let maker = Maker::new(&design.pair, making, seed);
     let (_, outcomes) = study.draw(&maker, making.draws());
-    let least = making.least_selectivity();
-    let working = outcomes.iter().filter(|it| it.works(least)).count();
-    Some(Proportion::new(working, outcomes.len()))
+    Some(working(&outcomes, making.least_selectivity()))
+}
+
+/// The share of draws that work.
+fn working(outcomes: &[Outcome], least_selectivity: f64) -> Proportion {
+    let working = outcomes.iter().filter(|it| it.works(least_selectivity));
+    Proportion::new(working.count(), outcomes.len())
 }
 
 /// The kinds of errors, as [`expansion::Gradients::effects`] has them.

@@ -4,10 +4,11 @@
 //! These are re-runs with the same random numbers, whose states are minimised anew from those of the
 //! design; no states are searched.
 
+use super::anew::SAME_BOND;
 use super::made::Maker;
 use super::request::Making;
 use super::well::Well;
-use super::{Outcome, Pairs, Spread, Study, expansion};
+use super::{Outcome, Pairs, Spread, Study, expansion, working};
 use crate::design::Design;
 use nalgebra::Vector2;
 use physics::configuration::Configuration;
@@ -45,7 +46,12 @@ pub struct Safer {
 }
 
 /// Re-runs of a study with changed insets and pitches.
-pub(super) fn safer(study: &Study, (making, seed): (&Making, u64)) -> Vec<Safer> {
+/// `outcomes` are the draws of the design itself.
+pub(super) fn safer(
+    study: &Study,
+    (making, seed): (&Making, u64),
+    outcomes: &[Outcome],
+) -> Vec<Safer> {
     let pair = &study.design.pair;
     let sizes = [&pair.fixed, &pair.moving].map(Tile::largest_magnet);
     let size = sizes[0].max(sizes[1]);
@@ -55,15 +61,9 @@ pub(super) fn safer(study: &Study, (making, seed): (&Making, u64)) -> Vec<Safer>
     let changes = deeper
         .into_iter()
         .chain(spread.into_iter().filter(|_| pitch.is_some()));
-    let count = making.draws().min(MOST_DRAWS);
+    let count = outcomes.len().min(MOST_DRAWS);
     let least = making.least_selectivity();
-    let working = |outcomes: &[Outcome]| {
-        let working = outcomes.iter().filter(|it| it.works(least)).count();
-        Proportion::new(working, outcomes.len())
-    };
-    let maker = Maker::new(pair, making, seed);
-    let (_, own) = study.draw(&maker, count);
-    let unchanged = working(&own);
+    let unchanged = working(&outcomes[..count], least);
     let rerun = |(key, by, ratio, deeper): (&'static str, f64, f64, f64)| {
         let pair = Arc::new(changed(pair, ratio, deeper)?);
         let design = Design {
@@ -80,7 +80,7 @@ pub(super) fn safer(study: &Study, (making, seed): (&Making, u64)) -> Vec<Safer>
             by,
             nominal,
             bond: Spread::new(nominal.bond, outcomes.iter().map(|it| it.bond)),
-            works: working(&outcomes),
+            works: working(&outcomes, least),
             unchanged,
         })
     };
@@ -100,7 +100,7 @@ fn followed<'a>(
     };
     let pairs = Pairs::new(design, making);
     let bond = rest(&study.bond.expansion.q)?;
-    let near = problem.scaled(5e-3);
+    let near = problem.scaled(SAME_BOND);
     let traps = &study.traps[..study.traps.len().min(MOST_TRAPS)];
     let traps = parallel::map(traps, |trap| {
         let q = rest(&trap.expansion.q)?;

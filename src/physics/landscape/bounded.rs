@@ -92,10 +92,7 @@ impl<'a> Bounded<'a> {
 
     /// Approximate units of work that an enclosure took.
     pub fn work_of(&self, known: &Enclosure) -> u64 {
-        match known.work {
-            0 => self.bounds.work(),
-            work => work,
-        }
+        self.bounds.work_of(known)
     }
 
     /// Approximate units of work to find the contacts of a configuration.

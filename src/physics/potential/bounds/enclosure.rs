@@ -54,6 +54,17 @@ impl Enclosure {
         }
     }
 
+    /// The enclosure of the sum of two energies, without levers: these are of a whole energy. The work of
+    /// the other one is given.
+    pub fn add(&mut self, other: &Self, work: u64) {
+        self.form = self.form.minus(-1.0, &other.form);
+        self.low += other.low;
+        self.high += other.high;
+        self.slope += other.slope;
+        self.jump += other.jump;
+        self.work += work;
+    }
+
     /// Bound of the change of `U - form` (J) on the straight motion `step` within the cell, whose
     /// half sizes are `half`.
     pub fn change(&self, step: &Vector3<f64>, half: &[f64; 3]) -> f64 {
@@ -105,6 +116,14 @@ pub trait CellBounds: Sync {
     /// Approximate units of work, as [budgets](crate::budget) count it, to enclose a usual cell.
     fn work(&self) -> u64 {
         FEW_UNITS
+    }
+
+    /// Approximate units of work that an enclosure of this energy took.
+    fn work_of(&self, known: &Enclosure) -> u64 {
+        match known.work {
+            0 => self.work(),
+            work => work,
+        }
     }
 }
 

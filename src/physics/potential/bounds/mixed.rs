@@ -70,15 +70,7 @@ impl CellBounds for MixedBounds {
         let mut out = Enclosure::default();
         for part in &self.parts {
             let known = part.enclose(cell);
-            out.form = out.form.minus(-1.0, &known.form);
-            out.low += known.low;
-            out.high += known.high;
-            out.slope += known.slope;
-            out.jump += known.jump;
-            out.work += match known.work {
-                0 => part.work(),
-                work => work,
-            };
+            out.add(&known, part.work_of(&known));
         }
         out
     }

@@ -32,6 +32,10 @@ mod potential;
 
 pub use potential::ShieldedPotential;
 
+use nalgebra::Vector2;
+
+use crate::configuration::Configuration;
+
 /// The constants of a face's shield.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shield {
@@ -98,6 +102,23 @@ impl Shield {
         let eta = 1.0 - self.attenuation * (1.0 / (1.0 + ratio * ratio));
         eta + (self.front_gain - eta) * logistic(cosine / self.width)
     }
+}
+
+/// The faces of the fixed and of the moving tile, given by their midpoints (m), that are nearest to each
+/// other; the first of equal ones.
+pub fn nearest_faces([fixed, moving]: [&[Vector2<f64>]; 2], q: &Configuration) -> (usize, usize) {
+    let (rotation, position) = (q.rotation(), q.position());
+    let mut nearest = (f64::INFINITY, (0, 0));
+    for (j, moving) in moving.iter().enumerate() {
+        let moving = position + rotation * moving;
+        for (i, fixed) in fixed.iter().enumerate() {
+            let found = ((moving - fixed).norm(), (i, j));
+            if found < nearest {
+                nearest = found;
+            }
+        }
+    }
+    nearest.1
 }
 
 /// S(t) = 1 / (1 + exp(-t)), without overflow.

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::kernel::{self, Columns, PairColumns};
-use super::{ShieldRule, Shields};
+use super::{ShieldRule, Shields, nearest_faces};
 use crate::configuration::Configuration;
 use crate::potential::cuboid::block::Block;
 use crate::potential::cuboid::limits::{Limits, face_distances};
@@ -161,26 +161,13 @@ impl ShieldedPotential {
         changed
     }
 
-    /// The pair of faces whose midpoints are nearest to each other; the first of equal ones.
-    fn nearest_faces(&self, q: &Configuration) -> (usize, usize) {
-        let (rotation, position) = (q.rotation(), q.position());
-        let mut nearest = (f64::INFINITY, (0, 0));
-        for (j, moving) in self.moving_middles.iter().enumerate() {
-            let moving = position + rotation * moving;
-            for (i, fixed) in self.fixed_middles.iter().enumerate() {
-                let found = ((moving - fixed).norm(), (i, j));
-                if found < nearest {
-                    nearest = found;
-                }
-            }
-        }
-        nearest.1
-    }
-
     fn sum<const SLOPE: bool>(&self, q: &Configuration) -> (f64, Vector3<f64>) {
         let faces = match self.rule {
             ShieldRule::Smooth => None,
-            ShieldRule::NearestFace => Some(self.nearest_faces(q)),
+            ShieldRule::NearestFace => Some(nearest_faces(
+                [&self.fixed_middles, &self.moving_middles],
+                q,
+            )),
         };
         if let (Some((i, j)), Some(blocks)) = (faces, &self.blocks) {
             let bare = &blocks.faces[i * self.moving_middles.len() + j];

@@ -72,12 +72,7 @@ impl CellBounds for ShieldedBlockBounds {
                 }
                 pair = product(&pair, &factor, &cell.half);
             }
-            out.form = out.form.minus(-1.0, &pair.form);
-            out.low += pair.low;
-            out.high += pair.high;
-            out.slope += pair.slope;
-            out.jump += pair.jump;
-            out.work += pair.work;
+            out.add(&pair, pair.work);
         }
         out
     }
