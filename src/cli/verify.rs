@@ -17,10 +17,9 @@ states, saddles and every point of a pathway. No pathway may exceed its upper bo
 (interval arithmetic), or stay below a lower bound. Counts must add up. Bounds of one design's barriers in
 several folders must overlap. That lower bounds hold for all other paths is not proved again.
 
-Exit status 1 if something is contradicted. Where there are no bounds, as of discs on edge and of the
-nearest-face rule, states and pathways alone are checked. Blocks and discs are integrated numerically;
-segments between points are undecided where blocks touch and for discs, and so are energies where discs
-overlap.
+Exit status 1 if something is contradicted. Where there are no bounds, as of the nearest-face rule, states
+and pathways alone are checked. Blocks and discs are integrated numerically. Undecided are energies where
+discs overlap, and segments between points where magnets touch or that need too many parts.
 
 Examples:
   tilebind verify target/paper-tile

@@ -1,15 +1,16 @@
 //! The energy of two tiles' magnets along a straight motion: point dipoles, and blocks and discs as
-//! pairs of charged faces.
+//! pairs of charged faces, of discs that stand by their distance alone.
 //!
 //! Written without the potentials of this crate, by other formulas where there are any: dipoles in
 //! interval arithmetic from the definition; faces by closed forms of some of the four integrals over two
 //! of them and adaptive quadrature of the others, which is estimated, not bounded.
 
 use super::charges;
-use super::distance::{clearance, placed};
+use super::distance::{Rim, clearance, placed};
 use super::faces::{Face, Outline};
 use super::given::{Magnet, Pose, Shield, Tile, Tiles};
 use super::interval::{Interval, Jet};
+use super::radial::Radial;
 
 /// mu0 / 4 pi (T m / A).
 const MU0_OVER_4PI: f64 = 1e-7;
@@ -26,6 +27,8 @@ pub(super) struct Magnets {
     model: Model,
     fixed: Vec<Source>,
     moving: Vec<Source>,
+    /// Energies of discs that stand, by the kinds of both.
+    radial: Vec<([Disc; 2], Radial)>,
     /// The middles (m) of both tiles' faces, if only the nearest two act.
     middles: Option<[Vec<[f64; 2]>; 2]>,
 }
@@ -36,6 +39,9 @@ const EQUAL: f64 = 1e-9;
 
 /// Discs overlap if they do by more than this (m), which rounding leaves where they touch.
 const OVERLAP: f64 = 1e-9;
+
+/// Moment (A m^2) and sizes (m) of a disc that stands.
+type Disc = [f64; 3];
 
 /// A magnet with the shield behind it.
 struct Source {
@@ -51,6 +57,8 @@ struct Source {
     /// Distance (m) from its centre to its farthest corner in the plane.
     radius: f64,
     shield: Option<(Shield, [f64; 2])>,
+    /// The area that it covers, seen from above.
+    rim: Rim,
 }
 
 /// A straight motion from one pose to another, the shorter way round.
@@ -99,6 +107,24 @@ impl Source {
         let m = magnet.moment;
         let face = tile.faces.get(magnet.face)?;
         let [l, w, _] = magnet.size_m;
+        let outline = match &magnet.shape[..] {
+            "block" => Outline::Rectangle,
+            "disc" => Outline::Disc,
+            _ => return None,
+        };
+        let stands = magnet.up.is_some();
+        let [x, y] = magnet.position_m;
+        let corners = match outline {
+            Outline::Disc if stands => {
+                let turns = (0..64).map(|k| std::f64::consts::TAU / 64.0 * f64::from(k));
+                turns
+                    .map(|it| [0.5 * l * libm::cos(it), 0.5 * l * libm::sin(it)])
+                    .collect()
+            }
+            _ => [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
+                .map(|[u, v]| [0.5 * u * l, 0.5 * v * w])
+                .to_vec(),
+        };
         Some(Self {
             position: magnet.position_m,
             moment: match magnet.up {
@@ -107,15 +133,15 @@ impl Source {
             },
             angle: magnet.angle,
             size: magnet.size_m,
-            outline: match &magnet.shape[..] {
-                "block" => Outline::Rectangle,
-                "disc" => Outline::Disc,
-                _ => return None,
-            },
-            stands: magnet.up.is_some(),
+            outline,
+            stands,
             face: magnet.face,
-            radius: 0.5 * libm::hypot(l, w),
+            radius: match outline {
+                Outline::Disc if stands => 0.5 * l,
+                _ => 0.5 * libm::hypot(l, w),
+            },
             shield: face.shield.map(|shield| (shield, face.normal)),
+            rim: Rim::new(placed(&corners, [x, y, magnet.angle])),
         })
     }
 
@@ -139,6 +165,7 @@ impl Source {
         let [mx, my] = constant([self.moment[0], self.moment[1]]);
         Placed {
             place: [x + by[0], y + by[1]],
+            axis: constant([libm::cos(self.angle), libm::sin(self.angle)]),
             moment: [mx, my, Jet::of(self.moment[2])],
             shield: self
                 .shield
@@ -146,10 +173,10 @@ impl Source {
         }
     }
 
-    /// Where its pieces are from its centre, as many along it as across it: anywhere in each.
+    /// Where its pieces are from its centre, as many along it as across it: anywhere in each. Of discs, too,
+    /// halves and quarters are equal.
     fn places(&self, placed: &Placed, pieces: u8) -> Vec<Flat> {
-        let strength = libm::hypot(self.moment[0], self.moment[1]);
-        let axis = [placed.moment[0], placed.moment[1]].map(|m| m * Jet::of(1.0 / strength));
+        let axis = placed.axis;
         let side = [Jet::of(0.0) - axis[1], axis[0]];
         let offset = |k: u8, size: f64| {
             let edge = |k: u8| size * (f64::from(k) / f64::from(pieces) - 0.5);
@@ -167,22 +194,10 @@ impl Source {
         (x * x + y * y + z * z).sqrt()
     }
 
-    /// The area that it covers, seen from above, on a tile at this pose.
-    fn seen(&self, pose: Pose) -> Vec<[f64; 2]> {
-        let [l, w, _] = self.size;
-        let own = [self.position[0], self.position[1], self.angle];
-        let corners = match self.outline {
-            Outline::Disc if self.stands => {
-                let turns = (0..64).map(|k| std::f64::consts::TAU / 64.0 * f64::from(k));
-                turns
-                    .map(|it| [0.5 * l * libm::cos(it), 0.5 * l * libm::sin(it)])
-                    .collect()
-            }
-            _ => [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
-                .map(|[u, v]| [0.5 * u * l, 0.5 * v * w])
-                .to_vec(),
-        };
-        placed(&placed(&corners, own), pose)
+    /// Its kind, if it is a disc that stands.
+    fn disc(&self) -> Option<Disc> {
+        let is_one = self.stands && self.outline == Outline::Disc;
+        is_one.then_some([self.moment[2], self.size[0], self.size[2]])
     }
 
     /// Its pole faces, on a tile at this pose, with their charges (A / m).
@@ -253,6 +268,8 @@ impl Still {
 /// A magnet anywhere on a part of a motion.
 struct Placed {
     place: Flat,
+    /// Along its first size.
+    axis: Flat,
     moment: [Jet; 3],
     shield: Option<(Shield, Flat)>,
 }
@@ -298,12 +315,35 @@ impl Magnets {
         let both = sources(&tiles.fixed).zip(sources(&tiles.moving));
         let (fixed, moving) = both
             .ok_or("a magnet is on a face that the tile does not have, or of an unknown shape")?;
+        let mut radial: Vec<([Disc; 2], Radial)> = Vec::new();
+        if model == Model::Bodies {
+            for (target, source) in fixed
+                .iter()
+                .flat_map(|a| moving.iter().map(move |b| (a, b)))
+            {
+                if let Some(kinds) = kinds(target, source)
+                    && radial.iter().all(|it| it.0 != kinds)
+                {
+                    // About the same place.
+                    let [first, second] = [target, source]
+                        .map(|it| it.faces([0.0; 3]).map(|face| face.moved([0.0; 2])));
+                    radial.push((kinds, Radial::new(&first, &second)));
+                }
+            }
+        }
         Ok(Self {
             model,
             fixed,
             moving,
+            radial,
             middles,
         })
+    }
+
+    fn radial(&self, target: &Source, source: &Source) -> Option<&Radial> {
+        let kinds = kinds(target, source)?;
+        let found = self.radial.iter().find(|it| it.0 == kinds);
+        found.map(|it| &it.1)
     }
 
     pub fn model(&self) -> Model {
@@ -317,17 +357,18 @@ impl Magnets {
         if self.model == Model::Dipoles {
             return false;
         }
-        let fixed: Vec<_> = self.fixed.iter().map(|it| it.seen([0.0; 3])).collect();
         self.moving.iter().any(|source| {
-            let moving = source.seen(pose);
-            self.fixed.iter().zip(&fixed).any(|(target, fixed)| {
+            let place = source.still(pose).place;
+            self.fixed.iter().any(|target| {
                 let acts = source.stands == target.stands;
                 let both = [source.outline, target.outline];
                 let reach = source.radius + target.radius;
-                let apart = libm::hypot(moving[0][0] - fixed[0][0], moving[0][1] - fixed[0][1]);
+                let [x, y] = target.position;
+                let apart = libm::hypot(place[0] - x, place[1] - y);
                 acts && both.contains(&Outline::Disc)
-                    && apart < 4.0 * reach
-                    && clearance(fixed, &moving) < -OVERLAP
+                    && apart < reach - OVERLAP
+                    && (kinds(target, source).is_some()
+                        || clearance(&target.rim, &source.rim, pose) < -OVERLAP)
             })
         })
     }
@@ -378,12 +419,9 @@ impl Magnets {
         }
     }
 
-    /// Whether there are bounds of the energy over parts of a motion: not where it jumps, and of magnets
-    /// with faces only for blocks that lie.
+    /// Whether there are bounds of the energy over parts of a motion: not where it jumps.
     fn has_bounds(&self) -> bool {
-        let is_plain = |it: &Source| it.outline == Outline::Rectangle && !it.stands;
-        let mut all = self.fixed.iter().chain(&self.moving);
-        self.middles.is_none() && (self.model == Model::Dipoles || all.all(is_plain))
+        self.middles.is_none()
     }
 
     /// The least second derivative (J) of the energy along a motion over a part of it; minus infinity
@@ -401,7 +439,7 @@ impl Magnets {
     }
 
     /// A bound of the second derivative (J) of the energy along a motion over a part of it, either way; none
-    /// where magnets have shields or faces. With the n-th derivatives of 1 / r, which are at most
+    /// where magnets have shields or may touch. With the n-th derivatives of 1 / r, which are at most
     /// n! / r^(n + 1) in any directions, the energy's is at most
     ///
     /// ```text
@@ -409,24 +447,28 @@ impl Magnets {
     /// ```
     ///
     /// of a magnet that moves at the speed v, turns by w and is accelerated by a, all for each whole motion.
+    /// Bodies are made of elements that are as near as `r` without their radii.
     pub fn most_bend(&self, motion: &Motion, part: Interval) -> Option<f64> {
         let all = || self.fixed.iter().chain(&self.moving);
-        if self.model != Model::Dipoles
-            || self.middles.is_some()
-            || all().any(|it| it.shield.is_some())
-        {
+        if !self.has_bounds() || all().any(|it| it.shield.is_some()) {
             return None;
         }
+        let radius = |it: &Source| match self.model {
+            Model::Dipoles => 0.0,
+            Model::Bodies => it.radius,
+        };
         let [x, y, turn] = [0, 1, 2].map(|k| motion.to[k] - motion.from[k]);
         let pose = motion.at(part.middle());
         let mut sum = 0.0;
         for source in &self.moving {
-            let lever = libm::hypot(source.position[0], source.position[1]);
+            let lever = libm::hypot(source.position[0], source.position[1]) + radius(source);
             let speed = libm::hypot(x, y) + lever * turn.abs();
             let moving = source.still(pose);
             for target in &self.fixed {
                 let way = [0, 1].map(|k| moving.place[k] - target.position[k]);
-                let r = libm::hypot(way[0], way[1]) - 0.5 * (part.high - part.low) * speed;
+                let half = 0.5 * (part.high - part.low);
+                let r =
+                    libm::hypot(way[0], way[1]) - half * speed - radius(source) - radius(target);
                 if r <= 0.0 {
                     return None;
                 }
@@ -451,9 +493,15 @@ impl Magnets {
             let moving = source.moved(turn, [x, y]);
             for (target, place) in self.fixed.iter().zip(&fixed) {
                 let way = minus(moving.place, place.place);
-                let energy = match self.model {
-                    Model::Dipoles => dipoles(place, &moving, way, Jet::of(0.0)),
-                    Model::Bodies => spread([target, source], [place, &moving], way),
+                let energy = match (self.model, self.radial(target, source)) {
+                    (Model::Dipoles, _) => dipoles(place, &moving, way, Jet::of(0.0)),
+                    (Model::Bodies, _) if source.stands != target.stands => continue,
+                    (Model::Bodies, Some(radial)) => {
+                        let square = way[0].squared() + way[1].squared();
+                        let energy = square.composed(radial.over(square.value));
+                        Jet::of(MU0_OVER_4PI) * energy
+                    }
+                    (Model::Bodies, None) => spread([target, source], [place, &moving], way),
                 };
                 sum = sum + energy * factors(place, &moving, way);
             }
@@ -500,10 +548,16 @@ impl Magnets {
                 {
                     continue;
                 }
-                let pairs = fixed
-                    .iter()
-                    .flat_map(|a| moving.iter().map(move |b| (a, b)));
-                let energy: f64 = pairs.map(|(a, b)| charges::energy(a, b)).sum();
+                let known = self.radial(target, source).and_then(|it| {
+                    let way = [0, 1].map(|k| moving[0].middle[k] - fixed[0].middle[k]);
+                    it.at(way[0] * way[0] + way[1] * way[1])
+                });
+                let energy = known.unwrap_or_else(|| {
+                    let pairs = fixed
+                        .iter()
+                        .flat_map(|a| moving.iter().map(move |b| (a, b)));
+                    pairs.map(|(a, b)| charges::energy(a, b)).sum()
+                });
                 let factor = match faces {
                     Some(_) => 1.0,
                     None => {
@@ -519,6 +573,11 @@ impl Magnets {
     }
 }
 
+/// The kinds of two discs, if both stand.
+fn kinds(target: &Source, source: &Source) -> Option<[Disc; 2]> {
+    Some([target.disc()?, source.disc()?])
+}
+
 /// The product of the two shields' factors.
 fn factors(first: &Placed, second: &Placed, way: Flat) -> Jet {
     if first.shield.is_none() && second.shield.is_none() {
@@ -530,18 +589,19 @@ fn factors(first: &Placed, second: &Placed, way: Flat) -> Jet {
     first.factor(way, square, inverse) * second.factor(back, square, inverse)
 }
 
-/// (mu0 / 4 pi) (m1 m2 / r^3 - 3 (m1 r) (m2 r) / r^5), with the square of the difference in height. Only
-/// dipoles that lie in the plane may differ in it.
+/// (mu0 / 4 pi) (m1 m2 / r^3 - 3 (m1 r) (m2 r) / r^5), with the square of the difference in height. Dipoles
+/// that differ in it both lie in the plane, or both stand.
 fn dipoles(first: &Placed, second: &Placed, way: Flat, height: Jet) -> Jet {
     let square = way[0].squared() + way[1].squared() + height;
     let across = dot(&first.moment, &second.moment) * square.over_root(3);
     let [along, other] = [&first.moment, &second.moment].map(|m| dot(&m[..2], &way));
-    let along = Jet::of(3.0) * along * other * square.over_root(5);
+    let upwards = first.moment[2] * second.moment[2] * height;
+    let along = Jet::of(3.0) * (along * other + upwards) * square.over_root(5);
     Jet::of(MU0_OVER_4PI) * (across - along)
 }
 
-/// Two blocks, as dipoles anywhere in them: the energy of two blocks is the mean of that of their
-/// elements, wherever they do not touch. Near blocks are cut in pieces, whose places are known better.
+/// Two magnets, as dipoles anywhere in them: the energy of two magnets is the mean of that of their
+/// elements, wherever they do not touch. Near ones are cut in pieces, whose places are known better.
 fn spread([fixed, moving]: [&Source; 2], [first, second]: [&Placed; 2], way: Flat) -> Jet {
     let distance = (way[0].squared() + way[1].squared()).value.root().low;
     let pieces = if distance > 4.0 * (fixed.radius + moving.radius) {

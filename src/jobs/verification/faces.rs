@@ -74,6 +74,15 @@ impl Face {
         }
     }
 
+    /// The same with its middle elsewhere (m).
+    pub fn moved(&self, middle: [f64; 2]) -> Self {
+        Self {
+            middle,
+            points: self.points.clone(),
+            ..*self
+        }
+    }
+
     /// Its area (m^2).
     pub fn area(&self) -> f64 {
         let around = 4.0 * self.half[0] * self.half[1];

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::checks::{Book, Subject};
-use super::distance::{self, clearance, placed};
+use super::distance::{self, Rim, clearance};
 use super::energy::{Magnets, Model, Motion};
 use super::given::{Barrier, Given, Place, Point, Pose, Report, Share, Tiles};
 use super::interval::Interval;
@@ -11,8 +11,9 @@ use physics::parallel;
 
 /// Overlap (m) that pathways may have: they are proved free to half a micrometre.
 const OVERLAP: f64 = 5e-7;
-/// Largest number of parts of a segment.
-const MOST_PARTS: usize = 400;
+/// Largest number of parts of a segment, and of all of a pathway beside one each: what takes more is
+/// undecided.
+const MOST_PARTS: [usize; 2] = [400, 4000];
 
 /// How far numbers may be off.
 struct Allowed {
@@ -97,6 +98,7 @@ pub(super) fn check(given: &Given) -> Checked {
         magnets: magnets.as_ref(),
         allowed,
         gyration: distance::gyration(&tiles.moving.outline_m),
+        rims: [&tiles.fixed, &tiles.moving].map(|it| Rim::new(it.outline_m.clone())),
     }
     .check(&mut book);
     Checked { book, unchecked }
@@ -187,6 +189,8 @@ struct Folder<'a> {
     allowed: Allowed,
     /// Of the moving tile (m).
     gyration: f64,
+    /// Of both tiles.
+    rims: [Rim; 2],
 }
 
 impl Folder<'_> {
@@ -237,8 +241,7 @@ impl Folder<'_> {
     }
 
     fn clearance(&self, pose: Pose) -> f64 {
-        let moving = placed(&self.tiles.moving.outline_m, pose);
-        clearance(&self.tiles.fixed.outline_m, &moving)
+        clearance(&self.rims[0], &self.rims[1], pose)
     }
 
     /// The magnets, if there is a formula for them where they are.
@@ -260,7 +263,9 @@ impl Folder<'_> {
         let energy = self.allowed.energy;
         let tiles = self.tiles;
         let shields = report.settings.shields.as_deref();
-        let blocks = Magnets::new(tiles, "cuboid", shields).ok();
+        let is_asked = report.states.iter().any(|it| it.block_energy.is_some());
+        let blocks = is_asked.then(|| Magnets::new(tiles, "cuboid", shields).ok());
+        let blocks = blocks.flatten();
         let bound = &report.bound;
         if let Some(magnets) = self.magnets {
             let stated = [
@@ -389,9 +394,10 @@ impl Folder<'_> {
     fn upper(&self, name: &str, points: &[Point], own: &[f64], limit: f64, book: &mut Book) {
         let limit = limit + self.allowed.upper + 1e-6 * limit.abs();
         let mut is_open = false;
+        let mut left = MOST_PARTS[1];
         for (pair, ends) in points.windows(2).zip(own.windows(2)) {
             let motion = Motion::new(pair[0].pose(), pair[1].pose());
-            match self.segment(&motion, [ends[0], ends[1]], limit) {
+            match self.segment(&motion, [ends[0], ends[1]], limit, &mut left) {
                 Segment::Below => {}
                 Segment::Open => is_open = true,
                 Segment::Above(energy) => {
@@ -415,7 +421,7 @@ impl Folder<'_> {
     /// Whether the energy stays below a limit on a straight motion, given that at its ends. Between two
     /// points `h` apart a function exceeds the higher by no more than `h^2 / 8` times its largest bend
     /// downwards.
-    fn segment(&self, motion: &Motion, ends: [f64; 2], limit: f64) -> Segment {
+    fn segment(&self, motion: &Motion, ends: [f64; 2], limit: f64, left: &mut usize) -> Segment {
         let Some(magnets) = self.magnets else {
             return Segment::Open;
         };
@@ -437,10 +443,11 @@ impl Folder<'_> {
                 continue;
             }
             parts += 1;
-            // Blocks that touch have no largest bend.
-            if parts > MOST_PARTS || bend == f64::NEG_INFINITY && width < 0.5 {
+            // Magnets that touch have no largest bend, and discs that overlap no energy.
+            if parts > MOST_PARTS[0] || *left == 0 || bend == f64::NEG_INFINITY && width < 0.5 {
                 return Segment::Open;
             }
+            *left -= 1;
             let middle = 0.5 * (from + to);
             let energy = magnets.energy(motion.at(middle));
             open.push(([from, middle], [first, energy]));

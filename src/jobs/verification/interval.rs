@@ -151,7 +151,7 @@ impl Jet {
     }
 
     /// A function of this, given with its derivatives at the values of this.
-    fn composed(self, [f, df, ddf]: [Interval; 3]) -> Self {
+    pub fn composed(self, [f, df, ddf]: [Interval; 3]) -> Self {
         Self {
             value: f,
             first: df * self.first,

@@ -17,6 +17,7 @@ mod faces;
 mod folder;
 mod given;
 mod interval;
+mod radial;
 mod stacks;
 
 use std::path::PathBuf;

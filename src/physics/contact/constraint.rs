@@ -8,6 +8,7 @@ use super::{Contact, Placement, TOUCH};
 use crate::configuration::Configuration;
 use crate::scale::Scale;
 use crate::tile::Outline;
+use crate::tile::outline::distance_to_segment;
 
 /// Vertices closer than this (m) count as coinciding.
 const COINCIDENT: f64 = 1e-7;
@@ -131,11 +132,23 @@ impl Meeting<'_> {
         if at_corner && !self.wedge_is_beyond(i, normal) {
             return Front::Nothing;
         }
-        // Behind the edge's line, but outside: in front of another edge, past a corner.
-        if gap < -self.scale.length(TOUCH) && !b.contains(p) {
+        // Behind the edge's line, but not inside: in front of another edge, past a corner.
+        if gap < -self.scale.length(TOUCH) && !self.is_inside(p) {
             return Front::Nothing;
         }
         Front::Edge
+    }
+
+    /// Whether a point is inside `b`, and not on its rim, where rounding would decide.
+    fn is_inside(&self, p: Vector2<f64>) -> bool {
+        let touch = self.scale.length(TOUCH);
+        let mut near = Vec::new();
+        self.b.grid().near(p, touch, &mut near);
+        let is_on = |&edge: &u32| {
+            let (start, end) = self.b.edge(edge as usize);
+            distance_to_segment(p, start, end) <= touch
+        };
+        self.b.contains(p) && !near.iter().any(is_on)
     }
 
     /// Whether a point's foot on an edge's line lies on the edge.

@@ -85,6 +85,41 @@ fn coinciding_corners_do_not_hinder_sliding_either_way() {
     }
 }
 
+/// A corner that is on the other tile's side is in front of that side alone: it is behind the line of the
+/// next one, but not inside, whatever rounding makes of its place.
+#[test]
+fn corners_on_a_side_are_not_held_by_the_next_one() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for sides in [3, 4, 5, 6] {
+        let half = std::f64::consts::PI / f64::from(sides);
+        for _ in 0..200 {
+            let turn = rng.random_range(0.0..6.0);
+            let polygon = |by: f64| {
+                let corners = regular(sides as usize, 0.05 / half.sin());
+                let turned = |p: &Vector2<f64>| (Rotation2::new(by) * p).into();
+                outline(&corners.vertices().iter().map(turned).collect::<Vec<_>>())
+            };
+            let contact = Contact::new(&polygon(turn), &polygon(turn + std::f64::consts::PI));
+            let apart = 0.1 / half.tan();
+            let slid = f64::powf(10.0, rng.random_range(-8.0..-5.0));
+            for slid in [slid, -slid] {
+                let (sine, cosine) = f64::sin_cos(turn);
+                let q = Configuration::new(
+                    apart * cosine - slid * sine,
+                    apart * sine + slid * cosine,
+                    0.0,
+                );
+                if !contact.is_free(&q) {
+                    continue;
+                }
+                for held in contact.constraints(&q, 1e-5) {
+                    assert!(held.gap > -1e-9, "{sides} {slid:e}: {held:?}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn mated_teeth_only_let_go_outwards() {
     let contact = Contact::new(&saw(false), &saw(true));
