@@ -71,9 +71,8 @@ impl Dock {
         workload::tell_expected(expected, self.threads.count());
         let progress = self.results.progress();
         if self.release.from_bond {
-            let posed = (&design, &problem);
             let beside = self.release.overdamped;
-            let beside = beside.then(|| loosening(posed, &settings, &progress));
+            let beside = beside.then(|| loosening(&design, &settings, &progress));
             let beside = beside
                 .transpose()
                 .map_err(|error| match Failure::of(error) {

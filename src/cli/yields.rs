@@ -35,9 +35,11 @@ rows named `bound` still say which pairs there would be if a tile bound one othe
 Attachment rates are counted in docking runs of shaken tiles. These start in equilibrium anywhere on
 the design's table where the tiles are apart (|U| below kT), and end once the tiles are bound: matched,
 with so little kinetic and potential energy that 3 kT are missing to become free, so that a tile that
-only flies by does not count. The rate is the number of attachments over the time apart, times the area
+only flies by does not count. Both tiles move: the simulated one has the pair's reduced mass and moment
+of inertia. The rate is the number of attachments over the time apart, times the area
 in which a pair is apart, and depends neither on --duration nor on the size of the table. With
---rates overdamped rates are solved for overdamped motion, as in `tilebind rates`. Detachment rates
+--rates overdamped rates are solved for overdamped motion of both tiles (`tilebind rates` has one of
+them at rest). Detachment rates
 follow by detailed balance from the partition functions of the states (`tilebind bond`). This is valid
 only if collisions lose no energy: otherwise the table has no temperature.
 

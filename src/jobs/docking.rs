@@ -184,13 +184,14 @@ pub fn check_memory(threads: usize) -> Result<(), String> {
 /// # Errors
 /// See [`RatesError`].
 pub fn loosening(
-    (design, problem): (&Design, &Problem),
+    design: &Design,
     settings: &DockingSettings,
     observer: &dyn Observer,
 ) -> Result<Loosening, RatesError> {
     observer.stage("rates", 0.0);
     let kt = settings.motion.shaking.unwrap_or_default();
-    let found = Loosening::new(problem, &design.pair.bound, kt)?;
+    let centred = design.centred();
+    let found = Loosening::new(&centred.problem(), &centred.pair.bound, kt)?;
     Ok(found.times(diffusion(design, kt, settings.motion.drag)))
 }
 

@@ -285,12 +285,14 @@ fn lifetimes(question: &Question) -> String {
     match question.effort.source {
         Source::Docking => format!(
             "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind \
-             rates` assumes overdamped motion, by default at {OVERDAMPED} /s, and gives longer \
-             lifetimes; use --rates overdamped --drag {OVERDAMPED} for its rates"
+             rates` assumes overdamped motion of one tile beside a fixed one, by default at \
+             {OVERDAMPED} /s, and gives longer lifetimes; --rates overdamped --drag {OVERDAMPED} solves \
+             the same for two tiles that move"
         ),
         Source::Overdamped => format!(
-            "lifetimes depend on the drag: these are for {drag} /s, overdamped, as in `tilebind \
-             rates --drag {drag}`. Without --rates overdamped, docking runs have inertia and a \
+            "lifetimes depend on the drag: these are for {drag} /s, overdamped, with both \
+             tiles moving; `tilebind rates --drag {drag}` has one of them at rest, and they last at least \
+             twice as long. Without --rates overdamped, docking runs have inertia and a \
              drag of {} /s, and lifetimes are shorter",
             MotionSettings::default().drag
         ),

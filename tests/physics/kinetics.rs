@@ -262,6 +262,75 @@ fn rates_balance_in_detail_and_are_those_of_the_integrals() {
     assert!(finest.rates[0][2] < 1e-6 * finest.rates[0][1]);
 }
 
+/// Two equal round tiles that both move approach each other twice as fast as one tile a fixed one.
+#[test]
+fn rates_double_where_both_tiles_move() {
+    let problem = round(radial(|r| -6.0 * libm::exp(-((r - 0.42) / 0.03).powi(2))));
+    let basin = Basin {
+        at: at(0.42),
+        below: -3.0,
+    };
+    let settings = |both_move| RateSettings {
+        both_move,
+        ..RateSettings::new(1.0, vec![basin], 0.6)
+    };
+    let [one, both] = [false, true].map(|both| {
+        let found = rates(&problem, &settings(both)).unwrap();
+        (found.finest().rates.clone(), found.inside)
+    });
+    for (from, to) in [(0, 1), (1, 0)] {
+        let ratio = both.0[from][to] / one.0[from][to];
+        assert!((ratio - 2.0).abs() < 0.02, "{ratio}");
+    }
+    // Equilibrium is the same.
+    assert!((both.1[0] / one.1[0] - 1.0).abs() < 1e-3);
+}
+
+/// The diffusion of a configuration is the sum over the independent small motions of both tiles about
+/// their centres of mass.
+#[test]
+fn both_tiles_move_about_their_centres_of_mass() {
+    let design = tilebind::design::Design::parse(
+        "[table]\nsize = [1.0, 1.0]\n[magnet]\nsize = [0.004, 0.004, 0.003]\nremanence = 1.0\n\
+         [fixed]\nvertices = [[0.01, 0.02], [0.09, 0.01], [0.05, 0.07]]\nthickness = 0.005\nmass = 0.01\n\
+         [fixed.faces]\n1 = { code = \"N\" }\n\
+         [moving]\nvertices = [[-0.02, 0.0], [0.06, 0.0], [0.06, 0.04], [-0.02, 0.0721110255]]\nthickness = 0.005\n\
+         mass = 0.03\n[moving.faces]\n3 = { code = \"S\" }\n[target]\nfixed = \"1\"\nmoving = \"3\"\n",
+        "two.toml",
+    )
+    .unwrap();
+    let problem = design.problem();
+    let q = Configuration::new(0.12, 0.03, 0.7);
+    let Pair { fixed, moving, .. } = &*design.pair;
+    let step = 1e-5;
+    let mut expected = nalgebra::Matrix3::zeros();
+    for (tile, is_moving) in [(fixed, false), (moving, true)] {
+        let c = tile.outline.centroid();
+        let about = Configuration::new(c.x, c.y, 0.0);
+        let gyration = (tile.inertia() / tile.mass).sqrt();
+        for k in 0..3 {
+            let mut motion = [0.0; 3];
+            motion[k] = step / if k == 2 { gyration } else { 1.0 };
+            let moved = about
+                .compose(&Configuration::from(motion))
+                .compose(&about.inverse());
+            let there = match is_moving {
+                true => q.compose(&moved),
+                false => moved.inverse().compose(&q),
+            };
+            let by = q.step_to(&there) / step;
+            expected += by * by.transpose() * (moving.mass / tile.mass);
+        }
+    }
+    let found = problem.mobility(&q, true);
+    assert!(
+        (found - expected).norm() < 1e-3 * expected.norm(),
+        "{found} {expected}"
+    );
+    let inverse = problem.mass_metric(q.theta).try_inverse().unwrap();
+    assert!((problem.mobility(&q, false) - inverse).norm() < 1e-9 * inverse.norm());
+}
+
 #[test]
 fn a_map_shows_committors_between_none_and_all_and_flux_into_the_bond() {
     // 15 kT deep, and far below its barrier.

@@ -306,6 +306,17 @@ impl Design {
         Ok(design)
     }
 
+    /// The same design with tiles that are drawn about their centres of mass: distances of reference
+    /// points are then those of centres, wherever a drawing has its origin. Poses change, see
+    /// [`Pair::pose_of`].
+    #[must_use]
+    pub fn centred(&self) -> Self {
+        Self {
+            pair: Arc::new(self.pair.centred()),
+            ..self.clone()
+        }
+    }
+
     /// The space of configurations of the moving tile: its reference point is on the table, rho is
     /// its radius of gyration, and the tiles are free of each other where the circles around their
     /// reference points are.

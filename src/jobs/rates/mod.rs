@@ -144,9 +144,17 @@ impl Request {
         observer: &dyn Observer,
     ) -> Result<(PoseExit, Option<ExitRuns>), RateFault> {
         let start = seated(posed.1, &start, observer);
-        let found = self.question.exit(posed, start, observer)?;
-        let checked = |runs| found.checked(posed, runs, self.restitution, self.seed);
+        let design = posed.0.centred();
+        let problem = design.problem();
+        let centred = design.pair.pose_of(&start, &posed.0.pair);
+        let found = self.question.exit((&design, &problem), centred, observer);
+        let mut found = found.map_err(|error| match error {
+            ExitError::Overlap(_, clearance) => ExitError::Overlap(start, clearance),
+            other => other,
+        })?;
+        let checked = |runs| found.checked((&design, &problem), runs, self.restitution, self.seed);
         let check = self.check.map(checked).transpose()?;
+        found.asked.start = start;
         Ok((found, check))
     }
 
@@ -171,12 +179,18 @@ impl Request {
         is_pictured: bool,
         observer: &dyn Observer,
     ) -> Result<StateRates, RateFault> {
+        let original = design;
+        let design = &original.centred();
         let analysis = pipeline::analyse(design, &self.survey(), observer);
         observer.stage("rates", 0.9);
         let question = &self.question;
         let states = RatedState::held(&analysis, question.kt, self.traps, question.basin_energy);
         let posed = (design, &*analysis.problem);
-        Ok(question.rates(posed, states, is_pictured, observer)?)
+        let mut found = question.rates(posed, states, is_pictured, observer)?;
+        for state in &mut found.states {
+            state.at = original.pair.pose_of(&state.at, &design.pair);
+        }
+        Ok(found)
     }
 }
 

@@ -41,7 +41,7 @@ pub struct Effort {
 
     /// Source of attachment rates
     ///
-    /// docking: docking runs. overdamped: overdamped motion, as in `tilebind rates`.
+    /// docking: docking runs. overdamped: overdamped motion of both tiles.
     #[arg(long = "rates", value_enum, default_value_t)]
     pub source: Source,
 
@@ -144,7 +144,7 @@ pub struct Attachments {
     pub solved: Option<Solved>,
 }
 
-/// Rates of overdamped motion among kinds of states and free tiles, as in `tilebind rates`.
+/// Rates of overdamped motion among kinds of states and free tiles, both of which move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved {
     /// Rates from free to each kind of state (1/s), and the relative difference of the two finest
@@ -234,6 +234,7 @@ pub fn solve(
 ) -> Result<Attachments, YieldError> {
     let held: Vec<Basin> = basins.iter().copied().flatten().collect();
     let settings = RateSettings {
+        both_move: true,
         ..RateSettings::new(kt, held, problem.space.free_distance)
     };
     let found = rates(problem, &settings)?;

@@ -234,6 +234,7 @@ pub fn yields(
     if count > MOST_SETTINGS {
         return Err(YieldError::Many(count));
     }
+    let design = &design.centred();
     let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
     let bond = Hold::bond(problem, catalogue)?;

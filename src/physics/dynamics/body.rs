@@ -3,7 +3,7 @@
 use nalgebra::{Rotation2, Vector2, Vector3};
 
 use crate::configuration::{Configuration, wrap_angle};
-use crate::tile::Tile;
+use crate::tile::{Pair, Tile};
 
 /// Mass and inertia of the moving tile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +58,19 @@ impl Body {
             mass: tile.mass,
             inertia: tile.inertia(),
             centre: tile.outline.centroid(),
+        }
+    }
+
+    /// The moving tile of a pair in which the other one moves, too: with the reduced mass and the
+    /// reduced moment of inertia, its speeds are those relative to the other tile. Neglected is that
+    /// a turn of the other tile also carries its face along.
+    pub fn relative(pair: &Pair) -> Self {
+        let reduced = |a: f64, b: f64| a * b / (a + b);
+        let own = Self::of_tile(&pair.moving);
+        Self {
+            mass: reduced(own.mass, pair.fixed.mass),
+            inertia: reduced(own.inertia, pair.fixed.inertia()),
+            ..own
         }
     }
 

@@ -31,7 +31,7 @@ impl Distances {
     /// relative to the deepest known state, `bond`.
     pub fn new(problem: &Problem, bond: &Configuration, kt: f64, end: f64) -> Self {
         let ground = problem.energy(bond);
-        let mut field = Field::new(problem, kt, end, ground, &[*bond]);
+        let mut field = Field::new(problem, (kt, false), end, ground, &[*bond]);
         field.settle(&[*bond], &[]);
         let mut known: Option<Vec<f64>> = None;
         let mut settled = 0;

@@ -37,7 +37,13 @@ pub fn exit_on(
     check(problem, bond, settings)?;
     let seeds = seeds(problem, bond, start);
     let ground = problem.energy(&start);
-    let mut field = Field::new(problem, settings.kt, settings.free_at, ground, &seeds);
+    let mut field = Field::new(
+        problem,
+        (settings.kt, false),
+        settings.free_at,
+        ground,
+        &seeds,
+    );
     let way = field.open_way(&start);
     field.settle(&seeds, &[start]);
     let mut earlier: Option<Earlier> = None;

@@ -38,11 +38,11 @@ pub(super) struct Field<'a> {
 pub(super) type Earlier = (Nodes, Vec<Vec<f64>>);
 
 impl<'a> Field<'a> {
-    /// A mesh up to `radius` (m) at kT (J), with loads relative to the energy `ground` (J) and
+    /// A mesh up to `radius` (m) at kT (J), of the motion of the moving tile or of both, with loads relative to the energy `ground` (J) and
     /// small cells around the `seeds`; their wells are not settled yet.
     pub fn new(
         problem: &'a Problem,
-        kt: f64,
+        (kt, both_move): (f64, bool),
         radius: f64,
         ground: f64,
         seeds: &[Configuration],
@@ -53,7 +53,7 @@ impl<'a> Field<'a> {
             mesh: Octree::new(chart, problem.space.rho),
             kt,
             problem,
-            integrator: Integrator::new(problem, kt, 0.0, ground),
+            integrator: Integrator::new(problem, (kt, both_move), 0.0, ground),
         };
         field.evaluate();
         loop {

@@ -43,7 +43,13 @@ pub fn rates_on(
         return Err(RatesError::Cold(kt, -ground / kt));
     }
     let all_seeds = with_images(problem, &seeds);
-    let mut field = Field::new(problem, kt, free_at, ground, &all_seeds);
+    let mut field = Field::new(
+        problem,
+        (kt, settings.both_move),
+        free_at,
+        ground,
+        &all_seeds,
+    );
     let ways: Vec<Way> = seeds.iter().map(|seed| field.open_way(seed)).collect();
     let blocked = field.blocked(&seeds);
     field.settle(&all_seeds, &seeds);

@@ -41,6 +41,8 @@ impl Basin {
 pub struct RateSettings {
     /// Effective energy of shaking (J).
     pub kt: f64,
+    /// Whether the fixed tile moves like the moving one, as on a table of many.
+    pub both_move: bool,
     /// The wells.
     pub basins: Vec<Basin>,
     /// The tile is free where the reference points are so far apart (m).
@@ -60,6 +62,7 @@ impl RateSettings {
     pub fn new(kt: f64, basins: Vec<Basin>, free_at: f64) -> Self {
         Self {
             kt,
+            both_move: false,
             basins,
             free_at,
             tolerance: 0.015,

@@ -439,4 +439,22 @@ impl Problem {
         let rho2 = self.space.rho * self.space.rho;
         Matrix3::new(1.0, 0.0, -c.y, 0.0, 1.0, c.x, -c.y, c.x, rho2)
     }
+
+    /// The diffusion of (x, y, theta) over that of the moving tile's centre of mass, with drag in
+    /// proportion to the mass: the inverse of [`Self::mass_metric`]. If both tiles move, a step (a, b)
+    /// and a turn w of the fixed one about its centre of mass f change a configuration at p, which is
+    /// seen from it, by `(-a + w (p - f)_y, -b - w (p - f)_x, -w)`.
+    pub fn mobility(&self, q: &Configuration, both_move: bool) -> Matrix3<f64> {
+        let inverse = self.mass_metric(q.theta).try_inverse();
+        let own = inverse.unwrap_or_else(Matrix3::identity);
+        let Some(pair) = self.pair.as_deref().filter(|_| both_move) else {
+            return own;
+        };
+        let tile = &pair.fixed;
+        let arm = q.position() - tile.outline.centroid();
+        let turn = Vector3::new(arm.y, -arm.x, -1.0);
+        let steps = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0));
+        let others = steps + turn * turn.transpose() * (tile.mass / tile.inertia());
+        own + others * (pair.moving.mass / tile.mass)
+    }
 }

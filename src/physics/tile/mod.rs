@@ -84,6 +84,9 @@ pub struct Tile {
     pub thickness: f64,
 }
 
+/// A centre of mass that is nearer to the reference point than this share of the tile's radius is there.
+const CENTRED: f64 = 1e-6;
+
 /// Overlaps (m) below this, and below this share of the faces, come from poses with few digits.
 const ROUNDED: f64 = 50e-6;
 const ROUNDED_SHARE: f64 = 1e-3;
@@ -100,6 +103,26 @@ impl Tile {
     /// the outline's area.
     pub fn inertia(&self) -> f64 {
         self.mass * self.outline.second_moment_about_centroid() / self.outline.area()
+    }
+
+    /// The same tile drawn about its centre of mass; `None` if it is, or if its outline cannot be moved.
+    pub fn centred(&self) -> Option<Self> {
+        let by = -self.outline.centroid();
+        if by.norm() <= CENTRED * self.outline.circumradius() {
+            return None;
+        }
+        let mut moved = Self {
+            outline: self.outline.moved(by).ok()?,
+            ..self.clone()
+        };
+        for face in &mut moved.faces {
+            face.start += by;
+            face.end += by;
+        }
+        for magnet in &mut moved.magnets {
+            magnet.position += by;
+        }
+        Some(moved)
     }
 
     /// The largest length or width of a magnet (m), 0 without magnets.

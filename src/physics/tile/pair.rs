@@ -37,6 +37,34 @@ impl Pair {
         }
     }
 
+    /// The same pair with both tiles drawn about their centres of mass, as far as they are not.
+    #[must_use]
+    pub fn centred(&self) -> Self {
+        let of = |tile: &Tile| tile.centred().unwrap_or_else(|| tile.clone());
+        let mut centred = Self {
+            fixed: of(&self.fixed),
+            moving: of(&self.moving),
+            ..self.clone()
+        };
+        centred.bound = centred.pose_of(&self.bound, self);
+        centred
+    }
+
+    /// The configuration in which the tiles lie as those of `other`, the same pair drawn elsewhere, do
+    /// at `q`.
+    pub fn pose_of(&self, q: &Configuration, other: &Self) -> Configuration {
+        let shift = |from: &Tile, to: &Tile| {
+            let by = from.faces[0].start - to.faces[0].start;
+            Configuration::new(by.x, by.y, 0.0)
+        };
+        // Points of the moving tile, from this drawing to the other, and back for the fixed one.
+        let [moving, fixed] = [
+            shift(&other.moving, &self.moving),
+            shift(&self.fixed, &other.fixed),
+        ];
+        fixed.compose(q).compose(&moving)
+    }
+
     /// The fixed tile's target face.
     pub fn target_face(&self) -> &Face {
         &self.fixed.faces[self.target.0]

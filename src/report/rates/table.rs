@@ -289,7 +289,7 @@ fn notes(found: &StateRates) -> Vec<String> {
         "lifetimes depend on the drag: these are for overdamped motion at {} /s; rates are \
          inversely proportional to the drag. `tilebind yield` counts docking runs with inertia, \
          by default at {} /s, and gives shorter lifetimes; its option --rates overdamped --drag \
-         {} gives these rates",
+         {} has the same motion for both tiles, which more than doubles all rates",
         found.drag,
         MotionSettings::default().drag,
         found.drag

@@ -253,8 +253,8 @@ fn a_yield_with_its_three_views() {
     assert!(of("yield") >= found["yield"].as_f64().unwrap() - 1e-9);
 }
 
-/// The same drag, the same kT, the same states: `yield` has the rates that `rates` solves, and each
-/// names the other's drag.
+/// The same drag, the same kT, the same states: both tiles of `yield` move, so its rates are at least twice
+/// those that `rates` solves for one; and each names the other's drag.
 #[test]
 fn yield_and_rates_have_one_answer_for_one_drag() {
     let file = design(PAPER);
@@ -278,14 +278,13 @@ fn yield_and_rates_have_one_answer_for_one_drag() {
         };
         let is_free = |place: &Value| place == "free";
         let own = |key: &str| state[key].as_f64().unwrap();
-        for (solved, rate) in [
-            (between(&is_free, &is), own("on_m2_per_s") / area),
-            (between(&is, &is_free), own("off_per_s")),
-        ] {
-            assert!(
-                (rate / solved - 1.0).abs() < 0.02,
-                "{name}: {rate} {solved}"
-            );
+        let [on, off] = [
+            own("on_m2_per_s") / area / between(&is_free, &is),
+            own("off_per_s") / between(&is, &is_free),
+        ];
+        // Twice by steps, and more as a turn of the other tile carries its faces along.
+        for ratio in [on, off] {
+            assert!((2.0..3.0).contains(&ratio), "{name}: {on} {off}");
         }
     }
     // Each names the other.

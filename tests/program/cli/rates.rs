@@ -280,3 +280,40 @@ fn rates_between_the_states_balance_in_detail() {
         assert!(out.join(name).is_file(), "{name}");
     }
 }
+
+/// Sectors drawn about the middle of their ring, whose reference points coincide in the bond, have the rates
+/// of the same sectors drawn about their own centres.
+#[test]
+fn rates_do_not_depend_on_where_a_drawing_has_its_origin() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sector.toml").display().to_string();
+    let of = |away: f64| {
+        let (inner, outer, half) = (0.03, 0.07, std::f64::consts::TAU / 8.0);
+        let corner =
+            |r: f64, turn: f64| format!("[{:.12}, {:.12}]", r * turn.cos() - away, r * turn.sin());
+        let corners = [(inner, -half), (outer, -half), (outer, half), (inner, half)];
+        let corners = corners.map(|(r, turn)| corner(r, turn)).join(", ");
+        let design = format!(
+            "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
+             inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
+             mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\n\
+             faces = [\"0\", \"2\"]\n"
+        );
+        std::fs::write(&file, design).unwrap();
+        let rates = json(&["rates", &file, "--kt", "4e-4", "--traps", "0", "--json"]);
+        let of_rates = |k: usize| rates["rates"][k]["value_per_s"].as_f64().unwrap();
+        (
+            of_rates(0),
+            of_rates(1),
+            rates["places"][1]["free_at_m"].clone(),
+        )
+    };
+    let about_ring = of(0.0);
+    let own = of(0.049);
+    let near = |a: f64, b: f64| a > 0.0 && (a / b - 1.0).abs() < 0.05;
+    assert!(
+        near(about_ring.0, own.0) && near(about_ring.1, own.1),
+        "{about_ring:?} {own:?}"
+    );
+    assert!((about_ring.2.as_f64().unwrap() / own.2.as_f64().unwrap() - 1.0).abs() < 1e-6);
+}

@@ -10,6 +10,9 @@
 //! Time that a tile spends in contact or in a trap is not time apart. Runs start in equilibrium
 //! among the configurations apart, and end at the first attachment, so their number per time does
 //! not depend on the duration either.
+//!
+//! On a table both tiles move. The moving tile therefore has the pair's reduced mass and moment of
+//! inertia ([`Body::relative`]): tiles of one mass meet sqrt 2 times as often as one of them at rest would.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -17,8 +20,8 @@ use rand_chacha::ChaCha8Rng;
 use super::experiment::{Experiment, minimum_below};
 use super::{DockingError, DockingSettings, stream};
 use crate::configuration::Configuration;
-use crate::dynamics::Motion;
 use crate::dynamics::trajectory::thermal_velocity;
+use crate::dynamics::{Body, Motion};
 use crate::landscape::minimum::Known;
 use crate::parallel;
 use crate::problem::{Problem, Room};
@@ -68,7 +71,7 @@ pub fn arrivals(
     settings: &DockingSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Arrivals, DockingError> {
-    let experiment = Experiment::new(problem, settings)?;
+    let experiment = Experiment::of_body(problem, settings, Body::relative)?;
     let kt = settings.motion.shaking.unwrap_or(0.0);
     let starts = Apart::new(problem, kt)?;
     let arrive = |index: usize| {

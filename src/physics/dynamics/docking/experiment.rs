@@ -36,8 +36,17 @@ pub(super) type Ended = (DockingRun, Option<(Configuration, f64)>);
 
 impl<'a> Experiment<'a> {
     pub fn new(problem: &'a Problem, settings: &'a DockingSettings) -> Result<Self, DockingError> {
+        Self::of_body(problem, settings, |pair| Body::of_tile(&pair.moving))
+    }
+
+    /// The same for another body than that of the moving tile.
+    pub fn of_body(
+        problem: &'a Problem,
+        settings: &'a DockingSettings,
+        body: impl Fn(&Pair) -> Body,
+    ) -> Result<Self, DockingError> {
         let pair = problem.pair.as_deref().ok_or(DockingError::NoMagnets)?;
-        let body = Body::of_tile(&pair.moving);
+        let body = body(pair);
         let simulation = Simulation::new(problem, body, &settings.motion)?;
         let scaled = &simulation.settings;
         scaled.check_steps(problem.scale(), settings.duration)?;

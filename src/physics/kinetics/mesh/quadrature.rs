@@ -43,6 +43,8 @@ pub(in crate::kinetics) struct Integrator<'a> {
     contact: Option<ContactCells>,
     /// kT (J).
     kt: f64,
+    /// Whether the fixed tile moves, too.
+    both_move: bool,
     /// The energy (J) at which weights are 1.
     pub level: f64,
     /// The energy (J) at which loads are 1.
@@ -60,11 +62,17 @@ struct Line {
 }
 
 impl<'a> Integrator<'a> {
-    pub fn new(problem: &'a Problem, kt: f64, level: f64, ground: f64) -> Self {
+    pub fn new(
+        problem: &'a Problem,
+        (kt, both_move): (f64, bool),
+        level: f64,
+        ground: f64,
+    ) -> Self {
         Self {
             problem,
             contact: problem.contact.as_ref().map(ContactCells::new),
             kt,
+            both_move,
             level,
             ground,
         }
@@ -184,14 +192,14 @@ impl<'a> Lines<'a> {
         for line in &lines {
             for &(u, width, weights, energy) in &line.points {
                 let part = [u, line.at[0], line.at[1]];
-                let at @ [s, _, theta] = self.coordinates(part);
-                let inverse = self.of.problem.mass_metric(theta).try_inverse();
-                let inverse = inverse.unwrap_or_else(Matrix3::identity);
+                let at @ [s, ..] = self.coordinates(part);
+                let q = self.chart.configuration(at);
+                let mobility = self.of.problem.mobility(&q, self.of.both_move);
                 let volume = self.chart.volume(s) * size;
                 let by = self.gradients(at);
                 add(&Point {
                     part,
-                    metric: by.transpose() * inverse * by * volume,
+                    metric: by.transpose() * mobility * by * volume,
                     volume,
                     share: share * width,
                     weights,

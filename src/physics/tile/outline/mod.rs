@@ -83,6 +83,18 @@ impl Outline {
         self
     }
 
+    /// The same outline moved by a vector (m).
+    pub fn moved(&self, by: Vector2<f64>) -> Result<Self, OutlineError> {
+        let vertices = self.vertices.iter().map(|vertex| vertex + by).collect();
+        let moved = Self::new(vertices)?;
+        // Rounding could make a vertex collinear with its neighbours.
+        let arcs = match moved.vertices.len() == self.vertices.len() {
+            true => self.arcs.clone(),
+            false => moved.arcs.clone(),
+        };
+        Ok(Self { arcs, ..moved })
+    }
+
     /// The index of the arc that each edge is a chord of; `None` for straight edges. Arcs are for
     /// cutting the outline: contact, areas and distances refer to the polygon.
     pub fn arcs(&self) -> &[Option<usize>] {

@@ -364,10 +364,8 @@ impl Design {
         }
         let (design, problem) = (&self.content.design, &**self.content.problem(None));
         let settings = asked.settings(&design.pair);
-        let beside = overdamped.then(|| {
-            let posed = (design, problem);
-            job::answer(py, progress, |told| loosening(posed, &settings, told))
-        });
+        let beside = overdamped
+            .then(|| job::answer(py, progress, |told| loosening(design, &settings, told)));
         let found = job::answer(py, progress, |told| released(problem, &settings, told))?;
         let beside = beside.transpose()?;
         let document = report::release::document(design, &settings, &found, beside);
