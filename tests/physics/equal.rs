@@ -308,3 +308,114 @@ fn magnets_in_the_corners_bind() {
     let unused = held(&crowd, &at_rest(&crowd, &places), std::iter::empty());
     assert!(structures(&crowd, &at_rest(&crowd, &places), &unused).is_empty());
 }
+
+/// Copies counted by hand: pairs of faces that bind, each in both orders if they differ.
+#[test]
+fn copies_of_the_bond_are_counted_right() {
+    let polygon = |sides: usize, code: &dyn Fn(usize) -> String, target: &str| {
+        let tile = format!("sides = {sides}\nside = 0.03\nthickness = 0.006\nmass = 0.01\n");
+        let face = |k: usize| format!("{k} = {{ code = \"{}\" }}\n", code(k));
+        let faces: String = (0..sides)
+            .filter(|k| !code(*k).is_empty())
+            .map(face)
+            .collect();
+        let faces = faces.replace(" }", ", magnet = { pitch = 0.006 } }");
+        let count = |more: &str| {
+            let design = one(&tile, &faces, &format!("faces = {target}{more}"));
+            design.problem().bonds().len()
+        };
+        [count(""), count("\nonly = true")]
+    };
+    let each = |codes: &'static [&'static str]| move |k: usize| codes[k % codes.len()].to_owned();
+    let all_different = each(&["NNSN", "NNNN", "NSSN", "SNSS", "SNNS", "SSSS"]);
+    for (sides, code, target, copies) in [
+        // Every face binds every face: all pairs.
+        (3, each(&["NS"]), "[\"0\"]", 9),
+        (6, each(&["NS"]), "[\"0\"]", 36),
+        (12, each(&["NS"]), "[\"0\"]", 144),
+        // Half of the faces bind the other half, either way round.
+        (6, each(&["N", "S"]), "[\"0\", \"3\"]", 18),
+        (12, each(&["N", "S"]), "[\"0\", \"3\"]", 72),
+        // Two codes that bind their own kind alternate: the target's are meant.
+        (6, each(&["NS", "NNSS"]), "[\"0\"]", 9),
+        (6, each(&["NS", "NNSS"]), "[\"1\"]", 9),
+        // One face alone binds itself; one face and its mate make two contacts.
+        (6, each(&["NS", "", "", "", "", ""]), "[\"0\"]", 1),
+        (6, all_different, "[\"0\", \"3\"]", 2),
+    ] {
+        assert_eq!(
+            polygon(sides, &code, target),
+            [copies, 1],
+            "{sides} {target} {}",
+            code(0)
+        );
+    }
+}
+
+/// A tile turned over is another tile, unless it is its own mirror image.
+#[test]
+fn mirror_images_are_one_kind_only_of_tiles_with_a_mirror() {
+    let pair = |fixed: [&str; 2], moving: [&str; 2], target: [&str; 2]| {
+        let tile = |name: &str, [corners, faces]: [&str; 2]| {
+            format!("[{name}]\nvertices = [{corners}]\n{BODY}[{name}.faces]\n{faces}\n")
+        };
+        let (fixed, moving) = (tile("fixed", fixed), tile("moving", moving));
+        let [one, other] = target;
+        read(&format!(
+            "{HEAD}{fixed}{moving}[target]\nfixed = \"{one}\"\nmoving = \"{other}\"\n"
+        ))
+    };
+    let lopsided = "[0.0, 0.0], [0.06, 0.0], [0.05, 0.03], [0.0, 0.05]";
+    let over = "[-0.06, 0.0], [0.0, 0.0], [0.0, 0.05], [-0.05, 0.03]";
+    let merged = |design: &Design| {
+        let crowd = of_designs(std::slice::from_ref(design)).unwrap().0;
+        (design.problem().exchange.is_some(), crowd.kinds.len())
+    };
+    // Turned over, the face's code runs the other way; NS turned over is SN, which does not bind NS.
+    let [straight, turned] = ["0 = { code = \"NN\" }", "0 = { code = \"SS\" }"];
+    assert!(!merged(&pair([lopsided, straight], [over, turned], ["0", "0"])).0);
+    let same = "0 = { code = \"NS\" }";
+    assert!(merged(&pair([lopsided, same], [lopsided, same], ["0", "0"])).0);
+    assert_eq!(
+        merged(&pair([lopsided, same], [over, same], ["0", "0"])),
+        (false, 2)
+    );
+    // A trapezium that is its own mirror image, drawn as it lies when turned over: from another corner.
+    let trapezium = "[-0.03, 0.0], [0.03, 0.0], [0.02, 0.03], [-0.02, 0.03]";
+    let drawn_over = "[0.03, 0.0], [0.02, 0.03], [-0.02, 0.03], [-0.03, 0.0]";
+    let faces = [
+        "1 = { code = \"N\" }\n3 = { code = \"S\" }",
+        "0 = { code = \"N\" }\n2 = { code = \"S\" }",
+    ];
+    assert!(
+        merged(&pair(
+            [trapezium, faces[0]],
+            [drawn_over, faces[1]],
+            ["1", "2"]
+        ))
+        .0
+    );
+    // Its magnets turned over are not: north is then on the other side.
+    let swapped = "0 = { code = \"S\" }\n2 = { code = \"N\" }";
+    assert!(
+        !merged(&pair(
+            [trapezium, faces[0]],
+            [drawn_over, swapped],
+            ["1", "0"]
+        ))
+        .0
+    );
+    // Only its corners have other numbers.
+    let alike = [
+        "1 = { code = \"NS\" }\n3 = { code = \"NS\" }",
+        "0 = { code = \"NS\" }\n2 = { code = \"NS\" }",
+    ];
+    assert!(
+        merged(&pair(
+            [trapezium, alike[0]],
+            [drawn_over, alike[1]],
+            ["1", "0"]
+        ))
+        .0
+    );
+}
