@@ -1,6 +1,7 @@
-//! Progress bars on a terminal; no output elsewhere.
+//! Progress bars on a terminal; elsewhere one line, if the work takes minutes.
 
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -21,6 +22,8 @@ pub struct Progress {
     bar: ProgressBar,
     /// Since when parts of one kind are counted.
     parts: Mutex<Option<Parts>>,
+    /// Whether nothing is to be said, or it was said, of how long the work takes.
+    is_told: AtomicBool,
 }
 
 /// Parts of a stage, all of about the same duration.
@@ -33,18 +36,16 @@ struct Parts {
     before: usize,
 }
 
+/// Work that takes less (s) from here on is not worth a line where there is no bar.
+const WORTH_TELLING: f64 = 60.0;
+
 impl Parts {
-    /// How long the rest takes, if it takes as long as those before; empty while that is unknown.
-    fn left(&self, done: usize) -> String {
+    /// How long (s) the rest takes, if it takes as long as those before; `None` while that is unknown.
+    fn left(&self, done: usize) -> Option<f64> {
         let (spent, of) = (self.since.elapsed(), done.saturating_sub(self.before));
-        if of == 0 || spent < Duration::from_secs(2) {
-            return String::new();
-        }
-        let left = spent.as_secs_f64() * self.count.saturating_sub(done) as f64 / of as f64;
-        format!(
-            ", about {} left",
-            HumanDuration(Duration::from_secs_f64(left))
-        )
+        let is_known = of > 0 && spent >= Duration::from_secs(2);
+        let rest = self.count.saturating_sub(done) as f64;
+        is_known.then(|| spent.as_secs_f64() * rest / of as f64)
     }
 }
 
@@ -54,6 +55,7 @@ impl Progress {
         Self {
             bar: bar(STEPS, BAR, Duration::from_millis(200), quiet),
             parts: Mutex::default(),
+            is_told: AtomicBool::new(quiet || std::io::stderr().is_terminal()),
         }
     }
 
@@ -95,7 +97,17 @@ impl Observer for Progress {
         });
         *parts = Some(of);
         let left = of.left(done);
-        let message = format!("{name}, {done} of {count} done{left}");
+        let of_rest = left.map_or(String::new(), |left| {
+            format!(
+                ", about {} left",
+                HumanDuration(Duration::from_secs_f64(left))
+            )
+        });
+        let message = format!("{name}, {done} of {count} done{of_rest}");
+        let is_long = left.is_some_and(|left| left > WORTH_TELLING);
+        if is_long && !self.is_told.swap(true, Ordering::Relaxed) {
+            tell(format!("note: {message}"));
+        }
         self.bar.set_message(message);
     }
 

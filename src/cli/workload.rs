@@ -82,9 +82,27 @@ fn tell_faces(design: &Design) {
 /// For proofs that may take minutes, says how long, and how to do without them; and so for states.
 pub fn tell_time(design: &Design, asked: &Settings, threads: usize) {
     tell_faces(design);
+    if let Some(note) = of_trajectories(asked.dynamics_runs, threads as f64) {
+        tell(note);
+    }
     if let Some(note) = of_time(design, asked, threads as f64) {
         tell(note);
     }
+}
+
+/// Core-seconds of a trajectory that checks a barrier: of plain and of curved shapes.
+const A_TRAJECTORY: [f64; 2] = [1e-3, 5e-3];
+
+fn of_trajectories(runs: usize, threads: f64) -> Option<String> {
+    let [least, most] = A_TRAJECTORY.map(|one| one * runs as f64 / threads);
+    (most >= SHORT).then(|| {
+        format!(
+            "note: {runs} trajectories of each barrier (--dynamics) take about {} to {}, times the number of \
+             barriers; fewer take less",
+            duration(least, 2),
+            duration(most, 2)
+        )
+    })
 }
 
 fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
@@ -162,6 +180,13 @@ mod tests {
         };
         assert_eq!(different_faces(&design(own).pair.fixed), 12);
         assert_eq!(different_faces(&design(|_| "NNS".to_owned()).pair.fixed), 1);
+    }
+
+    #[test]
+    fn many_trajectories_are_told_before() {
+        let told = of_trajectories(1_000_000, 2.0).unwrap();
+        assert!(told.contains("8.3 min to 42 min"), "{told}");
+        assert_eq!(of_trajectories(1000, 1.0), None);
     }
 
     #[test]

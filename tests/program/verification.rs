@@ -149,6 +149,10 @@ fn random_designs(count: usize) -> BTreeMap<String, u64> {
         if Design::parse(&text, "random.toml").is_err() {
             continue;
         }
+        // Analyses of discs that can touch take minutes.
+        if text.contains("disc") && text.contains("inset = 0\n") {
+            continue;
+        }
         fs::write(here.join("random.toml"), &text).expect("a design");
         found += 1;
         for (out, seed) in [("one", 1), ("two", 2)] {
@@ -157,6 +161,7 @@ fn random_designs(count: usize) -> BTreeMap<String, u64> {
         let (status, report) = verify(here, &["one", "two"]);
         assert_eq!(report["contradictions"], json!([]), "seed {seed}:\n{text}");
         assert_eq!(status, Some(0), "seed {seed}");
+        println!("{found}: seed {seed}");
         for check in report["checks"].as_array().expect("checks") {
             let name = check["check"].as_str().expect("a name").to_owned();
             *confirmed.entry(name).or_default() += check["confirmed"].as_u64().unwrap_or_default();

@@ -22,7 +22,7 @@ pub struct Request {
 
     /// Number of runs with consecutive seeds, to report each barrier's spread
     #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
-          value_parser = request::count)]
+          value_parser = repeats)]
     pub repeats: usize,
 
     /// Accept milestones by the Boltzmann rule at this energy (J), not the linear rule
@@ -199,6 +199,16 @@ pub struct Check {
     // Settings of sweeps without the check keep their format.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub dynamics_runs: usize,
+}
+
+/// Largest number of runs with other seeds: each is a whole survey.
+const MOST_REPEATS: usize = 1000;
+
+fn repeats(text: &str) -> Result<usize, String> {
+    let found = request::count(text)
+        .ok()
+        .filter(|count| *count <= MOST_REPEATS);
+    found.ok_or_else(|| format!("a whole number from 1 to {MOST_REPEATS} is needed"))
 }
 
 // In the form that serde requires.

@@ -8,6 +8,7 @@ pub use states::RatedState;
 pub use table::{AtKt, StateRates};
 
 use std::convert::Infallible;
+use std::time::Instant;
 
 use clap::Args;
 
@@ -23,11 +24,18 @@ use physics::kinetics::OVERDAMPED;
 use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit_on, half_bond};
 use physics::kinetics::rates::{MeshRates, RateSettings, RatesError, rates_on};
 use physics::observer::Observer;
+use physics::parallel;
 use physics::problem::Problem;
 use physics::units::{duration, plain};
 
 /// Number of mean exit times after which a moving tile is abandoned.
 const PATIENCE: f64 = 30.0;
+/// Fewer steps of all moving tiles together take seconds.
+const MANY_STEPS: f64 = 1e6;
+/// Steps of the trial that shows how long one takes.
+const OF_A_TRIAL: f64 = 1e4;
+/// Shorter times (s) are not worth a word.
+const WORTH_TELLING: f64 = 30.0;
 /// Number of squares along x and y of the committor's map.
 const SQUARES: usize = 120;
 
@@ -152,7 +160,13 @@ impl Request {
             ExitError::Overlap(_, clearance) => ExitError::Overlap(start, clearance),
             other => other,
         })?;
-        let checked = |runs| found.checked((&design, &problem), runs, self.restitution, self.seed);
+        let checked = |runs| {
+            found.checked(
+                (&design, &problem),
+                (runs, self.restitution, self.seed),
+                observer,
+            )
+        };
         let check = self.check.map(checked).transpose()?;
         found.asked.start = start;
         Ok((found, check))
@@ -179,6 +193,12 @@ impl Request {
         is_pictured: bool,
         observer: &dyn Observer,
     ) -> Result<StateRates, RateFault> {
+        if let Some(basin) = self.question.basin_energy {
+            let deepest = design.problem().energy(&design.pair.bound);
+            if deepest >= basin {
+                return Err(ExitError::NoBasin(basin, deepest).into());
+            }
+        }
         let original = design;
         let design = &original.centred();
         let analysis = pipeline::analyse(design, &self.survey(), observer);
@@ -308,16 +328,15 @@ impl PoseExit {
     }
 
     /// Simulates a number of rigid bodies with inertia from the same start to the same ends, with
-    /// this coefficient of restitution.
+    /// this coefficient of restitution, and a seed. If it takes long, the observer is told before.
     ///
     /// # Errors
     /// If the settings are invalid.
     fn checked(
         &self,
         (design, problem): (&Design, &Problem),
-        runs: usize,
-        restitution: f64,
-        seed: u64,
+        (runs, restitution, seed): (usize, f64, u64),
+        observer: &dyn Observer,
     ) -> Result<ExitRuns, SettingsError> {
         let motion = MotionSettings {
             drag: self.drag,
@@ -335,6 +354,27 @@ impl PoseExit {
             seed,
             longest: PATIENCE * self.mean(),
         };
-        exits(problem, Body::of_tile(&design.pair.moving), &motion, &asked)
+        let body = Body::of_tile(&design.pair.moving);
+        let step = motion.of_size(problem.scale()).step(problem.scale());
+        let whole = runs as f64 * self.mean();
+        if whole > MANY_STEPS * step {
+            let trial = ExitRunSettings {
+                runs: 1,
+                longest: self.mean().min(OF_A_TRIAL * step),
+                ..asked.clone()
+            };
+            let begun = Instant::now();
+            let found = exits(problem, body, &motion, &trial)?;
+            let wall = begun.elapsed().as_secs_f64() / found.time[0].max(step);
+            let time = wall * whole / parallel::threads() as f64;
+            if time > WORTH_TELLING {
+                observer.expect(&format!(
+                    "{runs} simulated tiles take about {}; fewer take less (--check)",
+                    duration(time, 2)
+                ));
+            }
+        }
+        observer.stage("simulated tiles", 0.5);
+        exits(problem, body, &motion, &asked)
     }
 }

@@ -124,7 +124,7 @@ mod tests {
         let told = |given| asked(given).unwrap_err().to_string();
         assert_eq!(
             told(&[("kt", &["-1"])]),
-            "kt = -1: a number greater than 0 is needed"
+            "kt = -1: a number from 1e-9 to 1e9 is needed"
         );
         assert_eq!(told(&[]), "kt is needed");
         assert_eq!(

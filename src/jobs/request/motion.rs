@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{not_negative, share};
+use super::{MOST_FRICTION, share, up_to};
 use crate::design::{energy, frequency, length, rate};
 use physics::dynamics::{Fan, MotionSettings};
 
@@ -11,7 +11,7 @@ use physics::dynamics::{Fan, MotionSettings};
 pub struct ContactOptions {
     /// Coefficient of friction, tile on tile and tile on rim
     #[arg(long, value_name = "MU", default_value_t = MotionSettings::default().friction,
-          value_parser = not_negative)]
+          value_parser = up_to(MOST_FRICTION))]
     pub friction: f64,
 
     /// Coefficient of restitution

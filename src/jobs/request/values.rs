@@ -108,18 +108,48 @@ fn not_too_many(count: usize) -> Result<usize, String> {
     }
 }
 
+/// Largest coefficient of friction: tiles that touch stick from far below it on.
+pub const MOST_FRICTION: f64 = 1e3;
+
+/// Ranges of what options state in m, s, J, m^2 and 1/s: far beyond any tiles, so that nothing that is
+/// computed with them overflows.
+const LENGTHS: [f64; 2] = [1e-12, 1e6];
+const TIMES: [f64; 2] = [1e-12, 1e12];
+const ENERGIES: [f64; 2] = [1e-30, 1e6];
+const AREAS: [f64; 2] = [1e-18, 1e12];
+const RATES: [f64; 2] = [1e-12, 1e12];
+
+/// A quantity in a range: what it is, its unit, and how it is written.
+type Kind = ([f64; 2], [&'static str; 3]);
+
+const LENGTH: Kind = (LENGTHS, ["length", "m", "0.12 (m) or \"12 cm\""]);
+const TIME: Kind = (TIMES, ["time", "s", "120 (s) or \"2 min\""]);
+const AREA: Kind = (AREAS, ["area", "m^2", "0.005 (m^2) or \"50 cm2\""]);
+const RATE: Kind = (RATES, ["rate", "/s", "0.5 (1/s) or \"0.5 /s\""]);
+
+/// A quantity, if one was read that is in its range.
+fn within(([least, most], [what, unit, form]): Kind, found: Option<f64>) -> Result<f64, String> {
+    found.filter(|x| (least..=most).contains(x)).ok_or_else(|| {
+        format!("a {what} from {least:e} to {most:e} {unit} is needed, such as {form}")
+    })
+}
+
+/// The same, or 0.
+fn within_or_none(kind: Kind, found: Option<f64>) -> Result<f64, String> {
+    match found {
+        Some(0.0) => Ok(0.0),
+        found => within(kind, found).map_err(|told| format!("0 or {told}")),
+    }
+}
+
 /// A positive length (m), or with a unit.
 pub fn length(text: &str) -> Result<f64, String> {
-    design::length(text).filter(|x| *x > 0.0).ok_or_else(|| {
-        "a length greater than 0 is needed, such as 0.12 (m) or \"12 cm\"".to_owned()
-    })
+    within(LENGTH, design::length(text))
 }
 
 /// A length (m) of 0 or more, or with a unit.
 pub fn length_or_none(text: &str) -> Result<f64, String> {
-    design::length(text)
-        .filter(|x| *x >= 0.0)
-        .ok_or_else(|| "a length of 0 or more is needed, such as 1e-4 (m) or \"0.1 mm\"".to_owned())
+    within_or_none(LENGTH, design::length(text))
 }
 
 /// An angle (rad) from 0 to a full turn, or with a unit.
@@ -132,14 +162,26 @@ pub fn turn(text: &str) -> Result<f64, String> {
 
 /// A positive energy (J), or with a unit.
 pub fn energy(text: &str) -> Result<f64, String> {
-    let found = design::energy(text).filter(|x| *x > 0.0);
-    found.ok_or_else(|| format!("a number greater than 0 is needed, {JOULES}"))
+    let [least, most] = ENERGIES;
+    let found = design::energy(text).filter(|x| (least..=most).contains(x));
+    found.ok_or_else(|| format!("an energy from {least:e} to {most:e} J is needed, {JOULES}"))
 }
 
 /// An energy (J) below 0, or with a unit.
 pub fn binding(text: &str) -> Result<f64, String> {
-    let found = design::energy(text).filter(|x| *x < 0.0);
-    found.ok_or_else(|| format!("a number less than 0 is needed, {JOULES}"))
+    let [least, most] = ENERGIES;
+    let found = design::energy(text).filter(|x| (least..=most).contains(&-x));
+    found.ok_or_else(|| {
+        format!(
+            "an energy from {:e} to {:e} J is needed, {JOULES}",
+            -most, -least
+        )
+    })
+}
+
+/// Any energy (J) of magnets, or with a unit.
+pub fn any_energy(text: &str) -> Option<f64> {
+    design::energy(text).filter(|x| x.abs() <= ENERGIES[1])
 }
 
 /// The notation of energies.
@@ -147,41 +189,32 @@ const JOULES: &str = "in J or with a unit: 3e-3 or \"3 mJ\"";
 
 /// A positive time (s), or with a unit.
 pub fn time(text: &str) -> Result<f64, String> {
-    let found = design::time(text).filter(|x| *x > 0.0);
-    found.ok_or_else(|| format!("a number greater than 0 is needed, {SECONDS}"))
+    within(TIME, design::time(text))
 }
 
 /// A time (s) of 0 or more, or with a unit.
 pub fn time_or_none(text: &str) -> Result<f64, String> {
-    let found = design::time(text).filter(|x| *x >= 0.0);
-    found.ok_or_else(|| format!("a number of 0 or more is needed, {SECONDS}"))
+    within_or_none(TIME, design::time(text))
 }
-
-/// The notation of times.
-const SECONDS: &str = "in s or with a unit: 120 or \"2 min\"";
 
 /// A positive area (m^2), or with a unit.
 pub fn area(text: &str) -> Result<f64, String> {
-    let found = design::area(text).filter(|x| *x > 0.0);
-    found.ok_or_else(|| {
-        "a number greater than 0 is needed, in m^2 or with a unit: \"50 cm2\"".to_owned()
-    })
+    within(AREA, design::area(text))
 }
 
 /// A positive rate (1/s), or with a unit.
 pub fn rate(text: &str) -> Result<f64, String> {
-    let found = design::rate(text).filter(|x| *x > 0.0);
-    found.ok_or_else(|| {
-        "a number greater than 0 is needed, in 1/s or with a unit: \"0.5 /s\"".to_owned()
-    })
+    within(RATE, design::rate(text))
 }
+
+/// Range of numbers without a unit.
+const NUMBERS: [f64; 2] = [1e-9, 1e9];
 
 /// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|x: &f64| x.is_finite() && *x > 0.0)
-        .ok_or_else(|| "a number greater than 0 is needed".to_owned())
+    let [least, most] = NUMBERS;
+    let found = text.parse().ok().filter(|x| (least..=most).contains(x));
+    found.ok_or_else(|| format!("a number from {least:e} to {most:e} is needed"))
 }
 
 /// Range of energies (J) of shaking.
@@ -197,16 +230,13 @@ pub fn shaking(text: &str) -> Result<f64, String> {
 
 /// A number that is not negative.
 pub fn not_negative(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|x: &f64| x.is_finite() && *x >= 0.0)
-        .ok_or_else(|| "a number of 0 or more is needed".to_owned())
+    up_to(NUMBERS[1])(text)
 }
 
 /// A number from 0 to `most`.
-pub fn up_to(most: f64) -> impl Fn(&str) -> Result<f64, String> {
+pub fn up_to(most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| {
-        let found = not_negative(text).ok().filter(|x| *x <= most);
+        let found = text.parse().ok().filter(|x| (0.0..=most).contains(x));
         found.ok_or_else(|| format!("a number from 0 to {most} is needed"))
     }
 }
@@ -266,6 +296,26 @@ mod tests {
         assert_eq!((shaking("3 mJ"), time("2 min")), (Ok(3e-3), Ok(120.0)));
         assert_eq!(binding("-3 mJ"), Ok(-3e-3));
         assert!(energy("3 mm").is_err() && energy("0 mJ").is_err() && time("-1 s").is_err());
+        for far in ["1e300", "1e-300", "inf", "nan"] {
+            assert!(
+                length(far).is_err() && length_or_none(far).is_err(),
+                "{far}"
+            );
+            assert!(time(far).is_err() && time_or_none(far).is_err(), "{far}");
+            assert!(
+                energy(far).is_err() && binding(&format!("-{far}")).is_err(),
+                "{far}"
+            );
+            assert!(
+                area(far).is_err() && rate(far).is_err() && positive(far).is_err(),
+                "{far}"
+            );
+        }
+        assert!(not_negative("1e300").is_err() && any_energy("1e300").is_none());
+        assert_eq!(
+            (length_or_none("0"), time_or_none("0 s")),
+            (Ok(0.0), Ok(0.0))
+        );
         assert!(up_to(5.0)("5").is_ok() && up_to(5.0)("6").is_err() && up_to(5.0)("-1").is_err());
         assert!(turn("360 deg").is_ok() && turn("1e308").is_err() && turn("-1").is_err());
         assert!(fraction("1").is_err() && fraction("0.5").is_ok());

@@ -66,7 +66,8 @@ pub struct Request {
     /// Dry friction of tiles on the table they lie on: Coulomb's coefficient, 0 for an air table
     ///
     /// A tile's weight presses evenly over its area. --orbital and --linear move the table beneath it.
-    #[arg(long, value_name = "MU", default_value_t = 0.0, value_parser = request::not_negative)]
+    #[arg(long, value_name = "MU", default_value_t = 0.0,
+          value_parser = request::up_to(request::MOST_FRICTION))]
     pub table_friction: f64,
 
     /// How tiles move.
@@ -167,7 +168,9 @@ fn linear(text: &str) -> Result<Linear, String> {
     Ok(Linear {
         amplitude,
         frequency,
-        angle: angle(way).ok_or(FORM)?,
+        angle: angle(way)
+            .filter(|it| it.abs() <= request::MOST_TURNED)
+            .ok_or(FORM)?,
     })
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::least_spacing;
-use crate::design::{self, MagnetModel};
+use crate::design::MagnetModel;
 use crate::request::{self, Word};
 use physics::words::word::MOST_PLACES;
 use physics::words::{Bar, Constraints, Faces, Fault, Rules, Shape};
@@ -272,7 +272,7 @@ fn whole_range(text: &str) -> Result<[usize; 2], String> {
 
 fn range(text: &str) -> Result<[f64; 2], String> {
     let wrong = "a range is E:E in J, lower value first, such as -0.02:0 or \"-20 mJ:0\"";
-    ends(text, design::energy).ok_or_else(|| wrong.to_owned())
+    ends(text, request::any_energy).ok_or_else(|| wrong.to_owned())
 }
 
 /// The ends of `A:B`, in Python `A,B`.

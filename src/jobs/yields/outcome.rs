@@ -261,10 +261,15 @@ fn shares(rates: &PairRates, crowd: &Crowd, times: &[f64], most: usize) -> Share
 fn simulated(rates: &PairRates, crowd: &Crowd, question: &Question) -> Option<[f64; 2]> {
     let runs = question.simulations;
     let pairs = crowd.pairs() as f64;
-    let shares = parallel::map(0..runs, |run| {
+    let one = |run: usize| {
         let numbers = rates.simulate(crowd, question.time, &mut stream(question.seed, run))?;
         Some(numbers[0] as f64 / pairs)
-    });
+    };
+    // If one has too many events, no other is of use.
+    if runs > 1 {
+        one(0)?;
+    }
+    let shares = parallel::map(0..runs, one);
     let shares: Option<Vec<f64>> = shares.into_iter().collect();
     let shares = shares.filter(|shares| shares.len() > 1)?;
     Some(mean_and_error(&shares))

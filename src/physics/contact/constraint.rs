@@ -133,22 +133,28 @@ impl Meeting<'_> {
             return Front::Nothing;
         }
         // Behind the edge's line, but not inside: in front of another edge, past a corner.
-        if gap < -self.scale.length(TOUCH) && !self.is_inside(p) {
+        if gap < -self.scale.length(TOUCH) && !self.is_inside(i, p) {
             return Front::Nothing;
         }
         Front::Edge
     }
 
-    /// Whether a point is inside `b`, and not on its rim, where rounding would decide.
-    fn is_inside(&self, p: Vector2<f64>) -> bool {
+    /// Whether `a` is inside `b` near its vertex i, which is at `p`. On the rim of `b`, where rounding would
+    /// decide about the vertex, `a` is outside if it lies beyond that edge.
+    fn is_inside(&self, i: usize, p: Vector2<f64>) -> bool {
         let touch = self.scale.length(TOUCH);
         let mut near = Vec::new();
         self.b.grid().near(p, touch, &mut near);
-        let is_on = |&edge: &u32| {
+        near.retain(|&edge| {
             let (start, end) = self.b.edge(edge as usize);
             distance_to_segment(p, start, end) <= touch
-        };
-        self.b.contains(p) && !near.iter().any(is_on)
+        });
+        match near.is_empty() {
+            true => self.b.contains(p),
+            false => near
+                .iter()
+                .all(|&edge| !self.wedge_is_beyond(i, self.b.normals()[edge as usize])),
+        }
     }
 
     /// Whether a point's foot on an edge's line lies on the edge.

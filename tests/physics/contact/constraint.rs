@@ -120,6 +120,21 @@ fn corners_on_a_side_are_not_held_by_the_next_one() {
     }
 }
 
+/// Squares that overlap, with corners of each on sides of the other, are held apart, however the corners'
+/// places are rounded.
+#[test]
+fn corners_on_a_side_whose_tile_is_inside_are_held() {
+    for k in 0..200 {
+        let side = 0.3 + 1e-3 * f64::from(k);
+        let contact = Contact::new(&square(side), &square(side));
+        for overlap in [1e-7, 1e-5, 1e-4] {
+            let held = contact.constraints(&Configuration::new(side - overlap, 0.0, 0.0), 1e-3);
+            let deep = held.iter().filter(|it| (it.gap + overlap).abs() < 1e-9);
+            assert!(deep.count() >= 2, "{side} {overlap:e}: {held:?}");
+        }
+    }
+}
+
 #[test]
 fn mated_teeth_only_let_go_outwards() {
     let contact = Contact::new(&saw(false), &saw(true));

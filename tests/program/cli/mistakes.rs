@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{refused, tilebind};
 use crate::folder::contents;
-use crate::program::stderr;
+use crate::program::{command, stderr};
 
 #[test]
 fn every_broken_design_is_refused_with_its_place_and_leaves_no_results() {
@@ -57,17 +57,17 @@ fn negative_numbers_are_told_in_our_words() {
         ("assemble", "--kt", "-1", "a kT between"),
         ("assemble", "--lattice", "-3x3", "ROWSxCOLUMNS"),
         ("assemble", "--length", "-8", "a whole number"),
-        ("assemble", "--pitch", "-4 cm", "greater than 0"),
+        ("assemble", "--pitch", "-4 cm", "a length from"),
         ("assemble", "--proofread", "-1", "from 1 to 6"),
-        ("calibrate", "--area", "-1", "greater than 0"),
-        ("calibrate", "--within", "-75cm", "greater than 0"),
+        ("calibrate", "--area", "-1", "a area from"),
+        ("calibrate", "--within", "-75cm", "a length from"),
         ("calibrate", "--hold-out", "-2", "from 2 to 65535"),
         ("bond", "--threads", "-2", "from 1 to 65535"),
         ("yield", "--kt", "-1e-3,2e-3", "a kT between"),
         ("yield", "--tiles", "-4", "a whole number"),
-        ("yield", "--time", "-600", "greater than 0"),
-        ("rates", "--free-at", "-5 cm", "greater than 0"),
-        ("rates", "--drag", "-50", "greater than 0"),
+        ("yield", "--time", "-600", "a time from"),
+        ("rates", "--free-at", "-5 cm", "a length from"),
+        ("rates", "--drag", "-50", "a rate from"),
         ("rates", "--certify", "-0.1", "no longer have bounds"),
         ("rates", "--traps", "-1", "a whole number"),
         ("rates", "--check", "-10", "a whole number"),
@@ -210,6 +210,7 @@ fn wrong_options() {
         ["--thermal-energy", "-1"],
         ["--threads", "0"],
         ["--repeats", "0"],
+        ["--repeats", "1e9"],
         ["--seed", "x"],
         ["--sed", "1"],
     ] {
@@ -283,4 +284,66 @@ fn messages_hold_no_control_characters() {
             "{message:?}"
         );
     }
+}
+
+/// Lengths, times, energies, rates and speeds far beyond any tiles are refused by each option that takes
+/// one: those of all commands, as their help lists them.
+#[test]
+fn numbers_beyond_all_tiles_are_refused_by_every_option() {
+    const UNITS: [&str; 16] = [
+        "M",
+        "S",
+        "L",
+        "E_J",
+        "RATE",
+        "C",
+        "LOW,HIGH",
+        "LENGTH",
+        "M,M",
+        "A,F",
+        "A,F,ANGLE",
+        "RAD",
+        "DT",
+        "M2",
+        "MU",
+        "E_J:E_J",
+    ];
+    let help = command(&["--help"]).output().expect("the program");
+    let help = String::from_utf8(help.stdout).expect("text");
+    let commands = help.lines().filter_map(|line| line.strip_prefix("  "));
+    let commands = commands.filter_map(|line| line.split_whitespace().next());
+    let mut tried = 0;
+    for name in commands.filter(|it| it.chars().all(char::is_alphabetic)) {
+        let help = command(&[name, "--help"]).output().expect("the program");
+        let help = String::from_utf8(help.stdout).expect("text");
+        for line in help.lines() {
+            let Some((option, rest)) = line.trim().split_once(" <") else {
+                continue;
+            };
+            let unit = rest.split('>').next().unwrap_or_default();
+            let option = option.split_whitespace().last().unwrap_or_default();
+            if !option.starts_with("--") || !UNITS.contains(&unit) {
+                continue;
+            }
+            for far in ["1e300", "inf", "nan"] {
+                let parts = unit.matches([',', ':']).count();
+                let between = if unit.contains(':') { ":" } else { "," };
+                let value = vec![far; parts + 1].join(between);
+                let done = command(&[name, &format!("{option}={value}")]).output();
+                let done = done.expect("the program");
+                let told = stderr(&done);
+                assert_eq!(
+                    done.status.code(),
+                    Some(2),
+                    "{name} {option}={value}: {told}"
+                );
+                assert!(
+                    told.contains(option) && told.contains("invalid value"),
+                    "{name} {told}"
+                );
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 100, "{tried}");
 }

@@ -108,6 +108,22 @@ fn a_start_in_the_bond_is_refused_with_what_mends_it() {
     );
 }
 
+/// A basin below the bond holds nothing, whatever is asked for.
+#[test]
+fn a_basin_below_the_bond_is_refused() {
+    let asked = [
+        "rates",
+        "shapes/tab-20mm.toml",
+        "--kt",
+        "3e-3",
+        "--basin-energy",
+        "-1",
+    ];
+    for start in [&[][..], &["--start", "0.45,0,0"]] {
+        refused(&[&asked[..], start].concat(), &["--basin-energy", "-1"]);
+    }
+}
+
 /// Bounds on a mesh proved nothing; whoever asks for them learns what there is instead.
 #[test]
 fn bounds_are_refused_with_what_there_is_instead() {
