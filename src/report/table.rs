@@ -250,46 +250,58 @@ fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String 
         return against_rows(found, built);
     }
     let here = &found.target.share;
-    let verdict = match (here.low, here.high) {
-        (Some(low), Some(high)) if high < best.interval[0] || low > best.interval[1] => {
-            "; the two results differ by more than both intervals"
-        }
-        (Some(_), Some(_)) => "; the two results agree within their intervals",
-        _ => "",
-    };
-    let traps = best.trapped * (question.tiles / 2) as f64;
-    let here = &found.statistics.traps;
-    let trapped = match (here.low, here.high) {
-        (Some(low), Some(high)) if traps < low || traps > high => format!(
-            "; of traps it predicts {}, and here are {}: `yield` has no contacts of equal tiles or of three",
-            plain(traps, 2),
-            told(here)
+    let there = best.trapped * (question.tiles / 2) as f64;
+    let traps = &found.statistics.traps;
+    let trapped = match agree(traps, [there; 2]) {
+        Some(false) => format!(
+            "; of traps it predicts {}, and here are {}: `yield` has no contacts of {}",
+            plain(there, 2),
+            told(traps),
+            match yields.crowd.one_kind {
+                true => "three tiles",
+                false => "equal tiles or of three",
+            }
         ),
         _ => String::new(),
     };
+    let bonds = told_agreement(agree(here, best.interval));
     format!(
-        "`tilebind yield` predicts that {} are bound ({}){verdict}{trapped}",
+        "`tilebind yield` predicts that {} are bound ({}), and here are {}{bonds}{trapped}",
         share(best.bound),
-        in_pairs(question, best.interval)
+        in_pairs(question, best.interval),
+        match (here.low, here.high) {
+            (Some(low), Some(high)) =>
+                format!("{} ({} to {})", share(here.mean), share(low), share(high)),
+            _ => share(here.mean),
+        }
     )
 }
 
 /// The bonds of chains and rings beside those on the table.
 fn against_rows(found: &Found, built: &Rows) -> String {
     let (here, there) = (&found.statistics.bonds, &built.bonds);
-    let verdict = match (here.low, here.high) {
-        (Some(low), Some(high)) if high < there.low || low > there.high => {
-            "; the two results differ by more than both intervals"
-        }
-        (Some(_), Some(_)) => "; the two results agree within their intervals",
-        _ => "",
-    };
     format!(
-        "`tilebind yield` predicts {} bonds ({} to {}) in chains and rings{verdict}",
+        "`tilebind yield` predicts {} bonds ({} to {}) in chains and rings, and here are {}{}",
         plain(there.mean, 3),
         plain(there.low, 3),
-        plain(there.high, 3)
+        plain(there.high, 3),
+        told(here),
+        told_agreement(agree(here, [there.low, there.high]))
     )
+}
+
+/// Whether the intervals of a simulated number and of a prediction have common values; `None` for a
+/// single run.
+fn agree(here: &Interval, there: [f64; 2]) -> Option<bool> {
+    Some(here.high? >= there[0] && here.low? <= there[1])
+}
+
+fn told_agreement(agree: Option<bool>) -> &'static str {
+    match agree {
+        Some(true) => "; their intervals overlap",
+        Some(false) => "; the two results differ by more than both intervals",
+        None => "; one run has no interval to compare",
+    }
 }
 
 fn notes(found: &Found, request: &Request) -> Vec<String> {

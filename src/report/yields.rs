@@ -101,7 +101,10 @@ fn left_out(found: &Yields, has_rows: bool) -> String {
         true if has_rows => {
             "contacts of tiles that are not neighbours in a chain are left out, and traps on rings"
         }
-        true => "here a tile binds one other tile at most, so chains and rings are left out",
+        true => {
+            "here a tile binds one other tile at most: bonds of its other faces, which build chains and sheets of \
+             tiles that do not bind with exactly two faces, are left out, so a table has more bonds"
+        }
         false => {
             "here a tile binds one tile of the other kind at most: bonds and traps of tiles of the same kind, \
              and of a third tile, are left out"

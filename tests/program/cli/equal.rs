@@ -172,3 +172,44 @@ fn keys_of_the_one_tile_are_varied() {
         assert!(stderr(&output).contains(told), "{}", stderr(&output));
     }
 }
+
+/// A table that starts with its ring closed has four bonds that no prediction for single tiles has.
+#[test]
+fn a_comparison_can_disagree() {
+    let folder = tempfile::tempdir().unwrap();
+    let [design, start] =
+        ["sector.toml", "start.csv"].map(|name| folder.path().join(name).display().to_string());
+    let corner = |r: f64, turn: f64| format!("[{:.12}, {:.12}]", r * turn.cos(), r * turn.sin());
+    let half = std::f64::consts::FRAC_PI_4;
+    let corners = [(0.03, -half), (0.07, -half), (0.07, half), (0.03, half)];
+    let corners = corners.map(|(r, turn)| corner(r, turn)).join(", ");
+    let text = format!(
+        "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
+         inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
+         mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\nfaces = [\"0\", \"2\"]\n"
+    );
+    std::fs::write(&design, text).unwrap();
+    let places: String = (0..4)
+        .map(|k| format!("{k},0,0,{:.12},0,0,0\n", 2.0 * half * f64::from(k)))
+        .collect();
+    let asked = |more: &str| {
+        let text = format!(
+            "table {design} --time 0.2 --runs 6 --shaking 3e-4 --drag 2 --restitution 1 --friction 0 --compare {more}"
+        );
+        let output = tilebind(&text.split_whitespace().collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    std::fs::write(&start, format!("tile,x,y,theta,vx,vy,omega\n{places}")).unwrap();
+    let closed = asked(&format!("--start {start}"));
+    assert!(closed.contains("and here are 4.00"), "{closed}");
+    assert!(
+        closed.contains("differ by more than both intervals"),
+        "{closed}"
+    );
+    let single = asked("--count 4");
+    assert!(single.contains("their intervals overlap"), "{single}");
+}

@@ -23,10 +23,16 @@
 //! chains, which take part in nothing else meanwhile. Not included: forces between tiles that are not
 //! neighbours, traps on rings, and how chains hide their ends from each other.
 //!
-//! Compared with `tilebind table` (elastic, without friction, drag 2 /s, bonds of 19 kT, 95 % intervals):
-//! 12 sectors of 45 degrees that cover 8 % of a table have 1.4 (0.6 to 2.4) bonds after 30 s, on the table
-//! 1.6 (0.7 to 2.5); 8 sectors of 90 degrees that cover 12 % have 2.3 (1.8 to 3.0) after 100 s, on the table
-//! 3.3 (2.3 to 4.3), with 0.1 and 0.3 (0 to 0.9) closed rings.
+//! Compared with `tilebind table` (elastic, without friction, drag 20 /s, sectors that cover 10 % of a table
+//! and bind with 19 kT; bonds after 60 s, 95 % intervals):
+//!
+//! | sectors of a ring of | tiles | here | on the table |
+//! |---|---|---|---|
+//! | 3 | 8 | 2.6 (1.9 to 3.4) | 2.3 (1.6 to 2.9) |
+//! | 4 | 8 | 1.7 (1.2 to 2.2) | 1.9 (1.4 to 2.4) |
+//! | 6 | 12 | 3.2 (2.2 to 4.3) | 3.9 (3.2 to 4.6) |
+//!
+//! Closed rings of three: 0.43 (0.24 to 0.67) here and 0.19 (0 to 0.55) on the table.
 
 mod closing;
 mod growth;
