@@ -88,8 +88,93 @@ fn words_that_bind_their_own_kind_have_no_mates() {
         let energy = -energy[0]["energy_J"].as_f64().unwrap();
         assert!(energy >= bond * (1.0 - 1e-9), "{word}: {energy} {bond}");
     }
+    assert!(
+        (best_set_by_trial(0.4, &folder.path().join("pair.toml")) - found["gap"].as_f64().unwrap())
+            .abs()
+            < 1e-6
+    );
     let refused = tilebind(&[&asked[..], &["--shape", "polar"]].concat());
     assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+}
+
+/// The gap of the best of all largest sets of codes of four magnets that bind their own kind with at least
+/// this gap, from the energies of every two codes at every slide.
+fn best_set_by_trial(least: f64, file: &std::path::Path) -> f64 {
+    let codes: Vec<String> = (0..16)
+        .map(|bits| {
+            (0..4)
+                .map(|k| if bits >> k & 1 == 0 { 'N' } else { 'S' })
+                .collect()
+        })
+        .collect();
+    let turned = |code: &str| -> String {
+        code.chars()
+            .rev()
+            .map(|c| if c == 'N' { 'S' } else { 'N' })
+            .collect()
+    };
+    let own: Vec<&String> = codes.iter().filter(|code| turned(code) == **code).collect();
+    let energies = |one: &str, other: &str| -> Vec<f64> {
+        let tile = |name: &str, face: &str, code: &str| {
+            format!(
+                "[{name}]\nside = 0.3\nthickness = 0.013\nmass = 0.1\n[{name}.faces]\n{face} = {{ code = \"{code}\" }}\n"
+            )
+        };
+        let design = format!(
+            "[table]\nsize = [2.0, 2.0]\n[magnet]\nsize = [0.01, 0.01, 0.003]\nremanence = 1.2\npitch = 0.04\n{}{}\
+             [target]\nfixed = \"east\"\nmoving = \"west\"\n[potential]\nmodel = \"dipole\"\n",
+            tile("fixed", "east", one),
+            tile("moving", "west", other)
+        );
+        std::fs::write(file, design).unwrap();
+        let mut asked = vec!["energy".to_owned(), file.display().to_string()];
+        for slide in -3..=3 {
+            asked.extend([
+                "--pose".to_owned(),
+                format!("0.3,{},0", 0.04 * f64::from(slide)),
+            ]);
+        }
+        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
+        let found = json(&asked);
+        found
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|it| it["energy_J"].as_f64().unwrap())
+            .collect()
+    };
+    // The bond, and the strongest wrong attraction, of every two.
+    let known: Vec<Vec<[f64; 2]>> = own
+        .iter()
+        .map(|one| {
+            own.iter()
+                .map(|other| {
+                    let all = energies(one, other);
+                    let wrong = |(slide, energy): (usize, &f64)| {
+                        (slide != 3 || one != other).then_some(-energy)
+                    };
+                    let strongest = all.iter().enumerate().filter_map(wrong).fold(0.0, f64::max);
+                    [-all[3], strongest]
+                })
+                .collect()
+        })
+        .collect();
+    let gap = |set: &[usize]| {
+        let weakest = set
+            .iter()
+            .map(|&k| known[k][k][0])
+            .fold(f64::INFINITY, f64::min);
+        let pairs = set.iter().flat_map(|&i| set.iter().map(move |&j| (i, j)));
+        1.0 - pairs.map(|(i, j)| known[i][j][1]).fold(0.0, f64::max) / weakest
+    };
+    let sets = (1..1 << own.len())
+        .map(|bits| -> Vec<usize> { (0..own.len()).filter(|k| bits >> k & 1 == 1).collect() });
+    let fit = sets
+        .map(|set| (set.len(), gap(&set)))
+        .filter(|(_, gap)| *gap >= least);
+    let (size, best) = fit.fold((0, 0.0), |best, it| if it > best { it } else { best });
+    assert_eq!((own.len(), size), (4, 3));
+    best
 }
 
 /// Words for a design are for tiles of its side, and lengths have no rounding errors.
