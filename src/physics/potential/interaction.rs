@@ -49,8 +49,11 @@ pub struct Interaction {
     Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
 )]
 pub enum Unbounded {
-    /// Discs that lie flat, upright blocks, and either behind shields.
-    #[error("bounds over cells are not available for discs that lie flat and for upright blocks")]
+    /// Discs and upright magnets that stick out of their tiles or are behind shields.
+    #[error(
+        "bounds over cells are not available for discs and upright magnets that stick out of their tiles or \
+         have shields"
+    )]
     Bodies,
     /// The nearest-face rule, see [`super::shielding`].
     #[error("the energy is discontinuous where the nearest-face rule changes faces")]

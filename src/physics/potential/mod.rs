@@ -30,8 +30,8 @@
 //! pairs.
 //!
 //! Over whole cells of configurations the energy of either model has guaranteed bounds
-//! ([`bounds`]), which certify barriers; so has the energy with smooth shields and that of upright
-//! discs. The nearest-face rule, discs that lie flat and upright blocks have none.
+//! ([`bounds`]), which certify barriers; so has the energy with smooth shields and that of discs and
+//! upright magnets within their tiles. The nearest-face rule has none.
 //!
 //! Sources: Jackson, *Classical Electrodynamics* (3rd ed.), chapter 5, for the dipole; Akoun and
 //! Yonnet, doi:10.1109/TMAG.1984.1063554, for blocks with parallel edges, whose integrals

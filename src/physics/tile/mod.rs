@@ -10,7 +10,7 @@ pub mod grade;
 pub mod magnet;
 pub mod outline;
 mod pair;
-mod plane;
+pub(crate) mod plane;
 pub mod profile;
 pub mod strength;
 pub mod symmetry;

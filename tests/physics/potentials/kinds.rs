@@ -393,7 +393,7 @@ fn bodies(model: MagnetModel) -> Kind {
         name: format!("lying and standing magnets as {}", model.name()),
         tiles: [tile(fixed, 0), tile(moving, 1)],
         energy: bodies_of(model),
-        bounds: (model == MagnetModel::Dipole).then_some(mixed_bounds(model)),
+        bounds: Some(mixed_bounds(model)),
         poses: (0..30).map(pose).collect(),
         anywhere: Vec::new(),
         ..odd_blocks()

@@ -27,8 +27,9 @@
 //! of 1e-9 of `mu0 m1 m2 / (4 pi r^3)` for the omitted terms. For upright point dipoles it is the
 //! first term of this series, at every distance.
 //!
-//! Bounds of derivatives are in `limits`; over whole cells there are some for upright discs and
-//! dipoles only, whose energy depends on their distance alone (`radial`).
+//! Bounds of derivatives are in `limits`; for those over whole cells see
+//! [`bounds`](super::bounds), which has the pairs one by one from `single`, and those of upright discs and
+//! dipoles, whose energy depends on their distance alone, from `radial`.
 
 mod complex;
 mod disc;
@@ -43,6 +44,7 @@ mod panels;
 pub(in crate::potential) mod radial;
 mod rectangle;
 mod series;
+mod single;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -60,6 +62,7 @@ use crate::units::MU0_OVER_4PI;
 use limits::Limits;
 use nearby::Nearby;
 use series::Series;
+pub(in crate::potential) use single::Single;
 use sum::Members;
 
 /// The fraction of a pair's `mu0 m1 m2 / (4 pi r^3)` at which the series replaces the faces, and at
@@ -110,7 +113,7 @@ impl Body {
     }
 
     /// The radius (m) of the circle about it in the tiles' plane.
-    fn radius(&self) -> f64 {
+    pub(super) fn radius(&self) -> f64 {
         match (self.shape, self.stands) {
             (Shape::Disc, true) => self.size[0] / 2.0,
             _ => libm::hypot(self.size[0], self.size[1]) / 2.0,
@@ -118,7 +121,7 @@ impl Body {
     }
 
     /// Its volume (m^3).
-    fn volume(&self) -> f64 {
+    pub(super) fn volume(&self) -> f64 {
         self.shape.volume(self.size)
     }
 
@@ -167,7 +170,7 @@ const SAME_DIRECTION: f64 = 1e-12;
 /// of one that lies.
 fn groups(magnets: &[Magnet]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for body in magnets.iter().map(Body::from) {
+    for (at, body) in magnets.iter().map(Body::from).enumerate() {
         let is_upright_disc = body.stands && body.shape == Shape::Disc;
         let is_like = |group: &Group| {
             let aside = group.like.direction.perp(&body.direction).abs();
@@ -186,7 +189,7 @@ fn groups(magnets: &[Magnet]) -> Vec<Group> {
         let group = &mut groups[number];
         let turned = !body.stands && group.like.direction.dot(&body.direction) < 0.0;
         let moment = if turned { -body.moment } else { body.moment };
-        group.members.push(body.position, moment);
+        group.members.push(at, body.position, moment);
     }
     groups
 }
@@ -262,7 +265,7 @@ impl BodyPotential {
 
     /// The distance (m) from which on the series is used for all pairs; 0 for dipoles.
     #[cfg(test)]
-    fn reach(&self) -> f64 {
+    pub(super) fn reach(&self) -> f64 {
         let pairs = self.pairs.iter().flatten().flatten();
         let last = pairs.filter_map(|pairs| pairs.squares.last());
         last.fold(0.0, |most: f64, square| most.max(square.sqrt()))

@@ -22,10 +22,12 @@ pub struct Members {
     x: Vec<f64>,
     y: Vec<f64>,
     moment: Vec<f64>,
+    /// Their numbers in their tile.
+    pub numbers: Vec<usize>,
 }
 
 impl Members {
-    pub fn push(&mut self, place: Vector2<f64>, moment: f64) {
+    pub fn push(&mut self, number: usize, place: Vector2<f64>, moment: f64) {
         if self.count == self.x.len() {
             let whole = self.count + WIDTH;
             self.x.resize(whole, AWAY);
@@ -34,10 +36,12 @@ impl Members {
         }
         let at = self.count;
         (self.x[at], self.y[at], self.moment[at]) = (place.x, place.y, moment);
+        self.numbers.push(number);
         self.count += 1;
     }
 
-    fn at(&self, i: usize) -> (Vector2<f64>, f64) {
+    /// The place (m) and moment (A m^2) of one.
+    pub fn at(&self, i: usize) -> (Vector2<f64>, f64) {
         (Vector2::new(self.x[i], self.y[i]), self.moment[i])
     }
 

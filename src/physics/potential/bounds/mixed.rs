@@ -1,11 +1,16 @@
-//! Bounds of the sum of the energies of magnets that lie flat and of those that stand upright: no
-//! magnet of one kind acts on one of the other.
+//! Bounds of the sum of the energies of magnets that lie flat and of those that stand upright (no magnet
+//! of one kind acts on one of the other), each pair by the bounds that are made for its kind.
 
-use super::near::{SLACK, depths};
-use super::{BoxedBounds, CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds};
+use super::bodies::depth;
+use super::near::SLACK;
+use super::{
+    BodyBounds, BoxedBounds, CellBounds, CuboidBounds, DipoleBounds, Enclosure, UprightBounds,
+};
 use crate::cell::Cell;
 use crate::configuration::Configuration;
 use crate::potential::MagnetModel;
+use crate::potential::bodies::Body;
+use crate::scale::Scale;
 use crate::tile::magnet::Shape;
 use crate::tile::{Magnet, Tile};
 
@@ -14,54 +19,72 @@ pub struct MixedBounds {
     parts: Vec<BoxedBounds>,
 }
 
+/// Whether a magnet lies and is a block.
+fn is_lying_block(magnet: &Magnet) -> bool {
+    magnet.form.stands.is_none() && magnet.form.shape == Shape::Block
+}
+
+/// Whether a pair of magnets that both lie or both stand has bounds of its own: of blocks that lie, and of
+/// discs that stand.
+fn is_usual(first: &Body, second: &Body) -> bool {
+    let usual = if first.stands {
+        Shape::Disc
+    } else {
+        Shape::Block
+    };
+    first.shape == usual && second.shape == usual
+}
+
 impl MixedBounds {
-    /// Whether there are bounds for these magnets: those that lie must be blocks and those that stand
-    /// discs that cannot overlap while the tiles do not, unless all are point dipoles.
+    /// Whether there are bounds for these magnets: any but blocks that lie must stay apart as long as
+    /// the tiles do, unless all are point dipoles.
     pub fn exist(model: MagnetModel, tiles: [&Tile; 2]) -> bool {
-        let usual = |magnet: &Magnet| match magnet.form.stands {
-            Some(_) => magnet.form.shape == Shape::Disc,
-            None => magnet.form.shape == Shape::Block,
+        let slack = Scale::of(tiles.map(|tile| tile.outline.circumradius())).length(SLACK);
+        let stay_apart = |stands: bool| {
+            let both = tiles.map(|tile| only(tile, |it| it.form.stands.is_some() == stands));
+            let all = || both.iter().flat_map(|tile| &tile.magnets);
+            let room = |tile: &Tile| {
+                let depths = tile.magnets.iter().map(|magnet| depth(magnet, tile));
+                depths.fold(f64::INFINITY, f64::min)
+            };
+            all().all(is_lying_block) || both.iter().map(room).sum::<f64>() >= -slack
         };
-        let is_of = |stands: bool| {
-            let both = tiles.map(|tile| only(tile, stands).magnets);
-            both.iter().any(Vec::is_empty) || both.iter().flatten().all(usual)
-        };
-        let room: f64 = tiles.map(room).iter().sum();
-        model == MagnetModel::Dipole || is_of(true) && is_of(false) && room >= -SLACK
+        model == MagnetModel::Dipole || stay_apart(true) && stay_apart(false)
     }
 
     /// Their bounds, if they [exist](Self::exist).
     pub fn new(model: MagnetModel, fixed: &Tile, moving: &Tile) -> Self {
-        let make = |stands: bool| -> Option<BoxedBounds> {
-            let [fixed, moving] = [fixed, moving].map(|tile| only(tile, stands));
-            if fixed.magnets.is_empty() || moving.magnets.is_empty() {
-                return None;
-            }
-            Some(match (stands, model) {
-                (true, _) => Box::new(UprightBounds::new(model, &fixed, &moving)),
-                (_, MagnetModel::Dipole) => Box::new(DipoleBounds::new(&fixed, &moving)),
-                (_, MagnetModel::Cuboid) => Box::new(CuboidBounds::new(&fixed, &moving)),
-            })
+        let both = |kind: &dyn Fn(&Magnet) -> bool| {
+            let tiles = [fixed, moving].map(|tile| only(tile, kind));
+            let none = tiles.iter().any(|tile| tile.magnets.is_empty());
+            (!none).then_some(tiles)
         };
-        Self {
-            parts: [false, true].into_iter().filter_map(make).collect(),
+        let (mut parts, is_dipole): (Vec<BoxedBounds>, _) =
+            (Vec::new(), model == MagnetModel::Dipole);
+        let lies = |it: &Magnet| it.form.stands.is_none();
+        if let Some([a, b]) = both(&|it| lies(it) && (is_dipole || is_lying_block(it))) {
+            parts.push(match model {
+                MagnetModel::Dipole => Box::new(DipoleBounds::new(&a, &b)),
+                MagnetModel::Cuboid => Box::new(CuboidBounds::new(&a, &b)),
+            });
         }
+        if let Some([a, b]) = both(&|it| !lies(it) && (is_dipole || it.is_round())) {
+            parts.push(Box::new(UprightBounds::new(model, &a, &b)));
+        }
+        let bodies = |tile: &Tile| tile.magnets.iter().map(Body::from).collect::<Vec<_>>();
+        let (first, second) = (bodies(fixed), bodies(moving));
+        let is_left = |a: &Body, b: &Body| a.stands == b.stands && !is_usual(a, b);
+        if !is_dipole && first.iter().any(|a| second.iter().any(|b| is_left(a, b))) {
+            parts.push(Box::new(BodyBounds::new(fixed, moving, is_usual)));
+        }
+        Self { parts }
     }
 }
 
-/// How far (m) the discs that stand in a tile stay behind its surface; negative if one sticks out.
-fn room(tile: &Tile) -> f64 {
-    let all = tile.magnets.iter().zip(depths(tile));
-    let standing = all.filter(|(magnet, _)| magnet.form.stands.is_some());
-    let rooms = standing.map(|(magnet, depth)| depth - magnet.size[0] / 2.0);
-    rooms.fold(f64::INFINITY, f64::min)
-}
-
-/// A tile with those of its magnets that stand, or those that lie.
-fn only(tile: &Tile, stands: bool) -> Tile {
+/// A tile with the magnets of a kind.
+fn only(tile: &Tile, kind: impl Fn(&Magnet) -> bool) -> Tile {
     let mut tile = tile.clone();
-    tile.magnets
-        .retain(|magnet| magnet.form.stands.is_some() == stands);
+    tile.magnets.retain(kind);
     tile
 }
 

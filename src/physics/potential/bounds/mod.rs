@@ -1,8 +1,10 @@
 //! Guaranteed bounds of the energy over cells of configurations: of point dipoles
 //! ([`DipoleBounds`]) and of blocks ([`CuboidBounds`]), also behind shields ([`ShieldedBounds`],
-//! [`ShieldedBlockBounds`]), of upright discs and dipoles ([`UprightBounds`]), and of both on
-//! one tile ([`MixedBounds`]).
+//! [`ShieldedBlockBounds`]), of upright discs and dipoles ([`UprightBounds`]), of any other magnets
+//! ([`BodyBounds`]), and of all of them on one tile ([`MixedBounds`]).
 
+mod apart;
+mod bodies;
 mod cuboid;
 pub(super) mod dipole;
 mod enclosure;
@@ -11,6 +13,7 @@ mod near;
 mod shielded;
 mod upright;
 
+pub use bodies::BodyBounds;
 pub use cuboid::CuboidBounds;
 pub use dipole::DipoleBounds;
 use enclosure::ends;

@@ -89,7 +89,6 @@
 //! paper's tile, and in proportion for others. As elsewhere it is assumed that the platform's sine,
 //! cosine and arc functions are accurate to 8 units in the last place.
 
-mod apart;
 mod faces;
 mod nodes;
 #[cfg(test)]
@@ -97,6 +96,7 @@ mod tests;
 
 use nalgebra::Vector2;
 
+use super::apart::Apart;
 use super::dipole::{DipoleBounds, Spread};
 use super::near::SLACK;
 use super::{CellBounds, Enclosure};
@@ -109,7 +109,6 @@ use crate::potential::{CuboidPotential, Potential};
 use crate::scale::Scale;
 use crate::tile::{Magnet, Outline, Tile};
 use crate::units::MU0_OVER_4PI;
-use apart::Apart;
 use faces::{Left, Motion, Pair};
 use nodes::{Nodes, Sum, Totals};
 

@@ -13,8 +13,8 @@ use std::ops::Add;
 
 use nalgebra::Vector2;
 
-use super::apart::Apart;
 use super::nodes::{Node, Nodes};
+use crate::potential::bounds::apart::Apart;
 use crate::potential::cuboid::block::Block;
 use lengths::hypotenuse;
 use rule::Rule;

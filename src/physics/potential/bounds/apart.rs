@@ -1,8 +1,8 @@
-//! Bounds for two blocks that stay apart throughout a cell, as uniform distributions of dipoles.
+//! Bounds for two magnets that stay apart throughout a cell, as uniform distributions of dipoles.
 //!
-//! The energy of two blocks is the mean energy of two dipoles over their places in the blocks. If
+//! The energy of two magnets is the mean energy of two dipoles over their places in the magnets. If
 //! these are r apart at the cell's centre, they are at least `rho = r - v` apart anywhere in the
-//! cell, with v the largest distance that the cell moves a point of the second block; on the
+//! cell, with v the largest distance that the cell moves a point of the second magnet; on the
 //! straight motion from the centre no point is faster than v and no turn faster than w, half the
 //! cell's angle. With K = mu0 m1 m2 / (4 pi) the energy and its first and third derivatives along
 //! the motion are hence (see [`motion`](crate::potential::motion), whose series in t continues in
@@ -14,18 +14,80 @@
 //! |U'''| <= K [120 v^3 <rho^-6> + 144 v^2 w <rho^-5> + 42 v w^2 <rho^-4> + 2 w^3 <rho^-3>]
 //! ```
 //!
-//! in J. The means are taken over pairs of parts of the blocks: for parts whose centres are `rho`
-//! apart in this sense, the offset d of two dipoles from there is even and at most `s` long, and
+//! in J. The means are taken over pairs of parts of the magnets: for parts whose centroids are `rho`
+//! apart in this sense, the offset d of two dipoles from there is zero on average and at most `s` long, and
 //! the largest second derivative of `rho^-n` is the radial one, so that by Taylor's theorem
 //! `<rho^-n> <= rho^-n + n (n + 1) / 2 <d^2> (rho - s)^-(n+2)`. Only distances in the plane count:
-//! points above or below are farther.
+//! points above or below are farther. A disc that lies counts by its chords, one that stands by rings.
 
 use nalgebra::Vector2;
 
+use crate::potential::bodies::Body;
 use crate::potential::cuboid::block::Block;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
+use crate::tile::magnet::Shape;
 use crate::units::MU0_OVER_4PI;
+
+/// A magnet seen from above.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Footprint {
+    position: Vector2<f64>,
+    axis: Vector2<f64>,
+    moment: f64,
+    /// Along the axis and across it (m).
+    sides: [f64; 2],
+    filled: Filled,
+}
+
+/// How much of a magnet is above the points of its footprint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Filled {
+    /// The same everywhere: a block.
+    Evenly,
+    /// As long as the chords of a disc that lies.
+    ByChords,
+    /// A disc that stands.
+    Round,
+}
+
+impl From<&Block> for Footprint {
+    fn from(block: &Block) -> Self {
+        Self {
+            position: block.position,
+            axis: block.axis,
+            moment: block.moment,
+            sides: [block.size[0], block.size[1]],
+            filled: Filled::Evenly,
+        }
+    }
+}
+
+impl From<&Body> for Footprint {
+    fn from(body: &Body) -> Self {
+        Self {
+            position: body.position,
+            axis: body.direction,
+            moment: body.moment,
+            sides: [body.size[0], body.size[1]],
+            filled: match (body.shape, body.stands) {
+                (Shape::Block, _) => Filled::Evenly,
+                (Shape::Disc, false) => Filled::ByChords,
+                (Shape::Disc, true) => Filled::Round,
+            },
+        }
+    }
+}
+
+impl Footprint {
+    /// The largest distance (m) of its points from its centre.
+    fn radius(&self) -> f64 {
+        match self.filled {
+            Filled::Round => self.sides[0] / 2.0,
+            _ => libm::hypot(self.sides[0], self.sides[1]) / 2.0,
+        }
+    }
+}
 
 /// Most parts along a side of a block.
 const MOST: usize = 4;
@@ -47,7 +109,7 @@ const NEAREST: f64 = 0.5;
 /// Room for rounding.
 const ROOM: f64 = 1.0 + 1e-9;
 
-/// Bounds of the energy (J) of two blocks over a cell.
+/// Bounds of the energy (J) of two magnets over a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Apart {
     /// Of its magnitude.
@@ -61,22 +123,27 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    /// The bounds of two blocks, placed as at the cell's centre, in a cell that moves no point of
+    /// The bounds of two magnets, placed as at the cell's centre, in a cell that moves no point of
     /// the second one by more than `reach` (m) and turns it by at most `turn` (rad). `None` if
     /// parts of them may get too close.
-    pub fn of(level: Level, [first, second]: [&Block; 2], [reach, turn]: [f64; 2]) -> Option<Self> {
+    pub fn of<F: Copy + Into<Footprint>>(
+        level: Level,
+        magnets: [F; 2],
+        [reach, turn]: [f64; 2],
+    ) -> Option<Self> {
+        let [first, second] = magnets.map(Into::into);
         let distance = (second.position - first.position).norm() - reach;
         if distance <= NEAREST * (first.radius() + second.radius()) {
             return None;
         }
-        let sides = [first.size[0], first.size[1], second.size[0], second.size[1]];
-        let longest = sides.into_iter().fold(0.0, f64::max);
+        let sides = first.sides.into_iter().chain(second.sides);
+        let longest = sides.fold(0.0, f64::max);
         let count = match distance / longest {
             ratio if ratio >= WHOLE => 1.0,
             ratio if ratio >= WHOLE / 2.0 || HOPELESS * reach >= distance => 2.0,
             _ => MOST as f64,
         };
-        let [one, other] = [first, second].map(|block| Parts::new(block, longest / count));
+        let [one, other] = [&first, &second].map(|it| Parts::new(it, longest / count));
         let [third, fourth, fifth, sixth] = level.run(Means {
             parts: [&one, &other],
             reach,
@@ -96,14 +163,15 @@ impl Apart {
     }
 }
 
-/// Parts of a block, all of one size, padded to whole vectors.
+/// Parts of a magnet, padded to whole vectors.
 struct Parts {
     count: usize,
     x: [f64; MOST * MOST],
     y: [f64; MOST * MOST],
-    /// 1 for a part, 0 for padding.
+    /// Their shares, 1 on average; 0 for padding.
     weight: [f64; MOST * MOST],
-    /// Half the diagonal (m), and the mean square distance of a part's points from its centre (m^2).
+    /// The largest distance of a part's points from its centroid (m), and their mean square distance
+    /// (m^2) at most.
     radius: f64,
     square: f64,
 }
@@ -111,32 +179,127 @@ struct Parts {
 impl Parts {
     /// Cut so that no side of a part is longer than `side` (m), or into the largest number of
     /// parts.
-    fn new(block: &Block, side: f64) -> Self {
-        let [along, across] = [block.size[0], block.size[1]];
+    fn new(magnet: &Footprint, side: f64) -> Self {
+        let [along, across] = magnet.sides;
         let count = |length: f64| ((length / side - 1e-9).ceil() as usize).clamp(1, MOST);
         let counts = [count(along), count(across)];
-        let sides = [along / counts[0] as f64, across / counts[1] as f64];
-        let mut parts = Self {
-            count: counts[0] * counts[1],
-            x: [0.0; MOST * MOST],
-            y: [0.0; MOST * MOST],
-            weight: [0.0; MOST * MOST],
-            radius: libm::hypot(sides[0], sides[1]) / 2.0,
-            square: (sides[0] * sides[0] + sides[1] * sides[1]) / 12.0,
+        let mut parts = match magnet.filled {
+            Filled::Evenly => Self::even(magnet.sides, counts),
+            Filled::ByChords => Self::by_chords(magnet.sides, counts),
+            Filled::Round => Self::round(along / 2.0, counts[0]),
         };
-        let across = Vector2::new(-block.axis.y, block.axis.x);
-        let place = |k: usize, count: usize| k as f64 - (count as f64 - 1.0) / 2.0;
+        let side = Vector2::new(-magnet.axis.y, magnet.axis.x);
         for k in 0..parts.count {
-            let (i, j) = (k / counts[1], k % counts[1]);
-            let at = block.position
-                + block.axis * (sides[0] * place(i, counts[0]))
-                + across * (sides[1] * place(j, counts[1]));
-            parts.x[k] = at.x;
-            parts.y[k] = at.y;
-            parts.weight[k] = 1.0;
+            let at = magnet.position + magnet.axis * parts.x[k] + side * parts.y[k];
+            (parts.x[k], parts.y[k]) = (at.x, at.y);
         }
         parts
     }
+
+    fn even([along, across]: [f64; 2], counts: [usize; 2]) -> Self {
+        let sides = [along / counts[0] as f64, across / counts[1] as f64];
+        let mut parts = Self {
+            count: 0,
+            radius: libm::hypot(sides[0], sides[1]) / 2.0,
+            square: (sides[0] * sides[0] + sides[1] * sides[1]) / 12.0,
+            ..Self::NONE
+        };
+        for (i, j) in (0..counts[0]).flat_map(|i| (0..counts[1]).map(move |j| (i, j))) {
+            let [x, y] = [(i, 0), (j, 1)].map(|(k, n)| sides[n] * place(k, counts[n]));
+            parts.push(x, y, 1.0);
+        }
+        parts
+    }
+
+    /// Strips of a disc, with `a(y)` the area of the disc up to y, `m` its first moment and `s` its second
+    /// one: for the radius 1 the integrals of `2 sqrt(1 - y^2)` times 1, y and y^2.
+    fn by_chords([along, across]: [f64; 2], counts: [usize; 2]) -> Self {
+        let radius = across / 2.0;
+        let length = along / counts[0] as f64;
+        let moments = |y: f64| {
+            let chord = ((1.0 - y) * (1.0 + y)).max(0.0).sqrt();
+            let area = y * chord + libm::asin(y);
+            let first = -2.0 / 3.0 * chord * chord * chord;
+            let second = (area - 2.0 * y * chord * chord * chord) / 4.0;
+            [area, first, second]
+        };
+        let mut parts = Self::NONE;
+        for j in 0..counts[1] {
+            let ends = [j, j + 1].map(|k| 2.0 * k as f64 / counts[1] as f64 - 1.0);
+            let [from, to] = ends.map(moments);
+            let [area, first, second] = [0, 1, 2].map(|n| to[n] - from[n]);
+            let y = first / area;
+            let square = (second / area - y * y).max(0.0) * radius * radius;
+            let farthest = ends.into_iter().map(|end| (end - y).abs());
+            let aside = radius * farthest.fold(0.0, f64::max);
+            parts.radius = parts.radius.max(libm::hypot(length / 2.0, aside));
+            parts.square = parts.square.max(length * length / 12.0 + square);
+            for i in 0..counts[0] {
+                let share = area / std::f64::consts::PI * counts[1] as f64;
+                parts.push(length * place(i, counts[0]), radius * y, share);
+            }
+        }
+        parts
+    }
+
+    /// A disc as a whole, or cut into rings and those into sectors.
+    fn round(radius: f64, count: usize) -> Self {
+        const RINGS: [(f64, f64, usize); 3] = [(0.0, 0.35, 1), (0.35, 0.7, 5), (0.7, 1.0, 10)];
+        let mut parts = Self::NONE;
+        if count == 1 {
+            parts.push(0.0, 0.0, 1.0);
+            (parts.radius, parts.square) = (radius, radius * radius / 2.0);
+            return parts;
+        }
+        let all: usize = RINGS.iter().map(|(_, _, sectors)| sectors).sum();
+        for (from, to, sectors) in RINGS {
+            let half = std::f64::consts::PI / sectors as f64;
+            let squares = to * to - from * from;
+            let mean = (to * to + from * from) / 2.0;
+            // Of the centroid from the middle.
+            let out = if sectors == 1 {
+                0.0
+            } else {
+                2.0 / 3.0 * (to * to * to - from * from * from) / squares * libm::sin(half) / half
+            };
+            let corner = |r: f64| {
+                let (sin, cos) = libm::sincos(half);
+                libm::hypot(r * cos - out, r * sin)
+            };
+            let farthest = match sectors {
+                1 => to,
+                _ => corner(to).max(corner(from)).max(to - out).max(out - from),
+            };
+            parts.radius = parts.radius.max(radius * farthest);
+            parts.square = parts.square.max(radius * radius * (mean - out * out));
+            for k in 0..sectors {
+                let (sin, cos) = libm::sincos(2.0 * half * k as f64);
+                let share = squares / sectors as f64 * all as f64;
+                parts.push(radius * out * cos, radius * out * sin, share);
+            }
+        }
+        parts
+    }
+
+    const NONE: Self = Self {
+        count: 0,
+        x: [0.0; MOST * MOST],
+        y: [0.0; MOST * MOST],
+        weight: [0.0; MOST * MOST],
+        radius: 0.0,
+        square: 0.0,
+    };
+
+    fn push(&mut self, x: f64, y: f64, weight: f64) {
+        let k = self.count;
+        (self.x[k], self.y[k], self.weight[k]) = (x, y, weight);
+        self.count += 1;
+    }
+}
+
+/// The middle of a part, in parts from the middle of the whole.
+fn place(k: usize, count: usize) -> f64 {
+    k as f64 - (count as f64 - 1.0) / 2.0
 }
 
 /// The bounds of the means of rho^-3 to rho^-6 (m^-3 to m^-6), if there are any.
@@ -162,6 +325,7 @@ impl Task for Means<'_> {
         let mut closest = l.splat(f64::MAX);
         for i in 0..first.count {
             let (x, y) = (l.splat(first.x[i]), l.splat(first.y[i]));
+            let own = l.splat(first.weight[i]);
             for from in (0..second.count).step_by(WIDTH) {
                 let dx = l.sub(l.load(&second.x[from..]), x);
                 let dy = l.sub(l.load(&second.y[from..]), y);
@@ -177,8 +341,9 @@ impl Task for Means<'_> {
                 let rho = l.select(l.sub(rho, least), rho, least);
                 let (inverse, other) = (l.reciprocal(rho), l.reciprocal(near));
                 let (inverse2, other2) = (l.mul(inverse, inverse), l.mul(other, other));
-                let mut power = l.mul(weight, l.mul(inverse2, inverse));
-                let mut wide = l.mul(weight, l.mul(l.mul(other2, other2), other));
+                let both = l.mul(own, weight);
+                let mut power = l.mul(both, l.mul(inverse2, inverse));
+                let mut wide = l.mul(both, l.mul(l.mul(other2, other2), other));
                 for (sum, factor) in sums.iter_mut().zip(spread) {
                     let mean = l.mul_add(l.splat(factor), wide, power);
                     *sum = l.add(*sum, mean);
@@ -298,7 +463,7 @@ mod tests {
             list
         };
         let (a, b) = (points(&first), points(&second));
-        let [one, other] = [&first, &second].map(|block| Parts::new(block, 0.0025));
+        let [one, other] = [&first, &second].map(|block| Parts::new(&block.into(), 0.0025));
         for level in Level::available() {
             let parts = [&one, &other];
             let means = level.run(Means { parts, reach }).unwrap();
