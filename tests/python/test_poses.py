@@ -1,5 +1,8 @@
 """Energies, wrenches and clearances of many poses."""
 
+import datetime
+import decimal
+import fractions
 import threading
 import time
 
@@ -94,12 +97,36 @@ def test_the_lock_is_released(design):
         np.array([b"0.43", b"0", b"0"]),
         np.ma.masked_all((2, 3)),
         np.ma.array([[0.43, 0, 0]], mask=[[False, True, False]]),
+        np.array([[0.43, None, 0]], dtype=object),
+        np.array([[0.43, "0", 0]], dtype=object),
+        np.array(["2020", "2021", "2022"], dtype="datetime64[s]"),
+        np.zeros((1, 3), dtype="timedelta64[s]"),
+        [datetime.datetime(2020, 1, 1), 0, 0],
+        np.zeros((1, 3), dtype=bool),
+        [0.43 + 0j, 0, 0],
+        np.array([(0.43, 0, 0)], dtype=[("x", "f8"), ("y", "f8"), ("theta", "f8")]),
+        {0.43, 0, 0},
+        {0: 0.43},
+        (x for x in [0.43, 0, 0]),
     ],
 )
-def test_text_and_masked_entries_are_no_poses(design, poses):
+def test_what_holds_no_numbers_are_no_poses(design, poses):
     for method in (design.energy, design.wrench, design.clearance, design.is_free, design.barrier):
         with pytest.raises(ValueError, match="are no poses"):
             method(poses)
+
+
+@pytest.mark.parametrize("poses", [[[10**400, 0, 0]], [[0.43, 0, 0], [1, 2]]])
+def test_numbers_that_form_no_poses_are_refused_in_our_words(design, poses):
+    with pytest.raises(ValueError, match="poses are an array"):
+        design.energy(poses)
+
+
+def test_all_kinds_of_numbers_are_accepted(design):
+    energy = design.energy([0.5, 0, 0])
+    for half in (decimal.Decimal("0.5"), fractions.Fraction(1, 2), np.float32(0.5), np.longdouble(0.5)):
+        assert design.energy([half, 0, 0]) == energy
+    assert design.energy(np.array([0.5, 0, 0], dtype=">f8")) == energy
 
 
 def test_arrays_that_can_be_masked_but_are_not(design):

@@ -3,9 +3,9 @@
 use numpy::{
     AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyUntypedArrayMethods,
 };
-use pyo3::exceptions::PyMemoryError;
+use pyo3::exceptions::{PyMemoryError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyByteArray, PyBytes, PyString};
+use pyo3::types::{PyBool, PyByteArray, PyBytes, PyString};
 use rayon::prelude::*;
 use tilebind::potential::Potential;
 use tilebind::{Configuration, interruption, memory};
@@ -29,32 +29,43 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Poses<'py> {
 
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         check_numbers(&value)?;
-        Ok(Self(value.extract()?))
+        let array = value.extract();
+        Ok(Self(array.map_err(|error| not_numbers(value.py(), error))?))
     }
 }
 
-/// Refuses what NumPy would turn into numbers although it has none: text, bytes, and arrays with
-/// masked entries, whose values are not meant.
+/// Refuses what NumPy would turn into numbers although it has none: text, bytes, times, truth values, complex
+/// numbers, objects that are no numbers, and arrays with masked entries, whose values are not meant.
 fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
-    let text = || {
-        Err(fault::value(
-            "text and bytes are no poses: x (m), y (m) and theta (rad) are numbers",
-        ))
+    let none = |what: &str| {
+        Err(fault::value(format!(
+            "{what} no poses: x (m), y (m) and theta (rad) are numbers"
+        )))
     };
     if value.is_instance_of::<PyString>()
         || value.is_instance_of::<PyBytes>()
         || value.is_instance_of::<PyByteArray>()
     {
-        return text();
+        return none("text and bytes are");
     }
     let numpy = value.py().import("numpy")?;
-    let kind: String = numpy
-        .call_method1("asarray", (value,))?
-        .getattr("dtype")?
-        .getattr("kind")?
-        .extract()?;
-    if ["S", "U"].contains(&&kind[..]) {
-        return text();
+    let array = numpy.call_method1("asarray", (value,));
+    let array = array.map_err(|error| not_numbers(value.py(), error))?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    match &kind[..] {
+        "f" | "i" | "u" => {}
+        "S" | "U" => return none("text and bytes are"),
+        "M" | "m" => return none("dates and times are"),
+        "b" => return none("truth values are"),
+        "c" => return none("complex numbers are"),
+        "O" => {
+            for item in array.getattr("flat")?.try_iter()? {
+                if !is_number(&item?)? {
+                    return none("objects that are not real numbers are");
+                }
+            }
+        }
+        _ => return none("records are"),
     }
     let masked = numpy.getattr("ma")?.call_method1("is_masked", (value,))?;
     match masked.is_truthy()? {
@@ -62,6 +73,30 @@ fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
             "masked entries are no poses: leave them out, or fill them (numpy.ma.filled(poses, numpy.nan))",
         )),
         false => Ok(()),
+    }
+}
+
+/// Whether an object is a real number.
+fn is_number(item: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let numbers = item.py().import("numbers")?;
+    let is_any = item.is_instance(&numbers.getattr("Number")?)?;
+    // Decimal numbers are numbers, but not Real.
+    let is_complex = item.is_instance(&numbers.getattr("Complex")?)?
+        && !item.is_instance(&numbers.getattr("Real")?)?;
+    Ok(is_any && !is_complex && !item.is_instance_of::<PyBool>())
+}
+
+/// The error of NumPy that has found no numbers, in our words; others as they are.
+fn not_numbers(py: Python<'_>, error: PyErr) -> PyErr {
+    let is_of_values = error.is_instance_of::<PyValueError>(py)
+        || error.is_instance_of::<PyTypeError>(py)
+        || error.is_instance_of::<PyOverflowError>(py);
+    match is_of_values {
+        true => fault::value(format!(
+            "poses are an array (n, 3) of x (m), y (m) and theta (rad): {}",
+            error.value(py)
+        )),
+        false => error,
     }
 }
 
