@@ -172,6 +172,9 @@ impl Placed<'_> {
             open.push((0.0, [0, 0]));
         }
         while let Some((bound, numbers)) = open.pop() {
+            if least == 0.0 {
+                break;
+            }
             if bound >= least {
                 continue;
             }
@@ -203,9 +206,9 @@ impl Placed<'_> {
         least
     }
 
-    /// The distance (m) of a place from the rim.
-    fn distance_of(&self, p: P) -> f64 {
-        let least = std::cell::Cell::new(f64::INFINITY);
+    /// The distance (m) of a place from the rim, or `most` if that is less.
+    fn distance_of(&self, p: P, most: f64) -> f64 {
+        let least = std::cell::Cell::new(most);
         self.visit(
             |middle, radius| between(p, middle) - radius < least.get(),
             |[r, s]| least.set(least.get().min(to_edge(p, r, s))),
@@ -234,10 +237,10 @@ impl Placed<'_> {
         while let Some(number) = open.pop() {
             let stretch = &self.rim.stretches[number];
             let middle = self.at.of(stretch.middle);
-            let away = other.distance_of(middle);
-            // No point of it is deeper; or all of it is on one side of the other's rim.
-            if away + stretch.radius <= deepest || away > stretch.radius && !other.contains(middle)
-            {
+            // Where no rim is within its circle, all of it is on one side; or no point of it is deeper.
+            let beyond = 1.001 * stretch.radius + deepest;
+            let away = other.distance_of(middle, beyond);
+            if away + stretch.radius <= deepest || away >= beyond && !other.contains(middle) {
                 continue;
             }
             match stretch.second {
@@ -267,7 +270,7 @@ impl Placed<'_> {
         let places = cuts.iter().copied().chain(middles).map(at);
         places
             .filter(|place| self.contains(*place))
-            .map(|place| self.distance_of(place))
+            .map(|place| self.distance_of(place, f64::INFINITY))
             .fold(0.0, f64::max)
     }
 }
