@@ -20,7 +20,11 @@ type Shape = (
 pub(super) const SHAPES: [Shape; 6] = [
     ("flat", &["shape"], |_, _| Ok(Profile::Flat)),
     ("tab", &["shape", "width", "depth", "draft", "offset"], tab),
-    ("teeth", &["shape", "form", "count", "depth", "span"], teeth),
+    (
+        "teeth",
+        &["shape", "form", "count", "depth", "span", "width"],
+        teeth,
+    ),
     ("arc", &["shape", "width", "depth", "offset"], arc),
     ("points", &["shape", "points"], points),
     (
@@ -83,13 +87,20 @@ fn teeth(section: &Section, length: f64) -> Result<Profile> {
     let form = form.word(&forms);
     let count = count.count(MOST_TEETH);
     let depth = depth(section);
+    // `width` as for the other shapes, so that all can be varied together.
+    let [span, width] = ["span", "width"].map(|key| section.number(key, quantity::PROFILE_WIDTH));
+    let (span, width) = (span?, width?);
+    if span.is_some() && width.is_some() {
+        return Err(section.error(
+            "`span` and `width` are the same for teeth",
+            "remove one of them",
+        ));
+    }
     Ok(Profile::Teeth {
         form: form?,
         count: count?,
         depth: depth?,
-        span: section
-            .number("span", quantity::PROFILE_WIDTH)?
-            .unwrap_or(length),
+        span: span.or(width).unwrap_or(length),
     })
 }
 

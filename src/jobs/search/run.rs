@@ -291,10 +291,29 @@ impl<'a> Course<'a> {
             .filter(|(k, _)| standings[**k].gains().is_some());
         let best = fit.map(|(_, value)| *value).max_by(f64::total_cmp);
         let gain = (!known.is_empty()).then(|| model(known, values));
-        let margins: Vec<f64> = order.iter().map(|&k| standings[k].margin()).collect();
+        // An impossible design says nothing about the conditions of others; it costs no analysis, so
+        // that the nearest point known decides whether one is expected.
+        let judged: Vec<usize> = order
+            .iter()
+            .copied()
+            .filter(|&k| standings[k] != Standing::Impossible)
+            .collect();
+        let margins: Vec<f64> = judged.iter().map(|&k| standings[k].margin()).collect();
         let is_free = margins.iter().all(|margin| *margin == 1.0);
-        let margin = (!is_free).then(|| model(order.clone(), margins));
+        let margin = (!is_free).then(|| model(judged, margins));
+        let away = |k: usize, place: &Place| {
+            self.space
+                .differences(&self.tried[k].place, place)
+                .sum::<f64>()
+        };
+        let is_possible = |place: &Place| {
+            let nearest = (0..standings.len()).min_by_key(|&k| OrderedFloat(away(k, place)));
+            nearest.is_none_or(|k| standings[k] != Standing::Impossible)
+        };
         let promise = |place: &Place| {
+            if !is_possible(place) {
+                return 0.0;
+            }
             let chance = margin.as_ref().map_or(1.0, |model| model.chance(place));
             match (&gain, best) {
                 (Some(model), Some(best)) => chance * model.improvement(place, best),

@@ -85,29 +85,42 @@ fn hill([depth, width]: [f64; 2]) -> f64 {
     0.1 * libm::exp(-x * x - 2.0 * y * y - x * y)
 }
 
+/// The median of ten numbers, which it sorts.
+fn median(all: &mut Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    (all[4] + all[5]) / 2.0
+}
+
 const SQUARE: [&str; 2] = [
     "fixed.faces.east.profile.depth=0.001:0.05",
     "fixed.faces.east.profile.width=0.05:0.3",
 ];
 
+/// Where the hill is highest a corner of impossible designs is near.
 #[test]
-fn the_top_of_a_hill_is_found_within_a_hundredth_where_the_first_points_miss_it() {
-    let search = search(&SQUARE, aim(&["bond_depth"], &[], 60));
-    let (found, _) = found(&search, |at| design(hill([at[0], at[1]]), 0.001, 50));
+fn the_top_of_a_hill_is_found_within_two_thousandths_where_the_first_points_miss_it() {
     let value = |one: &Tried| match &one.outcome {
         Outcome::Done { result } => -result.bond.as_ref().unwrap().energy,
         _ => 0.0,
     };
-    let best = found.front(&search)[0];
-    assert!(value(&found.tried[best]) > 0.099, "{:?}", found.tried[best]);
-    // The places spread first are as good as chance.
-    let spread = found.tried[..20].iter().map(value).fold(0.0, f64::max);
-    assert!(spread < 0.099, "{spread}");
-    let effects = found.effects(&search);
-    assert!(
-        effects.iter().all(|one| one.ends == [false; 2]),
-        "{effects:?}"
-    );
+    let (mut tops, mut spreads) = (Vec::new(), Vec::new());
+    for seed in 1..=10 {
+        let mut search = search(&SQUARE, aim(&["bond_depth"], &[], 60));
+        search.plan.seed = seed;
+        let (found, _) = found(&search, |at| design(hill([at[0], at[1]]), 0.001, 50));
+        let best = found.front(&search)[0];
+        tops.push(value(&found.tried[best]));
+        // The places spread first are as good as chance.
+        spreads.push(found.tried[..20].iter().map(value).fold(0.0, f64::max));
+        let effects = found.effects(&search);
+        assert!(
+            effects.iter().all(|one| one.ends == [false; 2]),
+            "{effects:?}"
+        );
+    }
+    let [top, spread] = [&mut tops, &mut spreads].map(median);
+    assert!(top > 0.0998 && spread < 0.095, "{tops:?} {spreads:?}");
+    assert!(tops[0] > 0.098, "{tops:?}");
 }
 
 #[test]
@@ -174,10 +187,6 @@ fn ten_searches_come_closer_to_the_best_than_chance() {
         });
         chances.push(heights.flatten().fold(0.0, f64::max));
     }
-    let median = |all: &mut Vec<f64>| {
-        all.sort_by(f64::total_cmp);
-        (all[4] + all[5]) / 2.0
-    };
     // No point that is fit is higher: how far they stay below.
     let short = |value: f64| 51.0 / 700.0 - value;
     let [search, chance] = [&mut searches, &mut chances].map(median);
