@@ -292,7 +292,8 @@ fn a_rim_that_grazes_a_face_loses_no_digits() {
     for k in 0..400 {
         let share = |by: f64| (f64::from(k) * by).fract();
         let tilt = 0.6 * share(0.618) - 0.3;
-        let reach = (0.005 * tilt.cos() + 0.016 * tilt.abs().sin()) / 2.0;
+        let (sin, cos) = libm::sincos(tilt);
+        let reach = (0.005 * cos + 0.016 * sin.abs()) / 2.0;
         let gap = 1e-6 + 2e-4 * share(0.414).powi(4);
         let second = disc(0.0025 + gap + reach, 0.02 * share(0.732) - 0.01, tilt);
         let [here, there] = [exact(&first, &second), exact(&second, &first)];

@@ -224,7 +224,7 @@ impl Pair<'_> {
         let mut sums = [0.0; 3];
         for [aside, height] in distances(&self.single.first, &self.single.second) {
             let distance = match (apart(aside), height) {
-                (apart, height) if height == 0.0 => apart,
+                (apart, 0.0) => apart,
                 (apart, height) => libm::hypot(apart.max(0.0), height),
             };
             let limits = first.face.limits(&second.face, distance);
