@@ -42,13 +42,9 @@ pub fn potential<L: Lanes>(l: L, radius: f64, s: Z<L::F>, h: Z<L::F>) -> (Z<L::F
     // Exactly above the rim, where `q P` is not 0.
     let q = at_least(l, q, LEAST_TILT);
     // There are two continuations of `q P`, one infinite at q = kc, one at q = -kc; they differ by
-    // the jump of the solid angle. Well away from both places, the one with the positive real part loses
-    // no digits.
-    let nearer = l.sub(l.z_norm(l.z_add(q, kc)), l.z_norm(l.z_sub(q, kc)));
-    let away = l.neg_mul_add(l.splat(4.0), l.z_norm(kc), l.z_norm(q));
-    let over = l.select(away, q.re, nearer);
-    let jump = l.select(over, l.splat(2.0 * PI), l.splat(0.0));
-    let all = Complete::new(l, kc, l.z_times(q, l.sign(over)));
+    // the jump of the solid angle.
+    let all = Complete::new(l, kc, q);
+    let jump = l.select(all.side, l.splat(2.0 * PI), l.splat(0.0));
     let outwards = l.z_times(l.z_mul(all.tilted, far), l.splat(-4.0 * radius));
     let angle = l.z_mul(l.z_mul(h, far), l.z_mul_add(q, all.third, all.first));
     let upwards = Z {

@@ -12,8 +12,11 @@ pub struct Complete<F> {
     pub first: Z<F>,
     /// The integral of `(sin^2 phi - cos^2 phi) / D`.
     pub tilted: Z<F>,
-    /// The integral of `1 / ((cos^2 phi + q^2 sin^2 phi) D)`: the third kind.
+    /// The integral of `1 / ((cos^2 phi + q^2 sin^2 phi) D)`, the third kind, by q or, where that loses
+    /// digits, by -q.
     pub third: Z<F>,
+    /// 1 if it is by q, -1 if by -q.
+    pub side: F,
 }
 
 /// The smallest complementary modulus and the smallest q, which replace smaller ones: at 0, K and the
@@ -31,7 +34,9 @@ impl<F: Copy> Complete<F> {
     /// Bulirsch's algorithm, Numer. Math. 13 (1969) 305: of means, arithmetic and geometric, which
     /// agree to all digits after five or six steps. Each geometric mean is that root which is closer
     /// to the arithmetic one (Cox, *The arithmetic-geometric mean of Gauss*, Enseign. Math. 30 (1984)
-    /// 275), and q enters as itself, not as its square, so that no branch is left.
+    /// 275), and q enters as itself, not as its square, so that no branch is left. The third kind's p tends
+    /// to the mean m or to -m, where the integral is lost in `m + p`, and infinite at `q = -kc`; as p and
+    /// b are odd in q, both belong to -q after a change of sign.
     #[inline(always)]
     pub fn new<L: Lanes<F = F>>(l: L, kc: Z<F>, q: Z<F>) -> Self {
         let one = l.z_splat(1.0, 0.0);
@@ -62,10 +67,13 @@ impl<F: Copy> Complete<F> {
             k = l.z_times(root, l.sign(closer));
             e = l.z_mul(k, m);
         }
+        let side = l.sign(l.mul_add(p[1].im, m.im, l.mul(p[1].re, m.re)));
+        let [b2, p1] = [b[2], p[1]].map(|it| l.z_times(it, side));
         Self {
             first: integral(l, m, [a[0], b[0], p[0]]),
             tilted: integral(l, m, [a[1], b[1], p[0]]),
-            third: integral(l, m, [a[2], b[2], p[1]]),
+            third: integral(l, m, [a[2], b2, p1]),
+            side,
         }
     }
 }
