@@ -12,7 +12,7 @@ pub use kind::Kind;
 use self::reader::Reader;
 use super::exploration::Exploration;
 use super::results::{
-    Alternative, Barrier, PathwayPoint, Place, Proportion, SAME_ENERGY, State, StateKind,
+    Alternative, Barrier, Pathway, PathwayPoint, Place, Proportion, SAME_ENERGY, State, StateKind,
     Uncaptured,
 };
 use crate::configuration::Configuration;
@@ -22,6 +22,8 @@ use ordered_float::OrderedFloat;
 
 /// Configurations closer than this (m, metric of the space) are the same state.
 const SAME: f64 = 1e-4;
+/// How far (m) images of straight motions may lie beside straight ones.
+const CURVED: f64 = 5e-8;
 /// How much lower a barrier must be to replace another one, as a fraction of the problem's depth.
 pub(super) const LEAST_GAIN: f64 = 1e-6;
 
@@ -48,6 +50,58 @@ impl<'a> Image<'a> {
         let exchanged = self.exchange.map_or(*q, |exchange| exchange.apply(q));
         self.turn.apply(&exchanged)
     }
+
+    /// The image of a pathway. Where tiles are exchanged, that of a straight motion that turns is curved: it
+    /// gets as many points as keep straight motions between them near it.
+    fn pathway(&self, problem: &Problem, pathway: &Pathway) -> Pathway {
+        let mut images = Pathway::new();
+        let mut add = |point: PathwayPoint| {
+            let configuration = self.apply(&point.configuration);
+            let s = match (self.exchange, images.last()) {
+                (Some(_), Some(last)) => {
+                    let last: &PathwayPoint = last;
+                    last.s + problem.space.distance(&last.configuration, &configuration)
+                }
+                _ => point.s,
+            };
+            images.push(PathwayPoint {
+                s,
+                configuration,
+                ..point
+            });
+        };
+        for (number, point) in pathway.iter().enumerate() {
+            if let Some(before) = number.checked_sub(1).filter(|_| self.exchange.is_some()) {
+                let (from, to) = (&pathway[before].configuration, &point.configuration);
+                let parts = parts(problem, from, to);
+                for k in 1..parts {
+                    let between = from.interpolate(to, f64::from(k) / f64::from(parts));
+                    add(PathwayPoint {
+                        s: 0.0,
+                        configuration: between,
+                        energy: problem.energy(&between),
+                        clearance: problem.clearance(&between),
+                    });
+                }
+            }
+            add(*point);
+        }
+        images
+    }
+}
+
+/// The number of parts of a straight motion whose images by an exchange of the tiles are straight to
+/// within [`CURVED`]: the image of the place p is turned by theta, which bends it by
+/// `2 |p'| theta' + |p| theta'^2`.
+fn parts(problem: &Problem, from: &Configuration, to: &Configuration) -> u32 {
+    let step = from.step_to(to);
+    let far = libm::hypot(from.x, from.y).max(libm::hypot(to.x, to.y));
+    let turn = step.z.abs();
+    let bend = 2.0 * libm::hypot(step.x, step.y) * turn + far * turn * turn;
+    (bend / (8.0 * problem.scaled(CURVED)))
+        .sqrt()
+        .ceil()
+        .clamp(1.0, 100.0) as u32
 }
 
 /// States, barriers and pathways, in the order in which they are reported.
@@ -164,15 +218,11 @@ impl Catalogue {
                 .state_at(problem, &map.apply(&self.states[id].configuration))
                 .map_or(barrier.to, Place::State),
         };
-        let image = |point: &PathwayPoint| PathwayPoint {
-            configuration: map.apply(&point.configuration),
-            ..*point
-        };
         Barrier {
             from: Place::State(from),
             to,
             saddle: map.apply(&barrier.saddle),
-            pathway: barrier.pathway.iter().map(image).collect(),
+            pathway: map.pathway(problem, &barrier.pathway),
             ..barrier.clone()
         }
     }
