@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn many_trajectories_are_told_before() {
         let told = of_trajectories(1_000_000, 2.0).unwrap();
-        assert!(told.contains("8.3 min to 42 min"), "{told}");
+        assert!(told.contains("8.3 minutes to 42 minutes"), "{told}");
         assert_eq!(of_trajectories(1000, 1.0), None);
     }
 

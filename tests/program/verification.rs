@@ -91,8 +91,8 @@ fn results_of_other_magnets_and_rules_are_confirmed_as_far_as_they_go() {
     for (design, has_bounds) in [
         ("shapes/upright-discs.toml", true),
         ("shapes/shielded-nearest-face.toml", false),
-        ("discs.toml", false),
-        ("upright.toml", false),
+        ("discs.toml", true),
+        ("upright.toml", true),
     ] {
         let out = design.replace("shapes/", "").replace(".toml", "");
         let model = if design.contains("shapes") {

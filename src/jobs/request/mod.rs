@@ -16,7 +16,7 @@ pub use motion::{ContactOptions, MotionOptions, fan};
 pub use shard::{Shard, shard};
 pub use unanswered::Unanswered;
 pub use values::{
-    FARTHEST, MOST_FRICTION, MOST_TURNED, any_energy, area, binding, coordinate, count,
+    FARTHEST, MOST_FRICTION, MOST_TURNED, TIMES, any_energy, area, binding, coordinate, count,
     count_or_none, energy, fraction, length, length_or_none, not_negative, numbers, pose, positive,
     rate, runs, runs_of_a_mean, runs_or_none, seed, shaking, share, time, time_or_none, turn,
     up_to, whole,

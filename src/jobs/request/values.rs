@@ -114,7 +114,8 @@ pub const MOST_FRICTION: f64 = 1e3;
 /// Ranges of what options state in m, s, J, m^2 and 1/s: far beyond any tiles, so that nothing that is
 /// computed with them overflows.
 const LENGTHS: [f64; 2] = [1e-12, 1e6];
-const TIMES: [f64; 2] = [1e-12, 1e12];
+/// The least and the largest time (s).
+pub const TIMES: [f64; 2] = [1e-12, 1e12];
 const ENERGIES: [f64; 2] = [1e-30, 1e6];
 const AREAS: [f64; 2] = [1e-18, 1e12];
 const RATES: [f64; 2] = [1e-12, 1e12];

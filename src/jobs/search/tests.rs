@@ -86,7 +86,7 @@ fn hill([depth, width]: [f64; 2]) -> f64 {
 }
 
 /// The median of ten numbers, which it sorts.
-fn median(all: &mut Vec<f64>) -> f64 {
+fn median(all: &mut [f64]) -> f64 {
     all.sort_by(f64::total_cmp);
     (all[4] + all[5]) / 2.0
 }
@@ -118,7 +118,7 @@ fn the_top_of_a_hill_is_found_within_two_thousandths_where_the_first_points_miss
             "{effects:?}"
         );
     }
-    let [top, spread] = [&mut tops, &mut spreads].map(median);
+    let [top, spread] = [&mut tops, &mut spreads].map(|all| median(all));
     assert!(top > 0.0998 && spread < 0.095, "{tops:?} {spreads:?}");
     assert!(tops[0] > 0.098, "{tops:?}");
 }
@@ -189,7 +189,7 @@ fn ten_searches_come_closer_to_the_best_than_chance() {
     }
     // No point that is fit is higher: how far they stay below.
     let short = |value: f64| 51.0 / 700.0 - value;
-    let [search, chance] = [&mut searches, &mut chances].map(median);
+    let [search, chance] = [&mut searches, &mut chances].map(|all| median(all));
     println!("best of 40 points, median of ten: {search} with a search, {chance} by chance");
     assert!(
         short(search) < short(chance) / 4.0,

@@ -201,6 +201,9 @@ fn swing(
 fn step(text: &str) -> Result<f64, String> {
     let found = request::time(text).ok().filter(|it| *it <= LONGEST_STEP);
     found.ok_or_else(|| {
-        format!("a step is greater than 0 and at most {LONGEST_STEP} s, or with a unit: \"1 ms\"")
+        format!(
+            "a step of at least {:e} and at most {LONGEST_STEP} s is needed, such as \"1 ms\"",
+            request::TIMES[0]
+        )
     })
 }

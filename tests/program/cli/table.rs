@@ -375,7 +375,7 @@ fn wrong_tables_are_refused_with_their_fix() {
             "needs 2, one for each kind of tile: fixed, moving",
         ),
         (&[TILE, "--count", "40,40"], "do not fit"),
-        (&[TILE, "--step", "1e-300"], "longer --step"),
+        (&[TILE, "--step", "1e-300"], "at least 1e-12"),
         (&[TILE, "--step", "1e-9"], "longer --step"),
         (&[TILE, "--orbital", "1,1e9"], "at most 1000 Hz"),
         (&[TILE, "--orbital", "1e300,1e300"], "at most 1 m"),

@@ -78,18 +78,15 @@ fn nonsense_is_refused_with_the_way_out() {
     for (given, told) in [
         (&[][..], "--strength 5%"),
         (&["--place", "0.3"], "\"0.3 mm\""),
-        (&["--place", "-1 mm"], "0 or more"),
-        (&["--place", "nan"], "0 or more"),
+        (&["--place", "-1 mm"], "0 or a length"),
+        (&["--place", "nan"], "0 or a length"),
         (&["--turn", "3"], "\"3 deg\""),
         (&["--turn", "3 mm"], "rad"),
         (&["--flip", "2"], "from 0 to 1"),
         (&["--strength", "-5%"], "from 0 to 1"),
         (&["--strength", "5%", "--batch", "1.5"], "from 0 to 1"),
         (&["--strength", "5%", "--draws", "0"], "1 or more"),
-        (
-            &["--strength", "5%", "--selectivity", "0"],
-            "greater than 0",
-        ),
+        (&["--strength", "5%", "--selectivity", "0"], "from 1e-9"),
     ] {
         let run = tilebind(&[&["tolerance", &file], given].concat());
         assert_eq!(run.status.code(), Some(2), "{given:?}: {}", stderr(&run));

@@ -227,8 +227,8 @@ fn all() -> Vec<Enclosed> {
         shrinking: vec![(
             [0.46, 0.013, 0.1],
             [1.0, 1.0, 2.0],
-            // Of second order but for what values and slopes lose.
-            [2e-4, 4e-5],
+            // Of second order but for what values and slopes lose, which smaller cells show.
+            [4e-4, 8e-5],
             [8.0, 200.0],
         )],
         ..standing("", MagnetModel::Cuboid, 0.001, false)
