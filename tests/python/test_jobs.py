@@ -142,7 +142,7 @@ def test_a_barrier_between_bounds(design):
     for wrong in ([1, 2], [np.nan, 0, 0], "bound"):
         with pytest.raises(ValueError):
             design.barrier(design.bound, wrong, progress=False)
-    with pytest.raises(ValueError, match="tolerance = 0: .*greater than 0"):
+    with pytest.raises(ValueError, match="tolerance = 0: .*from 1e-30"):
         design.barrier(design.bound, tolerance=0.0)
 
 
