@@ -219,7 +219,7 @@ fn make_parent(path: &Path) -> io::Result<()> {
 /// Creates a unique staging folder, with its mark.
 pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
     let process = std::process::id();
-    let mut number = 0;
+    let (mut number, mut tries) = (0, 0);
     loop {
         let place = folder.join(format!("{PREFIX}{process}-{number}{SUFFIX}"));
         match fs::create_dir(&place) {
@@ -230,7 +230,11 @@ pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
                     let _ = fs::remove_file(place.join(MARK));
                     let _ = fs::remove_dir(&place);
                 }
-                return marked.map(|()| place);
+                match &marked {
+                    // Without its mark it was empty: another process removed it as a leftover.
+                    Err(error) if error.kind() == ErrorKind::NotFound && tries < 20 => tries += 1,
+                    _ => return marked.map(|()| place),
+                }
             }
         }
     }
