@@ -26,6 +26,7 @@ import random
 import re
 import shlex
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -256,10 +257,9 @@ def grid_of(work, given, out):
 
 
 def spread_of(values):
-    """The median of ten figures, their least and their largest."""
-    values = sorted(values)
-    middle = values[4] if values[4] == values[5] else (values[4] + values[5]) / 2
-    return [f"{it:.4g}" for it in (middle, values[0], values[-1])]
+    """The median of figures, their least and their largest."""
+    values = list(values)
+    return [f"{it:.4g}" for it in (statistics.median(values), min(values), max(values))]
 
 
 def shapes_searched(work):

@@ -140,13 +140,16 @@ fn make(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<()> {
     fs::create_dir_all(folder)
 }
 
+/// A folder that another process removes as soon as it is created is created this often at most.
+const MOST_TRIES: usize = 20;
+
 /// Creates a folder and locks it; `None` if the file system has no locks.
 fn make_alone(folder: &Path, made: &mut Vec<PathBuf>) -> io::Result<Option<File>> {
     let mut tries = 0;
     loop {
         match make(folder, made).and_then(|()| hold(folder)) {
             // A process that failed removed the folder that it had created.
-            Err(error) if error.kind() == ErrorKind::NotFound && tries < 20 => tries += 1,
+            Err(error) if error.kind() == ErrorKind::NotFound && tries < MOST_TRIES => tries += 1,
             held => return held,
         }
     }
@@ -232,7 +235,9 @@ pub(super) fn make_place(folder: &Path) -> io::Result<PathBuf> {
                 }
                 match &marked {
                     // Without its mark it was empty: another process removed it as a leftover.
-                    Err(error) if error.kind() == ErrorKind::NotFound && tries < 20 => tries += 1,
+                    Err(error) if error.kind() == ErrorKind::NotFound && tries < MOST_TRIES => {
+                        tries += 1
+                    }
                     _ => return marked.map(|()| place),
                 }
             }

@@ -202,13 +202,10 @@ pub struct Check {
 }
 
 /// Largest number of runs with other seeds: each is a whole survey.
-const MOST_REPEATS: usize = 1000;
+const MOST_REPEATS: u16 = 1000;
 
 fn repeats(text: &str) -> Result<usize, String> {
-    let found = request::count(text)
-        .ok()
-        .filter(|count| *count <= MOST_REPEATS);
-    found.ok_or_else(|| format!("a whole number from 1 to {MOST_REPEATS} is needed"))
+    request::whole(1, MOST_REPEATS)(text).map(usize::from)
 }
 
 // In the form that serde requires.

@@ -265,12 +265,9 @@ fn simulated(rates: &PairRates, crowd: &Crowd, question: &Question) -> Option<[f
         let numbers = rates.simulate(crowd, question.time, &mut stream(question.seed, run))?;
         Some(numbers[0] as f64 / pairs)
     };
-    // If one has too many events, no other is of use.
-    if runs > 1 {
-        one(0)?;
-    }
-    let shares = parallel::map(0..runs, one);
-    let shares: Option<Vec<f64>> = shares.into_iter().collect();
-    let shares = shares.filter(|shares| shares.len() > 1)?;
-    Some(mean_and_error(&shares))
+    // One run has no error; and if one has too many events, no other is of use.
+    let first = (runs > 1).then(|| one(0))??;
+    let others = parallel::map(1..runs, one);
+    let shares: Option<Vec<f64>> = std::iter::once(Some(first)).chain(others).collect();
+    Some(mean_and_error(&shares?))
 }

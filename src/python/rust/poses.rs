@@ -59,8 +59,9 @@ fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
         "b" => return none("truth values are"),
         "c" => return none("complex numbers are"),
         "O" => {
+            let numbers = value.py().import("numbers")?;
             for item in array.getattr("flat")?.try_iter()? {
-                if !is_number(&item?)? {
+                if !is_number(&item?, &numbers)? {
                     return none("objects that are not real numbers are");
                 }
             }
@@ -76,9 +77,8 @@ fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
     }
 }
 
-/// Whether an object is a real number.
-fn is_number(item: &Bound<'_, PyAny>) -> PyResult<bool> {
-    let numbers = item.py().import("numbers")?;
+/// Whether an object is a real number, by Python's module of kinds of numbers.
+fn is_number(item: &Bound<'_, PyAny>, numbers: &Bound<'_, PyModule>) -> PyResult<bool> {
     let is_any = item.is_instance(&numbers.getattr("Number")?)?;
     // Decimal numbers are numbers, but not Real.
     let is_complex = item.is_instance(&numbers.getattr("Complex")?)?

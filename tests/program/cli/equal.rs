@@ -1,5 +1,7 @@
 //! Designs of one kind of tile, written in several ways, in every command.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use serde_json::Value;
 
 use super::tilebind;
@@ -173,24 +175,33 @@ fn keys_of_the_one_tile_are_varied() {
     }
 }
 
+/// A quarter of a ring that binds its own kind, drawn about a point away (m) from the ring's middle.
+pub(super) fn sector(away: f64) -> String {
+    let corner =
+        |r: f64, turn: f64| format!("[{:.12}, {:.12}]", r * turn.cos() - away, r * turn.sin());
+    let corners = [
+        (0.03, -FRAC_PI_4),
+        (0.07, -FRAC_PI_4),
+        (0.07, FRAC_PI_4),
+        (0.03, FRAC_PI_4),
+    ];
+    let corners = corners.map(|(r, turn)| corner(r, turn)).join(", ");
+    format!(
+        "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
+         inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
+         mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\nfaces = [\"0\", \"2\"]\n"
+    )
+}
+
 /// A table that starts with its ring closed has four bonds that no prediction for single tiles has.
 #[test]
 fn a_comparison_can_disagree() {
     let folder = tempfile::tempdir().unwrap();
     let [design, start] =
         ["sector.toml", "start.csv"].map(|name| folder.path().join(name).display().to_string());
-    let corner = |r: f64, turn: f64| format!("[{:.12}, {:.12}]", r * turn.cos(), r * turn.sin());
-    let half = std::f64::consts::FRAC_PI_4;
-    let corners = [(0.03, -half), (0.07, -half), (0.07, half), (0.03, half)];
-    let corners = corners.map(|(r, turn)| corner(r, turn)).join(", ");
-    let text = format!(
-        "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
-         inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
-         mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\nfaces = [\"0\", \"2\"]\n"
-    );
-    std::fs::write(&design, text).unwrap();
+    std::fs::write(&design, sector(0.0)).unwrap();
     let places: String = (0..4)
-        .map(|k| format!("{k},0,0,{:.12},0,0,0\n", 2.0 * half * f64::from(k)))
+        .map(|k| format!("{k},0,0,{:.12},0,0,0\n", FRAC_PI_2 * f64::from(k)))
         .collect();
     let asked = |more: &str| {
         let text = format!(

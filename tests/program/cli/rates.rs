@@ -1,5 +1,6 @@
 //! `tilebind rates` on the paper's tile.
 
+use super::equal::sector;
 use super::{json, refused, tilebind};
 use crate::program::stdout;
 
@@ -304,18 +305,7 @@ fn rates_do_not_depend_on_where_a_drawing_has_its_origin() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("sector.toml").display().to_string();
     let of = |away: f64| {
-        let (inner, outer, half) = (0.03, 0.07, std::f64::consts::TAU / 8.0);
-        let corner =
-            |r: f64, turn: f64| format!("[{:.12}, {:.12}]", r * turn.cos() - away, r * turn.sin());
-        let corners = [(inner, -half), (outer, -half), (outer, half), (inner, half)];
-        let corners = corners.map(|(r, turn)| corner(r, turn)).join(", ");
-        let design = format!(
-            "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
-             inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
-             mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\n\
-             faces = [\"0\", \"2\"]\n"
-        );
-        std::fs::write(&file, design).unwrap();
+        std::fs::write(&file, sector(away)).unwrap();
         let rates = json(&["rates", &file, "--kt", "4e-4", "--traps", "0", "--json"]);
         let of_rates = |k: usize| rates["rates"][k]["value_per_s"].as_f64().unwrap();
         (

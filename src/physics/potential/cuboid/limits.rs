@@ -123,7 +123,8 @@ impl Limits {
 
 /// The distance (m) of two pole faces in the plane, for each of the four pairs.
 pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
-    let (a, b) = (pole_faces(first), pole_faces(second));
+    let [a, b] =
+        [first, second].map(|it| pole_faces(it.position, it.axis, [it.size[0], it.size[1]]));
     [
         segment_distance(a[0], b[0]),
         segment_distance(a[0], b[1]),
@@ -132,17 +133,24 @@ pub fn face_distances(first: &Block, second: &Block) -> [f64; 4] {
     ]
 }
 
-type Segment = [Vector2<f64>; 2];
+/// The ends of a straight line (m).
+pub type Segment = [Vector2<f64>; 2];
 
-fn pole_faces(block: &Block) -> [Segment; 2] {
-    let across = Vector2::new(-block.axis.y, block.axis.x) * (block.size[1] / 2.0);
+/// The pole faces of a magnet, seen from above: by its centre, its axis, and its length and width (m).
+pub fn pole_faces(
+    position: Vector2<f64>,
+    axis: Vector2<f64>,
+    [length, width]: [f64; 2],
+) -> [Segment; 2] {
+    let across = Vector2::new(-axis.y, axis.x) * (width / 2.0);
     [1.0, -1.0].map(|sign| {
-        let middle = block.position + block.axis * (sign * block.size[0] / 2.0);
+        let middle = position + axis * (sign * length / 2.0);
         [middle - across, middle + across]
     })
 }
 
-fn segment_distance(a: Segment, b: Segment) -> f64 {
+/// The distance (m) of two segments, 0 where they cross.
+pub fn segment_distance(a: Segment, b: Segment) -> f64 {
     let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
     let (across, back) = (b[0] - a[0], b[1] - a[0]);
     // The sides of each on which the other's ends lie.

@@ -23,8 +23,8 @@ use std::f64::consts::PI;
 use nalgebra::Vector2;
 
 use crate::potential::bodies::Body;
+use crate::potential::cuboid::limits::{Segment, pole_faces, segment_distance};
 use crate::tile::magnet::Shape;
-use crate::tile::plane::distance_to_segment;
 
 /// A charged face of a magnet; both are alike.
 #[derive(Clone, Copy, Debug)]
@@ -102,30 +102,12 @@ pub(super) fn distances(first: &Body, second: &Body) -> [[f64; 2]; 4] {
         return [like, like, unlike, unlike].map(|height| [aside, height]);
     }
     let (own, others) = (segments(first), segments(second));
-    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| [between(own[i], others[j]), 0.0])
+    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| [segment_distance(own[i], others[j]), 0.0])
 }
-
-type Segment = [Vector2<f64>; 2];
 
 /// The faces of a magnet that lies, seen from above.
 fn segments(body: &Body) -> [Segment; 2] {
-    let axis = body.direction * (body.size[0] / 2.0);
-    let across = Vector2::new(-body.direction.y, body.direction.x) * (body.size[1] / 2.0);
-    [1.0, -1.0].map(|side| {
-        let middle = body.position + axis * side;
-        [middle - across, middle + across]
-    })
-}
-
-/// The distance (m) of two segments.
-pub(super) fn between([a, b]: Segment, [c, d]: Segment) -> f64 {
-    let side = |p: Vector2<f64>, q: Vector2<f64>, r: Vector2<f64>| (q - p).perp(&(r - p));
-    if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
-        return 0.0;
-    }
-    let ends = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
-    let ends = ends.map(|(p, from, to)| distance_to_segment(p, from, to));
-    ends.into_iter().fold(f64::INFINITY, f64::min)
+    pole_faces(body.position, body.direction, [body.size[0], body.size[1]])
 }
 
 /// The distance (m) of two magnets that stand, seen from above.
@@ -140,9 +122,11 @@ fn footprints(first: &Body, second: &Body) -> f64 {
                 let all = segments(of).into_iter().flatten();
                 all.map(|p| outside(from, p)).fold(f64::INFINITY, f64::min)
             });
-            let cross = sides(first)
-                .iter()
-                .any(|a| sides(second).iter().any(|b| between(*a, *b) == 0.0));
+            let cross = sides(first).iter().any(|a| {
+                sides(second)
+                    .iter()
+                    .any(|b| segment_distance(*a, *b) == 0.0)
+            });
             match cross {
                 true => 0.0,
                 false => corners[0].min(corners[1]),

@@ -39,12 +39,13 @@ use super::{CellBounds, Enclosure};
 use crate::cell::{Cell, Quadratic};
 use crate::potential::bodies::{Body, Single};
 use crate::potential::cuboid::block::PairEnergy;
+use crate::potential::cuboid::limits::segment_distance;
 use crate::potential::simd::Level;
 use crate::potential::{BodyPotential, MagnetModel};
 use crate::scale::Scale;
 use crate::tile::{Magnet, Tile};
 use crate::units::MU0_OVER_4PI;
-use faces::{Face, between, distances, sides};
+use faces::{Face, distances, sides};
 
 /// Pairs are far beyond this many times the sum of their half diagonals, and the magnet's reach.
 const CLOSE: f64 = 3.0;
@@ -122,7 +123,7 @@ pub(super) fn depth(magnet: &Magnet, tile: &Tile) -> f64 {
     }
     let edges = (0..tile.outline.vertices().len()).map(|i| tile.outline.edge(i));
     let own = sides(&Body::from(magnet));
-    let walls = edges.flat_map(|(a, b)| own.map(|side| between([a, b], side)));
+    let walls = edges.flat_map(|(a, b)| own.map(|side| segment_distance([a, b], side)));
     walls.fold(wall, f64::min)
 }
 
