@@ -11,9 +11,11 @@ computed or simulated, and the spread of the results is the prediction. Needs Nu
 import csv
 import json
 import math
+import os
 import pathlib
 import sys
 import tempfile
+from multiprocessing.pool import ThreadPool
 
 import numpy
 
@@ -82,23 +84,26 @@ def sector(it):
             f'[tile.faces]\n0 = {{ code = "N" }}\n2 = {{ code = "S" }}\n[target]\nfaces = ["0", "2"]\n'), mass
 
 
+def ring_run(program, number, it):
+    """One draw: the closed rings, bonds and wrong contacts at the end of one run."""
+    text, mass = sector(it)
+    design = program.file(f"sector-{number}.toml", text)
+    force = program.json("show", design, "--json")["pull_off_N"]
+    report = program.json(
+        "table", design, "--count", PARTS, "--time", SECONDS, "--seed", number + 1, "--target", "ring:8", "--drag", 0,
+        "--orbital", f"{it['orbit_radius_mm']:g} mm,300 rpm", "--table-friction", it["table_friction"],
+        "--friction", it["tile_friction"], "--restitution", it["restitution"], "--threads", 1, "--json")
+    sizes = [(row["kind"], row["size"], row["mean"]) for row in report["structures"]]
+    in_rings = sum(size * mean for kind, size, mean in sizes if kind == "ring")
+    longest = max([size for kind, size, _ in sizes if kind in ("ring", "chain")], default=1)
+    print(f"rings, draw {number + 1} of {RING_DRAWS}: {in_rings:.0f} tiles in rings", flush=True)
+    return {**it, "mass_g": 1e3 * mass, "bond_pull_N": force, "bonds": report["bonds"]["mean"],
+            "traps": report["traps"]["mean"], "in_rings": in_rings / PARTS, "longest": longest}
+
+
 def rings(program):
-    found = []
-    for number, it in enumerate(drawn(RINGS, RING_DRAWS, 1)):
-        text, mass = sector(it)
-        design = program.file("sector.toml", text)
-        force = program.json("show", design, "--json")["pull_off_N"]
-        report = program.json(
-            "table", design, "--count", PARTS, "--time", SECONDS, "--seed", number + 1, "--target", "ring:8", "--drag", 0,
-            "--orbital", f"{it['orbit_radius_mm']:g} mm,300 rpm", "--table-friction", it["table_friction"],
-            "--friction", it["tile_friction"], "--restitution", it["restitution"], "--threads", 1, "--json")
-        sizes = [(row["kind"], row["size"], row["mean"]) for row in report["structures"]]
-        in_rings = sum(size * mean for kind, size, mean in sizes if kind == "ring")
-        longest = max([size for kind, size, _ in sizes if kind in ("ring", "chain")], default=1)
-        found.append({**it, "mass_g": 1e3 * mass, "bond_pull_N": force, "bonds": report["bonds"]["mean"],
-                      "traps": report["traps"]["mean"], "in_rings": in_rings / PARTS, "longest": longest})
-        print(found[-1], flush=True)
-    return found
+    with ThreadPool(os.cpu_count()) as pool:
+        return pool.starmap(lambda number, it: ring_run(program, number, it), enumerate(drawn(RINGS, RING_DRAWS, 1)), chunksize=1)
 
 
 # Panels
