@@ -16,6 +16,8 @@
 //!    best, which shrinks while nothing better is found. Ranks make no difference between a
 //!    selectivity of 50 and an infinite one.
 //! 3. The last points lie beside the best, one step along each number: they say which key matters.
+//!    Where two keys matter, steps of both at once say whether they cancel each other: then the design
+//!    can be changed along that line at no loss.
 //! 4. Conditions on the bond's depth are settled by energies, before any analysis. All other points
 //!    are analysed without proofs, except for the paths that bound barriers from above. Proofs are for contenders only: a race
 //!    proves the best, drops the points whose upper bound lies below its lower bound, and goes on
@@ -40,6 +42,7 @@ mod model;
 mod race;
 mod rank;
 mod run;
+mod sensitivity;
 mod space;
 #[cfg(test)]
 mod tests;
@@ -50,6 +53,7 @@ pub use aim::{Aim, Condition, Objective, Request};
 pub use interval::Interval;
 pub use manifest::{Search, Stage};
 pub use rank::{Figures, Standing};
+pub use sensitivity::{Direction, Effect};
 pub use space::{Dimension, Space};
 pub use tried::{Found, SearchError, Tried};
-pub use verdict::{Effect, Verdict};
+pub use verdict::Verdict;

@@ -11,7 +11,7 @@ use super::manifest::{Search, Stage};
 use super::model::Model;
 use super::race;
 use super::rank::{self, Figures, Standing, levels, scores, weighted};
-use super::space::{Place, STEP, Space};
+use super::space::{Place, Space};
 use super::tried::{Found, SearchError, Tried};
 use crate::sweep::{Outcome, Plan, PlanError, Point};
 use physics::order::Order;
@@ -31,6 +31,8 @@ const LEAST_REACH: f64 = 0.002;
 const FOLLOWED: usize = 200;
 /// The steps beside the best are taken if they are at most this share of the points.
 const BESIDE: f64 = 0.25;
+/// Steps of two keys at once, to all sides.
+const ACROSS: usize = 4;
 /// Impossible designs that are met for each point, at most.
 const MOST_REFUSED: usize = 20;
 
@@ -83,7 +85,10 @@ struct Course<'a> {
     refused: usize,
     reach: f64,
     best: Option<usize>,
+    /// The best about which single keys were varied.
     about: Option<usize>,
+    /// Whether two keys at once were varied about it.
+    is_crossed: bool,
 }
 
 /// Points that are analysed at the same time, with their places.
@@ -103,6 +108,7 @@ impl<'a> Course<'a> {
             reach: REACH,
             best: None,
             about: None,
+            is_crossed: false,
         }
     }
 
@@ -115,10 +121,10 @@ impl<'a> Course<'a> {
         } else if self.analysed < self.spread() {
             self.spreading()
         } else {
-            // What the steps beside the best did not need is left for the model.
-            let kept = self.about.map_or(self.reserved(), |_| 0);
-            match (points - kept).saturating_sub(self.analysed) {
-                0 if self.about.is_none() => self.beside(),
+            match (points - self.reserved()).saturating_sub(self.analysed) {
+                // Steps from a better point than before begin anew.
+                0 if self.about != self.best => self.beside(),
+                0 => self.across(),
                 left => {
                     let usual = (ROUND * points as f64) as usize;
                     self.improving(usual.clamp(ROUNDS[0], ROUNDS[1]).min(left))
@@ -136,13 +142,16 @@ impl<'a> Course<'a> {
             .min(points)
     }
 
-    /// Number of points left for the steps beside the best.
+    /// Number of points left for the steps beside the best: none, or those of single keys and of as
+    /// many pairs of keys as there is room for.
     fn reserved(&self) -> usize {
-        let numbers = self.space.dimensions.iter().filter(|one| one.is_ordered);
-        let steps = 2 * numbers.count();
-        let few = steps as f64 <= BESIDE * self.search.aim.points as f64;
-        let single = self.search.aim.objectives.len() == 1;
-        if few && single { steps } else { 0 }
+        let most = (BESIDE * self.search.aim.points as f64) as usize;
+        let steps = 2 * self.space.numbers().count();
+        if self.search.aim.objectives.len() > 1 || steps > most {
+            return 0;
+        }
+        let pairs = self.space.pairs().len().min((most - steps) / ACROSS);
+        steps + ACROSS * pairs
     }
 
     fn spreading(&mut self) -> Round {
@@ -331,7 +340,7 @@ impl<'a> Course<'a> {
         most.map(|(_, place)| place.clone())
     }
 
-    /// The steps beside the best.
+    /// The steps of single keys beside the best.
     fn beside(&mut self) -> Round {
         let best = self
             .tried
@@ -340,9 +349,42 @@ impl<'a> Course<'a> {
         let Some(best) = best.filter(|_| self.reserved() > 0).cloned() else {
             return Vec::new();
         };
-        self.about = Some(best.point.index);
-        let places = self.space.beside(&best.place, STEP);
-        self.admitted(places, usize::MAX)
+        (self.about, self.is_crossed) = (Some(best.point.index), false);
+        let numbers = self.space.numbers();
+        let places = numbers.flat_map(|k| self.space.beside(&best.place, &[k]));
+        let places: Vec<Place> = places.collect();
+        let round = self.admitted(places, self.search.aim.points - self.analysed);
+        // All steps may be known, or impossible.
+        if round.is_empty() {
+            self.across()
+        } else {
+            round
+        }
+    }
+
+    /// The steps of two keys at once beside the best, once those of single keys are known.
+    fn across(&mut self) -> Round {
+        if self.is_crossed || self.about.is_none() {
+            return Vec::new();
+        }
+        self.is_crossed = true;
+        let found = Found {
+            tried: std::mem::take(&mut self.tried),
+        };
+        let mut matter = found.that_matter(self.search);
+        self.tried = found.tried;
+        let left = self.search.aim.points - self.analysed;
+        matter.truncate(left / ACROSS);
+        let best = self
+            .tried
+            .iter()
+            .find(|one| Some(one.point.index) == self.best);
+        let places = best.into_iter().flat_map(|best| {
+            let around = |pair: &[usize; 2]| self.space.beside(&best.place, pair);
+            matter.iter().flat_map(around).collect::<Vec<_>>()
+        });
+        let places: Vec<Place> = places.collect();
+        self.admitted(places, left)
     }
 
     /// Why nothing was analysed: the reason of the point that comes nearest to the conditions, or

@@ -8,7 +8,7 @@ use crate::sweep::{Axis, Plan, Value};
 /// Decimal places of a range's values below its length's first.
 const PLACES: f64 = 4.0;
 /// A step beside the best, relative to a number's range.
-pub const STEP: f64 = 0.05;
+const STEP: f64 = 0.05;
 /// Number of Latin hypercubes of which the widest is taken.
 const HYPERCUBES: usize = 24;
 
@@ -215,28 +215,43 @@ impl Space {
             .collect()
     }
 
-    /// The places beside a place, by this share of each number's range, at least one level.
-    pub fn beside(&self, place: &Place, share: f64) -> Vec<Place> {
-        let numbers = self
-            .dimensions
-            .iter()
-            .enumerate()
-            .filter(|(_, one)| one.is_ordered);
-        let steps = numbers.flat_map(|(k, one)| {
-            let most = one.levels - 1;
-            let step = ((share * most as f64).round() as usize).max(1);
-            let sides = [
-                place[k].checked_sub(step),
-                Some(place[k] + step).filter(|to| *to <= most),
-            ];
-            sides.into_iter().flatten().map(move |level| (k, level))
-        });
-        steps
-            .map(|(k, level)| {
-                let mut beside = place.clone();
-                beside[k] = level;
-                beside
-            })
+    /// The dimensions whose levels are numbers in order.
+    pub fn numbers(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        (0..self.dimensions.len()).filter(|&k| self.dimensions[k].is_ordered)
+    }
+
+    /// Every two of them.
+    pub fn pairs(&self) -> Vec<[usize; 2]> {
+        let second = |j: usize| self.numbers().filter(move |&k| k > j);
+        self.numbers()
+            .flat_map(|j| second(j).map(move |k| [j, k]))
             .collect()
+    }
+
+    /// A step along a dimension: [`STEP`] of its range, at least one level.
+    pub fn step(&self, dimension: usize) -> usize {
+        let most = self.dimensions[dimension].levels - 1;
+        ((STEP * most as f64).round() as usize).max(1)
+    }
+
+    /// The places one step beside a place along these dimensions at once, to all combinations of sides
+    /// that are within the ranges.
+    pub fn beside(&self, place: &Place, dimensions: &[usize]) -> Vec<Place> {
+        let both_ways = |places: Vec<Place>, &k: &usize| {
+            let most = self.dimensions[k].levels - 1;
+            let step = self.step(k);
+            let moved = |one: &Place| {
+                let sides = [one[k].checked_sub(step), Some(one[k] + step)];
+                let levels = sides.into_iter().flatten().filter(|to| *to <= most);
+                let moved = levels.map(|level| {
+                    let mut beside = one.clone();
+                    beside[k] = level;
+                    beside
+                });
+                moved.collect::<Vec<_>>()
+            };
+            places.iter().flat_map(moved).collect()
+        };
+        dimensions.iter().fold(vec![place.clone()], both_ways)
     }
 }

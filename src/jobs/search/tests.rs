@@ -123,6 +123,31 @@ fn the_top_of_a_hill_is_found_within_two_thousandths_where_the_first_points_miss
     assert!(tops[0] > 0.098, "{tops:?}");
 }
 
+/// On a ridge that crosses both ranges each key matters by itself, and both together do not.
+#[test]
+fn two_keys_that_cancel_each_other_are_a_flat_direction() {
+    let ridge = |slope: f64| {
+        let search = search(&SQUARE, aim(&["bond_depth"], &[], 100));
+        let (found, _) = found(&search, |at| {
+            let [x, y] = [at[0] / 0.049, slope * (at[1] - 0.175) / 0.25];
+            design(
+                0.1 * libm::exp(-10.0 * (x - y - 0.5).powi(2) - 2.0 * y * y),
+                0.001,
+                50,
+            )
+        });
+        let effects = found.effects(&search);
+        assert!(effects.iter().all(|one| !one.is_flat()), "{effects:?}");
+        let directions = found.directions(&search);
+        directions
+            .iter()
+            .map(|one| (one.is_opposed, one.is_flat()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(ridge(1.0), [(false, true), (true, false)]);
+    assert_eq!(ridge(-1.0), [(false, false), (true, true)]);
+}
+
 #[test]
 fn a_figure_that_grows_all_along_a_range_leads_to_its_end() {
     let search = search(&SQUARE[..1], aim(&["bond_depth"], &[], 12));
@@ -259,7 +284,7 @@ fn energies_settle_conditions_on_the_bond_before_any_analysis() {
     let verdicts = found.verdicts(&search);
     let refused = (0..verdicts.len()).filter(|&k| found.tried[k].refused.is_some());
     let refused: Vec<usize> = refused.collect();
-    assert!(refused.len() > 4 && found.tried.len() == refused.len() + 8);
+    assert!(refused.len() > 4 && found.tried.len() <= refused.len() + 8);
     assert!(refused.iter().all(|&k| verdicts[k] == Verdict::Worse));
 }
 

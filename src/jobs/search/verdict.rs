@@ -1,15 +1,11 @@
-//! The answer of a search: the best point, how far that is proved, and which key matters.
+//! The answer of a search: the best point, and how far that is proved.
 
 use super::interval::Interval;
 use super::manifest::Search;
 use super::rank::{Standing, levels};
-use super::space::{STEP, Space};
 use super::tried::Found;
 use crate::sweep::Outcome;
 use physics::order::Order;
-
-/// The relative change of the figure by a step below which a key does not matter.
-const FLAT: f64 = 0.01;
 
 /// What became of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,27 +32,6 @@ impl Verdict {
             Self::Impossible => "impossible",
             Self::Failed => "failed",
         }
-    }
-}
-
-/// What a key does about the best point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Effect {
-    /// The index of its axis in the plan; `None` for the choice among designs.
-    pub axis: Option<usize>,
-    /// A step down and up: the value of the key, and by how much the objective gets better
-    /// (negative: worse) relative to its value at the best; `None` at the end of the range or where
-    /// the point is not fit.
-    pub steps: [Option<(f64, f64)>; 2],
-    /// Whether the best is at the lower or upper end of its range.
-    pub ends: [bool; 2],
-}
-
-impl Effect {
-    /// Whether the objective hardly changes to either side.
-    pub fn is_flat(&self) -> bool {
-        let known = self.steps.iter().flatten();
-        known.clone().count() > 0 && known.clone().all(|(_, change)| change.abs() < FLAT)
     }
 }
 
@@ -132,58 +107,5 @@ impl Found {
             _ => Verdict::Undecided,
         };
         (0..standings.len()).map(verdict).collect()
-    }
-
-    /// What each number does about the best point, and each end of a range at which it is.
-    pub fn effects(&self, search: &Search) -> Vec<Effect> {
-        let (space, standings) = (Space::of(&search.plan), self.standings(search));
-        let (Some(&best), [_]) = (self.front(search).first(), &search.aim.objectives[..]) else {
-            return Vec::new();
-        };
-        let Some([gain]) = standings[best].gains() else {
-            return Vec::new();
-        };
-        let place = &self.tried[best].place;
-        let numbers = space
-            .dimensions
-            .iter()
-            .enumerate()
-            .filter(|(_, one)| one.is_ordered);
-        let effect = |(k, one): (usize, &super::space::Dimension)| {
-            let levels = one.levels - 1;
-            let near = ((0.01 * levels as f64) as usize).min(levels / 2);
-            let change = |is_up: bool| {
-                // The nearest point that differs in this key alone, no farther than two steps.
-                let most = 2.0 * (STEP * levels as f64).max(1.0);
-                let beside = (0..self.tried.len()).filter(|&other| {
-                    let its = &self.tried[other].place;
-                    let others = (0..its.len()).filter(|&j| j != k);
-                    let step = its[k].abs_diff(place[k]);
-                    (its[k] > place[k]) == is_up
-                        && step > 0
-                        && step as f64 <= most
-                        && others.into_iter().all(|j| its[j] == place[j])
-                });
-                let other =
-                    beside.min_by_key(|&other| self.tried[other].place[k].abs_diff(place[k]))?;
-                let [its] = standings[other].gains()? else {
-                    return None;
-                };
-                let value = self.tried[other].point.values[one.axis?].number()?;
-                let change = match (its.value.is_infinite(), gain.value.is_infinite()) {
-                    (true, true) => 0.0,
-                    // From no trap at all to one.
-                    (false, true) => -1.0,
-                    _ => (its.value - gain.value) / gain.value.abs(),
-                };
-                change.is_finite().then_some((value, change))
-            };
-            Effect {
-                axis: one.axis,
-                steps: [change(false), change(true)],
-                ends: [place[k] <= near, place[k] + near >= levels],
-            }
-        };
-        numbers.map(effect).collect()
     }
 }

@@ -214,7 +214,7 @@ impl Search {
     }
 
     /// dict : All results and settings, as in ``report.json``: ``best`` with its bounds, its
-    /// conditions, the points that are not proved worse and the sensitivity to each key.
+    /// conditions, the points that are not proved worse and the sensitivity to each key and to two at once.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         shown::report(py, &self.searched().document())

@@ -10,7 +10,7 @@ use crate::page::Charts;
 use crate::points::{Sweep, said};
 use jobs::comparison::Quantity;
 use jobs::comparison::quantity::Measure;
-use jobs::search::{Effect, Interval, Objective, Standing, Verdict};
+use jobs::search::{Direction, Effect, Interval, Objective, Standing, Verdict};
 use jobs::sweep::{Outcome, Value};
 use ordered_float::OrderedFloat;
 use physics::units::{si, si_range};
@@ -204,6 +204,7 @@ impl Searched<'_> {
             .table(sweep.numbers())
             .table(self.listed(sweep))
             .table(self.what_matters())
+            .table(self.together())
     }
 
     fn entry(&self, sweep: &Sweep, index: usize) -> Json {
@@ -278,6 +279,19 @@ impl Searched<'_> {
                 "at_upper_end": one.ends[1],
             }))
         });
+        let directions = self.found.directions(self.search);
+        let directions = directions.iter().map(|one| {
+            let step = |step: Option<([f64; 2], f64)>| {
+                step.map(|(values, change)| json!({"values": values, "relative_gain": change}))
+            };
+            json!({
+                "keys": one.axes.map(|axis| &self.plan.axes[axis].key),
+                "is_opposed": one.is_opposed,
+                "down": step(one.steps[0]),
+                "up": step(one.steps[1]),
+                "is_flat": one.is_flat(),
+            })
+        });
         let mut entry = self.named(sweep, best);
         let more = json!({
             "file": BEST,
@@ -287,6 +301,7 @@ impl Searched<'_> {
             "undecided": undecided.collect::<Vec<_>>(),
             "conditions": conditions.collect::<Json>(),
             "sensitivity": sensitivity.collect::<Json>(),
+            "directions": directions.collect::<Json>(),
         });
         merge(&mut entry, more);
         entry
@@ -362,6 +377,55 @@ impl Searched<'_> {
             .titled(
                 "What matters",
                 "change of the objective by a step of one key, positive if it gets better",
+            )
+    }
+}
+
+impl Searched<'_> {
+    /// What two keys do together about the best.
+    fn together(&self) -> Table {
+        let directions = self.found.directions(self.search);
+        let names = |one: &Direction| {
+            let [first, second] = one.axes.map(|axis| self.plan.axes[axis].name());
+            let sense = if one.is_opposed { "against" } else { "with" };
+            format!("{first} {sense} {second}")
+        };
+        let step = |side: usize| {
+            move |one: &Direction| {
+                let (values, change) = one.steps[side]?;
+                let said = |k: usize| {
+                    let key = self.plan.axes[one.axes[k]].name();
+                    said(key, &Value::Number(values[k]))
+                };
+                Some(format!(
+                    "{}, {}: {:+.1} %",
+                    said(0),
+                    said(1),
+                    100.0 * change
+                ))
+            }
+        };
+        let remark = |one: &Direction| {
+            if one.is_flat() {
+                "flat: they cancel"
+            } else {
+                ""
+            }
+        };
+        rows(directions)
+            .column("", "keys", "", names)
+            .in_view()
+            .column("", "first down", "", step(0))
+            .in_view()
+            .column("", "first up", "", step(1))
+            .in_view()
+            .column("", "remark", "", remark)
+            .in_view()
+            .table("")
+            .in_view()
+            .titled(
+                "Two keys at once",
+                "change of the objective by a step of both, with each other or against",
             )
     }
 }
