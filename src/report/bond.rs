@@ -9,7 +9,7 @@ use jobs::bond::{Held, HeldState};
 use jobs::design::Design;
 use jobs::output::Command;
 use physics::kinetics::bond::Docking;
-use physics::kinetics::volume::NO_PLAY;
+use physics::kinetics::bond::volume::NO_PLAY;
 use physics::units::si;
 
 /// The files of the command.

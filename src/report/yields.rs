@@ -13,7 +13,7 @@ use jobs::yields::attachment::Source;
 use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::OVERDAMPED;
-use physics::kinetics::mixture::Mixture;
+use physics::kinetics::population::mixture::Mixture;
 use physics::kinetics::population::{Crowd, MOST_STATES};
 use physics::order::Order;
 use physics::units::{duration, plain, si};

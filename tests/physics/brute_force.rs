@@ -7,7 +7,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use tilebind::kinetics::exit::{ExitSettings, exit};
+use tilebind::kinetics::rates::exit::{ExitSettings, exit};
 use tilebind::{Configuration, Design, Problem};
 
 use crate::designs;

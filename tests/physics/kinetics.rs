@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::{Vector2, Vector3};
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::kinetics::Well;
-use tilebind::kinetics::exit::{Exit, ExitError, ExitSettings, exit};
+use tilebind::kinetics::rates::exit::{Exit, ExitError, ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, MeshRates, RateSettings, RatesError, rates, rates_on};
 use tilebind::landscape::stationary;
 use tilebind::potential::Potential;

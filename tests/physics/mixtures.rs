@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, RowDVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tilebind::kinetics::chain::Chain;
-use tilebind::kinetics::mixture::schedule;
+use tilebind::kinetics::population::chain::Chain;
+use tilebind::kinetics::population::mixture::schedule;
 
 /// A chain with rates over several powers of ten.
 fn chain(random: &mut ChaCha8Rng, states: usize) -> Chain {

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::Design;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::kinetics::Way;
-use tilebind::kinetics::exit::{ExitSettings, exit};
+use tilebind::kinetics::rates::exit::{ExitSettings, exit};
 use tilebind::kinetics::rates::{Basin, RateSettings, rates};
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};

@@ -8,7 +8,7 @@ use tilebind::Configuration;
 use tilebind::design::Design;
 use tilebind::dynamics::docking::stream;
 use tilebind::kinetics::population::PairRates;
-use tilebind::kinetics::rows::{Growth, Joints, Spreads};
+use tilebind::kinetics::population::rows::{Growth, Joints, Spreads};
 
 /// A sector of a ring of `count`, of which the cuts carry these codes.
 fn sector(count: f64, codes: [&str; 2], target: &str) -> Design {
@@ -170,7 +170,7 @@ fn rows_in_equilibrium_are_counted_right() {
         let ends: Vec<_> = (0..runs)
             .map(|run| growth.simulate(4, &[time], &mut stream(2, run)).unwrap()[0].clone())
             .collect();
-        let mean = |of: &dyn Fn(&tilebind::kinetics::rows::Census) -> f64| {
+        let mean = |of: &dyn Fn(&tilebind::kinetics::population::rows::Census) -> f64| {
             ends.iter().map(of).sum::<f64>() / runs as f64
         };
         let rings = mean(&|it| *it.rings.get(&4).unwrap_or(&0) as f64);

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::designs;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
 use tilebind::design::Design;
-use tilebind::kinetics::{Well, corner};
+use tilebind::kinetics::{Well, bond::corner};
 use tilebind::potential::MagnetModel;
 use tilebind::potential::Potential;
 use tilebind::problem::Problem;

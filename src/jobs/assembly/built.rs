@@ -25,7 +25,7 @@ use super::wiring::{Meeting, Wiring};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
 use physics::kinetics::bond::Shaking;
-use physics::kinetics::corner;
+use physics::kinetics::bond::corner;
 use physics::words::{Bar, Lags, Word};
 
 /// A tile set with its words and energies.

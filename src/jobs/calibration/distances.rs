@@ -13,7 +13,7 @@ use csv::StringRecord;
 
 use super::lines::{positive, records};
 use physics::configuration::Configuration;
-use physics::kinetics::distance::Distances;
+use physics::kinetics::rates::distance::Distances;
 use physics::problem::Problem;
 
 /// The column of a file of distances (m).

@@ -21,7 +21,7 @@ use physics::configuration::Configuration;
 use physics::dynamics::exits::{ExitRunSettings, ExitRuns, exits};
 use physics::dynamics::{Body, MotionSettings, SettingsError};
 use physics::kinetics::OVERDAMPED;
-use physics::kinetics::exit::{Exit, ExitError, ExitSettings, exit_on, half_bond};
+use physics::kinetics::rates::exit::{Exit, ExitError, ExitSettings, exit_on, half_bond};
 use physics::kinetics::rates::{MeshRates, RateSettings, RatesError, rates_on};
 use physics::observer::Observer;
 use physics::parallel;

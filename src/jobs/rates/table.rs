@@ -5,10 +5,10 @@ use nalgebra::DMatrix;
 use super::diffusion;
 use super::states::RatedState;
 use crate::design::Design;
-use physics::kinetics::chain::Chain;
-use physics::kinetics::map::Map;
+use physics::kinetics::population::chain::Chain;
+use physics::kinetics::rates::map::Map;
 use physics::kinetics::rates::{RateSettings, Rates, rates};
-use physics::kinetics::{Way, corner};
+use physics::kinetics::{Way, bond::corner};
 use physics::parallel;
 use physics::problem::Problem;
 
@@ -25,7 +25,7 @@ pub struct AtKt {
     /// Rates out of each state (1/s), on a coarse mesh; `None` if it is not a state at this kT.
     pub leaving: Vec<Option<f64>>,
     /// Ratios of the same capacities to the closed form of corner wells, see
-    /// [`physics::kinetics::corner`]; `None` if the well is not of this kind. Paths to free have no
+    /// [`physics::kinetics::bond::corner`]; `None` if the well is not of this kind. Paths to free have no
     /// pass for which there is a closed form.
     pub corner: Vec<Option<f64>>,
 }

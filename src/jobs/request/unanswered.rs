@@ -5,8 +5,8 @@ use std::fmt::Display;
 use physics::dynamics::SettingsError;
 use physics::dynamics::docking::DockingError;
 use physics::kinetics::bond::BondError;
-use physics::kinetics::exit::ExitError;
 use physics::kinetics::rates::RatesError;
+use physics::kinetics::rates::exit::ExitError;
 
 /// An error of a job without a result.
 pub trait Unanswered: Display {

@@ -228,7 +228,7 @@ impl Space {
             .collect()
     }
 
-    /// A step along a dimension: [`STEP`] of its range, at least one level.
+    /// A step along a dimension: a twentieth of its range, at least one level.
     pub fn step(&self, dimension: usize) -> usize {
         let most = self.dimensions[dimension].levels - 1;
         ((STEP * most as f64).round() as usize).max(1)

@@ -8,7 +8,7 @@
 //! [`Crowd`]. Pairs go from trap to bond only through free.
 //!
 //! Each tile binds one partner at most, except for equal tiles with two binding faces: beside the pairs,
-//! their chains and rings are simulated ([`physics::kinetics::rows`]).
+//! their chains and rings are simulated ([`physics::kinetics::population::rows`]).
 
 pub mod attachment;
 mod outcome;
@@ -27,12 +27,12 @@ pub use attachment::Source;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
 use physics::dynamics::docking::DockingError;
+use physics::kinetics::bond::volume::NO_PLAY;
 use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
-use physics::kinetics::mixture::Mixture;
 use physics::kinetics::population::Crowd;
+use physics::kinetics::population::mixture::Mixture;
+use physics::kinetics::population::rows::Joints;
 use physics::kinetics::rates::RatesError;
-use physics::kinetics::rows::Joints;
-use physics::kinetics::volume::NO_PLAY;
 use physics::observer::Observer;
 use physics::units::{plain, si};
 pub use rows::{Count, Mean, Rows};

@@ -3,8 +3,8 @@
 use super::Question;
 use super::outcome::Outcome;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
-use physics::kinetics::mixture::{self, Mixture};
-use physics::kinetics::numbers::{self, Numbers};
+use physics::kinetics::population::mixture::{self, Mixture};
+use physics::kinetics::population::numbers::{self, Numbers};
 use physics::kinetics::population::{Crowd, PairRates};
 use physics::parallel;
 

@@ -1,6 +1,10 @@
 //! Kinetics of shaken tiles on a landscape: how strongly a state holds at kT, how soon a tile
 //! leaves it and where it goes, and the yield in the end.
 //!
+//! One folder a question: [`bond`] how strongly a state holds, [`rates`] how soon tiles leave a state
+//! and which one they reach next (on a `mesh`), [`population`] how many tiles of a table are bound in
+//! the end.
+//!
 //! kT (J) is an effective energy of shaking, see [`crate::dynamics`]; this module assumes that a
 //! table has one.
 //!
@@ -56,39 +60,14 @@
 //! magnets.
 
 pub mod bond;
-pub mod chain;
-pub mod corner;
-mod corridor;
-mod crowd;
-pub mod distance;
-mod errors;
-pub mod exit;
-mod field;
-mod frame;
-mod line;
-mod links;
-pub mod map;
 mod mesh;
-pub mod mixture;
-mod narrow;
-pub mod numbers;
-mod places;
 pub mod population;
 pub mod rates;
-mod results;
-mod rim;
-mod room;
-mod root;
-pub mod rows;
-mod sets;
-pub mod stiff;
-pub mod volume;
-pub mod well;
 
+pub use bond::volume::Estimate;
+pub use bond::well::Well;
 pub use bond::{BondError, Hold};
-pub use corridor::{NARROW, Way};
-pub use volume::Estimate;
-pub use well::Well;
+pub use rates::corridor::{NARROW, Way};
 
 /// Drag rate (1/s) above which the inertia of tiles has no effect on mean times.
 pub const OVERDAMPED: f64 = 50.0;

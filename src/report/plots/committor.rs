@@ -11,7 +11,7 @@ use super::scale::colour;
 use super::style::{FIXED_FILL, INK};
 use super::{Figure, Sheet};
 use jobs::design::Design;
-use physics::kinetics::map::Map;
+use physics::kinetics::rates::map::Map;
 
 const WIDTH: f64 = 640.0;
 /// Space around the map (pixels): top, right, bottom, left.

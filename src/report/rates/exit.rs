@@ -8,7 +8,7 @@ use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::design::Design;
 use jobs::rates::PoseExit;
 use physics::dynamics::exits::ExitRuns;
-use physics::kinetics::exit::MeshExit;
+use physics::kinetics::rates::exit::MeshExit;
 use physics::kinetics::{OVERDAMPED, Way};
 use physics::units::{duration, plain, si};
 

@@ -11,7 +11,7 @@ use jobs::rates::{AtKt, RatedState, StateRates};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::Way;
 use physics::kinetics::bond::LEAST_DEPTH;
-use physics::kinetics::map::Map;
+use physics::kinetics::rates::map::Map;
 use physics::units::{duration, plain, si};
 
 /// Relative difference of meshes above which a rate is unknown.

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 use tilebind::calibration::distances::PairDistances;
 use tilebind::configuration::{Configuration, ConfigurationSpace};
-use tilebind::kinetics::distance::Distances;
+use tilebind::kinetics::rates::distance::Distances;
 use tilebind::potential::Potential;
 use tilebind::problem::{Problem, Symmetry};
 

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::field::Field;
-use super::mesh::{Element, Nodes, slope};
 use super::rim::Rims;
+use crate::kinetics::mesh::{Element, Nodes, slope};
 
 /// Estimated relative errors of functions' energies.
 pub(super) struct Errors {

@@ -5,9 +5,9 @@
 //! converges.
 
 use super::field::Field;
-use super::mesh::Leaf;
 use super::sets::reaching;
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::Leaf;
 
 /// Height (in kT) above a state up to which its well is considered.
 const DEEP: f64 = 3.0;

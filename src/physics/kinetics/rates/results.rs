@@ -2,8 +2,8 @@
 
 use super::corridor::Way;
 use super::map::Map;
-use super::mesh::Unsolved;
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::Unsolved;
 use crate::problem::Problem;
 use crate::units::si;
 

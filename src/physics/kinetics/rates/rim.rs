@@ -7,7 +7,7 @@
 //! middles, meets the limit.
 
 use super::field::Field;
-use super::mesh::{Element, Nodes};
+use crate::kinetics::mesh::{Element, Nodes};
 
 /// A cell of a basin beside one that is not.
 struct Step {

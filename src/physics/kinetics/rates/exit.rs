@@ -2,12 +2,12 @@
 
 use super::corridor::Way;
 use super::field::{DIVIDED, Earlier, Field};
-use super::mesh::{Nodes, System, Unsolved, loads};
 use super::results::{DEEPEST, MESHES, enough};
 pub use super::results::{Exit, ExitError, ExitSettings, MeshExit, half_bond};
 use super::rim::Rims;
 use super::sets::{basin, pass};
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::{Nodes, System, Unsolved, loads};
 use crate::problem::Problem;
 
 /// The exit from a start to the first of two ends: the bond's basin and free tiles. All contacts that

@@ -4,8 +4,8 @@ use std::cmp::Reverse;
 
 use ordered_float::OrderedFloat;
 
-use super::mesh::{Chart, Integrator, Nodes, Octree, value};
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::{Chart, Integrator, Nodes, Octree, value};
 use crate::order::Order;
 use crate::parallel;
 use crate::problem::Problem;

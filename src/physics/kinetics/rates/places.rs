@@ -1,10 +1,10 @@
 //! Basins and `free` on a mesh, and the rates between them computed from the mesh.
 
 use super::field::{DEEP, Earlier, Field};
-use super::mesh::{Nodes, System, Unsolved, loads};
 use super::results::{Basin, MeshRates, RateSettings, RatesError};
 use super::rim::Rims;
 use super::sets::{basin, pass, reaching};
+use crate::kinetics::mesh::{Nodes, System, Unsolved, loads};
 
 /// The assignment of cells to basins.
 pub(super) struct Places {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use super::closing::Spreads;
 use super::joints::{Joints, Row};
 use crate::interruption;
-use crate::kinetics::crowd::PairRates;
+use crate::kinetics::population::crowd::PairRates;
 
 /// Most events of a simulation.
 const MOST_EVENTS: usize = 20_000_000;

@@ -1,16 +1,29 @@
 //! Rates between basins: the wells of states, and tiles far apart.
 
+pub(super) mod corridor;
+pub mod distance;
+mod errors;
+pub mod exit;
+mod field;
+mod links;
+pub mod map;
+mod narrow;
+mod places;
+mod results;
+mod rim;
+mod sets;
+
 use std::f64::consts::{PI, TAU};
 
-use super::corridor::Way;
-use super::field::{DIVIDED, Earlier, Field};
-use super::links::links;
-use super::map::Map;
-use super::mesh::{Nodes, Unsolved};
-use super::places::Places;
-pub use super::results::{Basin, MeshRates, RateSettings, Rates, RatesError};
-use super::results::{DEEPEST, MESHES, enough, half_bond};
+use self::corridor::Way;
+use self::field::{DIVIDED, Earlier, Field};
+use self::links::links;
+use self::map::Map;
+use self::places::Places;
+pub use self::results::{Basin, MeshRates, RateSettings, Rates, RatesError};
+use self::results::{DEEPEST, MESHES, enough, half_bond};
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::{Nodes, Unsolved};
 use crate::problem::Problem;
 
 /// The rates between basins and `free`.

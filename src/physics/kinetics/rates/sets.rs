@@ -5,8 +5,8 @@ use std::collections::BinaryHeap;
 
 use ordered_float::OrderedFloat;
 
-use super::mesh::Octree;
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::Octree;
 
 /// For each cell those that share a face with it.
 pub(super) type Beside = [Vec<u32>];

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::field::Field;
-use super::mesh::{Nodes, slope, value};
+use crate::kinetics::mesh::{Nodes, slope, value};
 
 /// Number of points along s and phi that represent a cell.
 const POINTS: usize = 4;

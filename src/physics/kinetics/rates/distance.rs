@@ -1,8 +1,8 @@
 //! The distribution of the distance between a pair of tiles in equilibrium.
 
 use super::field::{DIVIDED, Field};
-use super::mesh::UNITS;
 use crate::configuration::Configuration;
+use crate::kinetics::mesh::UNITS;
 use crate::problem::Problem;
 
 /// Meshes are refined until the total change of the shares of all distances is less than this, ...

@@ -1,11 +1,17 @@
 //! How strongly states hold shaken tiles: the Gse and Gmc of tile assembly models.
 
+pub mod corner;
+mod frame;
+mod line;
+mod root;
+pub mod volume;
+pub mod well;
+
 use std::cell::RefCell;
 
-use super::corner;
-use super::root::{root, straight_root};
-use super::volume::Estimate;
-use super::well::Well;
+use self::root::{root, straight_root};
+use self::volume::Estimate;
+use self::well::Well;
 use crate::configuration::Configuration;
 use crate::interruption;
 use crate::landscape::{Catalogue, Kind, Place};
@@ -126,7 +132,7 @@ impl<'a> Hold<'a> {
     }
 
     /// Whether it has play, but at kT (J) less than the contact tolerance: tiles move by less than
-    /// [`super::volume::NO_PLAY`] in it. A state without play at a tenth of its depth has none at
+    /// [`self::volume::NO_PLAY`] in it. A state without play at a tenth of its depth has none at
     /// all.
     pub fn is_too_cold(&self, kt: f64) -> bool {
         let has_play = |kt: f64| self.well.has_play(kt);

@@ -22,15 +22,22 @@
 //!   tiles: of relative order 1/N, and largest for few tiles;
 //! - exact stochastic simulation (Gillespie 1977, doi:10.1021/j100540a008).
 
+pub mod chain;
+mod crowd;
+pub mod mixture;
+pub mod numbers;
+mod room;
+pub mod rows;
+pub mod stiff;
+
 use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::numbers::{self, Numbers};
-use super::stiff;
+use self::numbers::Numbers;
 use crate::interruption;
 
-pub use super::crowd::{Crowd, PairRates};
+pub use self::crowd::{Crowd, PairRates};
 
 /// Largest number of states of a crowd for which all probabilities are computed: ten tiles with ten
 /// kinds of states, or six with twenty-six.
@@ -237,7 +244,7 @@ mod tests {
     use super::*;
     use crate::dynamics::docking::stream;
     use crate::dynamics::exits::mean_and_error;
-    use crate::kinetics::mixture;
+    use crate::kinetics::population::mixture;
 
     /// A bond and traps whose lifetimes differ by six powers of ten.
     fn rates() -> PairRates {
