@@ -14,7 +14,7 @@ use crate::design::Design;
 use crate::mates;
 use physics::configuration::Configuration;
 use physics::potential::{Interaction, MagnetModel};
-use physics::problem::{Meeting, Problem};
+use physics::problem::{FlushFaces, Problem};
 
 /// Number of gaps at which the pull is computed.
 const SAMPLES: usize = 200;
@@ -33,7 +33,7 @@ pub struct Inspection {
     /// That the codes of the target faces are not mates.
     pub unmatched: Option<String>,
     /// Pairs of faces that bind as strongly as the target.
-    pub rivals: Vec<Meeting>,
+    pub rivals: Vec<FlushFaces>,
     /// The fits of the target faces: the bond, then the deepest wrong ones.
     pub fits: Vec<Fit>,
     /// The largest |U| (J) while the target faces slide along each other.

@@ -13,7 +13,7 @@ use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::units::si;
-use physics::words::crosstalk::{Crosstalk, Kind, Meeting};
+use physics::words::crosstalk::{Crosstalk, Kind, StrongestContact};
 use physics::words::set::name;
 
 /// The files of the command.
@@ -89,7 +89,7 @@ fn entries(set: &WordSet, found: &Crosstalk) -> Entries {
 
 /// All contacts, traps last, for programs; and the strongest wrong ones for people.
 pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> [Table; 2] {
-    let mut wrong: Vec<Meeting> = found.wrong().collect();
+    let mut wrong: Vec<StrongestContact> = found.wrong().collect();
     wrong.order_by(|a, b| a.energy.total_cmp(&b.energy));
     let note = match wrong.len().saturating_sub(SHOWN) {
         0 => String::new(),
@@ -105,10 +105,10 @@ pub(super) fn tables(set: &WordSet, found: &Crosstalk) -> [Table; 2] {
 
 // One line a column.
 #[rustfmt::skip]
-fn table(set: &WordSet, found: &Crosstalk, all: Vec<Meeting>) -> Table {
+fn table(set: &WordSet, found: &Crosstalk, all: Vec<StrongestContact>) -> Table {
     let codes: Vec<String> = found.faces().map(|word| word.to_string()).collect();
-    let face = |it: &Meeting, k: usize| face_name(set, found, it.faces[k]);
-    let kind = |it: &Meeting| match it.kind {
+    let face = |it: &StrongestContact, k: usize| face_name(set, found, it.faces[k]);
+    let kind = |it: &StrongestContact| match it.kind {
         Kind::Bond => "bond",
         Kind::Wrong => "wrong",
         Kind::Trap => "trap",
@@ -214,7 +214,7 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
 }
 
 /// The name of a contact, such as `A on B*`; that of a word and its own mate is a trap.
-pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &Meeting) -> String {
+pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &StrongestContact) -> String {
     let [a, b] = meeting.faces.map(|face| face_name(set, found, face));
     let trap = if meeting.kind == Kind::Trap {
         ", a trap"

@@ -21,7 +21,7 @@ use super::depths::Depths;
 use super::growth::{Grown, Holds, grow, neighbours};
 use super::matrix::Matrix;
 use super::rests::{Faces, Rests};
-use super::wiring::{Meeting, Wiring};
+use super::wiring::{TilePair, Wiring};
 use super::{Glue, TileSet};
 use crate::design::WordSet;
 use physics::kinetics::bond::Shaking;
@@ -194,7 +194,7 @@ impl Built {
 
     /// For two tiles that meet by a bond: its word, and the energy that their other faces add (J).
     pub fn whole(&self, met: &Met) -> Option<(usize, f64)> {
-        let Meeting { axis, bond, faces } = self.wiring.meeting(&self.set, met)?;
+        let TilePair { axis, bond, faces } = self.wiring.meeting(&self.set, met)?;
         let code =
             |side: usize, bond: Option<usize>| Some(self.matrix.code(self.matrix.on(side, bond?)));
         let [first, second] =

@@ -9,7 +9,7 @@ use super::TileSet;
 use super::axis::Met;
 use super::matrix::Matrix;
 use super::rests::{Rests, eastern, others};
-use super::wiring::{Meeting, Wiring};
+use super::wiring::{TilePair, Wiring};
 use physics::words::Word;
 
 /// Larger numbers of words are not considered: the energies of every two faces are stored, by
@@ -26,7 +26,7 @@ pub struct Depths<'a> {
     /// The allowed factor on the weight of wrong contacts.
     pub price: f64,
     all: &'a Matrix,
-    meetings: BTreeSet<Meeting>,
+    meetings: BTreeSet<TilePair>,
     /// The energies of every two faces, see [`Rests::table`].
     energies: [[DMatrix<f64>; 4]; 4],
 }
@@ -56,7 +56,7 @@ impl<'a> Depths<'a> {
     /// The sum over all bonds of the additional depth as a share of the depth; `words` are the
     /// bonds' faces on the east and north sides of tiles.
     pub fn excess(&self, words: &[usize]) -> f64 {
-        let rest = |Meeting { axis, faces, .. }: &Meeting| -> f64 {
+        let rest = |TilePair { axis, faces, .. }: &TilePair| -> f64 {
             let energy = |[a, b]: [usize; 2]| {
                 let u = self.all.on(a, words[faces[0][a]?]);
                 let v = self.all.on(b, words[faces[1][b]?]);
@@ -64,7 +64,7 @@ impl<'a> Depths<'a> {
             };
             others(*axis).filter_map(energy).sum()
         };
-        let deeper = |it: &Meeting| (-rest(it) / self.all.bond(words[it.bond])).max(0.0);
+        let deeper = |it: &TilePair| (-rest(it) / self.all.bond(words[it.bond])).max(0.0);
         self.meetings.iter().map(deeper).sum()
     }
 }

@@ -54,7 +54,7 @@ pub struct Wiring {
 
 /// Two tiles that meet, the first in the west or south, by the bonds of their faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Meeting {
+pub struct TilePair {
     /// The axis along which they meet.
     pub axis: Axis,
     /// The bonds of all their faces.
@@ -202,12 +202,12 @@ impl Wiring {
     }
 
     /// The meeting of two tiles, if they meet by a bond.
-    pub fn meeting(&self, set: &TileSet, (first, axis, second): &Met) -> Option<Meeting> {
+    pub fn meeting(&self, set: &TileSet, (first, axis, second): &Met) -> Option<TilePair> {
         let of = |tile: usize| std::array::from_fn(|side| self.of(set, tile, side));
         let faces: [[Option<usize>; 4]; 2] = [of(*first), of(*second)];
         let [out, back] = axis.sides();
         let bond = faces[0][out].filter(|bond| faces[1][back] == Some(*bond))?;
-        Some(Meeting {
+        Some(TilePair {
             axis: *axis,
             faces,
             bond,

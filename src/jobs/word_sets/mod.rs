@@ -21,7 +21,7 @@ pub use search::Found;
 pub use spaced::Spaced;
 
 use crate::design::Design;
-use physics::words::{Answer, Bar, Lags, Meeting, Question, Task, Word};
+use physics::words::{Answer, Bar, Lags, Question, Task, Word, WrongContact};
 
 /// The result of a search for words, with everything needed to reproduce it.
 pub struct Sought {
@@ -66,12 +66,12 @@ impl Sought {
     }
 
     /// The strongest wrong contact of two words and their mates, by energies.
-    pub fn strongest(&self, u: Word, v: Word) -> Option<Meeting> {
+    pub fn strongest(&self, u: Word, v: Word) -> Option<WrongContact> {
         self.task.rules.strongest(&self.energies, u, v)
     }
 
     /// The word of the set with the strongest wrong contact with a given word, and that contact.
-    pub fn worst(&self, word: Word) -> Option<Meeting> {
+    pub fn worst(&self, word: Word) -> Option<WrongContact> {
         let all = self.answer.words.iter();
         let all = all.filter_map(|other| self.strongest(word, *other));
         all.min_by(|a, b| a.energy.total_cmp(&b.energy))

@@ -1,6 +1,6 @@
 //! The kinds of tiles that are to be made.
 
-use super::mates::{Meeting, meetings};
+use super::mates::{FacingPockets, meetings};
 use crate::assembly::{Assembly, designs};
 use crate::design::{Design, DesignError};
 use crate::text::file_stem;
@@ -29,7 +29,7 @@ pub struct Subject {
     /// The kinds of tiles.
     pub kinds: Vec<Kind>,
     /// Which pockets face each other.
-    pub(super) meetings: Vec<Meeting>,
+    pub(super) meetings: Vec<FacingPockets>,
 }
 
 impl Subject {

@@ -13,7 +13,7 @@ const FACING: f64 = 3.0;
 
 /// Two pockets that face each other.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct FacingPockets {
     /// The kind of each tile, and the index of its magnet.
     pub pockets: [(usize, usize); 2],
     /// The share of the bond that is left if the first or the second magnet is the wrong way round,
@@ -21,7 +21,7 @@ pub(super) struct Meeting {
     pub left_if_wrong: Option<[f64; 2]>,
 }
 
-impl Meeting {
+impl FacingPockets {
     /// The same with other numbers of the kinds.
     pub(super) fn of(self, kinds: &[usize]) -> Self {
         Self {
@@ -68,7 +68,7 @@ fn turned(tile: &Tile, magnet: usize) -> Tile {
 
 /// The pockets that face each other in the bond of two tiles, which are of the given kinds: each is
 /// the nearest one to the other.
-pub(super) fn meetings(pair: &Pair, kinds: [usize; 2]) -> Vec<Meeting> {
+pub(super) fn meetings(pair: &Pair, kinds: [usize; 2]) -> Vec<FacingPockets> {
     let tiles = [&pair.fixed, &pair.moving];
     let places: [Vec<Vector2<f64>>; 2] = [
         pair.fixed.magnets.iter().map(|it| it.position).collect(),
@@ -88,7 +88,7 @@ pub(super) fn meetings(pair: &Pair, kinds: [usize; 2]) -> Vec<Meeting> {
         let [c, d, _] = tiles[1].magnets[other].size;
         let is_mutual = nearest(1, other).is_some_and(|back| back.0 == own);
         let is_near = far <= FACING * a.max(b).max(c).max(d);
-        (is_mutual && is_near).then_some(Meeting {
+        (is_mutual && is_near).then_some(FacingPockets {
             pockets: [(kinds[0], own), (kinds[1], other)],
             left_if_wrong: None,
         })

@@ -46,7 +46,7 @@ pub struct Constraint {
 }
 
 /// Two outlines in the frame of the second: the vertices of `a` against the edges of `b`.
-struct Meeting<'a> {
+struct OutlinePair<'a> {
     a: &'a Outline,
     b: &'a Outline,
     /// The placement of `a` in `b`'s frame.
@@ -54,7 +54,7 @@ struct Meeting<'a> {
     scale: Scale,
 }
 
-impl Meeting<'_> {
+impl OutlinePair<'_> {
     fn vertex(&self, i: usize) -> Vector2<f64> {
         self.pose.position + self.pose.rotation * self.a.vertices()[i]
     }
@@ -253,15 +253,15 @@ impl Contact {
     }
 
     /// The moving tile's vertices against the fixed one's edges, and the other way round.
-    fn meetings(&self, pose: &Placement) -> [Meeting<'_>; 2] {
+    fn meetings(&self, pose: &Placement) -> [OutlinePair<'_>; 2] {
         [
-            Meeting {
+            OutlinePair {
                 a: self.moving(),
                 b: self.fixed(),
                 pose: *pose,
                 scale: self.scale,
             },
-            Meeting {
+            OutlinePair {
                 a: self.fixed(),
                 b: self.moving(),
                 pose: pose.inverse(),

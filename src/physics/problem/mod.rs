@@ -38,7 +38,7 @@ const SAME: f64 = 1e-3;
 
 /// Two faces, set flush against each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct FlushFaces {
     /// Which face of the fixed tile, which of the moving one.
     pub faces: (usize, usize),
     /// The configuration of the moving tile.
@@ -393,7 +393,7 @@ impl Problem {
     /// other, pushed out into contact if their shapes overlap, they have at least 0.95 of the
     /// bond's energy. Contacts that count as the bond are not included. Slid and tilted contacts are
     /// not considered.
-    pub fn rivals(&self) -> Vec<Meeting> {
+    pub fn rivals(&self) -> Vec<FlushFaces> {
         let Some(pair) = &self.pair else {
             return Vec::new();
         };
@@ -409,17 +409,17 @@ impl Problem {
             let lift = self.lift(&flush, fixed[f].normal());
             let position = flush.position() + fixed[f].normal() * lift;
             let configuration = Configuration::new(position.x, position.y, flush.theta);
-            Meeting {
+            FlushFaces {
                 faces: (f, m),
                 configuration,
                 energy: potential.energy(&configuration),
             }
         });
-        let is_wanted = |meeting: &Meeting| {
+        let is_wanted = |meeting: &FlushFaces| {
             meeting.faces == pair.target
                 || self.distance_to_bond(&meeting.configuration) < self.scaled(SAME)
         };
-        let is_strong = |meeting: &Meeting| {
+        let is_strong = |meeting: &FlushFaces| {
             meeting.energy <= AS_STRONG * bond && self.is_free(&meeting.configuration)
         };
         meetings

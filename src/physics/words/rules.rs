@@ -103,7 +103,7 @@ impl Way {
 
 /// The strongest wrong contact of two faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct WrongContact {
     /// The word of the first face.
     pub first: Word,
     /// The word of the second face, when not turned over.
@@ -118,7 +118,7 @@ pub struct Meeting {
     pub faulty: Faulty,
 }
 
-impl Meeting {
+impl WrongContact {
     /// The one that attracts more; the first of equals.
     pub(super) fn stronger(self, other: Self) -> Self {
         if other.energy < self.energy {
@@ -251,22 +251,22 @@ impl Rules {
 
     /// The strongest wrong contact of two words and their mates, however weak; `None` if they never
     /// meet.
-    pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<Meeting> {
+    pub fn strongest(&self, lags: &Lags, u: Word, v: Word) -> Option<WrongContact> {
         let found = self
             .ways()
             .filter_map(|way| self.strongest_way(lags, [u, v], way));
-        found.reduce(Meeting::stronger)
+        found.reduce(WrongContact::stronger)
     }
 
     /// The same for two faces alone, without the bond.
-    pub fn strongest_of(&self, lags: &Lags, first: Word, second: Word) -> Option<Meeting> {
+    pub fn strongest_of(&self, lags: &Lags, first: Word, second: Word) -> Option<WrongContact> {
         let ways = self.ways().filter(|way| way.mate != self.own());
         let second = if self.own() { second } else { second.mate() };
         let found = ways.filter_map(|way| self.strongest_way(lags, [first, second], way));
-        found.reduce(Meeting::stronger)
+        found.reduce(WrongContact::stronger)
     }
 
-    fn strongest_way(&self, lags: &Lags, [u, v]: [Word; 2], way: Way) -> Option<Meeting> {
+    fn strongest_way(&self, lags: &Lags, [u, v]: [Word; 2], way: Way) -> Option<WrongContact> {
         let facing = way.facing(v);
         let all = lags.energies(&Correlations::new(u, facing));
         let slides = self.slides_of(u.places());
@@ -276,7 +276,7 @@ impl Rules {
             None => ((-way.sign() * all.at(s), [None; 2]), s),
         });
         let ((energy, faulty), s) = energies.reduce(|a, b| if b.0.0 < a.0.0 { b } else { a })?;
-        Some(Meeting {
+        Some(WrongContact {
             first: u,
             second: if way.mate { v.mate() } else { v },
             flipped: way.flipped,

@@ -1,7 +1,7 @@
 //! Sets of words and their evaluation.
 
 use super::lag::Lags;
-use super::rules::{Meeting, Rules};
+use super::rules::{Rules, WrongContact};
 use super::word::Word;
 use crate::parallel;
 
@@ -11,7 +11,7 @@ pub struct Judgement {
     /// Depth (J) of the weakest bond of a word and its mate.
     pub bond: f64,
     /// The strongest wrong contact; `None` if there is none.
-    pub worst: Option<Meeting>,
+    pub worst: Option<WrongContact>,
     /// 1 - strongest wrong attraction / weakest bond; 1 if nothing wrong attracts.
     pub gap: f64,
 }
@@ -73,7 +73,7 @@ impl<'a> Weighed<'a> {
         all.fold(first, |least, it| if it.0 < least.0 { it } else { least })
     }
 
-    fn worst_meeting(&self) -> Option<Meeting> {
+    fn worst_meeting(&self) -> Option<WrongContact> {
         let (energy, [i, j]) = self.worst();
         let meeting = || {
             self.rules

@@ -20,7 +20,7 @@ use physics::configuration::Configuration;
 use physics::units::si;
 use physics::words::frontier::Point;
 use physics::words::set::name;
-use physics::words::{Answer, Bar, Fault, Meeting, Word};
+use physics::words::{Answer, Bar, Fault, Word, WrongContact};
 
 /// The files of the command.
 pub const FILES: Command = Command {
@@ -204,7 +204,7 @@ fn texts(words: &[Word]) -> Vec<String> {
     words.iter().map(Word::to_string).collect()
 }
 
-fn meeting(meeting: &Meeting, bar: &Bar) -> Value {
+fn meeting(meeting: &WrongContact, bar: &Bar) -> Value {
     json!({
         "first": meeting.first.to_string(),
         "second": meeting.second.to_string(),
@@ -233,7 +233,7 @@ fn points(points: &[Point]) -> Table {
 /// The words, each with its bond and its worst contact.
 #[rustfmt::skip]
 fn list(sought: &Sought) -> Table {
-    type Row<'a> = (usize, Word, Option<Meeting>);
+    type Row<'a> = (usize, Word, Option<WrongContact>);
     let own = sought.task.rules.own();
     let all = sought.answer.words.iter().enumerate();
     let all = all.map(|(k, word)| -> Row { (k, *word, sought.worst(*word)) });
@@ -258,7 +258,7 @@ fn list(sought: &Sought) -> Table {
 fn pairs(sought: &Sought) -> Table {
     let words = &sought.answer.words;
     let met = sought.pairs().filter_map(|[i, j]| Some((i, j, sought.strongest(words[i], words[j])?)));
-    let slide = |it: &Meeting| f64::from(it.slide) * sought.bar.pitch;
+    let slide = |it: &WrongContact| f64::from(it.slide) * sought.bar.pitch;
     rows(met)
         .column("first", "", "", |it| name(it.0))
         .column("second", "", "", |it| name(it.1) + if it.2.second == words[it.1] { "" } else { "*" })

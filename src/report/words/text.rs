@@ -3,7 +3,7 @@
 use jobs::word_sets::Sought;
 use physics::units::si;
 use physics::words::set::name;
-use physics::words::{Fault, Meeting, Question, Rules, Shape, Word};
+use physics::words::{Fault, Question, Rules, Shape, Word, WrongContact};
 
 /// The headline: the number of words and its certainty, the weakest bond and the strongest wrong
 /// contact.
@@ -72,7 +72,7 @@ pub(super) fn face(word: Word, sought: &Sought) -> String {
 }
 
 /// `A on B*, slid 40 mm`.
-pub(super) fn told(meeting: &Meeting, sought: &Sought) -> String {
+pub(super) fn told(meeting: &WrongContact, sought: &Sought) -> String {
     let [first, second] = [meeting.first, meeting.second].map(|word| face(word, sought));
     let slide = match meeting.slide {
         0 => "not slid".to_owned(),

@@ -113,7 +113,7 @@ impl ContactCells {
         }
         let (turn, position) = (q.rotation(), q.position());
         let unit = self.contact.scaled(1.0);
-        let on_fixed = Meeting {
+        let on_fixed = VerticesOnEdges {
             vertices: &self.moving,
             edges: &self.fixed,
             place: &|p| position + turn * p,
@@ -131,7 +131,7 @@ impl ContactCells {
             },
         };
         let back = turn.inverse();
-        let on_moving = Meeting {
+        let on_moving = VerticesOnEdges {
             vertices: &self.fixed,
             edges: &self.moving,
             place: &|p| back * (p - position),
@@ -149,7 +149,7 @@ impl ContactCells {
 }
 
 /// The vertices of one tile against the edges of the other, in the other's frame.
-struct Meeting<'a> {
+struct VerticesOnEdges<'a> {
     vertices: &'a Side,
     edges: &'a Side,
     place: &'a dyn Fn(Vector2<f64>) -> Vector2<f64>,
@@ -160,7 +160,7 @@ struct Meeting<'a> {
     contact: &'a dyn Fn(Vector2<f64>, Vector2<f64>, Vector2<f64>) -> PossibleContact,
 }
 
-impl Meeting<'_> {
+impl VerticesOnEdges<'_> {
     /// Adds the possible contacts; false if there are more than `most`.
     fn list(&self, half: &[f64; 3], most: usize, found: &mut Vec<PossibleContact>) -> bool {
         let outline = &self.vertices.outline;

@@ -19,7 +19,7 @@ const HELD: f64 = 0.1;
 /// The position of the moving tile's face relative to the fixed one's: its middle along that face
 /// and out of it (m), and its rotation from flush (rad).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct FacePose {
     pub slide: f64,
     pub gap: f64,
     pub tilt: f64,
@@ -27,7 +27,7 @@ pub(super) struct Meeting {
     pub energy: f64,
 }
 
-impl Meeting {
+impl FacePose {
     fn of(q: &Configuration, energy: f64, fixed: &Face, moving: &Face) -> Self {
         let way = q.transform(moving.middle()) - fixed.middle();
         Self {
@@ -76,10 +76,10 @@ pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Ve
             .iter()
             .flat_map(|fixed| of_moving.iter().map(move |moving| (fixed, moving)))
     };
-    let mut meetings: Vec<Meeting> = Vec::new();
+    let mut meetings: Vec<FacePose> = Vec::new();
     for (q, energy) in minima {
         let closest = pairs()
-            .map(|(fixed, moving)| Meeting::of(q, *energy, fixed, moving))
+            .map(|(fixed, moving)| FacePose::of(q, *energy, fixed, moving))
             .filter(|meeting| meeting.tilt.abs() < TURNED)
             .min_by_key(|meeting| OrderedFloat(meeting.gap.abs() + size * meeting.tilt.abs()));
         for meeting in closest

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
 
-use super::siblings::{Meeting, SAME};
+use super::siblings::{FacePose, SAME};
 use crate::configuration::Configuration;
 use crate::order::Order;
 use crate::problem::Problem;
@@ -59,7 +59,7 @@ pub(super) fn pitch(problem: &Problem) -> f64 {
 }
 
 /// The meetings of two faces with magnets at these places (m), the shorter face of this length (m).
-fn meetings([fixed, moving]: [Vec<f64>; 2], length: f64) -> impl Iterator<Item = Meeting> {
+fn meetings([fixed, moving]: [Vec<f64>; 2], length: f64) -> impl Iterator<Item = FacePose> {
     let pitch = closest(&fixed).min(closest(&moving)).min(length);
     let mut slides: Vec<f64> = Vec::new();
     for (s, t) in fixed
@@ -71,7 +71,7 @@ fn meetings([fixed, moving]: [Vec<f64>; 2], length: f64) -> impl Iterator<Item =
     slides.order_by_key(|&slide| OrderedFloat(slide));
     slides.dedup_by(|a, b| *a - *b < STEP * pitch / 2.0);
     slides.into_iter().flat_map(move |slide| {
-        TILTS.map(|tilt| Meeting {
+        TILTS.map(|tilt| FacePose {
             slide,
             gap: 0.0,
             tilt: 2.0 * tilt * pitch / length,

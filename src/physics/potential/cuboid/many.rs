@@ -43,7 +43,7 @@ pub struct Part {
 
 /// Two groups.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting<'a> {
+pub struct BlockGroups<'a> {
     pub fixed: &'a Part,
     pub moving: &'a Part,
     /// If they are taken as wholes, the product (A^2 m^4) of the sums of the moments' magnitudes, and
@@ -71,7 +71,7 @@ impl Many {
     /// The groups that interact within `reach` (m) of a configuration, those taken as wholes so far
     /// apart, compared with their lengths, that their smallest distance says enough: each pair of
     /// blocks is in exactly one pair of groups.
-    pub fn meetings(&self, q: &Configuration, reach: f64) -> impl Iterator<Item = Meeting<'_>> {
+    pub fn meetings(&self, q: &Configuration, reach: f64) -> impl Iterator<Item = BlockGroups<'_>> {
         let trees = self.sides.each_ref().map(|side| side.tree.as_slice());
         let leeway = Leeway {
             travel: reach,
@@ -80,7 +80,7 @@ impl Many {
             radii: self.radii,
             ..Leeway::default()
         };
-        Walk::new(trees, q, leeway).map(|it: walk::Meeting| Meeting {
+        Walk::new(trees, q, leeway).map(|it: walk::DipoleGroups| BlockGroups {
             fixed: self.sides[0].part(it.fixed.start),
             moving: self.sides[1].part(it.moving.start),
             whole: (it.replaced > 0.0).then_some((it.replaced, it.distance)),

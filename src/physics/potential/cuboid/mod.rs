@@ -57,7 +57,7 @@ use crate::tile::Magnet;
 pub use block::{Block, PairEnergy};
 use far::{Group, STEPS};
 use limits::Limits;
-use many::{Many, Meeting};
+use many::{BlockGroups, Many};
 use multipole::{Multipole, TERMS};
 pub use panel::exact;
 use sum::{Each, Sum};
@@ -323,7 +323,7 @@ impl Potential for CuboidPotential {
             let pairs = all.flat_map(|second| self.fixed.iter().map(move |first| (first, second)));
             return pairs.fold(0.0, |sum, (first, second)| sum + of_pair(first, second));
         };
-        let of_groups = |it: Meeting| {
+        let of_groups = |it: BlockGroups| {
             if let Some((moments, distance)) = it.whole {
                 let limits = &self.far[it.fixed.size][it.moving.size].limits;
                 return moments * limits.curvature(turn, distance);

@@ -26,7 +26,7 @@ pub struct Leeway {
 
 /// Two interacting groups, as indices of their dipoles in the trees.
 #[derive(Clone, Debug)]
-pub struct Meeting {
+pub struct DipoleGroups {
     pub fixed: Range<usize>,
     pub moving: Range<usize>,
     /// If a group is replaced, the product `M1 M2` (A^2 m^4) of the sums of magnitudes, otherwise
@@ -106,9 +106,9 @@ impl<'a> Sight<'a> {
 }
 
 impl Iterator for Walk<'_> {
-    type Item = Meeting;
+    type Item = DipoleGroups;
 
-    fn next(&mut self) -> Option<Meeting> {
+    fn next(&mut self) -> Option<DipoleGroups> {
         while let Some([f, m]) = self.open.pop() {
             let groups = self.sight.groups;
             let (fixed, moving) = (&groups[0][f], &groups[1][m]);
@@ -126,7 +126,7 @@ impl Iterator for Walk<'_> {
             let split = match (fixed.at(clear), moving.at(clear)) {
                 (Some(first), Some(second)) => {
                     let own = fixed.own == *first && moving.own == *second;
-                    return Some(Meeting {
+                    return Some(DipoleGroups {
                         fixed: first.clone(),
                         moving: second.clone(),
                         replaced: if own {

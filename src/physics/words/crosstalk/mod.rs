@@ -90,7 +90,7 @@ pub enum Kind {
 
 /// The strongest contact of this kind of two faces.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting {
+pub struct StrongestContact {
     /// Row and column.
     pub faces: [usize; 2],
     /// Its kind.
@@ -307,13 +307,13 @@ impl Crosstalk {
     }
 
     /// The strongest contacts of all pairs of faces, followed by the traps.
-    pub fn meetings(&self) -> impl Iterator<Item = Meeting> {
+    pub fn meetings(&self) -> impl Iterator<Item = StrongestContact> {
         let m = self.words.len();
         let pairs = self.distinct().flat_map(move |i| {
             let from_here = self.distinct().filter(move |j| *j >= i);
             from_here.map(move |j| [i, j])
         });
-        let pairs = pairs.map(move |[i, j]| Meeting {
+        let pairs = pairs.map(move |[i, j]| StrongestContact {
             kind: match self.binds(i, j) {
                 true => Kind::Bond,
                 false => Kind::Wrong,
@@ -324,23 +324,23 @@ impl Crosstalk {
     }
 
     /// All contacts other than bonds: of two faces other than a word and its own mate, and traps.
-    pub fn wrong(&self) -> impl Iterator<Item = Meeting> {
+    pub fn wrong(&self) -> impl Iterator<Item = StrongestContact> {
         self.meetings().filter(|it| it.kind != Kind::Bond)
     }
 
     /// The wrong contact that attracts most.
-    pub fn strongest_wrong(&self) -> Option<Meeting> {
+    pub fn strongest_wrong(&self) -> Option<StrongestContact> {
         self.wrong().min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
 
     /// The worst wrong contact of the faces of a row and a column; for a word and its own mate a
     /// trap, if one was found.
-    pub fn worst(&self, row: usize, column: usize) -> Option<Meeting> {
+    pub fn worst(&self, row: usize, column: usize) -> Option<StrongestContact> {
         let m = self.words.len();
         let faces = [row, column];
         if self.binds(row, column) {
             let (energy, pose) = self.traps[row.min(column) % m]?;
-            return Some(Meeting {
+            return Some(StrongestContact {
                 faces,
                 kind: Kind::Trap,
                 energy,
@@ -352,9 +352,9 @@ impl Crosstalk {
     }
 
     /// The strongest contact of two faces other than a word and its own mate.
-    fn wrong_of(&self, faces: [usize; 2]) -> Meeting {
+    fn wrong_of(&self, faces: [usize; 2]) -> StrongestContact {
         let [i, j] = faces;
-        Meeting {
+        StrongestContact {
             faces,
             kind: Kind::Wrong,
             energy: self.strongest[i][j],
