@@ -70,11 +70,21 @@ impl OutlinePair<'_> {
     ) {
         let mut near = Vec::new();
         let n = self.b.vertices().len();
+        // Of two polygons with many sides, most vertices are outside the other's circle. (In a notch, edges
+        // face vertices that are farther away.)
+        let is_convex = self.b.convex_vertices().iter().all(|convex| *convex);
+        let reach = match is_convex {
+            true => self.b.circumradius() + margin + self.scale.length(COINCIDENT),
+            false => f64::INFINITY,
+        };
         for i in 0..self.a.vertices().len() {
             if !self.a.convex_vertices()[i] {
                 continue;
             }
             let p = self.vertex(i);
+            if p.norm_squared() > reach * reach * (1.0 + 1e-9) {
+                continue;
+            }
             self.b.grid().near(p, margin, &mut near);
             for &edge in &near {
                 let edge = edge as usize;

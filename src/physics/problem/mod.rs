@@ -31,6 +31,9 @@ const COUNTERS: usize = 64;
 /// Fewer configurations are evaluated individually; the bits are the same.
 const WORTH_A_BATCH: usize = 5;
 
+/// More symmetries than these are very many: those of two tiles with eleven equal sides each, say.
+const MANY_COPIES: usize = 100;
+
 /// Two faces count as binding as strongly as the target from this fraction of its energy on.
 const AS_STRONG: f64 = 0.95;
 /// Configurations closer than this (m, metric of the space) are the same meeting.
@@ -210,6 +213,11 @@ impl Problem {
     /// to be computed.
     pub fn is_dear(&self) -> bool {
         self.potential().is_dear()
+    }
+
+    /// Whether each state has so many copies that few of them are searched on their own.
+    pub fn has_many_copies(&self) -> bool {
+        self.symmetries.len() > MANY_COPIES
     }
 
     /// How far (m) the moving tile must move in a direction until the tiles do not overlap.

@@ -178,9 +178,12 @@ impl Catalogue {
         }
         let first = self.states[class].configuration;
         let images = Image::all(problem);
+        let own = self.states[id].configuration;
+        // The distance to the state itself first: there are as many images as states of the kind.
         let leads_there = |image: &&Image| {
             let there = image.apply(&first);
-            self.state_at(problem, &there) == Some(id)
+            problem.space.distance(&own, &there) < problem.scaled(SAME)
+                && self.state_at(problem, &there) == Some(id)
         };
         let image = images.iter().find(leads_there)?;
         Some(self.image(problem, escape, id, image))

@@ -15,7 +15,19 @@ impl Exploration<'_> {
     /// For each class of states the lowest merge with another state of the class, and the lowest
     /// with any other or `free`, in ascending order.
     pub(super) fn lowest_merges(&self) -> Vec<Merge> {
-        lowest_of(self.merges(), &self.classes())
+        self.of_each_kind(self.merges(), 1)
+    }
+
+    /// The first `most` of each kind of merges, which are ascending.
+    pub(super) fn of_each_kind(&self, mut merges: Vec<Merge>, most: usize) -> Vec<Merge> {
+        let class_of = self.classes();
+        let mut counts: HashMap<_, usize> = HashMap::new();
+        merges.retain(|merge| {
+            let count = counts.entry(kind(&class_of, merge)).or_default();
+            *count += 1;
+            *count <= most
+        });
+        merges
     }
 
     /// Gives all states of a class an exit as low as that of the state with the lowest known one,
@@ -32,7 +44,8 @@ impl Exploration<'_> {
             .iter()
             .map(|merge| ((merge.upper, kind(&class_of, merge).1), peak(merge)))
             .collect();
-        let lowest: Vec<(Merge, f64, Route)> = lowest_of(merges, &class_of)
+        let lowest: Vec<(Merge, f64, Route)> = self
+            .of_each_kind(merges, 1)
             .into_iter()
             .map(|merge| {
                 let lower = HashSet::from([merge.lower]);
@@ -126,13 +139,6 @@ pub(super) fn distinct<'a>(
         is_new
     };
     symmetries.iter().filter(is_new).collect()
-}
-
-/// The first of each kind of merges, which are ascending.
-fn lowest_of(mut merges: Vec<Merge>, class_of: &HashMap<usize, usize>) -> Vec<Merge> {
-    let mut seen = HashSet::new();
-    merges.retain(|merge| seen.insert(kind(class_of, merge)));
-    merges
 }
 
 /// The class that merges upwards, and whether with itself.

@@ -11,6 +11,7 @@ use super::{Exploration, ExplorationSettings};
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::landscape::transition_network::Merge;
+use crate::observer::Observer;
 use crate::parallel;
 use crate::problem::Problem;
 use crate::roadmap::{Point, edge};
@@ -48,7 +49,7 @@ impl Exploration<'_> {
 
     /// Adds milestones around passes that are not yet transition states, and records the change of
     /// their energies.
-    pub(super) fn densify(&mut self, open: &[Merge], round: u64) {
+    pub(super) fn densify(&mut self, open: &[Merge], round: u64, observer: &dyn Observer) {
         let before: HashMap<usize, Merge> =
             self.merges().into_iter().map(|m| (m.upper, m)).collect();
         let still: Vec<Merge> = open
@@ -56,7 +57,8 @@ impl Exploration<'_> {
             .filter_map(|merge| before.get(&merge.upper).copied())
             .filter(|merge| !self.is_settled(merge))
             .collect();
-        for merge in &still {
+        for (number, merge) in still.iter().enumerate() {
+            observer.part("milestones at passes", number, still.len());
             self.densify_around(merge, round);
         }
         let after: HashMap<usize, Merge> =

@@ -28,8 +28,13 @@ impl Exploration<'_> {
     /// faces and mirrored, until there are no more.
     pub(super) fn find_siblings(&mut self, mut known: usize, observer: &dyn Observer) {
         while known < self.states.len() {
-            let fresh = self.states[known..].iter().map(|state| {
-                let Point { q, energy, .. } = state.minimum.point;
+            // Copies have the same siblings.
+            let is_asked = |number: usize| {
+                !self.problem.has_many_copies() || self.states[number].class == number
+            };
+            let fresh = (known..self.states.len()).filter(|number| is_asked(*number));
+            let fresh = fresh.map(|number| {
+                let Point { q, energy, .. } = self.states[number].minimum.point;
                 (q, energy)
             });
             let fresh = fresh.filter(|(_, energy)| self.is_followed(*energy));

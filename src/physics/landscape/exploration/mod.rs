@@ -48,6 +48,10 @@ const ACTS: f64 = 1e-4;
 /// With more pairs of faces than these, most are bare, and their contacts, each tried on all other pairs,
 /// would take nearly all of the time.
 const MANY_FACES: usize = 100;
+/// With very many copies of each state, transition states are searched from so many merges of a kind
+/// in each round, lowest first: every copy sees the same landscape, and the searches from all of them
+/// would take nearly all of the time.
+const TRIED: usize = 32;
 /// Number of descents in parallel.
 const TOGETHER: usize = 64;
 
@@ -147,18 +151,19 @@ impl<'a> Exploration<'a> {
         let mut tried = HashSet::new();
         for round in 0..self.settings.most_rounds {
             // A transition state found from one copy is found for all.
-            let merges = if self.problem.is_dear() {
-                self.lowest_merges()
+            let places = if self.problem.is_dear() {
+                self.unsettled(self.lowest_merges())
+            } else if self.problem.has_many_copies() {
+                self.of_each_kind(self.unsettled(self.merges()), TRIED)
             } else {
-                self.merges()
+                self.unsettled(self.merges())
             };
-            let places = self.unsettled(merges);
             self.polish(&places, &mut tried, observer);
             let open = self.unsettled(self.lowest_merges());
             if open.is_empty() {
                 break;
             }
-            self.densify(&open, round as u64);
+            self.densify(&open, round as u64, observer);
             self.network.span();
         }
         self.share();

@@ -1,7 +1,8 @@
 //! Straight ways that sampled milestones are unlikely to find: out of states that the roadmap does
 //! not reach, and from state to state.
 
-use std::collections::BTreeSet;
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -107,11 +108,12 @@ impl Exploration<'_> {
         let nearest = |here: Configuration| {
             let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
             let far = |q: &Configuration| OrderedFloat(problem.space.distance(&here, q));
-            let mut near: Vec<_> = milestones.map(|(other, q)| (far(&q), other, q)).collect();
-            near.sort_unstable_by_key(|(far, other, _)| (*far, *other));
-            near.into_iter()
-                .filter(move |(_, _, q)| problem.motion_is_free(&here, q))
-                .map(|(_, other, _)| other)
+            // Only a few come out of the queue.
+            let mut near: BinaryHeap<_> = milestones
+                .map(|(other, q)| Reverse((far(&q), other)))
+                .collect();
+            std::iter::from_fn(move || near.pop().map(|Reverse((_, other))| other))
+                .filter(move |&other| at(other).is_some_and(|q| problem.motion_is_free(&here, &q)))
                 .take(MOST_MILESTONES)
         };
         let joined: Vec<[usize; 2]> = parallel::flat_map(fresh..self.network.nodes.len(), |node| {
