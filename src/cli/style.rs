@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 
+use tilebind::text::is_invisible;
+
 /// Whether standard output is a terminal.
 pub fn is_terminal() -> bool {
     std::io::stdout().is_terminal()
@@ -44,8 +46,9 @@ pub fn label(word: &str) -> String {
 pub fn tell(message: impl Display) {
     let harmless = |c: char| match c {
         '\n' | '\t' => c,
-        // Removes control characters of file names or unknown keys, which a terminal would obey.
-        _ if c.is_control() => char::REPLACEMENT_CHARACTER,
+        // Removes control characters of file names or unknown keys, which a terminal would obey, and marks by
+        // which these would look like others.
+        _ if is_invisible(c) => char::REPLACEMENT_CHARACTER,
         _ => c,
     };
     let mut message: String = format!("{message}\n").chars().map(harmless).collect();

@@ -59,17 +59,18 @@ pub fn read(path: &Path) -> io::Result<String> {
     decode(bytes).map_err(io::Error::other)
 }
 
-/// Whether a character of a name has no form of its own: control characters, and marks that change the
-/// direction in which the letters around them are shown.
+/// Whether a character of a name has no form of its own: control characters, marks that change the
+/// direction in which the letters around them are shown, soft hyphens, and tags, which repeat ASCII unseen.
 ///
 /// ```
 /// use tilebind_jobs::text::is_invisible;
 /// assert!(is_invisible('\u{7}') && is_invisible('\u{202e}') && !is_invisible('\u{e4}'));
+/// assert!(is_invisible('\u{e0041}'));
 /// ```
 pub fn is_invisible(c: char) -> bool {
     c.is_control()
-        || matches!(c, '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{2069}' | '\u{feff}')
+        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
 /// The error of bytes that are not text.

@@ -3,6 +3,8 @@
 use std::fmt::{self, Write};
 use std::ops::Range;
 
+use crate::text::is_invisible;
+
 /// The result of reading a design.
 pub(super) type Result<T> = std::result::Result<T, DesignError>;
 
@@ -108,7 +110,7 @@ impl fmt::Display for DesignError {
 
 /// Removes characters from lines and names that would control a terminal or a page.
 fn harmless(told: &str) -> String {
-    told.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
+    told.replace(|c: char| is_invisible(c) && c != '\n', "\u{fffd}")
 }
 
 impl DesignError {

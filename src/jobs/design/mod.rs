@@ -91,7 +91,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use crate::checksum::sha256;
-use crate::text::decode;
+use crate::text::{decode, is_invisible};
 use build::BuiltTile;
 use drawings::Drawings;
 use error::{Result, Span};
@@ -554,5 +554,5 @@ fn tile_entries<'a>(root: &Section<'a>) -> Result<[TileEntry<'a>; 2]> {
 
 fn stem(file: &str) -> String {
     let stem = Path::new(file).file_stem().unwrap_or_default();
-    stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
+    stem.to_string_lossy().replace(is_invisible, "\u{fffd}")
 }
