@@ -176,3 +176,48 @@ fn ways_are_the_same_on_any_number_of_threads() {
     assert_eq!(one.catalogue.alternatives, two.catalogue.alternatives);
     assert_eq!(one.counts.energy_evaluations, two.counts.energy_evaluations);
 }
+
+/// The exchange of two equal tiles bends straight motions that turn: pathways of copies follow the bent
+/// ones, with lengths of their own.
+#[test]
+fn pathways_of_exchanged_copies_are_free() {
+    let analysis = analysis("shapes/ring-of-eight.toml");
+    let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
+    let exchange = problem.exchange.expect("equal tiles");
+    let least = |path: &[Configuration]| {
+        let legs = path.windows(2).flat_map(|leg| {
+            (0..=50).map(move |k| leg[0].interpolate(&leg[1], f64::from(k) / 50.0))
+        });
+        legs.map(|q| problem.clearance(&q))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let mut bent: f64 = 0.0;
+    for state in catalogue.states.iter().filter(|it| it.id != it.class) {
+        let Some(escape) = catalogue.escape(problem, state.id) else {
+            continue;
+        };
+        let path: Vec<Configuration> = escape.pathway.iter().map(|it| it.configuration).collect();
+        let found = least(&path);
+        assert!(found > -5e-7, "state {}: {found:e} m", state.id);
+        let length: f64 = path
+            .windows(2)
+            .map(|leg| problem.space.distance(&leg[0], &leg[1]))
+            .sum();
+        let stated = escape.pathway.last().map_or(0.0, |last| last.s);
+        assert!(
+            (stated - length).abs() <= 1e-9 * length,
+            "{stated} {length}"
+        );
+        // The images of the points alone, joined by straight motions.
+        let of_first = catalogue
+            .escape(problem, state.class)
+            .expect("that of the kind");
+        let images: Vec<_> = of_first
+            .pathway
+            .iter()
+            .map(|it| exchange.apply(&it.configuration))
+            .collect();
+        bent = bent.min(least(&images));
+    }
+    assert!(bent < -5e-7, "nothing is bent: {bent:e} m");
+}

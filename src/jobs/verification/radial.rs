@@ -1,5 +1,8 @@
 //! The energy of two discs that stand, which depends on their distance alone: polynomials in its
 //! square, between which it is found once.
+//!
+//! Neither the energies nor their bounds are proved: the polynomials are tried at five places of each
+//! piece, and how far their derivatives are off is assumed.
 
 use super::faces::Face;
 use super::interval::Interval;
