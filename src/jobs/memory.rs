@@ -16,6 +16,8 @@ const RESERVED_BY_THREAD: f64 = 6.8e7;
 /// The memory (bytes) of rates per function on the mesh: up to 4 kB per unknown, and the default
 /// number of unknowns.
 const OF_A_FUNCTION: f64 = 4e3 * 6e4;
+/// The memory (bytes) of a far start until all are counted: where it ends, and its slides.
+const OF_A_START: f64 = 500.0;
 /// Requests above this are reported (bytes).
 const WORTH_TELLING: f64 = 1e9;
 
@@ -38,6 +40,15 @@ pub fn check(
         format!("{work} about {told}: use fewer --milestones, --neighbours or --threads")
     })?;
     Ok((needed > WORTH_TELLING).then(|| format!("{work} about {told}")))
+}
+
+/// Checks the memory for far starts, by each of `at_once` analyses.
+///
+/// # Errors
+/// If the machine does not have enough memory.
+pub fn check_starts(starts: usize, at_once: usize) -> Result<(), String> {
+    check_bytes(OF_A_START * starts as f64 * at_once as f64)
+        .map_err(|told| format!("{starts} far starts: {told}: use fewer --far-starts"))
 }
 
 /// Checks that the process may reserve what its threads need.

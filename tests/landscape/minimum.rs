@@ -185,7 +185,7 @@ fn far_starts_that_come_on_a_known_slide_end_where_it_does() {
         Outcome::Free => None,
     });
     let starts = FarStarts { count, seed: 1 };
-    let ends = capture::ends(&together, &starts, Known::default());
+    let ends = capture::ends(&together, &starts, Known::default(), &|_| ());
     for (number, (one, other)) in followed.zip(&ends).enumerate() {
         let apart = match (one, other) {
             (Some(one), Some(other)) => alone.space.distance(&one, other),

@@ -245,7 +245,12 @@ fn far_starts_end_in_either_well_alike() {
     let problem = Problem::without_contact(SPACE, Box::new(AT_ORIGIN));
     let count = 200;
     let mut captured = [0, 0];
-    for end in ends(&problem, &FarStarts { count, seed: 1 }, Known::default()) {
+    for end in ends(
+        &problem,
+        &FarStarts { count, seed: 1 },
+        Known::default(),
+        &|_| (),
+    ) {
         captured[AT_ORIGIN.well_at(&end.unwrap()).unwrap()] += 1;
     }
     // Five standard deviations of a fair coin's count.

@@ -109,7 +109,7 @@ fn is_captured(
     if !problem.is_free(start) {
         return false;
     }
-    match learn(problem, &[*start], known).pop() {
+    match learn(problem, &[*start], known, &|_| ()).pop() {
         Some(Outcome::Minimum(end)) => {
             problem.space.distance(&end.point.q, bond) < problem.scaled(SAME_BOND)
                 && end.point.energy <= energy + ENERGY_SHARE * energy.abs()

@@ -62,7 +62,8 @@ pub fn analyse_showing(
     }
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
-    let ends = capture::ends(&problem, &far_starts, survey.known());
+    let told = |done| observer.part("far starts (fewer: --far-starts)", done, far_starts.count);
+    let ends = capture::ends(&problem, &far_starts, survey.known(), &told);
     let shallow = -settings.least_depth * problem.depth();
     survey.add_rests(&ends, shallow);
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
@@ -117,7 +118,7 @@ fn unproved(
     roadmap: &RoadmapSettings,
     survey: &Exploration,
 ) -> Analysis {
-    let ends = capture::ends(problem, &settings.far_starts(), survey.known());
+    let ends = capture::ends(problem, &settings.far_starts(), survey.known(), &|_| ());
     let mut catalogue = Catalogue::of_survey(survey, settings.least_depth, &Silent);
     catalogue.leave_out_shallow(problem, settings.least_depth);
     weigh_blocks(design, &mut catalogue);

@@ -184,6 +184,7 @@ impl Settings {
     /// # Errors
     /// If the machine does not have enough memory.
     pub fn check_memory(&self) -> Result<Option<String>, String> {
+        memory::check_starts(self.far_starts, 1)?;
         memory::check(self.milestones, self.neighbours, 1)
     }
 

@@ -63,7 +63,7 @@ impl<'a> Search<'a> {
                 seed: self.query.settings.seed,
             };
             let known = survey.known();
-            let ends = capture::ends(self.problem, &far_starts, known);
+            let ends = capture::ends(self.problem, &far_starts, known, &|_| ());
             capture::arrivals(self.problem, &far_starts, &ends)
         });
         survey.add_arrivals(arrivals);

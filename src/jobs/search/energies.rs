@@ -20,7 +20,8 @@ pub fn refusal(aim: &Aim, design: &Design) -> Option<(f64, String)> {
     conditions.peek()?;
     let problem = design.problem();
     let start = [design.pair.bound];
-    let Some(Outcome::Minimum(end)) = learn(&problem, &start, &mut Known::default()).pop() else {
+    let Some(Outcome::Minimum(end)) = learn(&problem, &start, &mut Known::default(), &|_| ()).pop()
+    else {
         return None;
     };
     let depth = -end.point.energy;

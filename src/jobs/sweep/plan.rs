@@ -232,6 +232,7 @@ impl Plan {
         let is_search = self.axes.iter().any(|axis| axis.is_range);
         let most = if is_search { threads } else { self.count() };
         let (survey, at_once) = (&self.settings.survey, threads.min(most));
+        memory::check_starts(survey.far_starts.unwrap_or(0), at_once)?;
         memory::check(survey.milestones.unwrap_or(0), survey.neighbours, at_once)
     }
 

@@ -15,6 +15,8 @@ use std::sync::Arc;
 
 /// Number of draws whose bond and deepest trap are minimised with exact energies.
 const EXACT: usize = 40;
+/// Draws analysed anew on each thread before those done are told.
+const CHECKS_A_THREAD: usize = 4;
 /// A state of a draw this close (m, metric of the space, for the paper's tile) to a contact that
 /// counts as the bond is one.
 pub(super) const SAME_BOND: f64 = 5e-3;
@@ -102,7 +104,7 @@ pub(super) fn anew(
     }
     let settings = Settings::without_proofs(request.seed);
     observer.stage("check", 0.9);
-    let found = parallel::map(0..count, |k| {
+    let anew = |k: usize| {
         let design = design(study, maker, &draws[k]);
         let analysis = pipeline::analyse(&design, &settings, &Silent);
         let (nominal, within) = (study.problem, study.problem.scaled(SAME_BOND));
@@ -122,7 +124,14 @@ pub(super) fn anew(
             trap,
             ..outcomes[k]
         }
-    });
+    };
+    let mut found = Vec::with_capacity(count);
+    let together = CHECKS_A_THREAD * parallel::threads();
+    for first in (0..count).step_by(together) {
+        observer.part("checks (fewer: --checks)", first, count);
+        let some = first..count.min(first + together);
+        found.append(&mut parallel::map(some, anew));
+    }
     let followed = &outcomes[..count];
     let both = || followed.iter().zip(&found);
     let largest = |of: &dyn Fn(&Outcome) -> f64| {

@@ -25,6 +25,7 @@ pub use request::{Making, Request};
 pub use safer::Safer;
 
 use crate::design::Design;
+use crate::memory;
 use crate::pipeline::{self, Settings};
 use crate::request::Unanswered;
 use expansion::{ERRORS, Pairs, Placed};
@@ -45,6 +46,11 @@ const MOST_TERMS: usize = 1_000_000;
 /// A draw's traps are minimised if, unmoved, they are at least this share of its deepest one's depth
 /// deep.
 const MOVED: f64 = 0.85;
+/// Memory (bytes) of a draw, and of each magnet of it.
+const OF_A_DRAW: f64 = 400.0;
+const OF_A_MAGNET: f64 = 200.0;
+/// Number of draws after which those done are told.
+const TOGETHER: usize = 4096;
 /// A flipped magnet is noticed if the bond is weaker than all but this share of the draws without
 /// flips.
 const ORDINARY: f64 = 0.05;
@@ -54,7 +60,7 @@ pub const NO_ERRORS: &str = "no error of making is stated: add at least one of -
     --turn \"3 deg\", --gap \"0.1 mm\", --flip 0.01";
 
 /// Why there is no result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ToleranceError {
     /// No error of making is stated.
     #[error("{NO_ERRORS}")]
@@ -65,6 +71,9 @@ pub enum ToleranceError {
          show`)"
     )]
     NoBond,
+    /// The machine cannot hold the draws.
+    #[error("{0}")]
+    Memory(String),
 }
 
 impl Unanswered for ToleranceError {
@@ -247,7 +256,7 @@ impl Request {
     /// Draws pairs of tiles of a design.
     ///
     /// # Errors
-    /// If no error of making is stated, or there is no bond.
+    /// If no error of making is stated, there is no bond, or the machine cannot hold the draws.
     pub fn run(
         &self,
         design: &Design,
@@ -256,13 +265,27 @@ impl Request {
         if !self.making.is_stated() {
             return Err(ToleranceError::NoErrors);
         }
+        let count = self.making.draws();
+        let magnets = design.pair.fixed.magnets.len() + design.pair.moving.magnets.len();
+        let bytes = count as f64 * (OF_A_DRAW + OF_A_MAGNET * magnets as f64);
+        memory::check_bytes(bytes).map_err(|told| {
+            let what = format!("{count} draws of {magnets} magnets: {told}: use fewer --draws");
+            ToleranceError::Memory(what)
+        })?;
+        if self.checks > count {
+            observer.warn(&format!(
+                "--checks {}: there are {count} draws (--draws), which are all analysed anew",
+                self.checks
+            ));
+        }
         let settings = Settings::without_proofs(self.seed);
         let found = pipeline::analyse(design, &settings, observer);
         observer.stage("draws", 0.8);
         let study = Study::new(design, &found.problem, &found.catalogue, &self.making)
             .ok_or(ToleranceError::NoBond)?;
         let made = Maker::new(&design.pair, &self.making, self.seed);
-        let (draws, outcomes) = study.draw(&made, self.making.draws());
+        let told = |done| observer.part("draws (fewer: --draws)", done, count);
+        let (draws, outcomes) = study.draw(&made, count, &told);
         Ok(self.answer(&study, &made, (&draws, outcomes), observer))
     }
 
@@ -345,7 +368,7 @@ pub fn robust(
 ) -> Option<Proportion> {
     let study = Study::new(design, problem, catalogue, making).filter(|_| making.is_stated())?;
     let maker = Maker::new(&design.pair, making, seed);
-    let (_, outcomes) = study.draw(&maker, making.draws());
+    let (_, outcomes) = study.draw(&maker, making.draws(), &|_| ());
     Some(working(&outcomes, making.least_selectivity()))
 }
 
@@ -450,14 +473,22 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Draws pairs of tiles.
-    fn draw(&self, maker: &Maker, count: usize) -> (Vec<Draw>, Vec<Outcome>) {
-        let all = parallel::map(0..count, |number| {
-            let draw = maker.draw(number);
-            let outcome = self.outcome(&draw);
-            (draw, outcome)
-        });
-        all.into_iter().unzip()
+    /// Draws pairs of tiles; how many are done is told.
+    fn draw(&self, maker: &Maker, count: usize, told: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Outcome>) {
+        let (mut draws, mut outcomes) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for first in (0..count).step_by(TOGETHER) {
+            told(first);
+            let some = parallel::map(first..count.min(first + TOGETHER), |number| {
+                let draw = maker.draw(number);
+                let outcome = self.outcome(&draw);
+                (draw, outcome)
+            });
+            for (draw, outcome) in some {
+                draws.push(draw);
+                outcomes.push(outcome);
+            }
+        }
+        (draws, outcomes)
     }
 
     fn outcome(&self, draw: &Draw) -> Outcome {

@@ -73,7 +73,7 @@ pub(super) fn safer(
         let problem = design.problem();
         let study = followed(study, &design, &problem, making)?;
         let maker = Maker::new(&design.pair, making, seed);
-        let (_, outcomes) = study.draw(&maker, count);
+        let (_, outcomes) = study.draw(&maker, count, &|_| ());
         let nominal = study.outcome(&expansion::unchanged(&design.pair));
         Some(Safer {
             key,

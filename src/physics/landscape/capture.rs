@@ -40,17 +40,22 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
     Configuration::new(radius * x, radius * y, theta)
 }
 
-/// The end of each far start by overdamped motion (mass metric, sliding along contact); `None` if
+/// The end of each far start, with how many are done told, by overdamped motion (mass metric, sliding along contact); `None` if
 /// it leaves the table. The end need not be a verified minimum: where corners of both tiles meet,
 /// the last check may fail a micrometre from one.
-pub fn ends(problem: &Problem, starts: &FarStarts, mut known: Known) -> Vec<Option<Configuration>> {
+pub fn ends(
+    problem: &Problem,
+    starts: &FarStarts,
+    mut known: Known,
+    told: &dyn Fn(usize),
+) -> Vec<Option<Configuration>> {
     let all = (0..starts.count).map(|number| start(problem, starts, number));
     let rest = |outcome: Outcome| match outcome {
         Outcome::Minimum(found) => Some(found.point.q),
         Outcome::Stuck(q) => Some(q),
         Outcome::Free => None,
     };
-    let outcomes = learn(problem, &all.collect::<Vec<_>>(), &mut known);
+    let outcomes = learn(problem, &all.collect::<Vec<_>>(), &mut known, told);
     outcomes.into_iter().map(rest).collect()
 }
 

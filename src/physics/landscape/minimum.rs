@@ -31,6 +31,8 @@ const SHORTEST_STEP: f64 = 1e-9;
 const TRY_NEWTON: f64 = 2e-4;
 /// Number of motions that are followed before any can merge with an earlier one.
 const FIRST: usize = 32;
+/// Number of motions after which those done are told.
+const TOLD: usize = 1024;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
@@ -88,18 +90,34 @@ pub fn approach(problem: &Problem, start: &Configuration, known: &Known) -> Desc
     })
 }
 
-/// Where overdamped motions from several starts end; their slides are added to the known ones. The
-/// same on any number of threads.
-pub fn learn(problem: &Problem, starts: &[Configuration], known: &mut Known) -> Vec<Outcome> {
+/// Where overdamped motions from several starts end; their slides are added to the known ones, and how
+/// many are done is told. The same on any number of threads.
+pub fn learn(
+    problem: &Problem,
+    starts: &[Configuration],
+    known: &mut Known,
+    told: &dyn Fn(usize),
+) -> Vec<Outcome> {
     let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
     while outcomes.len() < starts.len() {
         // Double the number each time: later motions may merge with the slides of earlier ones.
         let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
         let new = &starts[outcomes.len()..next];
-        let descents = parallel::map(new, |q| approach(problem, q, known));
-        for descent in descents {
-            known.add(descent.stretches, &descent.outcome);
-            outcomes.push(descent.outcome);
+        // The paths themselves are not kept: those of many motions would fill the memory.
+        let end = |start: &Configuration| {
+            let Descent {
+                stretches, outcome, ..
+            } = approach(problem, start, known);
+            (stretches, outcome)
+        };
+        let mut found = Vec::with_capacity(new.len());
+        for some in new.chunks(TOLD) {
+            told(outcomes.len() + found.len());
+            found.append(&mut parallel::map(some, end));
+        }
+        for (stretches, outcome) in found {
+            known.add(stretches, &outcome);
+            outcomes.push(outcome);
         }
     }
     outcomes

@@ -91,7 +91,7 @@ fn slides_below(problem: &Problem, states: &[State], barriers: &[(usize, &Barrie
         barrier.pathway.iter().step_by(every)
     });
     let starts: Vec<Configuration> = points.map(|point| point.configuration).collect();
-    learn(problem, &starts, &mut known);
+    learn(problem, &starts, &mut known, &|_| ());
     known
 }
 
