@@ -11,6 +11,7 @@
 //! | [`problem`] | tiles, contact and potential in one value, with the symmetries of the pair |
 //! | [`roadmap`] | milestones, neighbours, motions and their costs |
 //! | [`landscape`] | minima, transition states, barriers, pathways, captures; certificates of barriers |
+//! | `rigid` | rigid bodies in contact, for two tiles or many |
 //! | [`dynamics`] | tiles with inertia: docking runs, and a check of barriers |
 //! | [`table`] | many tiles with inertia |
 //! | [`kinetics`] | overdamped motion at kT on a landscape: exit times and where exits lead |
@@ -30,6 +31,7 @@ pub mod order;
 pub mod parallel;
 pub mod potential;
 pub mod problem;
+mod rigid;
 pub mod roadmap;
 #[cfg(test)]
 mod sample;

@@ -29,7 +29,7 @@ pub struct ExitRunSettings {
 pub struct ExitRuns {
     /// Numbers of runs that ended bound, and free.
     pub ends: [usize; 2],
-    /// Number of abandoned runs.
+    /// Number of abandoned runs: those over time, and those whose contact is not solved.
     pub given_up: usize,
     /// Mean exit time (s) and its standard error. Abandoned runs count with their time so far, so
     /// the true mean is then longer.

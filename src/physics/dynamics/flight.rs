@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::body::Phase;
 use super::force::Forces;
+use crate::rigid::Phase;
 use crate::scale::Scale;
 
 /// Coefficients of Dormand and Prince (1980, doi:10.1016/0771-050X(80)90013-3), order 5 with an

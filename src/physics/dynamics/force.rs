@@ -1,50 +1,9 @@
 //! The forces on the moving tile between contacts: magnets, fans and drag.
 
-use std::f64::consts::TAU;
+use nalgebra::Vector3;
 
-use nalgebra::{Vector2, Vector3};
-
-use super::body::{Body, Phase};
 use crate::potential::Potential;
-
-/// A fan beneath the table. It pushes the tile's centre of mass away with the potential energy
-/// `E(r, t) = E0 exp(-|r - r_f|^2 / (2 s^2)) (1 + a sin(2 pi f t))`, so with the force
-/// `E (r - r_f) / s^2`; a negative `E0` draws it in.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Fan {
-    /// r_f (m).
-    pub place: [f64; 2],
-    /// E0 (J).
-    pub energy: f64,
-    /// s (m).
-    pub width: f64,
-    /// Relative amplitude a of its oscillation; 0 for a steady fan.
-    pub amplitude: f64,
-    /// Frequency f of its oscillation (Hz).
-    pub frequency: f64,
-}
-
-impl Fan {
-    /// A fan that does not oscillate.
-    pub const fn steady(place: [f64; 2], energy: f64, width: f64) -> Self {
-        Self {
-            place,
-            energy,
-            width,
-            amplitude: 0.0,
-            frequency: 0.0,
-        }
-    }
-
-    /// Energy (J) and force (N) on a centre of mass at `r` (m) and time `t` (s).
-    pub fn energy_and_force(&self, r: Vector2<f64>, t: f64) -> (f64, Vector2<f64>) {
-        let away = r - Vector2::from(self.place);
-        let variance = self.width * self.width;
-        let now = 1.0 + self.amplitude * libm::sin(TAU * self.frequency * t);
-        let energy = self.energy * now * libm::exp(-away.norm_squared() / (2.0 * variance));
-        (energy, away * (energy / variance))
-    }
-}
+use crate::rigid::{Body, Fan, Phase};
 
 /// All forces on a body except those of contact and of shaking.
 pub(super) struct Forces<'a> {

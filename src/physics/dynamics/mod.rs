@@ -12,30 +12,25 @@
 //! depend on the step.
 //!
 //! Between contacts the equation is integrated by an explicit Runge-Kutta pair of order 5 with step
-//! control, with steps limited by the clearance. Within the range of contact the leapfrog method
-//! takes over, in short steps, each limited at the [points](crate::contact::ContactPoint) where
-//! corners of one tile meet edges or corners of the other, or the rim, by impulses that obey
-//! Coulomb's law.
+//! control, with steps limited by the clearance. Within the range of contact the engine of
+//! [many tiles](crate::table) takes over, of which a tile and a fixed one are the smallest case.
 //!
 //! Measured with the paper's tile: without drag and contact, past the other tile's corner, the
 //! energy is constant within 1e-5 of the bond's depth over 5 s; the bound equilibrium agrees with
 //! the landscape's minimum within 10 um for steps in contact of 50 um to 200 um; and of 8000 starts
 //! with a drag of 0.5 per second and no rim, 9.1 % (8.4 to 9.7) bind.
 
-mod body;
 pub mod check;
-mod collision;
 pub mod docking;
+mod encounter;
 pub mod exits;
 mod flight;
 mod force;
 mod settings;
 mod simulation;
 mod trajectory;
-mod vicinity;
 
-pub use body::{Body, Motion, Phase};
-pub use force::Fan;
+pub use crate::rigid::{Body, Fan, Motion, Phase};
 pub use settings::{MotionSettings, SettingsError};
 pub use simulation::{Run, Simulation, Snapshot, Stop};
 pub use trajectory::{normal, thermal_velocity};

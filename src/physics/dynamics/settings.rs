@@ -1,6 +1,6 @@
 //! The settings of a trajectory, other than the tiles and the start.
 
-use super::force::Fan;
+use crate::rigid::{Fan, USUAL_STEP};
 use crate::scale::Scale;
 
 /// Settings of the air table and the numerics. The lengths and times of the numerics are stated for
@@ -29,9 +29,10 @@ pub struct MotionSettings {
     pub longest_step: f64,
     /// Contact begins at this clearance (m) and ends at twice as much.
     pub contact_range: f64,
-    /// Longest step in contact (s).
+    /// Longest step in contact (s). Shorter ones shorten all steps in contact.
     pub contact_step: f64,
-    /// Largest path (m) of any point of the tile in one step in contact.
+    /// Largest path (m) of any point of the tile in one step in contact with the other tile; magnets may
+    /// require a shorter one.
     pub contact_travel: f64,
 }
 
@@ -47,8 +48,8 @@ impl Default for MotionSettings {
             tolerance: 1e-8,
             longest_step: 0.1,
             contact_range: 1e-3,
-            contact_step: 1e-3,
-            contact_travel: 1e-4,
+            contact_step: USUAL_STEP,
+            contact_travel: 4e-4,
         }
     }
 }

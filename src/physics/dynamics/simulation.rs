@@ -1,12 +1,13 @@
 //! A simulation: the model that a trajectory is computed with, and its result.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 
-use super::body::{Body, Motion, Phase};
+use super::encounter::Encounter;
 use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
+use crate::rigid::{Body, Motion, Phase};
 
 /// The moving tile at one time of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -39,6 +40,8 @@ pub enum Stop {
     Rest,
     /// The observer stopped it.
     Watcher,
+    /// The impulses of contact were not found even in the shortest steps.
+    Failed,
 }
 
 /// A finished trajectory.
@@ -62,6 +65,8 @@ pub struct Simulation<'a> {
     pub(super) settings: MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
+    /// The tiles in contact; `None` if nothing blocks a configuration.
+    pub(super) encounter: Option<Encounter<'a>>,
 }
 
 impl<'a> Simulation<'a> {
@@ -86,11 +91,14 @@ impl<'a> Simulation<'a> {
             .contact
             .as_ref()
             .map_or(problem.space.rho, |c| c.moving().circumradius());
+        let settings = settings.of_size(problem.scale());
+        let reach = circumradius + body.centre.norm();
         Self {
+            encounter: Encounter::new(problem, body, reach, &settings),
             problem,
             body,
-            settings: settings.of_size(problem.scale()),
-            reach: circumradius + body.centre.norm(),
+            settings,
+            reach,
         }
     }
 
@@ -119,39 +127,15 @@ impl<'a> Simulation<'a> {
 
     /// Distance (m) to the rim; a lower bound if it is large, infinite if there is no rim.
     pub(super) fn rim_clearance(&self, q: &Configuration) -> f64 {
-        let Some([x, y]) = self.rim() else {
+        let (true, Some(contact)) = (self.settings.walls, &self.problem.contact) else {
             return f64::INFINITY;
         };
+        let [x, y] = self.problem.space.half_size;
         let bound = (x - q.x.abs()).min(y - q.y.abs()) - self.reach - self.body.centre.norm();
         if bound > 0.0 {
             return bound;
         }
-        let contact = self.problem.contact.as_ref();
-        contact.map_or(f64::INFINITY, |contact| {
-            -contact.moving().beyond_rim(q, [x, y])
-        })
-    }
-
-    /// The moving tile's corners on the table (m).
-    pub(super) fn corners(&self, q: &Configuration) -> impl Iterator<Item = Vector2<f64>> {
-        let (rotation, position) = (q.rotation(), q.position());
-        let contact = self.problem.contact.iter();
-        let corners = contact.flat_map(|contact| contact.moving().vertices());
-        corners.map(move |corner| position + rotation * corner)
-    }
-
-    /// The factor by which a point of the tile can move farther in a step with a collision than in
-    /// free motion: energy that is distributed over all motions can concentrate in one. With the
-    /// mass m, the moment of inertia I and the reach R of the tile, the speed `|v| + R |w|` is at
-    /// least `sqrt(2 E / m)` (as `m R^2 >= I`) and at most `sqrt(1 + m R^2 / I)` times that.
-    pub(super) fn gathering(&self) -> f64 {
-        let Body { mass, inertia, .. } = self.body;
-        (1.0 + mass * self.reach * self.reach / inertia).sqrt()
-    }
-
-    /// Half the table's size (m) along x and y, if it has a rim.
-    pub(super) fn rim(&self) -> Option<[f64; 2]> {
-        self.settings.walls.then_some(self.problem.space.half_size)
+        -contact.moving().beyond_rim(q, [x, y])
     }
 
     /// Upper bound of the speed of the tile's fastest point (m/s).

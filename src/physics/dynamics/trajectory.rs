@@ -6,12 +6,12 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::body::{Body, Motion, Phase};
-use super::collision::{self, Stride};
+use super::encounter::{BOTH, Encounter, FIXED, MOVING};
 use super::flight;
 use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
-use super::vicinity::{Ahead, Vicinity};
+use crate::rigid::{Account, Fan, Island, Masses, Mover, NearPair, Pose, Rider, State};
+use crate::rigid::{Body, Motion, Phase};
 
 /// A tile in contact is at rest when no point of it moves faster than this (m/s), which is a
 /// ten-thousandth of the speed at which magnets bring tiles of any size together, ...
@@ -59,12 +59,12 @@ struct Trajectory<'a, 'b> {
     time: f64,
     potential: f64,
     touching: bool,
-    /// The change of the kinetic energy (J) from the time of the velocity to that of the position:
-    /// in contact the velocity belongs to the middle of the last step.
-    lag: f64,
+    /// The correction of the kinetic energy in contact that is still outstanding (J).
+    debt: f64,
     /// Distance (m) that a point of the tile can move before the clearance must be computed again.
     room: f64,
-    vicinity: Vicinity,
+    /// What is known of contact from earlier.
+    near: Option<NearPair>,
     free_step: f64,
     free_steps: usize,
     contact_steps: usize,
@@ -79,9 +79,9 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             time: 0.0,
             potential: 0.0,
             touching: false,
-            lag: 0.0,
+            debt: 0.0,
             room: 0.0,
-            vicinity: Vicinity::new(),
+            near: None,
             free_step: simulation.problem.scale().time(FIRST_STEP),
             free_steps: 0,
             contact_steps: 0,
@@ -93,8 +93,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             time: self.time,
             motion: self.simulation.body.motion(&self.phase),
             potential: self.potential,
-            kinetic: (self.simulation.body.kinetic_energy(&self.phase.velocity) + self.lag)
-                .max(0.0),
+            kinetic: self.simulation.body.kinetic_energy(&self.phase.velocity),
             in_contact_range: self.touching,
         }
     }
@@ -213,64 +212,82 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     /// Contact until the tile has left, rests, or the time is over.
     fn touch(&mut self, until: f64, watch: &mut dyn FnMut(&Snapshot) -> bool) -> Option<Stop> {
         let simulation = self.simulation;
-        let settings = &simulation.settings;
-        let (_, mut acceleration) = self.forces.conservative(&self.phase.place, self.time);
-        // The leapfrog's velocities belong to the middles of its steps: a step begins with the
-        // acceleration over half of the previous step and half of this one.
-        let mut before = 0.0;
+        let Some(encounter) = &simulation.encounter else {
+            self.touching = false;
+            self.room = f64::INFINITY;
+            return None;
+        };
+        let masses = [simulation.body.masses()];
+        let inverse = masses.map(|it| it.map(|mass| 1.0 / mass));
+        let masses: Masses = [&masses, &inverse];
+        let mut near = self.near.take().unwrap_or_else(|| NearPair::new(BOTH));
+        let mover = Mover {
+            kind: MOVING,
+            place: self.phase.place,
+            velocity: self.phase.velocity,
+        };
+        let fixed = Mover {
+            kind: FIXED,
+            place: Vector3::zeros(),
+            velocity: Vector3::zeros(),
+        };
+        let mut island = Island {
+            world: encounter,
+            laws: Encounter::laws(&simulation.settings),
+            time: self.time,
+            margins: &encounter.margins,
+            riders: vec![Rider {
+                mover,
+                debt: self.debt,
+            }],
+            still: vec![fixed],
+            poses: [mover, fixed].map(|it| Pose::of(encounter, &it)).to_vec(),
+            steady: vec![Vector3::zeros()],
+            pairs: vec![(BOTH, &mut near)],
+            account: Account::default(),
+            steps: 0,
+            is_solved: true,
+        };
+        let stop = self.slide(&mut island, masses, until, watch);
+        self.near = Some(near);
+        stop
+    }
+
+    /// The same, of an island.
+    fn slide(
+        &mut self,
+        island: &mut Island<Encounter>,
+        masses: Masses,
+        until: f64,
+        watch: &mut dyn FnMut(&Snapshot) -> bool,
+    ) -> Option<Stop> {
+        let simulation = self.simulation;
+        let (since, most) = (self.time, until - self.time);
+        let mut state = island.start(masses[0]);
+        if island.begin(&mut state, masses, most).is_err() {
+            return Some(Stop::Failed);
+        }
         let mut rested = 0.0;
-        self.room = 0.0;
         loop {
-            let left = until - self.time;
-            let travel = self.time_to_travel(&acceleration, settings.contact_travel);
-            let h = travel.min(settings.contact_step).min(left);
-            let stride = Stride {
-                acceleration,
-                before,
-                h,
+            crate::interruption::check();
+            let Ok(h) = island.move_on(&mut state, masses, most) else {
+                return Some(Stop::Failed);
             };
-            let velocity = self.phase.velocity + stride.push();
-            let way = h * simulation.fastest(&velocity);
-            let ahead = if self.room > way {
-                Ahead::Room(self.room)
-            } else {
-                self.vicinity.ahead(simulation, &self.phase, way)
-            };
-            match ahead {
-                Ahead::Room(room) if room > 2.0 * settings.contact_range => {
-                    self.phase.velocity += acceleration * (0.5 * before);
-                    self.lag = 0.0;
-                    self.room = room - 0.5 * settings.contact_range;
-                    self.touching = false;
-                    self.free_step = h;
-                    return None;
-                }
-                Ahead::Room(room) => {
-                    self.phase.velocity = velocity;
-                    self.phase.place += velocity * h;
-                    self.room = room - way;
-                }
-                Ahead::Contact(points) => {
-                    let (body, phase) = (&simulation.body, &self.phase);
-                    self.phase = collision::step(
-                        body,
-                        (settings, simulation.problem.scale()),
-                        phase,
-                        &stride,
-                        &points,
-                    );
-                    self.room = 0.0;
-                }
-            }
-            before = h;
             if self.forces.drag > 0.0 {
-                self.phase.velocity *= libm::exp(-self.forces.drag * h);
+                state.velocities[0] *= libm::exp(-self.forces.drag * h);
             }
-            self.time = if h == left { until } else { self.time + h };
+            self.phase = Phase {
+                place: island.riders[0].mover.place,
+                velocity: state.velocities[0],
+            };
+            self.debt = state.debt;
+            self.time = if state.time >= most {
+                until
+            } else {
+                since + state.time
+            };
             self.contact_steps += 1;
-            (self.potential, acceleration) = self.forces.conservative(&self.phase.place, self.time);
-            let force = acceleration.component_mul(&simulation.body.masses());
-            self.lag = 0.5 * h * force.dot(&self.phase.velocity);
+            self.potential = state.potential + self.swing();
             if watch(&self.snapshot()) {
                 return Some(Stop::Watcher);
             }
@@ -279,10 +296,39 @@ impl<'a, 'b> Trajectory<'a, 'b> {
             if rested >= simulation.problem.scale().time(REST_TIME) && simulation.rest_lasts() {
                 return Some(Stop::Rest);
             }
+            let range = simulation.settings.contact_range;
+            let room = self.room_of(island, &state);
+            if room > 2.0 * range {
+                self.room = room - 0.5 * range;
+                self.touching = false;
+                self.free_step = h;
+                return None;
+            }
             if self.time >= until {
                 return None;
             }
         }
+    }
+
+    /// A lower bound of the clearance (m), of the tiles and to the rim; 0 where contact is near.
+    fn room_of(&self, island: &Island<Encounter>, state: &State) -> f64 {
+        if !state.holds.is_empty() {
+            return 0.0;
+        }
+        let q = island.poses[0].at;
+        island.room().min(self.simulation.rim_clearance(&q))
+    }
+
+    /// The energy (J) of the oscillation of fans.
+    fn swing(&self) -> f64 {
+        let place = self.phase.place.xy();
+        let fans = self.forces.fans.iter().filter(|fan| fan.amplitude != 0.0);
+        let swings = fans.map(|fan| {
+            let steady = Fan::steady(fan.place, fan.energy, fan.width);
+            let energy = |fan: &Fan| fan.energy_and_force(place, self.time).0;
+            energy(fan) - energy(&steady)
+        });
+        swings.sum()
     }
 
     /// Drag and random kicks over a time `h`: an Ornstein-Uhlenbeck step of the velocity, exact,

@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use petgraph::unionfind::UnionFind;
 
 use super::crowd::Crowd;
-use super::mover::Mover;
-use super::pair::{Pose, Two};
+use crate::rigid::{Mover, Pose, Two};
 use crate::tile::outline::cross;
 
 /// Tiles with a clearance below this (m, for the paper's tile) count as touching.

@@ -3,14 +3,12 @@
 use nalgebra::Vector2;
 
 use super::goal::Goal;
-use super::rest::supports;
-use super::rim::Rim;
 use crate::configuration::Configuration;
 use crate::contact::Contact;
-use crate::dynamics::Body;
 use crate::dynamics::docking::MatchRule;
 use crate::potential::shielding::ShieldRule;
 use crate::potential::{Interaction, Potential};
+use crate::rigid::{Body, Margins, Rim, World, supports};
 use crate::tile::Tile;
 
 /// A kind of tiles.
@@ -265,9 +263,49 @@ impl Crowd {
         self.couples.iter().map(reach).fold(0.0, f64::max)
     }
 
+    /// The lengths of contact.
+    pub(super) fn margins(&self) -> Margins {
+        Margins::of(self.kinds.iter().map(|kind| &kind.tile))
+    }
+
     /// The table's area (m^2).
     pub fn area(&self) -> f64 {
         self.rim.area()
+    }
+}
+
+/// The longest step (s) for which the limits of steps in contact are stated, for tiles of this size.
+pub fn usual_step(crowd: &Crowd) -> f64 {
+    crowd.margins().usual_step
+}
+
+impl World for Crowd {
+    fn body(&self, kind: usize) -> &Body {
+        &self.kinds[kind].body
+    }
+
+    fn reach(&self, kind: usize) -> f64 {
+        self.kinds[kind].reach
+    }
+
+    fn corners(&self, kind: usize) -> &[Vector2<f64>] {
+        self.kinds[kind].tile.outline.vertices()
+    }
+
+    fn supports(&self, kind: usize) -> &[Vector2<f64>] {
+        &self.kinds[kind].supports
+    }
+
+    fn contact(&self, [first, second]: [usize; 2]) -> &Contact {
+        &self.couple(first, second).0.contact
+    }
+
+    fn pull(&self, [first, second]: [usize; 2], q: &Configuration) -> (f64, Vector2<f64>, f64) {
+        self.couple(first, second).0.pull(q)
+    }
+
+    fn rim(&self) -> Rim {
+        self.rim
     }
 }
 

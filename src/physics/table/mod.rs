@@ -9,13 +9,13 @@
 //!
 //! # Steps
 //! Two tiles are tied in a step of the table (`stepper`) if they may touch within it, or if the
-//! force between them changes too fast for it. Tied tiles form islands (`island`). Each island
-//! divides the step into as many shorter ones as its forces and contacts need: velocity Verlet with
-//! contact as in RATTLE, whose steps end when a corner meets an edge. Collisions are impulses that
-//! obey Coulomb's law (`hold`). The energy lost in contact is the sum of all impulses times the mean
-//! of the velocities before and after, so that the energy balance checks the motion. The forces of the other pairs, of fans and of shaking are constant over a step, with
-//! their values in its middle. Each force acts on both tiles of a pair, so that momentum is
-//! conserved up to rounding.
+//! force between them changes too fast for it. Tied tiles form islands, which the engine of contact
+//! (`rigid`) moves. Each divides the step into as many shorter ones as its forces and contacts need:
+//! velocity Verlet with contact as in RATTLE, whose steps end when a corner meets an edge. Collisions
+//! are impulses that obey Coulomb's law. The energy lost in contact is the sum of all impulses times
+//! the mean of the velocities before and after, so that the energy balance checks the motion. The
+//! forces of the other pairs, of fans and of shaking are constant over a step, with their values in
+//! its middle. Each force acts on both tiles of a pair, so that momentum is conserved up to rounding.
 //!
 //! # Shaking
 //! Random kicks at fixed times. Each kick, together with the drag since the last one, is an exact
@@ -40,21 +40,12 @@
 //! right for single collisions, but bound tiles bounce some hundred times a second. So bound tiles
 //! on an elastic table would freeze. Here elastic tiles in a bond keep their energy.
 
-mod account;
 pub mod contacts;
 pub mod crowd;
 mod drive;
 pub mod goal;
-mod hold;
-mod island;
-mod margins;
-mod motion;
 mod mover;
-mod near;
 mod neighbours;
-mod pair;
-mod rest;
-mod rim;
 pub mod run;
 pub mod settings;
 pub mod settle;
@@ -62,11 +53,9 @@ pub mod start;
 mod stepper;
 pub mod structures;
 
+pub use crate::rigid::{GRAVITY, Mover, Rim};
+pub use crowd::usual_step;
 pub use crowd::{Crowd, CrowdError, Kind};
-pub use margins::usual_step;
-pub use mover::Mover;
-pub use rest::GRAVITY;
-pub use rim::Rim;
 pub use run::{Run, Sample};
 pub use settings::{Linear, Orbital, TableSettings};
 pub use start::StartError;

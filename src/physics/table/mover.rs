@@ -1,49 +1,17 @@
-//! A moving tile.
+//! Tiles from motions, and beyond the rim.
 
 use nalgebra::Vector3;
 
 use super::crowd::Crowd;
-use super::rim::Rim;
 use crate::configuration::Configuration;
-use crate::dynamics::Motion;
+use crate::rigid::{Motion, Mover, Rim};
 use crate::tile::Outline;
-
-/// A tile on the table.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(from = "Numbers", into = "Numbers")]
-pub struct Mover {
-    /// The index of its kind.
-    pub kind: usize,
-    /// Its centre of mass (m) and orientation (rad, not wrapped).
-    pub place: Vector3<f64>,
-    /// Its velocity and angular velocity (m/s, m/s, rad/s).
-    pub velocity: Vector3<f64>,
-}
 
 /// How far (m) an outline extends beyond a rim when it is placed there; negative if it does not.
 pub(super) fn beyond(outline: &Outline, rim: Rim, q: &Configuration) -> f64 {
     let corners = outline.vertices().iter();
     let beyond = corners.map(|corner| -rim.room(q.transform(*corner)));
     beyond.fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// A tile in files: kind, place and velocity.
-type Numbers = (usize, [f64; 3], [f64; 3]);
-
-impl From<Mover> for Numbers {
-    fn from(mover: Mover) -> Self {
-        (mover.kind, mover.place.into(), mover.velocity.into())
-    }
-}
-
-impl From<Numbers> for Mover {
-    fn from((kind, place, velocity): Numbers) -> Self {
-        Self {
-            kind,
-            place: place.into(),
-            velocity: velocity.into(),
-        }
-    }
 }
 
 impl Mover {

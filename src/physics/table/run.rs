@@ -5,14 +5,13 @@ use std::collections::BTreeMap;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::account::Account;
 use super::contacts::{Held, Tie, clusters, held};
 use super::crowd::Crowd;
-use super::mover::Mover;
 use super::settings::TableSettings;
 use super::start::{StartError, at_random, check};
 use super::stepper::{StepError, Stepper};
 use super::structures::{Structure, structures};
+use crate::rigid::{Account, Mover};
 
 /// Largest allowed share of missing energy, relative to the largest term of the balance; beyond it
 /// the step is halved.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use crate::dynamics::Fan;
+use crate::rigid::{Fan, USUAL_STEP};
 
 /// Circular motion of the table, as of an orbital shaker; tiles and rim are described in the
 /// table's frame.
@@ -95,7 +95,7 @@ impl TableSettings {
     }
 
     /// The default longest step (s), for which the limits of steps in contact are stated.
-    pub const USUAL_STEP: f64 = 2.5e-3;
+    pub const USUAL_STEP: f64 = USUAL_STEP;
 
     /// Number of steps between two kicks; 1 without shaking, as drag then acts at every step.
     pub(super) fn steps_between_kicks(&self) -> usize {

@@ -3,11 +3,10 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::crowd::Crowd;
-use super::mover::{Mover, beyond};
+use super::mover::beyond;
 use super::neighbours::Neighbours;
-use super::pair::{Pose, Two};
 use crate::configuration::{Configuration, wrap_angle};
-use crate::dynamics::Motion;
+use crate::rigid::{Motion, Mover, Pose, Two};
 use crate::tile::rounded_overlap;
 
 /// Rounds over all pairs; tiles that are put apart may meet others.

@@ -8,12 +8,10 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use super::crowd::Crowd;
-use super::margins::Margins;
-use super::mover::Mover;
 use super::neighbours::Neighbours;
-use super::pair::Pose;
 use crate::configuration::{Configuration, wrap_angle};
-use crate::dynamics::{Motion, thermal_velocity};
+use crate::dynamics::thermal_velocity;
+use crate::rigid::{Motion, Mover, Pose};
 use crate::tile::outline::Bounds;
 
 /// Smallest distance of randomly placed tiles from each other and from the rim, as a share of the
@@ -334,7 +332,7 @@ fn shuffle(placed: &mut Placed, stride: f64, rng: &mut ChaCha8Rng) {
 /// If they are not.
 pub fn check(crowd: &Crowd, movers: &[Mover], walls: bool) -> Result<(), StartError> {
     let place = |mover: &Mover| (mover.kind, mover.motion(crowd).configuration);
-    let skin = Margins::of(crowd).skin;
+    let skin = crowd.margins().skin;
     for (tile, mover) in movers.iter().enumerate() {
         let beyond = mover.beyond(crowd);
         if walls && beyond > skin {

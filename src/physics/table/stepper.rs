@@ -4,18 +4,15 @@ use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 use rand_chacha::ChaCha8Rng;
 
-use super::account::Account;
 use super::crowd::Crowd;
-use super::drive::{Drive, Rider, longest_step};
-use super::island::{Island, SHORTEST_TRIED};
-use super::margins::Margins;
-use super::motion::fastest;
-use super::mover::Mover;
-use super::near::{NearPair, rim_room};
+use super::drive::Drive;
 use super::neighbours::Neighbours;
-use super::pair::{Pose, Two, pull};
 use super::settings::TableSettings;
 use crate::parallel;
+use crate::rigid::{
+    Account, Island, Laws, Margins, Mover, NearPair, Pose, Rider, SHORTEST_TRIED, Two, Winds,
+    fastest, longest_step, pull, rim_room,
+};
 
 /// Islands per task of a thread.
 const TOGETHER: usize = 8;
@@ -146,12 +143,29 @@ impl<'a> Stepper<'a> {
             since_kick: 0,
             neighbours: Neighbours::default(),
             near: Vec::new(),
-            margins: Margins::of(crowd),
+            margins: crowd.margins(),
             least_near: nears.fold(f64::INFINITY, f64::min),
             scratch: Scratch::default(),
         };
         stepper.prepare(0.0, &mut Scratch::default());
         stepper
+    }
+
+    fn winds(&self) -> Winds<'a> {
+        Winds(&self.settings.fans)
+    }
+
+    fn laws(&self) -> Laws<'a> {
+        let settings = self.settings;
+        Laws {
+            friction: settings.friction,
+            table_friction: settings.table_friction,
+            restitution: settings.restitution,
+            walls: settings.walls,
+            fans: self.winds(),
+            is_shaken: settings.shaking.is_some(),
+            step: settings.step,
+        }
     }
 
     /// The tiles.
@@ -180,7 +194,7 @@ impl<'a> Stepper<'a> {
         };
         let magnetic: f64 = pairs.iter().map(energy).sum();
         let places = movers.iter().map(|it| it.place.xy());
-        let winds = places.map(|place| self.drive.wind(place, self.time).energy);
+        let winds = places.map(|place| self.winds().wind(place, self.time).energy);
         magnetic + winds.sum::<f64>()
     }
 
@@ -328,8 +342,7 @@ impl<'a> Stepper<'a> {
         let pulls = parallel::flat_map(&parts, |part| {
             let pull_of = |Apart { two, .. }: &Apart| {
                 let [(first, a), (second, b)] = [two.first, two.second].map(|k| &halfway[k]);
-                let couple = crowd.couple(first.kind, second.kind).0;
-                pull(couple, [first, second], [a, b]).1
+                pull(crowd, [first, second], [a, b]).1
             };
             part.iter().map(pull_of).collect::<Vec<_>>()
         });
@@ -368,7 +381,8 @@ impl<'a> Stepper<'a> {
             is_tied[near.two.second] = true;
         }
         let mut number = vec![usize::MAX; n];
-        let mut islands: Vec<Island> = Vec::new();
+        let mut islands: Vec<Island<Crowd>> = Vec::new();
+        let laws = self.laws();
         let mut members: Vec<Vec<usize>> = Vec::new();
         let mut local = vec![0; n];
         for k in 0..n {
@@ -381,12 +395,12 @@ impl<'a> Stepper<'a> {
                 number[top] = islands.len();
                 members.push(Vec::new());
                 islands.push(Island {
-                    crowd: self.crowd,
-                    settings: self.settings,
-                    drive: self.drive,
+                    world: self.crowd,
+                    laws,
                     time: self.time,
                     margins: &margins,
                     riders: Vec::new(),
+                    still: Vec::new(),
                     poses: Vec::new(),
                     steady: Vec::new(),
                     pairs: Vec::new(),
@@ -410,7 +424,7 @@ impl<'a> Stepper<'a> {
             };
             islands[number[top]].pairs.push((two, near));
         }
-        let mut parts: Vec<&mut [Island]> = islands.chunks_mut(TOGETHER).collect();
+        let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(TOGETHER).collect();
         parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
         for (island, members) in islands.into_iter().zip(members) {
             self.account.add(&island.account);
@@ -435,7 +449,7 @@ impl<'a> Stepper<'a> {
     fn is_alone(&self, tile: usize, halfway: &Mover, steady: &Vector3<f64>) -> bool {
         let speed = halfway.velocity.xy().norm();
         let longest = self
-            .drive
+            .winds()
             .longest(self.masses[tile].x, halfway.place.xy(), speed);
         self.settings.table_friction == 0.0
             && longest >= self.settings.step
@@ -449,7 +463,8 @@ impl<'a> Stepper<'a> {
         let mut swing = Vector2::zeros();
         let mover = &mut self.riders[tile].mover;
         if !self.settings.fans.is_empty() {
-            let wind = self.drive.wind(halfway.place.xy(), self.time + 0.5 * h);
+            let winds = Winds(&self.settings.fans);
+            let wind = winds.wind(halfway.place.xy(), self.time + 0.5 * h);
             a += wind.whole().push(0.0) / self.masses[tile].x;
             swing = wind.swing;
         }

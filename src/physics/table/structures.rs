@@ -10,9 +10,8 @@ use nalgebra::Vector2;
 use super::contacts::{Held, Tie, cluster_of_each};
 use super::crowd::Crowd;
 pub use super::goal::Goal;
-use super::mover::Mover;
-use super::pair::Two;
 use crate::configuration::{Configuration, wrap_angle};
+use crate::rigid::{Mover, Two};
 use crate::tile::Face;
 use crate::tile::symmetry::rotations;
 

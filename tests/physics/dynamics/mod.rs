@@ -1,5 +1,6 @@
 //! Rigid-body motion: friction, drag, shaking and fans by the laws of mechanics.
 
+mod bound;
 mod check;
 mod docking;
 mod knocks;

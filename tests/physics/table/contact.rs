@@ -183,3 +183,47 @@ fn a_scaled_table_moves_alike() {
         }
     }
 }
+
+/// One tile against a fixed one moves as one against a tile that is so heavy that nothing moves it.
+#[test]
+fn a_fixed_tile_is_like_a_very_heavy_one() {
+    let heavy = |mass: f64| {
+        let mut tiles = [square(0.43, "NNNS", &[0]), square(0.43, "NSSS", &[2])];
+        tiles[0].mass = mass;
+        problem(tiles, MagnetModel::Dipole, [2.0; 2])
+    };
+    let problem = heavy(1e9);
+    let crowd = crowd(&problem, MagnetModel::Dipole);
+    for (law, place, velocity) in [
+        ([0.3, 0.01], [0.4301, 0.02, 0.0], [0.0, 0.0, 0.0]),
+        ([0.3, 0.5], [0.46, 0.03, 0.1], [-0.3, 0.05, 0.2]),
+        ([0.0, 0.0], [0.4301, 0.02, 0.0], [0.0, 0.05, 0.0]),
+        ([1.0, 0.01], [0.47, -0.05, -0.2], [-0.4, 0.1, 0.0]),
+    ] {
+        let settings = settings(0.4, law);
+        let movers = vec![mover(0, [0.0; 3], [0.0; 3]), mover(1, place, velocity)];
+        let start = Start::Given(movers);
+        let found = run(&crowd, &settings, (1, 0), &start, false).unwrap();
+        let end = found.movers[1];
+        let motion = MotionSettings {
+            drag: 0.0,
+            friction: law[0],
+            restitution: law[1],
+            walls: false,
+            ..MotionSettings::default()
+        };
+        let body = Body::of_tile(&problem.pair.as_ref().unwrap().moving);
+        let simulation = Simulation::new(&problem, body, &motion).unwrap();
+        let start = Motion {
+            configuration: place.into(),
+            velocity: velocity.into(),
+        };
+        let alone = simulation.run(&start, 0.4, &mut stream(1), &mut |_| false);
+        let Motion { configuration, .. } = alone.last.motion;
+        let off = configuration.step_to(&end.motion(&crowd).configuration);
+        assert!(
+            off.xy().norm() + 0.3 * off.z.abs() < 1e-4,
+            "{law:?} {place:?}: {off:?} {alone:?}"
+        );
+    }
+}

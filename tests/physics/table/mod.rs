@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::contact::Contact;
 use tilebind::dynamics::docking::{DockingSettings, End, MatchRule, Starts, dock};
-use tilebind::dynamics::{Motion, MotionSettings, thermal_velocity};
+use tilebind::dynamics::{Body, Motion, MotionSettings, Simulation, thermal_velocity};
 use tilebind::interruption::Interruption;
 use tilebind::kinetics::Well;
 use tilebind::landscape::Proportion;

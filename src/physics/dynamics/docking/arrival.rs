@@ -79,13 +79,19 @@ pub fn arrivals(
         done();
         arrival
     };
+    let runs = parallel::map(0..settings.runs, arrive);
     Ok(Arrivals {
         area: starts.area,
-        runs: parallel::map(0..settings.runs, arrive),
+        runs: runs.into_iter().collect::<Result<_, _>>()?,
     })
 }
 
-fn arrive(experiment: &Experiment, starts: &Apart, kt: f64, index: usize) -> Arrival {
+fn arrive(
+    experiment: &Experiment,
+    starts: &Apart,
+    kt: f64,
+    index: usize,
+) -> Result<Arrival, DockingError> {
     let Experiment {
         problem,
         settings,
@@ -107,17 +113,18 @@ fn arrive(experiment: &Experiment, starts: &Apart, kt: f64, index: usize) -> Arr
         is_bound = now.total() < -HELD * kt && rule.holds(&now.motion.configuration);
         is_bound
     });
+    let run = DockingError::unless_failed(index, run)?;
     let last = &run.last;
     let minimum = || minimum_below(problem, &last.motion.configuration, &Known::default());
     let caught = match is_bound {
         true => Some(Caught::Bond),
         false => (last.in_contact_range && last.total() < 0.0).then(|| Caught::Minimum(minimum())),
     };
-    Arrival {
+    Ok(Arrival {
         time: last.time,
         apart,
         caught,
-    }
+    })
 }
 
 fn is_apart(energy: f64, kt: f64) -> bool {

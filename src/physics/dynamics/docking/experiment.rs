@@ -20,7 +20,7 @@ const SAME_TRAP: f64 = 5e-3;
 /// Slightly overlapping tiles are separated by this much more than the overlap (m).
 const CLEAR: f64 = 1e-6;
 /// Number of steps in contact between two tests for a match.
-const STEPS_BETWEEN_LOOKS: usize = 5;
+const STEPS_BETWEEN_LOOKS: usize = 2;
 
 /// The data shared by all trajectories of a docking experiment.
 pub(super) struct Experiment<'a> {
@@ -67,13 +67,16 @@ impl<'a> Experiment<'a> {
 
     /// Simulates a trajectory to its end. `look` is called regularly, and at the end, with whether
     /// the tiles are matched.
+    ///
+    /// # Errors
+    /// If contact is not solved.
     pub fn watched(
         &self,
-        start: &Motion,
+        (index, start): (usize, &Motion),
         rng: &mut ChaCha8Rng,
         look: &mut dyn FnMut(&Snapshot, bool),
         is_over: &dyn Fn(&Configuration) -> bool,
-    ) -> Run {
+    ) -> Result<Run, DockingError> {
         let mut look = |now: &Snapshot| look(now, self.rule.holds(&now.motion.configuration));
         let mut steps = 0;
         let duration = self.settings.duration;
@@ -85,16 +88,20 @@ impl<'a> Experiment<'a> {
             is_over(&now.motion.configuration)
         });
         look(&run.last);
-        run
+        DockingError::unless_failed(index, run)
     }
 
-    pub fn run(&self, index: usize) -> Ended {
+    /// Simulates a trajectory.
+    ///
+    /// # Errors
+    /// If contact is not solved.
+    pub fn run(&self, index: usize) -> Result<Ended, DockingError> {
         let (start, mut rng) = self.start(index);
         let mut since = None;
         let mut look = |now: &Snapshot, is_matched: bool| {
             since = is_matched.then(|| since.unwrap_or(now.time));
         };
-        let run = self.watched(&start.motion, &mut rng, &mut look, &|_| false);
+        let run = self.watched((index, &start.motion), &mut rng, &mut look, &|_| false)?;
         let caught = run.stop == Stop::Rest || run.last.total() < 0.0;
         let mut trap = None;
         let end = match since {
@@ -115,7 +122,7 @@ impl<'a> Experiment<'a> {
             free_steps: run.free_steps,
             contact_steps: run.contact_steps,
         };
-        (run, trap)
+        Ok((run, trap))
     }
 
     /// Counts the ends by trap.

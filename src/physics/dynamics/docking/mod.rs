@@ -29,7 +29,7 @@ use crate::problem::Problem;
 /// `done` is called after each trajectory.
 ///
 /// # Errors
-/// If a setting is invalid or the target has no magnets to match.
+/// If a setting is invalid, the target has no magnets to match, or contact is not solved.
 pub fn dock(
     problem: &Problem,
     settings: &DockingSettings,
@@ -42,6 +42,7 @@ pub fn dock(
         done();
         ended
     });
+    let ended = ended.into_iter().collect::<Result<_, _>>()?;
     Ok(experiment.docking(ended, clock.elapsed().as_secs_f64()))
 }
 
@@ -62,7 +63,7 @@ pub fn trajectory(
     let simulation = &experiment.simulation;
     let mut snapshots = vec![simulation.snapshot(&start.motion)];
     let mut last = None;
-    simulation.run(&start.motion, settings.duration, &mut rng, &mut |now| {
+    let run = simulation.run(&start.motion, settings.duration, &mut rng, &mut |now| {
         let earlier = snapshots.last().map_or(0.0, |s: &Snapshot| s.time);
         if now.time - earlier >= 0.5 * interval {
             snapshots.push(*now);
@@ -70,6 +71,7 @@ pub fn trajectory(
         last = Some(*now);
         false
     });
+    DockingError::unless_failed(index, run)?;
     snapshots.extend(last.filter(|last| snapshots.last() != Some(last)));
     Ok(snapshots)
 }

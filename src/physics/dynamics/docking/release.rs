@@ -45,18 +45,19 @@ pub fn releases(
             }
         };
         let is_far = |q: &Configuration| problem.space.is_far(q);
-        experiment.watched(&start, &mut rng, &mut look, &is_far);
+        let run = experiment.watched((index, &start), &mut rng, &mut look, &is_far);
         done();
-        Release {
+        run.map(|_| Release {
             time: if left {
                 matched_last
             } else {
                 settings.duration
             },
             left,
-        }
+        })
     };
-    Ok(parallel::map(0..settings.runs, release))
+    let releases = parallel::map(0..settings.runs, release);
+    releases.into_iter().collect()
 }
 
 /// The detachment rate, with its interval and the test for exponential times: the runs are

@@ -2,7 +2,7 @@
 
 use super::starts::{Start, Starts};
 use crate::configuration::Configuration;
-use crate::dynamics::{MotionSettings, SettingsError, Snapshot};
+use crate::dynamics::{MotionSettings, Run, SettingsError, Snapshot, Stop};
 use crate::landscape::Proportion;
 use crate::problem::NoRoom;
 use crate::units::si;
@@ -55,6 +55,30 @@ pub enum DockingError {
          enlarge `size` in [table], or choose a larger kT", si(*.0, "J", 4)
     )]
     NeverApart(f64),
+    /// The impulses of contact were not found.
+    #[error(
+        "trajectory {index}: at {time:.6} s the impulses between the tiles are not found even in the shortest \
+         steps: the run has failed; use less friction or another seed"
+    )]
+    Unsolved {
+        /// The trajectory's number, from 0.
+        index: usize,
+        /// The time (s).
+        time: f64,
+    },
+}
+
+impl DockingError {
+    /// The end of a trajectory, unless it failed.
+    pub(super) fn unless_failed(index: usize, run: Run) -> Result<Run, Self> {
+        match run.stop {
+            Stop::Failed => Err(Self::Unsolved {
+                index,
+                time: run.last.time,
+            }),
+            _ => Ok(run),
+        }
+    }
 }
 
 /// The outcome of one start.

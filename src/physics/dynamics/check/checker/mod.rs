@@ -12,11 +12,12 @@ use super::{BarrierCheck, Below, CheckSettings};
 use crate::configuration::Configuration;
 use crate::dynamics::docking::{minimum_below, out_of_contact, stream};
 use crate::dynamics::trajectory::normal;
-use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot};
+use crate::dynamics::{Body, Motion, MotionSettings, Simulation, Snapshot, Stop};
 use crate::landscape::minimum::{Known, Outcome, descend_among};
 use crate::landscape::{Barrier, Place, State};
 use crate::parallel;
 use crate::problem::Problem;
+use crate::rigid::USUAL_STEP;
 
 /// A tile this close (m, metric of the space) to a state may be in it.
 const ARRIVED: f64 = 2e-3;
@@ -63,7 +64,7 @@ pub(super) struct Checker<'a> {
 enum Fate {
     Stayed,
     Crossed,
-    /// The integration error raised it above the ceiling.
+    /// The integration error raised it above the ceiling, or contact was not solved.
     Spoilt,
 }
 
@@ -98,7 +99,7 @@ impl<'a> Checker<'a> {
             walls: true,
             contact_travel: STEP,
             // Slow tiles need no shorter steps than fast ones.
-            contact_step: (STEP / speed).clamp(1e-3, 1e-2),
+            contact_step: (STEP / speed).clamp(USUAL_STEP, 1e-2),
             ..MotionSettings::default()
         };
         let settling = MotionSettings {
@@ -249,6 +250,7 @@ impl<'a> Checker<'a> {
                     |target| space.distance(&target, q) < self.problem.scaled(ARRIVED),
                 )
         });
+        spoilt |= run.stop == Stop::Failed;
         let last = &run.last;
         let has_crossed = || match self.barrier.to {
             Place::Free => space.is_far(&last.motion.configuration),

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::super::{Side, SideVerdict};
 use super::{ARRIVED, Checker};
 use crate::configuration::Configuration;
-use crate::dynamics::Motion;
 use crate::dynamics::docking::stream;
+use crate::dynamics::{Motion, Stop};
 use crate::landscape::{Barrier, PathwayPoint, Place, State, highest_point};
 
 /// Energy below the saddle at which the tile is released on both sides, in units of the barrier.
@@ -95,6 +95,7 @@ impl Checker<'_> {
                     || (snapshot.kinetic < slow && self.states.iter().any(is_here))
             },
         );
+        spoilt |= run.stop == Stop::Failed;
         *steps += run.free_steps + run.contact_steps;
         (!spoilt).then(|| self.place_below(&run.last)).flatten()
     }

@@ -1,8 +1,10 @@
 //! The lengths that decide what counts as touching, near or resolved, relative to tiles and magnets.
 
-use super::crowd::Crowd;
-use super::settings::TableSettings;
 use crate::scale::Scale;
+use crate::tile::Tile;
+
+/// The usual step (s), for the paper's tile, for which the limits of steps in contact are stated.
+pub const USUAL_STEP: f64 = 2.5e-3;
 
 /// Lengths (m) and the usual step of one table. All but `feature` are stated for the paper's tile,
 /// a square of 43 cm, and scaled with the smallest tile ([`Scale`]). `feature` is relative to the
@@ -22,6 +24,8 @@ pub struct Margins {
     pub feature: f64,
     /// The travel of touching tiles in a step: a ninth of `feature`.
     pub travel: f64,
+    /// The same at the rim.
+    pub rim_travel: f64,
     /// Contact points are searched for within this distance at least: a fifteenth of `feature`.
     pub least: f64,
     /// The same where nothing is near: twice `feature`.
@@ -37,12 +41,12 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Those of a table.
-    pub fn of(crowd: &Crowd) -> Self {
-        let radii = crowd.kinds.iter().map(|it| it.tile.outline.circumradius());
+    /// Those of tiles that move together.
+    pub fn of<'a>(tiles: impl Iterator<Item = &'a Tile> + Clone) -> Self {
+        let radii = tiles.clone().map(|it| it.outline.circumradius());
         let smallest = radii.fold(f64::INFINITY, f64::min);
         let scale = Scale::of([smallest; 2]);
-        let magnets = crowd.kinds.iter().flat_map(|kind| &kind.tile.magnets);
+        let magnets = tiles.flat_map(|it| &it.magnets);
         let sides = magnets.flat_map(|magnet| [magnet.size[0], magnet.size[1]]);
         let feature = 0.5 * sides.fold(scale.length(0.02), f64::min);
         let skin = scale.length(3e-7);
@@ -52,16 +56,12 @@ impl Margins {
             rounding: skin / 100.0,
             feature,
             travel: feature / 9.0,
+            rim_travel: feature / 9.0,
             least: feature / 15.0,
             seen: 2.0 * feature,
             ahead: 2.7 * feature,
             same: feature / 1.5,
-            usual_step: scale.time(TableSettings::USUAL_STEP),
+            usual_step: scale.time(USUAL_STEP),
         }
     }
-}
-
-/// The longest step (s) for which the limits of steps in contact are stated, for tiles of this size.
-pub fn usual_step(crowd: &Crowd) -> f64 {
-    Margins::of(crowd).usual_step
 }

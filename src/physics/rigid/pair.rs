@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use super::crowd::{Couple, Crowd};
+use super::World;
 use super::mover::Mover;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::tile::outline::cross;
@@ -33,8 +33,8 @@ impl Pose {
     }
 
     /// That of a tile.
-    pub fn of(crowd: &Crowd, mover: &Mover) -> Self {
-        let (at, rotation) = crowd.kinds[mover.kind].body.pose(&mover.place);
+    pub fn of(world: &impl World, mover: &Mover) -> Self {
+        let (at, rotation) = world.body(mover.kind).pose(&mover.place);
         Self { at, rotation }
     }
 
@@ -75,9 +75,9 @@ impl Two {
 /// N m).
 pub type Pull = (f64, [Vector3<f64>; 2]);
 
-/// The pull of two tiles of a couple on each other.
-pub fn pull(couple: &Couple, [first, second]: [&Mover; 2], [a, b]: [&Pose; 2]) -> Pull {
-    let (energy, force, torque) = couple.pull(&a.to(&b.at));
+/// The pull of two tiles on each other, in the order of a [`Two`].
+pub fn pull(world: &impl World, [first, second]: [&Mover; 2], [a, b]: [&Pose; 2]) -> Pull {
+    let (energy, force, torque) = world.pull([first.kind, second.kind], &a.to(&b.at));
     let force: Vector2<f64> = a.rotation * force;
     let arm = |mover: &Mover| b.at.position() - mover.place.xy();
     // The forces are equal and opposite, and so are their torques about any one point.

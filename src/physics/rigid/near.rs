@@ -2,12 +2,12 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::crowd::Crowd;
+use super::World;
 use super::margins::Margins;
 use super::mover::Mover;
 use super::pair::{Pose, Pull, Two, pull};
 use crate::configuration::Configuration;
-use crate::contact::{ContactPoint, NearPairs};
+use crate::contact::{Contact, ContactPoint, NearPairs};
 use crate::tile::outline::cross;
 
 /// Two tiles that are near each other, with the state of their contact.
@@ -22,7 +22,7 @@ pub struct NearPair {
     seen: f64,
     at: Configuration,
     /// The tiles are apart by at least this (m) at `room_at`.
-    pub room: f64,
+    pub last_room: f64,
     room_at: Configuration,
     /// The last places of both tiles, and their pull there.
     pulled: Option<([Vector3<f64>; 2], Pull)>,
@@ -51,7 +51,7 @@ impl NearPair {
             edges: NearPairs::default(),
             seen: f64::NEG_INFINITY,
             at: Configuration::new(0.0, 0.0, 0.0),
-            room: f64::NEG_INFINITY,
+            last_room: f64::NEG_INFINITY,
             room_at: Configuration::new(0.0, 0.0, 0.0),
             pulled: None,
             held: Vec::new(),
@@ -61,13 +61,12 @@ impl NearPair {
 
     /// The pull of the tiles on each other, which is known from the end of the last step unless one
     /// has moved since.
-    pub fn pull(&mut self, crowd: &Crowd, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
+    pub fn pull(&mut self, world: &impl World, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
         let places = movers.map(|mover| mover.place);
         match self.pulled {
             Some((at, known)) if at == places => known,
             _ => {
-                let couple = crowd.couple(movers[0].kind, movers[1].kind).0;
-                let found = pull(couple, movers, poses);
+                let found = pull(world, movers, poses);
                 self.pulled = Some((places, found));
                 found
             }
@@ -81,8 +80,12 @@ impl NearPair {
     }
 
     /// The force (N) along the contact that friction cannot stop, of a force on the second tile in
-    /// the frame of the first: by the contact point where it is largest.
+    /// the frame of the first: by the contact point where it is largest. All of it where the points are not
+    /// known yet.
     pub fn slide(&self, force: Vector2<f64>, friction: f64) -> f64 {
+        if self.held.is_empty() {
+            return force.norm();
+        }
         let along = self.held.iter().map(|touch| {
             let press = -touch.normal.dot(&force);
             cross(touch.normal, force).abs() - friction * press.max(0.0)
@@ -90,73 +93,80 @@ impl NearPair {
         along.fold(0.0, f64::max)
     }
 
-    /// The points of contact within a margin (m), if there may be any.
+    /// A lower bound of the distance (m) of the tiles, from where it was last looked at.
+    pub fn room(&self, world: &impl World, q: &Configuration, kinds: [usize; 2]) -> f64 {
+        self.last_room - moved(world.contact(kinds), [&self.room_at, q])
+    }
+
+    /// Calls `meet` with each point of contact within a margin (m), and the last forces (N) there.
     pub fn points(
         &mut self,
-        crowd: &Crowd,
+        world: &impl World,
         q: &Configuration,
         kinds: [usize; 2],
         (margin, margins): (f64, &Margins),
-    ) -> Vec<ContactPoint> {
-        let within = |points: &[ContactPoint]| {
-            let close = points.iter().filter(|point| point.gap <= margin);
-            close.copied().collect()
-        };
-        if let Some((at, seen, points)) = &self.found
-            && at == q
-            && *seen >= margin
-        {
-            return within(points);
+        mut meet: impl FnMut(&ContactPoint, [f64; 2]),
+    ) {
+        let is_known =
+            |(at, seen, _): &(Configuration, f64, Vec<ContactPoint>)| at == q && *seen >= margin;
+        if !self.found.as_ref().is_some_and(is_known) {
+            if self.room(world, q, kinds) > margin {
+                return;
+            }
+            let contact = world.contact(kinds);
+            let seen = margin.max(margins.seen);
+            let needed = 1.5 * seen;
+            if self.seen - moved(contact, [&self.at, q]) < needed {
+                self.seen = needed + margins.ahead;
+                self.at = *q;
+                self.edges = contact.near(q, self.seen);
+            }
+            let points = contact.points(q, margin, &self.edges);
+            let gaps = |points: &[ContactPoint]| {
+                let gaps = points.iter().map(|point| point.gap);
+                gaps.fold(seen, f64::min)
+            };
+            self.room_at = *q;
+            if points.is_empty() {
+                self.last_room = gaps(&contact.points(q, seen, &self.edges));
+                return;
+            }
+            self.last_room = gaps(&points);
+            self.found = Some((*q, margin, points));
         }
-        let contact = &crowd.couple(kinds[0], kinds[1]).0.contact;
-        let radius = contact.moving().circumradius();
-        let moved = |from: &Configuration| {
-            let step = from.step_to(q);
-            step.xy().norm() + radius * step.z.abs()
-        };
-        if self.room - moved(&self.room_at) > margin {
-            return Vec::new();
+        let points = self.found.iter().flat_map(|found| &found.2);
+        for point in points.filter(|point| point.gap <= margin) {
+            meet(point, self.force(&point.on_moving, margins));
         }
-        let seen = margin.max(margins.seen);
-        let needed = 1.5 * seen;
-        if self.seen - moved(&self.at) < needed {
-            self.seen = needed + margins.ahead;
-            self.at = *q;
-            self.edges = contact.near(q, self.seen);
-        }
-        let mut points = contact.points(q, margin, &self.edges);
-        let close = within(&points);
-        if points.is_empty() {
-            points = contact.points(q, seen, &self.edges);
-        } else {
-            self.found = Some((*q, margin, points.clone()));
-        }
-        self.room = points.iter().map(|point| point.gap).fold(seen, f64::min);
-        self.room_at = *q;
-        close
     }
 }
+
+/// The largest way (m) of a point of the second tile from one configuration to another.
+fn moved(contact: &Contact, [from, to]: [&Configuration; 2]) -> f64 {
+    let step = from.step_to(to);
+    step.xy().norm() + contact.moving().circumradius() * step.z.abs()
+}
+
 /// The corners of a tile within a margin (m) of the rim: position, the rim's normal, and the gap.
 pub fn at_rim(
-    crowd: &Crowd,
+    world: &impl World,
     (mover, pose): (&Mover, &Pose),
     margin: f64,
     found: &mut dyn FnMut(Vector2<f64>, Vector2<f64>, f64),
 ) {
-    let kind = &crowd.kinds[mover.kind];
-    let room = rim_room(crowd, mover);
+    let room = rim_room(world, mover);
     if room > margin {
         return;
     }
-    for corner in kind.tile.outline.vertices() {
+    for corner in world.corners(mover.kind) {
         let p = pose.transform(*corner);
-        for (normal, gap) in crowd.rim.sides(p).filter(|it| it.1 <= margin) {
+        for (normal, gap) in world.rim().sides(p).filter(|it| it.1 <= margin) {
             found(p, normal, gap);
         }
     }
 }
 
 /// A lower bound of a tile's distance (m) from the rim.
-pub fn rim_room(crowd: &Crowd, mover: &Mover) -> f64 {
-    crowd.rim.room(mover.place.xy()) - crowd.kinds[mover.kind].reach
+pub fn rim_room(world: &impl World, mover: &Mover) -> f64 {
+    world.rim().room(mover.place.xy()) - world.reach(mover.kind)
 }

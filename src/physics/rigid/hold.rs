@@ -27,6 +27,7 @@ use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 
 use super::rest::{Four, Rest, RestPoint};
+use super::short::{Each, Points};
 use crate::contact::TurnsWith;
 use crate::potential::simd::Level;
 use crate::potential::simd::lanes::{Lanes, Task};
@@ -324,73 +325,93 @@ pub fn hold_back(
     (holds, rests): (&mut [Hold], &mut [Rest]),
     [friction, error]: [f64; 2],
 ) -> bool {
-    let mut is_found = true;
     if holds.is_empty() && rests.is_empty() {
-        return is_found;
+        return true;
     }
-    let mut local = vec![usize::MAX; velocities.len()];
+    let law = [friction, error];
+    let mut local: Each<usize> = velocities.iter().map(|_| usize::MAX).collect();
+    if velocities.len() == 1 {
+        let all: Points<usize> = (0..holds.len()).collect();
+        let lying: Points<usize> = (0..rests.len()).collect();
+        let points = ([&all[..], &lying[..]], &mut local[..]);
+        return hold_cluster(inverse, velocities, (holds, rests), points, law);
+    }
+    let mut is_found = true;
     for (cluster, lying) in clusters(velocities.len(), holds, rests) {
-        let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - error;
-        if lying.is_empty() && cluster.iter().all(is_right) {
-            cluster.iter().for_each(|k| holds[*k].impulses = [0.0; 2]);
-            continue;
-        }
-        // The cluster's own tiles in a row.
-        let mut tiles: Vec<usize> = Vec::new();
-        let touching = cluster.iter().flat_map(|k| holds[*k].tiles).flatten();
-        for tile in touching.chain(lying.iter().map(|k| rests[*k].tile)) {
-            if tiles.get(local[tile]) != Some(&tile) {
-                local[tile] = tiles.len();
-                tiles.push(tile);
-            }
-        }
-        let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
-        let roots: Vec<_> = roots.collect();
-        let point = |k: &usize| {
-            // The rim's part of a row is zero, so it can be assigned to any tile.
-            let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
-            let second = second.or(first).unwrap_or(0);
-            let tiles = [first.unwrap_or(second), second];
-            Point::new(&holds[*k], tiles, &roots, friction)
-        };
-        let cluster = from_both_halves(&cluster);
-        let mut points: Vec<Point> = cluster.iter().map(point).collect();
-        let lie = |k: &usize| {
-            let tile = local[rests[*k].tile];
-            RestPoint::new(&rests[*k], tile, &roots[tile])
-        };
-        let mut lie: Vec<RestPoint> = lying.iter().map(lie).collect();
-        let own = tiles.iter().zip(&roots);
-        let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
-        let mut own: Vec<Four> = own.collect();
-        let sweeps = Level::best().run(Solution {
-            roots: &roots,
-            velocities: &mut own,
-            points: &mut points,
-            rests: &mut lie,
-            error,
-        });
-        is_found &= sweeps.is_some();
-        for (k, point) in cluster.iter().zip(&points) {
-            holds[*k].impulses = point.impulses;
-        }
-        for (k, point) in lying.iter().zip(&lie) {
-            rests[*k].impulse = point.impulse.into();
-        }
-        for ((tile, [x, y, turn, _]), root) in tiles.iter().zip(own).zip(&roots) {
-            velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
-        }
+        let points = ([&cluster[..], &lying[..]], &mut local[..]);
+        is_found &= hold_cluster(inverse, velocities, (holds, rests), points, law);
     }
     is_found
 }
 
+/// The same for the points of one cluster, by their indices: of contact, and on the table. `local` has
+/// room for a number of each tile.
+fn hold_cluster(
+    inverse: &[Vector3<f64>],
+    velocities: &mut [Vector3<f64>],
+    (holds, rests): (&mut [Hold], &mut [Rest]),
+    ([cluster, lying], local): ([&[usize]; 2], &mut [usize]),
+    [friction, error]: [f64; 2],
+) -> bool {
+    let is_right = |k: &usize| holds[*k].rate(velocities) >= holds[*k].least - error;
+    if lying.is_empty() && cluster.iter().all(is_right) {
+        cluster.iter().for_each(|k| holds[*k].impulses = [0.0; 2]);
+        return true;
+    }
+    // The cluster's own tiles in a row.
+    let mut tiles: Each<usize> = Each::new();
+    let touching = cluster.iter().flat_map(|k| holds[*k].tiles).flatten();
+    for tile in touching.chain(lying.iter().map(|k| rests[*k].tile)) {
+        if tiles.get(local[tile]) != Some(&tile) {
+            local[tile] = tiles.len();
+            tiles.push(tile);
+        }
+    }
+    let roots = tiles.iter().map(|tile| inverse[*tile].map(f64::sqrt));
+    let roots: Each<_> = roots.collect();
+    let point = |k: &usize| {
+        // The part of a row that is of no tile is zero, so it can be assigned to any.
+        let [first, second] = holds[*k].tiles.map(|it| it.map(|tile| local[tile]));
+        let second = second.or(first).unwrap_or(0);
+        let tiles = [first.unwrap_or(second), second];
+        Point::new(&holds[*k], tiles, &roots, friction)
+    };
+    let cluster = from_both_halves(cluster);
+    let mut points: Points<Point> = cluster.iter().map(point).collect();
+    let lie = |k: &usize| {
+        let tile = local[rests[*k].tile];
+        RestPoint::new(&rests[*k], tile, &roots[tile])
+    };
+    let mut lie: Vec<RestPoint> = lying.iter().map(lie).collect();
+    let own = tiles.iter().zip(&roots);
+    let own = own.map(|(tile, root)| four(velocities[*tile].component_div(root)));
+    let mut own: Each<Four> = own.collect();
+    let sweeps = Level::best().run(Solution {
+        roots: &roots,
+        velocities: &mut own,
+        points: &mut points,
+        rests: &mut lie,
+        error,
+    });
+    for (k, point) in cluster.iter().zip(&points) {
+        holds[*k].impulses = point.impulses;
+    }
+    for (k, point) in lying.iter().zip(&lie) {
+        rests[*k].impulse = point.impulse.into();
+    }
+    for ((tile, [x, y, turn, _]), root) in tiles.iter().zip(own).zip(&roots) {
+        velocities[*tile] = Vector3::new(x, y, turn).component_mul(root);
+    }
+    sweeps.is_some()
+}
+
 /// The first, the first of the second half, the second, and so on.
-fn from_both_halves(list: &[usize]) -> Vec<usize> {
+fn from_both_halves(list: &[usize]) -> Points<usize> {
     let (first, second) = list.split_at(list.len().div_ceil(2));
-    let mut both = Vec::with_capacity(list.len());
+    let mut both = Points::with_capacity(list.len());
     for (k, one) in first.iter().enumerate() {
         both.push(*one);
-        both.extend(second.get(k));
+        both.extend(second.get(k).copied());
     }
     both
 }
@@ -455,7 +476,7 @@ impl Task for Solution<'_> {
         for point in rests.iter() {
             point.push(point.impulse, velocities);
         }
-        let mut before = velocities.to_vec();
+        let mut before = Each::from_slice(velocities);
         let mut swept = before.clone();
         let mut last = f64::INFINITY;
         for sweep in 0..SWEEPS {
@@ -572,6 +593,47 @@ mod tests {
         let inertia = 0.1 * SIDE * SIDE / 6.0;
         let inverse = Vector3::new(10.0, 10.0, 1.0 / inertia);
         (vec![inverse; COUNT * COUNT], holds)
+    }
+
+    #[test]
+    fn a_share_of_a_change_ends_at_the_energy() {
+        let masses = [Vector3::new(2.0, 2.0, 0.5)];
+        let velocity = [Vector3::new(1.0, 0.0, 0.0)];
+        for change in [[1.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 0.0, 4.0]] {
+            let change = [Vector3::from(change)];
+            for energy in [1.0, 2.0] {
+                let share = share_within(&masses, &velocity, &change, energy);
+                let reached = kinetic(&masses, &[velocity[0] + change[0] * share]);
+                assert!((reached - energy).abs() < 1e-12, "{change:?} {energy}");
+            }
+            assert_eq!(share_within(&masses, &velocity, &change, 100.0), 1.0);
+        }
+        // There is no kinetic energy.
+        let rest = [Vector3::zeros()];
+        assert_eq!(share_within(&masses, &rest, &velocity, 0.0), 0.0);
+    }
+
+    /// They are not found, or leave velocities that are no larger than those before.
+    #[test]
+    fn points_that_contradict_each_other_leave_a_finite_velocity() {
+        let hold = |x: f64| {
+            let axis = (Vector2::new(x, 0.0), TurnsWith::Behind);
+            let mut hold = Hold::new([None, Some(0)], Vector2::zeros(), axis, 0.0, |_| {
+                Vector2::zeros()
+            });
+            hold.least = 1e-3;
+            hold
+        };
+        let inverse = [Vector3::new(10.0, 10.0, 300.0)];
+        let mut velocities = [Vector3::new(0.2, 0.1, 0.0)];
+        let mut holds = [hold(1.0), hold(-1.0)];
+        hold_back(
+            &inverse,
+            &mut velocities,
+            (&mut holds, &mut []),
+            [0.3, ERROR],
+        );
+        assert!(velocities[0].norm() < 1.0, "{velocities:?}");
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::crowd::Crowd;
-use super::drive::Wind;
+use super::World;
+use super::fan::Wind;
 use super::hold::{Hold, kinetic};
 use super::mover::Mover;
 use super::rest::Rest;
+use super::short::Each;
 
 /// The largest share of the kinetic energy that a step in contact corrects.
 const MOST_SCALED: f64 = 0.02;
@@ -24,15 +25,17 @@ pub struct Strength {
 pub struct State {
     /// Since the start of the step of the table (s).
     pub time: f64,
-    pub velocities: Vec<Vector3<f64>>,
-    pub accelerations: Vec<Vector3<f64>>,
-    pub pulls: Vec<Strength>,
+    pub velocities: Each<Vector3<f64>>,
+    pub accelerations: Each<Vector3<f64>>,
+    pub pulls: Each<Strength>,
     /// What fans do to each tile; empty without fans.
     pub winds: Vec<Wind>,
     /// The potential energy of the pairs and in the fans (J).
     pub potential: f64,
     /// The correction of kinetic energy that is still outstanding (J).
     pub debt: f64,
+    /// Steps are halved this often, as contact was not solved in longer ones.
+    pub halvings: i32,
     /// The longest step (s) from here.
     pub longest: f64,
     /// The points that touch or may come into contact within it.
@@ -43,14 +46,14 @@ pub struct State {
 
 /// The forces at one time.
 pub struct Forces {
-    pub accelerations: Vec<Vector3<f64>>,
-    pub pulls: Vec<Strength>,
+    pub accelerations: Each<Vector3<f64>>,
+    pub pulls: Each<Strength>,
     pub winds: Vec<Wind>,
     pub potential: f64,
 }
 
 impl State {
-    pub fn new(time: f64, velocities: Vec<Vector3<f64>>, forces: Forces) -> Self {
+    pub fn new(time: f64, velocities: Each<Vector3<f64>>, forces: Forces) -> Self {
         Self {
             time,
             velocities,
@@ -59,6 +62,7 @@ impl State {
             winds: forces.winds,
             potential: forces.potential,
             debt: 0.0,
+            halvings: 0,
             longest: 0.0,
             holds: Vec::new(),
             rubs: Vec::new(),
@@ -66,7 +70,7 @@ impl State {
     }
 
     /// The velocities after half a step (s) without contact.
-    pub fn halfway(&self, h: f64) -> Vec<Vector3<f64>> {
+    pub fn halfway(&self, h: f64) -> Each<Vector3<f64>> {
         let each = self.velocities.iter().zip(&self.accelerations);
         each.map(|(v, a)| v + a * (0.5 * h)).collect()
     }
@@ -78,7 +82,7 @@ pub struct Unsolved;
 /// A way to make a step.
 pub struct Way {
     /// The mean velocities.
-    pub velocities: Vec<Vector3<f64>>,
+    pub velocities: Each<Vector3<f64>>,
     /// The points that last, with their impulses.
     pub holds: Vec<Hold>,
     /// The points at which tiles lie on the table, with theirs.
@@ -88,8 +92,8 @@ pub struct Way {
 }
 
 /// An upper bound of the speed or acceleration of a tile's fastest point.
-pub fn fastest(crowd: &Crowd, mover: &Mover, of: &Vector3<f64>) -> f64 {
-    of.xy().norm() + crowd.kinds[mover.kind].reach * of.z.abs()
+pub fn fastest(world: &impl World, mover: &Mover, of: &Vector3<f64>) -> f64 {
+    of.xy().norm() + world.reach(mover.kind) * of.z.abs()
 }
 
 /// Corrects the velocities along the forces of the pairs, by less than a step (s) changed them, so
@@ -105,7 +109,7 @@ pub fn put_right(
     let now = kinetic(masses, velocities);
     let wanted = energy + state.debt - now;
     let pulls = state.accelerations.iter().zip(steady);
-    let pulls: Vec<Vector3<f64>> = pulls.map(|(all, steady)| all - steady).collect();
+    let pulls: Each<Vector3<f64>> = pulls.map(|(all, steady)| all - steady).collect();
     let square = 2.0 * kinetic(masses, &pulls);
     if square == 0.0 {
         state.debt = wanted;
@@ -132,16 +136,20 @@ pub fn put_right(
 
 /// Scales the velocities of tiles relative to their common rigid motion, so that the kinetic energy (J)
 /// is the given one, which the forces and the impulses of contact make. Momentum, angular momentum and
-/// the points of contact that last keep what they have. What cannot be corrected now is carried over.
+/// the points of contact that last keep what they have; without places the common motion is to stand
+/// still, as where other tiles do. What cannot be corrected now is carried over.
 pub fn put_right_held(
     state: &mut State,
-    (masses, places): (&[Vector3<f64>], &[Vector3<f64>]),
+    (masses, places): (&[Vector3<f64>], Option<&[Vector3<f64>]>),
     energy: f64,
 ) {
     let wanted = energy + state.debt - kinetic(masses, &state.velocities);
-    let common = common_motion(masses, places, &state.velocities);
+    let common = match places {
+        Some(places) => common_motion(masses, places, &state.velocities),
+        None => masses.iter().map(|_| Vector3::zeros()).collect(),
+    };
     let each = state.velocities.iter().zip(&common);
-    let own: Vec<Vector3<f64>> = each.map(|(v, common)| v - common).collect();
+    let own: Each<Vector3<f64>> = each.map(|(v, common)| v - common).collect();
     let inner = kinetic(masses, &own);
     let most = MOST_SCALED * inner;
     if most > 0.0 {
@@ -159,7 +167,7 @@ fn common_motion(
     masses: &[Vector3<f64>],
     places: &[Vector3<f64>],
     velocities: &[Vector3<f64>],
-) -> Vec<Vector3<f64>> {
+) -> Each<Vector3<f64>> {
     let whole: f64 = masses.iter().map(|it| it.x).sum();
     let mean = |of: &[Vector3<f64>]| {
         let each = masses.iter().zip(of);

@@ -23,19 +23,20 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use super::World;
 use super::account::Account;
-use super::crowd::Crowd;
-use super::drive::{Drive, Rider, longest_step};
+use super::fan::{Winds, longest_step};
 use super::hold::{Hold, hold_back, kinetic, share_within};
 use super::margins::Margins;
 use super::motion::{
     Forces, State, Strength, Unsolved, Way, closes, fastest, put_right, put_right_held,
 };
+use super::mover::{Mover, Rider};
 use super::near::{NearPair, Touch, at_rim};
 use super::pair::{Pose, Two};
 use super::rest::{GRAVITY, Rest};
-use super::settings::TableSettings;
-use crate::contact::TurnsWith;
+use super::short::{Each, Points};
+use crate::contact::{ContactPoint, TurnsWith};
 
 /// The relative error of the travel of touching tiles in a step.
 const TRAVEL_ERROR: f64 = 0.01;
@@ -55,6 +56,11 @@ const FORECASTS: usize = 8;
 const SEARCHES: usize = 60;
 /// A step is halved this often at most.
 const HALVINGS: i32 = 12;
+/// The impulses of a knock are searched for this often, each time from those of the last.
+const KNOCKS: usize = 8;
+/// A step that ends in an overlap which was not foreseen is repeated with half the time, this often at
+/// most.
+const FORESEEN: i32 = 6;
 /// The shortest step that is tried where contact cannot be solved, as a share of the first.
 pub const SHORTEST_TRIED: f64 = 1.0 / 4096.0;
 /// Points move apart if they do so faster than this many times the error of velocities.
@@ -66,17 +72,41 @@ const UNDONE: f64 = 0.8;
 /// The displacement by the error of the impulses in a step, relative to the rounding of gaps.
 const PRECISE: f64 = 0.1;
 
-/// A group of tiles connected by being near each other.
-pub struct Island<'a> {
-    pub crowd: &'a Crowd,
-    pub settings: &'a TableSettings,
-    pub drive: Drive<'a>,
+/// The laws by which tiles move.
+#[derive(Clone, Copy, Debug)]
+pub struct Laws<'a> {
+    /// Coulomb's coefficient of friction between tiles, and between a tile and the rim.
+    pub friction: f64,
+    /// The same between a tile and the table it lies on.
+    pub table_friction: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Whether the table has a rim.
+    pub walls: bool,
+    /// The fans.
+    pub fans: Winds<'a>,
+    /// Whether random kicks act between the steps.
+    pub is_shaken: bool,
+    /// The longest step (s). Steps in contact are shorter, and scale with it.
+    pub step: f64,
+}
+
+/// Mass, mass and moment of inertia of each tile that moves (kg, kg, kg m^2), and their inverses.
+pub type Masses<'a> = [&'a [Vector3<f64>]; 2];
+
+/// A group of tiles connected by being near each other. Tiles whose index is the number of `riders` or
+/// more stand still.
+pub struct Island<'a, W> {
+    pub world: &'a W,
+    pub laws: Laws<'a>,
     /// The time (s) at the start of the step.
     pub time: f64,
     pub margins: &'a Margins,
     /// The tiles.
     pub riders: Vec<Rider>,
-    /// Their poses.
+    /// Tiles that stand still.
+    pub still: Vec<Mover>,
+    /// The poses of both, in this order.
     pub poses: Vec<Pose>,
     /// Their accelerations by other tiles and the table's motion (m/s^2, m/s^2, rad/s^2).
     pub steady: Vec<Vector3<f64>>,
@@ -90,23 +120,17 @@ pub struct Island<'a> {
     pub is_solved: bool,
 }
 
-impl Island<'_> {
+impl<W: World> Island<'_, W> {
     /// Advances by one step of the table.
     pub fn advance(&mut self) {
         let masses: Vec<_> = self
             .riders
             .iter()
-            .map(|it| self.crowd.kinds[it.mover.kind].body.masses())
+            .map(|it| self.world.body(it.mover.kind).masses())
             .collect();
         let inverse: Vec<_> = masses.iter().map(|it| it.map(|mass| 1.0 / mass)).collect();
-        let forces = self.forces(&masses, 0.0);
-        let velocities = self.riders.iter().map(|it| it.mover.velocity).collect();
-        let mut state = State::new(0.0, velocities, forces);
-        state.debt = self.riders.iter().map(|it| it.debt).sum();
-        match self.go_on(&mut state, [&masses, &inverse], self.settings.step) {
-            Ok(lost) => self.account.contact_loss += lost,
-            Err(Unsolved) => self.is_solved = false,
-        }
+        let mut state = self.start(&masses);
+        self.is_solved = self.go_on(&mut state, [&masses, &inverse]).is_ok();
         for (rider, velocity) in self.riders.iter_mut().zip(&state.velocities) {
             rider.mover.velocity = *velocity;
         }
@@ -116,64 +140,112 @@ impl Island<'_> {
         }
     }
 
-    /// Advances by a time (s) with constant external forces; returns the energy lost in contact (J).
-    fn go_on(
+    /// The motion at the start, without points of contact.
+    pub fn start(&mut self, masses: &[Vector3<f64>]) -> State {
+        let forces = self.forces(masses, 0.0);
+        let velocities = self.riders.iter().map(|it| it.mover.velocity).collect();
+        let mut state = State::new(0.0, velocities, forces);
+        state.debt = self.riders.iter().map(|it| it.debt).sum();
+        state
+    }
+
+    /// A lower bound of the distance (m) of any two tiles, as known from the last points of contact.
+    pub fn room(&self) -> f64 {
+        let rooms = self.pairs.iter().map(|(two, near)| {
+            let [a, b] = [two.first, two.second].map(|tile| &self.poses[tile]);
+            let kinds = [two.first, two.second];
+            let kinds = kinds.map(|tile| mover(&self.riders, &self.still, tile).kind);
+            near.room(self.world, &a.to(&b.at), kinds)
+        });
+        rooms.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Advances by one step of the table with constant external forces.
+    fn go_on(&mut self, state: &mut State, masses: Masses) -> Result<(), Unsolved> {
+        let duration = self.laws.step;
+        self.begin(state, masses, duration)?;
+        while state.time < duration {
+            crate::interruption::check();
+            self.move_on(state, masses, duration)?;
+        }
+        Ok(())
+    }
+
+    /// Prepares a state for steps of at most this length (s).
+    ///
+    /// # Errors
+    /// If tiles that overlap are not set apart.
+    pub fn begin(
         &mut self,
         state: &mut State,
-        masses: [&[Vector3<f64>]; 2],
-        duration: f64,
+        masses: Masses,
+        longest: f64,
+    ) -> Result<(), Unsolved> {
+        self.look(state, masses[1], longest);
+        self.account.contact_loss += self.set_apart(state, masses, longest)?;
+        Ok(())
+    }
+
+    /// Makes one step with constant external forces, at most to a time (s); returns its length (s).
+    ///
+    /// # Errors
+    /// If the impulses of contact are not found even in the shortest steps.
+    pub fn move_on(
+        &mut self,
+        state: &mut State,
+        masses: Masses,
+        until: f64,
     ) -> Result<f64, Unsolved> {
-        self.look(state, masses[1], duration);
-        let mut lost = self.set_apart(state, masses, duration)?;
-        let mut time = 0.0;
-        let mut halvings = 0;
-        while time < duration {
-            crate::interruption::check();
-            lost += self.knock(state, masses)?;
-            let left = duration - time;
-            let longest = state.longest.min(left) * libm::ldexp(1.0, -halvings);
+        loop {
+            self.account.contact_loss += self.knock(state, masses)?;
+            let left = until - state.time;
+            let longest = state.longest.min(left) * libm::ldexp(1.0, -state.halvings);
             let moved = self.way(state, masses[1], longest).and_then(|way| {
                 let h = way.h;
                 let after = if h < left {
-                    duration - (time + h)
+                    until - (state.time + h)
                 } else {
-                    self.settings.step
+                    self.laws.step
                 };
                 Ok((self.step(state, way, masses, after)?, h))
             });
-            let (loss, h) = match moved {
-                Ok(moved) => moved,
-                Err(Unsolved) if halvings == HALVINGS => return Err(Unsolved),
-                Err(Unsolved) => {
-                    halvings += 1;
-                    continue;
+            let Ok((loss, h)) = moved else {
+                if state.halvings == HALVINGS {
+                    return Err(Unsolved);
                 }
+                state.halvings += 1;
+                continue;
             };
-            halvings = (halvings - 1).max(0);
-            lost += loss;
-            lost += self.set_apart(state, masses, state.longest)?;
-            time = if h < left { time + h } else { duration };
+            state.halvings = (state.halvings - 1).max(0);
+            self.account.contact_loss += loss;
+            self.account.contact_loss += self.set_apart(state, masses, state.longest)?;
+            if h >= left {
+                state.time = until;
+            }
+            return Ok(h);
         }
-        Ok(lost)
     }
 
     /// All accelerations (m/s^2, rad/s^2), the own forces of the pairs, and the potential energy (J) at a
     /// time (s) since the start of the step of the table.
     fn forces(&mut self, masses: &[Vector3<f64>], time: f64) -> Forces {
-        let mut all = self.steady.clone();
-        let mut strengths = Vec::with_capacity(self.pairs.len());
+        let mut all = Each::from_slice(&self.steady);
+        let mut strengths = Each::new();
         let mut potential = 0.0;
-        let (crowd, riders, poses) = (self.crowd, &self.riders, &self.poses);
+        let (world, riders, poses) = (self.world, &self.riders, &self.poses);
         for (two, near) in &mut self.pairs {
             let tiles = [two.first, two.second];
-            let movers = tiles.map(|k| &riders[k].mover);
-            let (energy, pulls) = near.pull(crowd, movers, tiles.map(|k| &poses[k]));
+            let movers = tiles.map(|k| mover(riders, &self.still, k));
+            let (energy, pulls) = near.pull(world, movers, tiles.map(|k| &poses[k]));
             potential += energy;
             let mut acceleration = 0.0;
             for ((tile, mover), pull) in tiles.into_iter().zip(movers).zip(pulls) {
-                let own = pull.component_div(&masses[tile]);
+                let Some(masses) = masses.get(tile) else {
+                    continue;
+                };
+                let own = pull.component_div(masses);
                 all[tile] += own;
-                acceleration += fastest(crowd, mover, &own);
+                acceleration += fastest(world, mover, &own);
             }
             let force = poses[two.first].rotation.inverse() * pulls[1].xy();
             strengths.push(Strength {
@@ -182,9 +254,9 @@ impl Island<'_> {
             });
         }
         let mut winds = Vec::new();
-        if !self.settings.fans.is_empty() {
+        if !self.laws.fans.0.is_empty() {
             let places = riders.iter().map(|it| it.mover.place.xy());
-            winds.extend(places.map(|place| self.drive.wind(place, self.time + time)));
+            winds.extend(places.map(|place| self.laws.fans.wind(place, self.time + time)));
             for ((acceleration, wind), masses) in all.iter_mut().zip(&winds).zip(masses) {
                 *acceleration += wind.whole().push(0.0) / masses.x;
                 potential += wind.energy;
@@ -204,20 +276,21 @@ impl Island<'_> {
 
     /// The factor by which steps are shorter than usual.
     fn fineness(&self) -> f64 {
-        (self.settings.step / self.margins.usual_step).min(1.0)
+        (self.laws.step / self.margins.usual_step).min(1.0)
     }
 
     fn fastest(&self, tile: usize, of: &Vector3<f64>) -> f64 {
-        fastest(self.crowd, &self.riders[tile].mover, of)
+        fastest(self.world, &self.riders[tile].mover, of)
     }
 
     /// The same for the second tile of a pair, relative to the first one in its rotating frame.
     fn relative(&self, two: Two, of: &[Vector3<f64>]) -> f64 {
-        let [first, second] = [two.first, two.second].map(|k| &self.riders[k].mover);
+        let tiles = [two.first, two.second];
+        let [first, second] = tiles.map(|k| mover(&self.riders, &self.still, k));
         let between = (second.place - first.place).xy();
-        let [a, b] = [of[two.first], of[two.second]];
+        let [a, b] = tiles.map(|k| of.get(k).copied().unwrap_or_default());
         let carried = Vector2::new(-between.y, between.x) * a.z;
-        let reach = self.crowd.kinds[second.kind].reach;
+        let reach = self.world.reach(second.kind);
         (b.xy() - a.xy() - carried).norm() + reach * (b.z - a.z).abs()
     }
 
@@ -225,20 +298,20 @@ impl Island<'_> {
     fn longest_step(&self, state: &State, inverse: &[Vector3<f64>]) -> f64 {
         let feature = self.margins.feature;
         let limit = |(two, near): &(Two, &mut NearPair), pull: &Strength| {
-            let travel = self.relative(*two, &state.velocities) * self.settings.step;
+            let travel = self.relative(*two, &state.velocities) * self.laws.step;
             let rests = RESTING * self.travel();
-            if travel < rests && self.settings.friction > 0.0 {
+            if travel < rests && self.laws.friction > 0.0 {
                 return f64::INFINITY;
             }
             let are_together =
-                near.room <= self.travel() && self.settings.restitution * travel < rests;
+                near.last_room <= self.travel() && self.laws.restitution * travel < rests;
             let whole = longest_step(feature, pull.acceleration);
             if !are_together {
                 return whole;
             }
-            let lightness = [two.first, two.second].map(|tile| inverse[tile].x);
-            let along =
-                near.slide(pull.force, self.settings.friction) * (lightness[0] + lightness[1]);
+            let lightness =
+                [two.first, two.second].map(|tile| inverse.get(tile).map_or(0.0, |it| it.x));
+            let along = near.slide(pull.force, self.laws.friction) * (lightness[0] + lightness[1]);
             (ALONG * longest_step(feature, along)).min(TOGETHER * whole)
         };
         let pairs = self.pairs.iter().zip(&state.pulls);
@@ -247,25 +320,35 @@ impl Island<'_> {
         let winds = self.riders.iter().zip(&state.velocities).zip(inverse);
         let winds = winds.map(|((it, v), inverse)| {
             let place = it.mover.place.xy();
-            self.drive.longest(1.0 / inverse.x, place, v.xy().norm())
+            self.laws
+                .fans
+                .longest(1.0 / inverse.x, place, v.xy().norm())
         });
         self.fineness() * winds.fold(limits, f64::min)
     }
 
     /// The time (s) in which touching tiles travel as far as contact allows in a step.
     fn time_to_travel(&self, velocities: &[Vector3<f64>], holds: &[Hold]) -> f64 {
-        let speed = |hold: &Hold| match hold.tiles {
-            [Some(first), Some(second)] => self.relative(Two { first, second }, velocities),
-            [_, tile] => tile.map_or(0.0, |tile| self.fastest(tile, &velocities[tile])),
+        let speed = |hold: &Hold| match (hold.pair, hold.tiles[1]) {
+            (Some(pair), _) => self.relative(self.pairs[pair].0, velocities),
+            (None, tile) => tile.map_or(0.0, |tile| self.fastest(tile, &velocities[tile])),
         };
-        let touching = holds.iter().filter(|hold| hold.gap <= self.travel());
-        let fastest = touching.map(speed).fold(0.0, f64::max);
-        self.travel() / fastest.max(f64::MIN_POSITIVE)
+        let touching = |hold: &&Hold| hold.gap <= self.travel();
+        let time = |of_pairs: bool, travel: f64| {
+            let holds = holds.iter().filter(|hold| hold.pair.is_some() == of_pairs);
+            let fastest = holds.filter(touching).map(speed).fold(0.0, f64::max);
+            travel * self.fineness() / fastest.max(f64::MIN_POSITIVE)
+        };
+        let Margins {
+            travel, rim_travel, ..
+        } = *self.margins;
+        time(true, travel).min(time(false, rim_travel))
     }
 
     /// Finds the longest step from a state, of at most a time (s), and the points for it.
     fn look(&mut self, state: &mut State, inverse: &[Vector3<f64>], time: f64) {
-        state.longest = self.longest_step(state, inverse).min(time);
+        let most = time.min(self.laws.step);
+        state.longest = self.longest_step(state, inverse).min(most);
         state.holds = self.points(state, state.longest);
     }
 
@@ -277,44 +360,46 @@ impl Island<'_> {
                 [&state.velocities, &state.accelerations].map(|of| self.relative(*two, of));
             way(v, a)
         });
-        let ways: Vec<f64> = ways.collect();
+        let ways: Each<f64> = ways.collect();
         let own = (0..self.riders.len()).map(|tile| {
             let [v, a] =
                 [&state.velocities, &state.accelerations].map(|of| self.fastest(tile, &of[tile]));
             way(v, a)
         });
-        let own: Vec<f64> = own.collect();
+        let own: Each<f64> = own.collect();
         let margins = self.margins;
         let margin = |way: f64| margins.least.max(3.0 * way);
         let mut holds = Vec::new();
-        let (crowd, riders, poses) = (self.crowd, &self.riders, &self.poses);
+        let (world, riders, poses) = (self.world, &self.riders, &self.poses);
         let centre = |tile: usize| riders[tile].mover.place.xy();
+        let moves = |tile: usize| (tile < riders.len()).then_some(tile);
         for (k, ((two, near), way)) in self.pairs.iter_mut().zip(ways).enumerate() {
             let tiles = [two.first, two.second];
             let [a, b] = tiles.map(|tile| &poses[tile]);
-            let kinds = tiles.map(|tile| riders[tile].mover.kind);
+            let kinds = tiles.map(|tile| mover(riders, &self.still, tile).kind);
             let margin = margin(way);
-            for point in near.points(crowd, &a.to(&b.at), kinds, (margin, margins)) {
+            let meet = |point: &ContactPoint, forces| {
                 let at = a.transform(point.on_moving);
                 let axis = a.rotation * point.normal;
                 let gap = point.gap - margins.skin;
                 let normal = (axis, point.turns_with);
-                let mut hold = Hold::new(tiles.map(Some), at, normal, gap, centre);
+                let mut hold = Hold::new(tiles.map(moves), at, normal, gap, centre);
                 hold.pair = Some(k);
-                hold.forces = near.force(&point.on_moving, margins);
+                hold.forces = forces;
                 holds.push(hold);
-            }
+            };
+            near.points(world, &a.to(&b.at), kinds, (margin, margins), meet);
         }
-        if self.settings.walls {
+        if self.laws.walls {
             for (tile, rider) in riders.iter().enumerate() {
                 at_rim(
-                    crowd,
+                    world,
                     (&rider.mover, &poses[tile]),
                     margin(own[tile]),
                     &mut |point, axis, gap| {
                         let normal = (axis, TurnsWith::Behind);
                         let mut hold = Hold::new([None, Some(tile)], point, normal, gap, centre);
-                        hold.rim = crowd.rim.radius();
+                        hold.rim = world.rim().radius();
                         holds.push(hold);
                     },
                 );
@@ -333,7 +418,7 @@ impl Island<'_> {
 
     /// The law of contact: friction, and the error of velocities (m/s) for a step (s).
     fn law(&self, h: f64) -> [f64; 2] {
-        [self.settings.friction, PRECISE * self.margins.rounding / h]
+        [self.laws.friction, PRECISE * self.margins.rounding / h]
     }
 
     /// The mean velocities in a step, the points that last with their impulses, and the length (s) of
@@ -351,7 +436,7 @@ impl Island<'_> {
             rounding,
             ..
         } = *self.margins;
-        let slow: Vec<f64> = state
+        let slow: Points<f64> = state
             .holds
             .iter()
             .map(|hold| self.slow(state, hold))
@@ -359,7 +444,7 @@ impl Island<'_> {
         let is_lasting = |(hold, slow): (&Hold, &f64)| {
             hold.gap <= touched && hold.rate(&state.velocities) <= *slow
         };
-        let mut lasts: Vec<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
+        let mut lasts: Points<bool> = state.holds.iter().zip(&slow).map(is_lasting).collect();
         for _ in 0..SEARCHES {
             let mut holds = Vec::new();
             for (hold, _) in state.holds.iter().zip(&lasts).filter(|it| *it.1) {
@@ -420,10 +505,10 @@ impl Island<'_> {
         (holds, rests): (&mut [Hold], &mut [Rest]),
         inverse: &[Vector3<f64>],
         h: f64,
-    ) -> Result<Vec<Vector3<f64>>, Unsolved> {
+    ) -> Result<Each<Vector3<f64>>, Unsolved> {
         let free = state.halfway(h);
         // By how much the gaps at the end differ from a linear forecast (m).
-        let mut bends = vec![0.0; holds.len()];
+        let mut bends: Points<f64> = holds.iter().map(|_| 0.0).collect();
         for _ in 0..FORECASTS {
             for (hold, bend) in holds.iter_mut().zip(&bends) {
                 // Overlaps within the skin stay as they are: to undo them would add energy.
@@ -454,7 +539,7 @@ impl Island<'_> {
         &mut self,
         state: &mut State,
         way: Way,
-        [masses, inverse]: [&[Vector3<f64>]; 2],
+        [masses, inverse]: Masses,
         after: f64,
     ) -> Result<f64, Unsolved> {
         let Way {
@@ -463,7 +548,7 @@ impl Island<'_> {
             rests,
             h,
         } = way;
-        let before: Vec<_> = self.riders.iter().map(|it| it.mover.place).collect();
+        let before: Each<_> = self.riders.iter().map(|it| it.mover.place).collect();
         let mut lost: f64 = -held
             .iter()
             .map(|it| it.work(&state.velocities, &way))
@@ -482,6 +567,7 @@ impl Island<'_> {
             .map(|(v, a)| v + a * (0.5 * h));
         let mut next = State::new(state.time + h, velocities.collect(), forces);
         next.debt = state.debt;
+        next.halvings = state.halvings;
         // The oscillation of fans does work.
         let swings = state.winds.iter().zip(&next.winds).zip(&way);
         let swung: f64 = swings
@@ -496,6 +582,14 @@ impl Island<'_> {
             put_right(&mut next, (masses, &self.steady), energy, h);
         }
         self.look(&mut next, inverse, after);
+        // What meets at the end may be other corners and edges than those that were nearest at the start.
+        let deepest = |holds: &[Hold]| holds.iter().map(|it| it.gap).fold(0.0, f64::min);
+        if deepest(&next.holds) < deepest(&state.holds) - self.margins.skin
+            && state.halvings < FORESEEN
+        {
+            self.put_back(&before);
+            return Err(Unsolved);
+        }
         // The points that lasted, where they are now: not those that meet at the end of the step,
         // nor those that bounced within it.
         let lasts = |hold: &Hold| {
@@ -504,8 +598,7 @@ impl Island<'_> {
                 && hold.rate(&way) >= -slow
                 && hold.rate(&state.velocities) <= slow
         };
-        let mut holds: Vec<Hold> = next.holds.clone();
-        holds.retain(lasts);
+        let mut holds: Vec<Hold> = next.holds.iter().filter(|it| lasts(it)).copied().collect();
         for hold in &mut holds {
             hold.impulses = hold.forces.map(|force| force * 0.5 * h);
             // What is apart by less than the force moves it in half a step meets in that time.
@@ -513,9 +606,7 @@ impl Island<'_> {
         }
         let found = self.stop(&mut next, &way, (&mut holds, rests), inverse, h);
         let Ok(rests) = found else {
-            for (tile, place) in before.into_iter().enumerate() {
-                self.put(tile, place);
-            }
+            self.put_back(&before);
             return Err(Unsolved);
         };
         lost -= holds
@@ -547,11 +638,13 @@ impl Island<'_> {
         }
         // Not where tiles are shaken: the correction changes volumes in phase space, which makes bonds
         // rarer than in equilibrium, and the kicks level errors of energy anyway.
-        let is_at_rim = |hold: &Hold| hold.tiles[0].is_none() && hold.is_held();
-        let is_mechanical = self.settings.shaking.is_none() && rests.is_empty();
+        let is_at_rim = |hold: &Hold| hold.pair.is_none() && hold.is_held();
+        let is_mechanical = !self.laws.is_shaken && rests.is_empty();
         if !is_free && is_mechanical && !holds.iter().any(is_at_rim) {
-            let places: Vec<_> = self.riders.iter().map(|it| it.mover.place).collect();
-            put_right_held(&mut next, (masses, &places), energy - lost);
+            let places: Each<_> = self.riders.iter().map(|it| it.mover.place).collect();
+            // Tiles that stand still stop the common motion.
+            let places = self.still.is_empty().then_some(&places[..]);
+            put_right_held(&mut next, (masses, places), energy - lost);
         }
         self.remember(&holds, h);
         self.steps += 1;
@@ -574,6 +667,11 @@ impl Island<'_> {
         for (now, first) in now.iter_mut().zip(&rests) {
             now.impulse = first.impulse;
             now.is_given = first.slides();
+        }
+        if now.is_empty() {
+            let held = (holds, &mut now[..]);
+            let is_found = hold_back(inverse, &mut next.velocities, held, self.law(h));
+            return is_found.then_some(now).ok_or(Unsolved);
         }
         let free = next.velocities.clone();
         loop {
@@ -601,13 +699,13 @@ impl Island<'_> {
 
     /// The points at which the tiles lie on the table, with what friction may do in a time (s).
     fn rests(&self, inverse: &[Vector3<f64>], time: f64) -> Vec<Rest> {
-        let friction = self.settings.table_friction;
+        let friction = self.laws.table_friction;
         let mut rests = Vec::new();
         if friction == 0.0 {
             return rests;
         }
         for (tile, pose) in self.poses.iter().enumerate() {
-            let supports = &self.crowd.kinds[self.riders[tile].mover.kind].supports;
+            let supports = self.world.supports(self.riders[tile].mover.kind);
             let weight = GRAVITY / (inverse[tile].x * supports.len() as f64);
             rests.extend(supports.iter().map(|arm| Rest {
                 tile,
@@ -625,7 +723,7 @@ impl Island<'_> {
     fn set_apart(
         &mut self,
         state: &mut State,
-        [masses, inverse]: [&[Vector3<f64>]; 2],
+        [masses, inverse]: Masses,
         time: f64,
     ) -> Result<f64, Unsolved> {
         let skin = self.margins.skin;
@@ -638,7 +736,7 @@ impl Island<'_> {
             hold.least = (-UNDONE * skin - hold.gap).min(skin);
             hold.impulses = [0.0; 2];
         }
-        let mut shifts = vec![Vector3::zeros(); self.riders.len()];
+        let mut shifts: Each<_> = self.riders.iter().map(|_| Vector3::zeros()).collect();
         if !hold_back(
             inverse,
             &mut shifts,
@@ -658,6 +756,7 @@ impl Island<'_> {
         let forces = self.forces(masses, state.time);
         *state = State {
             debt: state.debt,
+            halvings: state.halvings,
             rubs: std::mem::take(&mut state.rubs),
             ..State::new(state.time, std::mem::take(&mut state.velocities), forces)
         };
@@ -665,32 +764,38 @@ impl Island<'_> {
         Ok(lost)
     }
 
+    /// Puts all tiles back where they were.
+    fn put_back(&mut self, places: &[Vector3<f64>]) {
+        for (tile, place) in places.iter().enumerate() {
+            self.put(tile, *place);
+        }
+    }
+
     /// Puts a tile at a place.
     fn put(&mut self, tile: usize, place: Vector3<f64>) {
-        self.riders[tile].mover.place = place;
-        self.poses[tile] = Pose::of(self.crowd, &self.riders[tile].mover);
+        let mover = &mut self.riders[tile].mover;
+        mover.place = place;
+        self.poses[tile] = Pose::of(self.world, mover);
     }
 
     /// Changes the velocities where touching points close; returns the energy lost (J).
-    fn knock(
-        &self,
-        state: &mut State,
-        [masses, inverse]: [&[Vector3<f64>]; 2],
-    ) -> Result<f64, Unsolved> {
+    fn knock(&self, state: &mut State, [masses, inverse]: Masses) -> Result<f64, Unsolved> {
         let law = self.law(state.longest);
-        let touches = |hold: &&Hold| hold.gap <= self.margins.touched;
-        let mut holds: Vec<Hold> = state.holds.iter().filter(touches).copied().collect();
-        if holds
-            .iter()
-            .all(|hold| hold.rate(&state.velocities) >= -law[1])
-        {
+        let touching = || {
+            state
+                .holds
+                .iter()
+                .filter(|it| it.gap <= self.margins.touched)
+        };
+        if touching().all(|hold| hold.rate(&state.velocities) >= -law[1]) {
             return Ok(0.0);
         }
+        let mut holds: Vec<Hold> = touching().copied().collect();
         let before = state.velocities.clone();
         let mut bounces = false;
         let mut backs = Vec::with_capacity(holds.len());
         for hold in &mut holds {
-            let back = -self.settings.restitution * hold.rate(&before);
+            let back = -self.laws.restitution * hold.rate(&before);
             let back = if back > self.slow(state, hold) {
                 back
             } else {
@@ -701,21 +806,15 @@ impl Island<'_> {
             hold.least = 0.0;
             hold.impulses = [0.0; 2];
         }
-        let mut stopped = before.clone();
-        if !hold_back(inverse, &mut stopped, (&mut holds, &mut []), law) {
-            return Err(Unsolved);
-        }
+        let mut stopped = knocked(inverse, &before, &mut holds, law)?;
         if bounces {
             let of_stop: Vec<_> = holds.iter().map(|hold| hold.impulses).collect();
             for (hold, back) in holds.iter_mut().zip(backs) {
                 hold.least = back;
             }
-            let mut bounced = before.clone();
-            if !hold_back(inverse, &mut bounced, (&mut holds, &mut []), law) {
-                return Err(Unsolved);
-            }
+            let bounced = knocked(inverse, &before, &mut holds, law)?;
             let each = bounced.iter().zip(&stopped);
-            let change: Vec<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
+            let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
             let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
             for (v, change) in stopped.iter_mut().zip(&change) {
                 *v += change * share;
@@ -738,9 +837,9 @@ impl Island<'_> {
             near.held.clear();
         }
         for hold in holds {
-            if let (Some(pair), [Some(first), _]) = (hold.pair, hold.tiles) {
-                let pose = &self.poses[first];
-                let (_, near) = &mut self.pairs[pair];
+            if let Some(pair) = hold.pair {
+                let (two, near) = &mut self.pairs[pair];
+                let pose = &self.poses[two.first];
                 near.held.push(Touch {
                     at: pose.inverse_transform(hold.point),
                     normal: pose.rotation.inverse() * hold.axis,
@@ -748,5 +847,30 @@ impl Island<'_> {
                 });
             }
         }
+    }
+}
+
+/// The velocities after a knock. No shorter step makes one easier, so where the search does not suffice, as
+/// in wedges, it goes on.
+fn knocked(
+    inverse: &[Vector3<f64>],
+    before: &[Vector3<f64>],
+    holds: &mut [Hold],
+    law: [f64; 2],
+) -> Result<Each<Vector3<f64>>, Unsolved> {
+    for _ in 0..KNOCKS {
+        let mut after = Each::from_slice(before);
+        if hold_back(inverse, &mut after, (holds, &mut []), law) {
+            return Ok(after);
+        }
+    }
+    Err(Unsolved)
+}
+
+/// A tile by its index: among those that move, then among those that stand still.
+fn mover<'a>(riders: &'a [Rider], still: &'a [Mover], tile: usize) -> &'a Mover {
+    match riders.get(tile) {
+        Some(rider) => &rider.mover,
+        None => &still[tile - riders.len()],
     }
 }

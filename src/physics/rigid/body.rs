@@ -94,7 +94,8 @@ impl Body {
         }
     }
 
-    pub(super) fn motion(&self, phase: &Phase) -> Motion {
+    /// The motion of a phase.
+    pub(crate) fn motion(&self, phase: &Phase) -> Motion {
         Motion {
             configuration: self.configuration(&phase.place),
             velocity: phase.velocity,

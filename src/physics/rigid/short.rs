@@ -1,0 +1,8 @@
+//! Lists that are mostly short.
+
+use smallvec::SmallVec;
+
+/// A value of each tile; one or two need no allocation.
+pub type Each<T> = SmallVec<[T; 2]>;
+/// A value of each point of contact.
+pub type Points<T> = SmallVec<[T; 4]>;
