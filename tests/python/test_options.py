@@ -5,6 +5,7 @@ import pathlib
 import re
 import subprocess
 
+import numpy as np
 import pytest
 import tilebind
 
@@ -70,3 +71,51 @@ def test_options_are_keywords(program, command):
     options = {NAMES.get(one, one) for one in options - SHOWN - OBJECTS - ELSEWHERE.get(command, set())}
     keywords = set().union(*map(parameters, CALLS[command].split()))
     assert options == keywords - FILES.get(command, set())
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        b"3",
+        bytearray(b"3"),
+        memoryview(b"3"),
+        True,
+        [True],
+        np.bool_(True),
+        {3},
+        frozenset({3}),
+        {3: 3},
+        "",
+        [],
+        np.ma.masked,
+        np.ma.array([3.0], mask=[True]),
+        np.timedelta64(3, "s"),
+        np.datetime64("2020"),
+        3 + 0j,
+        np.complex128(3),
+        float("nan"),
+        10**400,
+        object(),
+    ],
+)
+def test_what_is_no_number_is_no_option(design, value):
+    """Python and NumPy make numbers of bytes, truth values, times and masked entries."""
+    calls = [
+        lambda: design.analyse(milestones=value),
+        lambda: design.exits([0.43, 0, 0], kt=value),
+        lambda: design.yields(value, tiles=4, time=1),
+        lambda: design.yields(1e-3, tiles=value, time=1),
+        lambda: tilebind.tolerance(design, strength=value),
+        lambda: tilebind.words(value),
+        lambda: tilebind.dock(design, runs=value),
+        lambda: design.replace("magnet.pitch", value),
+    ]
+    for call in calls:
+        with pytest.raises((TypeError, ValueError, OverflowError)):
+            call()
+
+
+def test_what_numpy_calls_a_number_is_one(design):
+    assert design.replace("magnet.pitch", np.float32(0.04)).text == design.replace("magnet.pitch", float(np.float32(0.04))).text
+    few = [tilebind.tolerance(design, strength=0.05, draws=draws, checks=0) for draws in (20, np.int64(20))]
+    assert few[0] == few[1]

@@ -103,6 +103,13 @@ def test_the_lock_is_released(design):
         np.zeros((1, 3), dtype="timedelta64[s]"),
         [datetime.datetime(2020, 1, 1), 0, 0],
         np.zeros((1, 3), dtype=bool),
+        [[True, 0, 0]],
+        ([0.43, np.True_, 0.0],),
+        [0.43, np.array(False), 0],
+        [[np.ma.masked, 0, 0]],
+        [np.ma.array([0.43, 0, 0], mask=[True, False, False])],
+        memoryview(b"abc"),
+        [[b"1", 0, 0]],
         [0.43 + 0j, 0, 0],
         np.array([(0.43, 0, 0)], dtype=[("x", "f8"), ("y", "f8"), ("theta", "f8")]),
         {0.43, 0, 0},
@@ -114,6 +121,13 @@ def test_what_holds_no_numbers_are_no_poses(design, poses):
     for method in (design.energy, design.wrench, design.clearance, design.is_free, design.barrier):
         with pytest.raises(ValueError, match="are no poses"):
             method(poses)
+
+
+def test_lists_without_an_end_are_refused(design):
+    endless = []
+    endless.append(endless)
+    with pytest.raises(ValueError, match="levels"):
+        design.energy(endless)
 
 
 @pytest.mark.parametrize("poses", [[[10**400, 0, 0]], [[0.43, 0, 0], [1, 2]]])

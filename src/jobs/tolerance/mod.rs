@@ -47,7 +47,7 @@ const MOST_TERMS: usize = 1_000_000;
 /// deep.
 const MOVED: f64 = 0.85;
 /// Memory (bytes) of a draw, and of each magnet of it.
-const OF_A_DRAW: f64 = 400.0;
+const OF_A_DRAW: f64 = 1000.0;
 const OF_A_MAGNET: f64 = 200.0;
 /// Number of draws after which those done are told.
 const TOGETHER: usize = 4096;

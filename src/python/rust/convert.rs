@@ -1,7 +1,9 @@
 //! Converts Python values to values of a design file, and JSON to Python values.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyMapping, PyString};
+use pyo3::types::{
+    PyByteArray, PyBytes, PyDict, PyFrozenSet, PyMapping, PyMemoryView, PySet, PyString,
+};
 use toml::{Table, Value};
 
 use crate::fault;
@@ -24,6 +26,7 @@ fn within(value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     if value.is_instance_of::<PyString>() {
         return Ok(Value::String(value.extract()?));
     }
+    check_meant(value)?;
     if let Ok(whole) = value.extract::<i64>() {
         return Ok(Value::Integer(whole));
     }
@@ -41,6 +44,56 @@ fn within(value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     Err(fault::value(format!(
         "a design consists of numbers, strings, booleans, lists and dicts of them, not a {kind}"
     )))
+}
+
+/// Whether a value is text or bytes, whose items Python and NumPy take for numbers or texts of their own.
+pub fn is_text_or_bytes(value: &Bound<'_, PyAny>) -> bool {
+    value.is_instance_of::<PyString>() || is_bytes(value)
+}
+
+fn is_bytes(value: &Bound<'_, PyAny>) -> bool {
+    value.is_instance_of::<PyBytes>()
+        || value.is_instance_of::<PyByteArray>()
+        || value.is_instance_of::<PyMemoryView>()
+}
+
+/// Whether a value is an array of NumPy with masked entries, whose values are not meant.
+pub fn is_masked(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let masked = value.py().import("numpy")?.getattr("ma")?;
+    masked.call_method1("is_masked", (value,))?.is_truthy()
+}
+
+/// Refuses what Python would turn into numbers, or into a list, in a way that is hardly meant: bytes, times,
+/// sets, which have no order, and masked entries.
+///
+/// # Errors
+/// With what it is.
+pub fn check_meant(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let none = |what: &str| {
+        Err(fault::value(format!(
+            "{what} no numbers, texts or lists of them"
+        )))
+    };
+    if is_bytes(value) {
+        return none("bytes are");
+    }
+    if value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>() {
+        return none("sets have no order: they are");
+    }
+    // What has a type of NumPy or pandas.
+    let Ok(kind) = value
+        .getattr("dtype")
+        .and_then(|dtype| dtype.getattr("kind"))
+    else {
+        return Ok(());
+    };
+    match &kind.extract::<String>()?[..] {
+        "M" | "m" => none("dates and times are"),
+        "c" => none("complex numbers are"),
+        "S" | "V" => none("bytes and records are"),
+        _ if is_masked(value)? => none("masked entries are"),
+        _ => Ok(()),
+    }
 }
 
 /// A mapping as a table of TOML.

@@ -5,12 +5,12 @@ use numpy::{
 };
 use pyo3::exceptions::{PyMemoryError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyByteArray, PyBytes, PyString};
+use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyTuple};
 use rayon::prelude::*;
 use tilebind::potential::Potential;
 use tilebind::{Configuration, interruption, memory};
 
-use crate::{fault, job};
+use crate::{convert, fault, job};
 
 /// Poses from users: anything that NumPy can convert to an array (..., 3) of x (m), y (m) and theta
 /// (rad).
@@ -37,15 +37,38 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Poses<'py> {
 /// Refuses what NumPy would turn into numbers although it has none: text, bytes, times, truth values, complex
 /// numbers, objects that are no numbers, and arrays with masked entries, whose values are not meant.
 fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    check_within(value, DEEPEST)
+}
+
+/// Lists are looked at item by item: among numbers, NumPy takes truth values for numbers and forgets masks.
+fn check_within(value: &Bound<'_, PyAny>, depth: usize) -> PyResult<()> {
+    if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+        return Ok(());
+    }
+    if !value.is_instance_of::<PyList>() && !value.is_instance_of::<PyTuple>() {
+        return check_array(value);
+    }
+    let Some(depth) = depth.checked_sub(1) else {
+        return Err(fault::value("poses have too many levels of lists"));
+    };
+    value.py().check_signals()?;
+    for item in value.try_iter()? {
+        check_within(&item?, depth)?;
+    }
+    Ok(())
+}
+
+/// The same for what is no list: an array, or a single number.
+fn check_array(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let none = |what: &str| {
         Err(fault::value(format!(
             "{what} no poses: x (m), y (m) and theta (rad) are numbers"
         )))
     };
-    if value.is_instance_of::<PyString>()
-        || value.is_instance_of::<PyBytes>()
-        || value.is_instance_of::<PyByteArray>()
-    {
+    if value.is_instance_of::<PyBool>() {
+        return none("truth values are");
+    }
+    if convert::is_text_or_bytes(value) {
         return none("text and bytes are");
     }
     let numpy = value.py().import("numpy")?;
@@ -68,8 +91,7 @@ fn check_numbers(value: &Bound<'_, PyAny>) -> PyResult<()> {
         }
         _ => return none("records are"),
     }
-    let masked = numpy.getattr("ma")?.call_method1("is_masked", (value,))?;
-    match masked.is_truthy()? {
+    match convert::is_masked(value)? {
         true => Err(fault::value(
             "masked entries are no poses: leave them out, or fill them (numpy.ma.filled(poses, numpy.nan))",
         )),
@@ -100,6 +122,8 @@ fn not_numbers(py: Python<'_>, error: PyErr) -> PyErr {
     }
 }
 
+/// Deepest nesting of lists, that of NumPy's axes.
+const DEEPEST: usize = 64;
 /// Numbers of a pose beyond this (m, rad) count as infinite, since their powers would be.
 const FARTHEST: f64 = 1e30;
 /// Up to this number of poses, neither threads nor releasing the interpreter's lock pay off.

@@ -3,14 +3,23 @@
 use clap::Args;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyString};
+use pyo3::types::{PyDict, PyMapping, PyString};
 use tilebind::request::{Misused, of_keywords};
+
+use crate::{convert, fault};
 
 /// A request from keyword arguments; `None` means the default.
 pub fn request<R: Args>(given: Option<&Bound<'_, PyDict>>) -> PyResult<R> {
     let mut words = Vec::new();
     for (key, value) in given.into_iter().flatten() {
-        words.push((key.extract()?, values(&value)?));
+        let key: String = key.extract()?;
+        let values = values(&value).map_err(|error| {
+            match error.is_instance_of::<PyValueError>(value.py()) {
+                true => fault::value(format!("{key}: {}", error.value(value.py()))),
+                false => error,
+            }
+        })?;
+        words.push((key, values));
     }
     of_keywords(words).map_err(|error| match error {
         Misused::Unknown(..) => PyTypeError::new_err(error.to_string()),
@@ -36,15 +45,21 @@ fn values(value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     if value.is_none() {
         return Ok(Vec::new());
     }
-    if let Ok(truth) = value.cast::<PyBool>() {
-        return Ok(truth.is_true().then(String::new).into_iter().collect());
+    // Those of NumPy as well.
+    if let Ok(truth) = value.extract::<bool>() {
+        return Ok(truth.then(String::new).into_iter().collect());
     }
-    if let Some(word) = word(value) {
+    if let Some(word) = word(value)? {
         return Ok(vec![word]);
     }
+    if value.is_instance_of::<PyMapping>() {
+        return Err(fault::value("a dict is no value"));
+    }
     let items: Vec<Bound<'_, PyAny>> = value.try_iter()?.collect::<PyResult<_>>()?;
-    let words: Option<Vec<String>> = items.iter().map(word).collect();
+    let words: Vec<Option<String>> = items.iter().map(word).collect::<PyResult<_>>()?;
+    let words: Option<Vec<String>> = words.into_iter().collect();
     match words {
+        Some(words) if words.is_empty() => Err(fault::value("an empty list has no value")),
         Some(words) => Ok(vec![words.join(",")]),
         None => Ok(items
             .iter()
@@ -54,13 +69,21 @@ fn values(value: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     }
 }
 
-/// A text or a number as it is typed.
-fn word(value: &Bound<'_, PyAny>) -> Option<String> {
+/// A text or a number as it is typed; `None` for a list.
+fn word(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     if let Ok(text) = value.cast::<PyString>() {
-        return text.extract().ok();
+        let text: String = text.extract()?;
+        return match text.is_empty() {
+            true => Err(fault::value("an empty text is no value")),
+            false => Ok(Some(text)),
+        };
+    }
+    convert::check_meant(value)?;
+    if value.extract::<bool>().is_ok() {
+        return Err(fault::value("truth values are no numbers"));
     }
     if let Ok(whole) = value.extract::<i128>() {
-        return Some(whole.to_string());
+        return Ok(Some(whole.to_string()));
     }
-    value.extract::<f64>().ok().map(|number| number.to_string())
+    Ok(value.extract::<f64>().ok().map(|number| number.to_string()))
 }
