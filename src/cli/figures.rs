@@ -74,10 +74,10 @@ const ELSEWHERE: [(&str, usize); 5] = [
 /// by their names only.
 pub fn command_line() -> String {
     let words = std::env::args_os().skip(1);
-    told(words.map(|word| word.to_string_lossy().into_owned()))
+    describe(words.map(|word| word.to_string_lossy().into_owned()))
 }
 
-fn told(words: impl Iterator<Item = String>) -> String {
+fn describe(words: impl Iterator<Item = String>) -> String {
     let mut told = vec!["tilebind".to_owned()];
     let mut left_out = 0;
     let mut words = words;
@@ -165,10 +165,10 @@ mod tests {
         let words = words.replace("b c", "b\u{a0}c");
         let words = words.split(' ').map(|word| word.replace('\u{a0}', " "));
         let expected = "tilebind analyse 'b c.toml' --out results --seed 3 --dynamics=100";
-        assert_eq!(told(words), expected);
+        assert_eq!(describe(words), expected);
         let words = ["show", "a.toml", "--out=b/c.png"].map(str::to_owned);
         assert_eq!(
-            told(words.into_iter()),
+            describe(words.into_iter()),
             "tilebind show a.toml --out results.png"
         );
     }

@@ -55,9 +55,9 @@ impl FolderOptions {
     }
 
     /// The text for the terminal.
-    fn told(&self, document: &Document) -> String {
+    fn describe(&self, document: &Document) -> String {
         match &self.out {
-            Some(folder) => told_of(document, folder),
+            Some(folder) => describe_of(document, folder),
             None => format!(
                 "{}nothing was written: add --out DIR for a report and tables\n",
                 document.text(style::columns())
@@ -67,7 +67,7 @@ impl FolderOptions {
 }
 
 /// The text for the terminal for results in a folder.
-pub fn told_of(document: &Document, folder: &Path) -> String {
+pub fn describe_of(document: &Document, folder: &Path) -> String {
     format!(
         "{}results in {}: open report.html; also {}report.json, tables, pictures\n",
         document.text(style::columns()),
@@ -112,7 +112,7 @@ impl ResultOptions {
         let drawn = self.folder.write(document, output)?;
         progress.finish();
         self.print
-            .results(&document.printed(), || self.folder.told(document))?;
+            .results(&document.printed(), || self.folder.describe(document))?;
         Ok(drawn?)
     }
 }
@@ -133,7 +133,7 @@ impl NumberOptions {
     pub fn deliver(&self, document: &Document, output: Option<Output>) -> Result<(), Failure> {
         let drawn = self.folder.write(document, output)?;
         print(&match self.text {
-            true => self.folder.told(document),
+            true => self.folder.describe(document),
             false => document.printed(),
         })?;
         Ok(drawn?)

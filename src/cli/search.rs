@@ -11,7 +11,7 @@ use tilebind::sweep::{self, Outcome, Plan, Point, Shard, Store};
 
 use super::figures::FigureOptions;
 use super::options::PrintOptions;
-use super::results::told_of;
+use super::results::describe_of;
 use super::sweep_progress::PointBar;
 use super::{Failure, interrupt, print};
 
@@ -128,7 +128,7 @@ impl Searching<'_> {
         }
         interrupt::without(|| output.write(&files))?;
         self.print
-            .results(&document.report(), || told_of(&document, self.folder))?;
+            .results(&document.report(), || describe_of(&document, self.folder))?;
         drawn?;
         match (searched.count(Verdict::Failed), searched.front.is_empty()) {
             (0, false) => Ok(()),

@@ -15,7 +15,7 @@ use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shar
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
 use super::options::{ForceOption, PrintOptions, ThreadOption};
-use super::results::told_of;
+use super::results::describe_of;
 use super::search::Searching;
 use super::sweep_progress::PointBar;
 use super::{Failure, input, interrupt, print, tell, workload};
@@ -339,7 +339,7 @@ impl Sweep {
         }
         interrupt::without(|| output.write(&files))?;
         self.print
-            .results(&document.report(), || told_of(&document, folder))?;
+            .results(&document.report(), || describe_of(&document, folder))?;
         drawn?;
         match report.progress().failed {
             0 => {

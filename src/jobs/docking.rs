@@ -286,8 +286,8 @@ fn range_of(text: &str, read: fn(&str) -> Result<f64, String>) -> Result<[f64; 2
     const FORM: &str = "a range is LOW,HIGH with 0 <= LOW <= HIGH, such as 0.4,0.8";
     let ends = text.split_once(',').ok_or(FORM)?;
     let [low, high] = [ends.0, ends.1].map(|end| read(end.trim()));
-    let told = |why: String| format!("{FORM}; {why}");
-    match (low.map_err(told)?, high.map_err(told)?) {
+    let describe = |why: String| format!("{FORM}; {why}");
+    match (low.map_err(describe)?, high.map_err(describe)?) {
         (low, high) if low <= high => Ok([low, high]),
         _ => Err(FORM.to_owned()),
     }

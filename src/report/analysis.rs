@@ -341,12 +341,12 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
         Some(states::Row::of_kind(design, analysis, &names, kind))
     };
     let facts = Entries::default();
-    let told = |facts: Entries, name, value: String, note: String| {
+    let describe = |facts: Entries, name, value: String, note: String| {
         facts.fact("", name, value).in_view().noted(note)
     };
     let Some(bond) = first(true) else {
         let note = "nothing holds the tiles where the target faces coincide".to_owned();
-        return told(facts, "no bond", energy(analysis.bound.1), note);
+        return describe(facts, "no bond", energy(analysis.bound.1), note);
     };
     let (value, note) = match bond.state.block_energy {
         Some(blocks) => {
@@ -364,10 +364,10 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
             (energy(bond.state.energy), magnets)
         }
     };
-    let mut facts = told(facts, "bond", value, note);
+    let mut facts = describe(facts, "bond", value, note);
     if let Some(share) = bond.capture.filter(|share| share.of > 0) {
         let note = format!("{} of {}", share.count, share.of);
-        facts = told(facts, "far starts that bind", percent(&share), note);
+        facts = describe(facts, "far starts that bind", percent(&share), note);
     }
     let way_out = |row: &states::Row| match &row.escape {
         Some(barrier) if barrier.has_way() => {
@@ -388,23 +388,23 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
         }
     };
     let (height, note) = way_out(&bond);
-    facts = told(facts, "barrier out of the bond", height, note);
+    facts = describe(facts, "barrier out of the bond", height, note);
     facts = match first(false) {
-        None => told(facts, "traps", "none".to_owned(), String::new()),
+        None => describe(facts, "traps", "none".to_owned(), String::new()),
         Some(trap) => {
             let share = trap.state.energy / bond.state.energy;
             let note = format!("{}; {share:.2} of the bond", trap.name);
-            facts = told(facts, "deepest trap", energy(trap.state.energy), note);
+            facts = describe(facts, "deepest trap", energy(trap.state.energy), note);
             let (height, note) = way_out(&trap);
-            told(facts, "barrier out of that trap", height, note)
+            describe(facts, "barrier out of that trap", height, note)
         }
     };
     let (value, note) = list(analysis);
-    facts = told(facts, "list of states", value.to_owned(), note);
+    facts = describe(facts, "list of states", value.to_owned(), note);
     match analysis.certificate_ended {
         Some(ended) => {
             let note = ended_by(ended, "certify", analysis.settings.certify);
-            told(
+            describe(
                 facts,
                 "certified bounds",
                 "wider than requested".to_owned(),

@@ -102,10 +102,11 @@ pub fn view<'a, Row>(
     // A barrier that cannot be crossed ranks above every number.
     let value = move |row: &Row| Some(first.of(of(row)?)?.value.min(f64::MAX));
     let unit = Some(shown.unit);
-    let told = move |row: &Row| of(row).map_or("-".to_owned(), |one| cell_in(&of_place, one, unit));
+    let describe =
+        move |row: &Row| of(row).map_or("-".to_owned(), |one| cell_in(&of_place, one, unit));
     rows.column("", name, first.label, value)
         .in_view()
-        .viewed(told)
+        .viewed(describe)
 }
 
 /// Adds the figures of one of the tables of designs, by its number.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Document, Drawing, Entries, Entry, Table, Unit, entries, rows, told};
+use crate::document::{Document, Drawing, Entries, Entry, Table, Unit, describe, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look};
 use jobs::calibration::bonds::{Times, TimesFit};
@@ -117,7 +117,7 @@ fn strength_of_magnets(design: &Design, found: &StrengthFit) -> Document<'static
 }
 
 fn strength_answer(design: &Design, found: &StrengthFit) -> String {
-    let (name, misfit) = (&design.name, told(found.misfit, Unit::Share, 2));
+    let (name, misfit) = (&design.name, describe(found.misfit, Unit::Share, 2));
     if !found.fits {
         let needed = found
             .readings
@@ -127,9 +127,9 @@ fn strength_answer(design: &Design, found: &StrengthFit) -> String {
         let ends = needed.iter().min_by(|a, b| a.1.total_cmp(&b.1));
         let ends = ends.zip(needed.iter().max_by(|a, b| a.1.total_cmp(&b.1)));
         let ends = ends.map_or(String::new(), |(low, high)| {
-            let told =
+            let at_gap =
                 |(gap, remanence): &(f64, f64)| format!("{remanence:.2} T at {}", si(*gap, "m", 2));
-            format!(": the readings need {} and {}", told(low), told(high))
+            format!(": the readings need {} and {}", at_gap(low), at_gap(high))
         });
         let best = format!(
             "{:.2} T with the poles {} further apart than the design says, misfit {misfit}",
@@ -300,16 +300,18 @@ fn strength(found: &Calibration) -> String {
 
 /// The error of the model for each measured quantity.
 fn errors(fitted: &Residuals, held_out: &Residuals) -> Table {
-    let told = |part: &Residuals, k: usize| match part.rms[k].zip(part.relative[k]) {
+    let describe = |part: &Residuals, k: usize| match part.rms[k].zip(part.relative[k]) {
         Some((rms, off)) => format!("{} ({:.2} %)", si(rms, QUANTITIES[k].1, 3), 100.0 * off),
         None => "none".to_owned(),
     };
     let known = |k: &usize| fitted.rms[*k].is_some() || held_out.rms[*k].is_some();
     rows((0..QUANTITIES.len()).filter(known))
         .column("", "measured", "", |k| QUANTITIES[*k].0)
-        .column("", "fitted", "root mean square", move |k| told(fitted, *k))
+        .column("", "fitted", "root mean square", move |k| {
+            describe(fitted, *k)
+        })
         .column("", "held out", "root mean square", move |k| {
-            told(held_out, *k)
+            describe(held_out, *k)
         })
         .table("")
         .in_view()

@@ -114,7 +114,7 @@ impl Comparison {
                         self.name(best),
                         cell(&[self.by], best)
                     ),
-                    others => format!("undecided between {}", self.told(best, others, self.by)),
+                    others => format!("undecided between {}", self.describe(best, others, self.by)),
                 };
                 format!("{of}, ranked by {}: {told}", self.by.label)
             }
@@ -196,7 +196,7 @@ impl Comparison {
                 firsts.push(match &others[..] {
                     [] => (name, self.name(first), cell(&[quantity], first)),
                     others => {
-                        let told = self.told(first, others, quantity);
+                        let told = self.describe(first, others, quantity);
                         (name, "undecided".to_owned(), format!("between {told}"))
                     }
                 });
@@ -229,13 +229,13 @@ impl Comparison {
     }
 
     /// Two designs of which it is not known which has more of a figure, and how many others.
-    fn told(&self, first: &Assessment, others: &[&Assessment], quantity: &Quantity) -> String {
-        let told = |one| format!("{} with {}", self.name(one), cell(&[quantity], one));
+    fn describe(&self, first: &Assessment, others: &[&Assessment], quantity: &Quantity) -> String {
+        let describe = |one| format!("{} with {}", self.name(one), cell(&[quantity], one));
         let more = match others.len() {
             ..2 => String::new(),
             count => format!(" and {} more", count - 1),
         };
-        format!("{} and {}{more}", told(first), told(others[0]))
+        format!("{} and {}{more}", describe(first), describe(others[0]))
     }
 
     /// Figures with bounds, and the designs from the highest to the lowest: `a > b ~ c`.

@@ -253,7 +253,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
             si(-worst.energy, "J", 4),
             met(set, found, &worst),
             if worst.kind == Kind::Trap { "," } else { "" },
-            told(&worst.pose)
+            describe(&worst.pose)
         ),
         _ => "no wrong meeting is attractive".to_owned(),
     };
@@ -265,7 +265,7 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
 }
 
 /// A pose for the terminal.
-fn told(q: &Configuration) -> String {
+fn describe(q: &Configuration) -> String {
     let [x, y, theta] = read_pose(q);
     format!("{x}, {y} mm, {theta} deg")
 }

@@ -72,7 +72,7 @@ fn found(design: &Design, problem: &Problem, docking: &Docking, paths: Option<&P
         .table(traps(problem, docking))
         .data("time_to_bind_s", json!(times(docking)))
         .data("on_rate", rate("attachments", &OnRate::new(docking)))
-        .fact("", "on-rate", told_rate(&OnRate::new(docking))).in_view()
+        .fact("", "on-rate", describe_rate(&OnRate::new(docking))).in_view()
         .data("timing", timing(docking))
         .table(runs(docking))
         .table(chances(&map));
@@ -145,7 +145,7 @@ fn timing(docking: &Docking) -> Value {
     })
 }
 
-fn told_rate(rate: &OnRate) -> String {
+fn describe_rate(rate: &OnRate) -> String {
     let [low, high] = rate.interval.map(|end| plain(end, 3));
     format!("{} /s ({low} to {high})", plain(rate.rate, 3))
 }
@@ -257,7 +257,7 @@ fn notes(docking: &Docking) -> Vec<String> {
     let rate = OnRate::new(docking);
     notes.push(format!(
         "on-rate {}; times between attachments {} an exponential distribution",
-        told_rate(&rate),
+        describe_rate(&rate),
         match rate.is_exponential() {
             true => "are compatible with",
             false => "refute",

@@ -25,11 +25,11 @@ pub fn cell(quantities: &[&Quantity], design: &Assessment) -> String {
 
 /// The same, energies as multiples of a unit that is told elsewhere, if there is one.
 pub fn cell_in(quantities: &[&Quantity], design: &Assessment, unit: Option<f64>) -> String {
-    let told = |quantity: &&Quantity| {
+    let describe = |quantity: &&Quantity| {
         let reading = (quantity.read)(design)?;
         Ok(text(quantity.measure, &reading, unit))
     };
-    let texts: Result<Vec<String>, &str> = quantities.iter().map(told).collect();
+    let texts: Result<Vec<String>, &str> = quantities.iter().map(describe).collect();
     texts.map_or_else(str::to_owned, |texts| texts.join(" to "))
 }
 

@@ -81,7 +81,7 @@ pub fn document<'a>(design: &'a Design, found: &'a Inspection) -> Document<'a> {
         notes: design
             .sold
             .iter()
-            .map(sold::told)
+            .map(sold::describe)
             .chain(without_wall(design))
             .chain(weights(design))
             .collect(),
@@ -181,7 +181,7 @@ impl Face {
         !self.code.is_empty() || !self.is_straight()
     }
 
-    fn told_magnets(&self) -> String {
+    fn describe_magnets(&self) -> String {
         // To a micrometre, and a hundred-thousandth of the face, finer than any drill.
         let places = in_mm(&self.magnets, 0, f64::min(0.5e-6, 1e-5 * self.length));
         match self.magnets.is_empty() {
@@ -190,7 +190,7 @@ impl Face {
         }
     }
 
-    fn told_shape(&self) -> String {
+    fn describe_shape(&self) -> String {
         let [low, high] = self.heights;
         let told = in_mm(&self.heights, 1, 1e-2 * (high - low));
         match self.is_straight() {
@@ -226,8 +226,8 @@ fn table(key: &'static str, faces: Vec<Face>) -> Table {
         .column("name", "face", "of which tile", |it| it.name.clone()).viewed(|it| format!("{} {}", it.tile, it.name))
         .column("length_m", "length", "of its base line", |it| it.length)
         .column("code", "", "", |it| it.code.clone())
-        .column("magnets_m", "magnets", "outward poles and their positions, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::told_magnets)
-        .column("heights_m", "shape", "distance of the line from the base line", |it| json!(it.heights)).without_csv().viewed(Face::told_shape)
+        .column("magnets_m", "magnets", "outward poles and their positions, counter-clockwise", |it| json!(it.magnets)).without_csv().viewed(Face::describe_magnets)
+        .column("heights_m", "shape", "distance of the line from the base line", |it| json!(it.heights)).without_csv().viewed(Face::describe_shape)
         .column("height_bounds_m", "", "", |it| it.heights).in_csv()
         .table(key)
 }
@@ -284,12 +284,15 @@ mod tests {
 
     #[test]
     fn lengths_have_the_digits_that_they_need() {
-        let told = |lengths: &[f64], error: f64| in_mm(lengths, 0, error).join(", ");
-        assert_eq!(told(&[-0.06, -0.02, 0.02, 0.06], 4e-6), "-60, -20, 20, 60");
+        let describe = |lengths: &[f64], error: f64| in_mm(lengths, 0, error).join(", ");
+        assert_eq!(
+            describe(&[-0.06, -0.02, 0.02, 0.06], 4e-6),
+            "-60, -20, 20, 60"
+        );
         let small = [-0.003, -0.0018, -0.0006, 0.0006, 0.0018, 0.003];
-        assert_eq!(told(&small, 1e-7), "-3.0, -1.8, -0.6, 0.6, 1.8, 3.0");
-        assert_eq!(told(&[0.0127 / 3.0, -1e-12], 1e-6), "4.233, 0.000");
-        assert_eq!(told(&[], 1e-6), "");
+        assert_eq!(describe(&small, 1e-7), "-3.0, -1.8, -0.6, 0.6, 1.8, 3.0");
+        assert_eq!(describe(&[0.0127 / 3.0, -1e-12], 1e-6), "4.233, 0.000");
+        assert_eq!(describe(&[], 1e-6), "");
         assert_eq!(in_mm(&[0.0, 0.0123], 1, 1e-4), ["0.0", "12.3"]);
         assert_eq!(in_mm(&[0.0, 0.000_05], 1, 5e-7), ["0.00", "0.05"]);
     }

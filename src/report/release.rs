@@ -74,7 +74,11 @@ pub fn document(
             )
             .data("times_s", times),
         pictures: vec![still_bound(&left, releases.len(), settings.duration).into()],
-        notes: overdamped.as_ref().map(told_beside).into_iter().collect(),
+        notes: overdamped
+            .as_ref()
+            .map(describe_beside)
+            .into_iter()
+            .collect(),
         origin: format!(
             "seed {}, {} magnets",
             settings.seed,
@@ -100,7 +104,7 @@ fn beside(found: &Loosening) -> Value {
     })
 }
 
-fn told_beside(found: &Loosening) -> String {
+fn describe_beside(found: &Loosening) -> String {
     let [rate, in_well] = [found.rate, found.in_well].map(|rate| plain(rate, 3));
     format!(
         "overdamped detachment rate at this kT and drag, with elastic collisions: {rate} /s \

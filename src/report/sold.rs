@@ -9,7 +9,7 @@ use physics::tile::strength::{Strength, pull_spread};
 use physics::units::to_digits;
 
 /// The meaning and the uncertainty of a shop's grade or pull.
-pub fn told((strength, magnet): &(Strength, Magnet)) -> String {
+pub fn describe((strength, magnet): &(Strength, Magnet)) -> String {
     let size = magnet.axis_first();
     let block = match magnet.form.shape {
         Shape::Block => format!(

@@ -37,8 +37,8 @@ pub fn document<'a>(
         answer: format!(
             "{}: {tiles} tiles have {} bonds and {} traps after {} ({}; {} {} seed {seed})",
             about.name,
-            told(&statistics.bonds),
-            told(&statistics.traps),
+            describe(&statistics.bonds),
+            describe(&statistics.traps),
             duration(found.ensemble.settings.duration, 3),
             verdict(statistics),
             found.runs.len(),
@@ -84,7 +84,7 @@ fn verdict(statistics: &Statistics) -> &'static str {
     }
 }
 
-fn told(interval: &Interval) -> String {
+fn describe(interval: &Interval) -> String {
     match (interval.low, interval.high) {
         (Some(low), Some(high)) => format!(
             "{} ({} to {})",
@@ -256,7 +256,7 @@ fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String 
         Some(false) => format!(
             "; of traps it predicts {}, and here are {}: `yield` has no contacts of {}",
             plain(there, 2),
-            told(traps),
+            describe(traps),
             match yields.crowd.one_kind {
                 true => "three tiles",
                 false => "equal tiles or of three",
@@ -264,7 +264,7 @@ fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String 
         ),
         _ => String::new(),
     };
-    let bonds = told_agreement(agree(here, best.interval));
+    let bonds = describe_agreement(agree(here, best.interval));
     format!(
         "`tilebind yield` predicts that {} are bound ({}), and here are {}{bonds}{trapped}",
         share(best.bound),
@@ -285,8 +285,8 @@ fn against_rows(found: &Found, built: &Rows) -> String {
         plain(there.mean, 3),
         plain(there.low, 3),
         plain(there.high, 3),
-        told(here),
-        told_agreement(agree(here, [there.low, there.high]))
+        describe(here),
+        describe_agreement(agree(here, [there.low, there.high]))
     )
 }
 
@@ -296,7 +296,7 @@ fn agree(here: &Interval, there: [f64; 2]) -> Option<bool> {
     Some(here.high? >= there[0] && here.low? <= there[1])
 }
 
-fn told_agreement(agree: Option<bool>) -> &'static str {
+fn describe_agreement(agree: Option<bool>) -> &'static str {
     match agree {
         Some(true) => "; their intervals overlap",
         Some(false) => "; the two results differ by more than both intervals",
@@ -369,11 +369,11 @@ fn entries(about: &About, found: &Found, seed: u64) -> Entries {
         .fact("step_s", "step", statistics.step)
         .data("bonds", interval(&statistics.bonds))
         .data("traps", interval(&statistics.traps))
-        .fact("", "bonds", told(&statistics.bonds)).in_view().noted("at the end, mean over the runs with its 95 % interval")
+        .fact("", "bonds", describe(&statistics.bonds)).in_view().noted("at the end, mean over the runs with its 95 % interval")
         .data("contacts", interval(&statistics.contacts))
         .data("trapped_tiles", interval(&statistics.trapped))
-        .fact("", "traps", told(&statistics.traps)).in_view().noted("other stable contacts at the end")
-        .fact("", "contacts", told(&statistics.contacts)).in_view().noted("stable contacts that follow from bonds to a common neighbour, or have less than 0.5 % of a bond's energy")
+        .fact("", "traps", describe(&statistics.traps)).in_view().noted("other stable contacts at the end")
+        .fact("", "contacts", describe(&statistics.contacts)).in_view().noted("stable contacts that follow from bonds to a common neighbour, or have less than 0.5 % of a bond's energy")
         .data("target", json!({"share": interval(&found.target.share), "defects": found.target.defects.as_ref().map(interval), "outside": found.target.outside.as_ref().map(interval)}))
         .fact("", "target", reached(about, found)).in_view().noted(aim(about, found))
         .data("clusters", json!(statistics.clusters))
@@ -451,14 +451,14 @@ fn reached(about: &About, found: &Found) -> String {
         .target
         .defects
         .as_ref()
-        .map(|it| format!(", {} defects", told(it)));
+        .map(|it| format!(", {} defects", describe(it)));
     let what = match (&found.target.possible, &about.pattern) {
         (Some(possible), _) => format!(" of {possible} tiles"),
         (None, Some(_)) => " of the pattern".to_owned(),
         (None, None) => " of the pairs".to_owned(),
     };
     let outside = found.target.outside.as_ref();
-    let outside = outside.map(|it| format!(", {} tiles outside", told(it)));
+    let outside = outside.map(|it| format!(", {} tiles outside", describe(it)));
     format!(
         "{} %{}{what}{}{}{}",
         percent(mean),

@@ -62,10 +62,10 @@ pub fn grams(newtons: f64) -> String {
 }
 
 /// A force or a torque in words, none where it is negligible beside the strongest of its kind.
-pub fn or_none(value: f64, strongest: f64, told: fn(f64) -> String) -> String {
+pub fn or_none(value: f64, strongest: f64, describe: fn(f64) -> String) -> String {
     match value.abs() <= NEGLIGIBLE * strongest {
         true => "none".to_owned(),
-        false => told(value),
+        false => describe(value),
     }
 }
 

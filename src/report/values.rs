@@ -27,15 +27,15 @@ pub(super) fn read_pose(q: &Configuration) -> [String; 3] {
     };
     // Nothing below a nanometre is shown.
     let decimals = (finest - 1e-9).ceil().clamp(1.0, 6.0) as usize;
-    let told = |value: f64, decimals: usize| {
+    let describe = |value: f64, decimals: usize| {
         let scale = 10f64.powi(decimals as i32);
         // Avoids -0.
         format!("{:.decimals$}", (scale * value).round() / scale + 0.0)
     };
     [
-        told(x, decimals),
-        told(y, decimals),
-        told(q.theta.to_degrees(), 2),
+        describe(x, decimals),
+        describe(y, decimals),
+        describe(q.theta.to_degrees(), 2),
     ]
 }
 
@@ -56,10 +56,10 @@ mod tests {
 
     #[test]
     fn poses_of_small_tiles_are_told_with_more_digits() {
-        let told = |x: f64, y: f64| read_pose(&Configuration::new(x, y, -1e-9)).join(" ");
-        assert_eq!(told(0.43, -0.04), "430.00 -40.00 0.00");
-        assert_eq!(told(0.08, 1e-9), "80.00 0.00 0.00");
-        assert_eq!(told(0.010_66, 0.000_14), "10.660 0.140 0.00");
-        assert_eq!(told(0.0, 0.0), "0.0 0.0 0.00");
+        let describe = |x: f64, y: f64| read_pose(&Configuration::new(x, y, -1e-9)).join(" ");
+        assert_eq!(describe(0.43, -0.04), "430.00 -40.00 0.00");
+        assert_eq!(describe(0.08, 1e-9), "80.00 0.00 0.00");
+        assert_eq!(describe(0.010_66, 0.000_14), "10.660 0.140 0.00");
+        assert_eq!(describe(0.0, 0.0), "0.0 0.0 0.00");
     }
 }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::chains;
-use crate::columns::{Unit, told};
+use crate::columns::{Unit, describe};
 use crate::document::{Document, Drawing, Entries, Table, entries, rows};
 use crate::files::{PAGE, REPORT};
 use crate::plots::chart::{Chart, Dimension, Look, Point};
@@ -36,7 +36,7 @@ pub const FILES: Command = Command {
 
 /// The document of a yield.
 pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
-    let told = question.effort.told();
+    let told = question.effort.describe();
     let interval = match question.effort.source {
         Source::Docking => "95 %, from the attachment rate",
         Source::Overdamped => "difference between the two finest meshes",
@@ -166,7 +166,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .fact("best_kT_J", "kT", best.kt).noted("best of the requested values")
         .table(by_kt(question, found))
         .data("mixture", mixture(found))
-        .data("rates", format!("{}; detachment {}", effort.told(), detachment(question)))
+        .data("rates", format!("{}; detachment {}", effort.describe(), detachment(question)))
         .data("docking", json!({
             "runs": effort.runs, "duration_s": effort.duration,
             "drag_per_s": motion.drag, "restitution": motion.restitution,
@@ -182,7 +182,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
 /// The best schedule of kT in equal slots, without observing the tiles; no schedule yields more
 /// than the upper bound, not even one that observes the tiles.
 fn mixture(found: &Yields) -> Value {
-    let told = |(tiles, mixture): &(usize, Mixture)| {
+    let describe = |(tiles, mixture): &(usize, Mixture)| {
         let kts = mixture.schedule.iter().map(|k| found.outcomes[*k].kt);
         json!({
             "tiles": tiles,
@@ -191,7 +191,7 @@ fn mixture(found: &Yields) -> Value {
             "upper_bound": mixture.bound,
         })
     };
-    json!(found.mixture.as_ref().map(told))
+    json!(found.mixture.as_ref().map(describe))
 }
 
 /// A requested kT, and its outcome.
@@ -205,7 +205,7 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
     let inner = |get: fn(&Outcome) -> Table| move |(_, at): &AtKt| at.ok().map(get);
     let simulated = |(_, at): &AtKt| at.ok().and_then(|it| it.simulated);
     let entry = |[mean, error]: [f64; 2]| json!({ "mean": mean, "standard_error": error });
-    let told = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
+    let describe = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
     rows(question.kts.iter().map(|kt| (*kt, found.at(*kt))))
         .column("kT_J", "kT", "effective energy of shaking", |(kt, _)| *kt)
         .column("why_not", "", "", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
@@ -219,7 +219,7 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
             hold for many tiles", known(|it| it.smooth))
         .column("yield_equilibrium", "in equilibrium", "fraction in the bond in equilibrium", known(|it| it.equilibrium)).share()
         .column("yield_simulated", "simulated", "by simulation, with two standard errors", move |row| json!(simulated(row).map(entry)))
-            .viewed(move |row| simulated(row).map_or("-".to_owned(), told)).without_csv()
+            .viewed(move |row| simulated(row).map_or("-".to_owned(), describe)).without_csv()
         .column("mean_time_to_bond_s", "to bond", "mean time until a free tile binds", of(|it| it.mean_times[0])).viewed(mean_time(0))
         .column("mean_time_to_bond_at_least_s", "", "", known(|it| it.least_times.map(|it| it[0]))).in_json()
         .column("mean_time_out_of_bond_s", "out of bond", "mean time until a bond breaks", of(|it| it.mean_times[1])).viewed(mean_time(1))
@@ -240,7 +240,7 @@ fn by_kt(question: &Question, found: &Yields) -> Table {
 fn mean_time(which: usize) -> impl Fn(&AtKt) -> String {
     move |(_, at)| match at.map(|it| (it.mean_times[which], it.least_times)) {
         Ok((_, Some(least))) => format!("longer than {}", duration(least[which], 2)),
-        Ok((time, None)) => told(time, Unit::Of("s"), 2),
+        Ok((time, None)) => describe(time, Unit::Of("s"), 2),
         Err(_) => "-".to_owned(),
     }
 }
@@ -265,7 +265,7 @@ fn states(outcome: &Outcome) -> Table {
             .viewed(move |it| limited(it, it.on, it.on_interval, &|rate| format!("{rate:.1e} m²/s")))
         .column("on_interval_m2_per_s", "", "", |it| it.on_interval)
         .column("off_per_s", "off", "escape rate", |it| it.off)
-            .viewed(move |it| limited(it, it.off, it.off_interval, &|rate| told(rate, Unit::Of("/s"), 2)))
+            .viewed(move |it| limited(it, it.off, it.off_interval, &|rate| describe(rate, Unit::Of("/s"), 2)))
         .column("off_interval_per_s", "", "", |it| it.off_interval).in_json()
         .column("depth_kT", "depth", "energy in kT", |it| it.depth)
         .column("ln_K", "ln K", "logarithm of binding constant / concentration", |it| it.ln_k)

@@ -259,8 +259,8 @@ fn in_range(what: &str, number: f64, range: &RangeInclusive<f64>) -> Result<f64,
     if range.contains(&number) {
         return Ok(number);
     }
-    let told = |number: &f64| format!("{number:?}").trim_end_matches(".0").to_owned();
-    let [number, least, most] = [&number, range.start(), range.end()].map(told);
+    let describe = |number: &f64| format!("{number:?}").trim_end_matches(".0").to_owned();
+    let [number, least, most] = [&number, range.start(), range.end()].map(describe);
     Err((
         format!("{what} is {number}, not from {least} to {most}"),
         format!("write a number from {least} to {most}, such as 1"),

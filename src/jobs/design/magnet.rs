@@ -108,7 +108,7 @@ impl MagnetKeys {
 
     /// The magnet, if all required keys are given; otherwise the missing key.
     pub fn body(&self) -> std::result::Result<Body, &'static str> {
-        let (shape, size) = self.size.ok_or("size")?.told()?;
+        let (shape, size) = self.size.ok_or("size")?.describe()?;
         let strength = self.strength.ok_or("remanence")?;
         Ok(Body {
             shape,
@@ -119,7 +119,7 @@ impl MagnetKeys {
 
     /// Its width along a face (m).
     pub fn width(&self) -> Option<f64> {
-        let (_, size) = self.size?.told().ok()?;
+        let (_, size) = self.size?.describe().ok()?;
         Some(size[1])
     }
 }
@@ -147,7 +147,7 @@ impl Size {
     }
 
     /// The shape and the size, the one along the axis first; or the missing key.
-    fn told(self) -> std::result::Result<(Shape, [f64; 3]), &'static str> {
+    fn describe(self) -> std::result::Result<(Shape, [f64; 3]), &'static str> {
         Ok(match self {
             Self::Block(size) => (Shape::Block, size),
             Self::Disc(height, diameter) => {

@@ -9,7 +9,7 @@ use super::face::find_face;
 use super::quantity::four_digits;
 use super::reader::{Entry, Section};
 use super::tile::{TILES, TileEntry};
-use super::tolerance::{Lengths, allowance, micrometres, nearly_equal, told_apart};
+use super::tolerance::{Lengths, allowance, distinguished, micrometres, nearly_equal};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
 use physics::tile::outline::cross;
@@ -59,7 +59,7 @@ pub(super) fn read<'a>(root: &Section<'a>, tiles: &[TileEntry; 2]) -> Result<Tar
     let [a, b] = lengths;
     let kind = Lengths::of(a, b);
     if kind == Lengths::Unequal {
-        let [a, b] = told_apart(a, b);
+        let [a, b] = distinguished(a, b);
         return Err(entry.error(
             format!("the target faces cannot coincide: they are {a} and {b} long"),
             "choose two faces of equal length",

@@ -8,7 +8,7 @@ use super::magnet::MagnetKeys;
 use super::quantity;
 use super::reader::{Entry, Section, all};
 use super::shield::ShieldKeys;
-use super::tolerance::{Lengths, nearly_equal, told_apart};
+use super::tolerance::{Lengths, distinguished, nearly_equal};
 use physics::potential::shielding::Shield;
 
 /// The two tiles' names, in the order in which they are stored.
@@ -163,7 +163,7 @@ fn resolve_face(
     tiles[tile].section.source.faults.check_guesses()?;
     let lengths = Lengths::of(base.length(), partner_length);
     if lengths == Lengths::Unequal {
-        let [own, others] = told_apart(base.length(), partner_length);
+        let [own, others] = distinguished(base.length(), partner_length);
         return Err(mates.error(
             format!("a face of {own} cannot mate a face of {others}"),
             "mates need faces of equal length",

@@ -50,7 +50,7 @@ impl Lengths {
 }
 
 /// Two lengths (m) in millimetres, with enough digits to distinguish them.
-pub(super) fn told_apart(a: f64, b: f64) -> [String; 2] {
+pub(super) fn distinguished(a: f64, b: f64) -> [String; 2] {
     let both = |digits: usize| [a, b].map(|x| to_digits(x * 1e3, digits).to_string());
     let digits = (4..16).find(|digits| {
         let [first, second] = both(*digits);
@@ -66,7 +66,7 @@ pub(super) fn micrometres(length: f64) -> String {
 
 /// The warning that two faces differ by less than a cutter resolves, and how they are treated.
 pub(super) fn nearly_equal(entry: &Entry, what: &str, a: f64, b: f64) -> DesignError {
-    let [first, second] = told_apart(a, b);
+    let [first, second] = distinguished(a, b);
     entry.source.doubt(
         entry.span(),
         format!(
@@ -101,12 +101,12 @@ mod tests {
 
     #[test]
     fn digits_that_differ_are_told() {
-        assert_eq!(told_apart(0.08, 0.080_000_12), ["80 mm", "80.0001 mm"]);
+        assert_eq!(distinguished(0.08, 0.080_000_12), ["80 mm", "80.0001 mm"]);
         assert_eq!(
-            told_apart(0.08, 0.080_000_000_12),
+            distinguished(0.08, 0.080_000_000_12),
             ["80 mm", "80.0000001 mm"]
         );
-        assert_eq!(told_apart(0.1, 0.08), ["100 mm", "80 mm"]);
+        assert_eq!(distinguished(0.1, 0.08), ["100 mm", "80 mm"]);
         assert_eq!(micrometres(1.2e-7), "0.120 um");
     }
 }

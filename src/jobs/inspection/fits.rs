@@ -53,7 +53,7 @@ pub struct Fit {
 pub fn fits(design: &Design, problem: &Problem) -> (Vec<Fit>, f64) {
     let way = Way::new(design, problem);
     let bond = fit(&way, 0.0);
-    if problem.is_dear() {
+    if problem.is_expensive() {
         return (vec![bond], bond.energy.abs());
     }
     let poses: Vec<Configuration> = (-way.steps..=way.steps).map(|k| way.touching(k)).collect();

@@ -99,7 +99,7 @@ impl Obstacle {
         )
     }
 
-    fn told(&self) -> String {
+    fn describe(&self) -> String {
         match self {
             Self::Input => "is read by this command and is never replaced".to_owned(),
             Self::Irregular => "is not a regular file".to_owned(),
@@ -333,7 +333,11 @@ impl Output {
             true => format!("{other}, or replace {what} with --force"),
             false => other.to_owned(),
         };
-        Err(refusal(first, &format!("{}{more}", obstacle.told()), &help))
+        Err(refusal(
+            first,
+            &format!("{}{more}", obstacle.describe()),
+            &help,
+        ))
     }
 
     fn obstacle(&self, record: &Record, name: &str) -> Option<(PathBuf, Obstacle)> {
@@ -417,7 +421,7 @@ fn way_out(folder: &Path, inner: &Path) -> Option<(PathBuf, Obstacle)> {
 /// If it cannot be created or written to, or leads elsewhere.
 pub fn check_inner(folder: &Path, inner: &Path) -> Result<(), OutputError> {
     match way_out(folder, inner) {
-        Some((path, obstacle)) => Err(refusal(&path, &obstacle.told(), ANOTHER_FOLDER)),
+        Some((path, obstacle)) => Err(refusal(&path, &obstacle.describe(), ANOTHER_FOLDER)),
         None => folder::check(&folder.join(inner)),
     }
 }
@@ -430,7 +434,7 @@ pub fn check_inner(folder: &Path, inner: &Path) -> Result<(), OutputError> {
 pub fn keep(folder: &Path, name: &str, content: &[u8]) -> Result<(), OutputError> {
     let (name, path) = (Path::new(name), folder.join(name));
     if let Some((path, obstacle)) = name.parent().and_then(|inner| way_out(folder, inner)) {
-        return Err(refusal(&path, &obstacle.told(), ANOTHER_FOLDER));
+        return Err(refusal(&path, &obstacle.describe(), ANOTHER_FOLDER));
     }
     let staging = Staging::open(folder)?;
     let staged = staging.add(name, content)?;

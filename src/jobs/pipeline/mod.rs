@@ -62,8 +62,8 @@ pub fn analyse_showing(
     }
     clock.start("capture shares", 0.6);
     let far_starts = settings.far_starts();
-    let told = |done| observer.part("far starts (fewer: --far-starts)", done, far_starts.count);
-    let ends = capture::ends(&problem, &far_starts, survey.known(), &told);
+    let tell = |done| observer.part("far starts (fewer: --far-starts)", done, far_starts.count);
+    let ends = capture::ends(&problem, &far_starts, survey.known(), &tell);
     let shallow = -settings.least_depth * problem.depth();
     survey.add_rests(&ends, shallow);
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);

@@ -53,13 +53,13 @@ pub fn of_keywords<R: Args>(
             false => format!("--{option}={value}"),
         }));
     }
-    let wrong = |error: clap::Error| Misused::Wrong(told(&error));
+    let wrong = |error: clap::Error| Misused::Wrong(describe(&error));
     let matches = command.try_get_matches_from(words).map_err(wrong)?;
     R::from_arg_matches(&matches).map_err(wrong)
 }
 
 /// Clap's message about an option, rephrased for a keyword.
-fn told(error: &clap::Error) -> String {
+fn describe(error: &clap::Error) -> String {
     let text = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.clone()),
         Some(ContextValue::Strings(all)) => Some(all.join(", ")),
@@ -121,18 +121,18 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_told_of_the_keyword() {
-        let told = |given| asked(given).unwrap_err().to_string();
+        let describe = |given| asked(given).unwrap_err().to_string();
         assert_eq!(
-            told(&[("kt", &["-1"])]),
+            describe(&[("kt", &["-1"])]),
             "kt = -1: a number from 1e-9 to 1e9 is needed"
         );
-        assert_eq!(told(&[]), "kt is needed");
+        assert_eq!(describe(&[]), "kt is needed");
         assert_eq!(
-            told(&[("kt", &["1"]), ("whole", &[""]), ("part", &["a"])]),
+            describe(&[("kt", &["1"]), ("whole", &[""]), ("part", &["a"])]),
             "whole cannot be given with part"
         );
         assert_eq!(
-            told(&[("kT", &["1"])]),
+            describe(&[("kT", &["1"])]),
             "there is no argument \"kT\"; known: kt, most_runs, whole, part"
         );
     }

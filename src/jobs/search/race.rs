@@ -7,7 +7,7 @@ use crate::sweep::{Outcome, Plan, Point};
 use physics::order::Order;
 
 /// Number of points that are proved at the same time, after the first.
-const TOGETHER: usize = 4;
+const BATCH: usize = 4;
 
 /// Analyses contenders with proofs: first the best, then the best of those that may still be better
 /// by their bounds. A point whose upper bound lies below the lower bound of a proved one is dropped.
@@ -28,7 +28,7 @@ pub fn race<E>(
     let mut together = if search.aim.objectives.len() == 1 {
         1
     } else {
-        TOGETHER
+        BATCH
     };
     while left > 0 {
         let next = contenders(search, tried, together.min(left));
@@ -48,7 +48,7 @@ pub fn race<E>(
         for (k, outcome) in next.into_iter().zip(outcomes) {
             tried[k].proved = Some(outcome);
         }
-        together = TOGETHER;
+        together = BATCH;
     }
     Ok(Ok(()))
 }

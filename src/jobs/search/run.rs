@@ -125,11 +125,13 @@ impl<'a> Course<'a> {
                 // Steps from a better point than before begin anew.
                 0 if self.about != self.best => self.beside(),
                 0 => self.across(),
-                left => {
-                    let usual = (ROUND * points as f64) as usize;
-                    self.improving(usual.clamp(ROUNDS[0], ROUNDS[1]).min(left))
-                }
+                left => self.improving(left),
             }
+        };
+        // What the steps do not need is left for the model.
+        let round = match points.saturating_sub(self.analysed) {
+            left if round.is_empty() && left > 0 => self.improving(left),
+            _ => round,
         };
         Some(round).filter(|round| !round.is_empty())
     }
@@ -242,8 +244,10 @@ impl<'a> Course<'a> {
             .collect()
     }
 
-    /// The next points by the model.
-    fn improving(&mut self, count: usize) -> Round {
+    /// The next points by the model, at most `left`.
+    fn improving(&mut self, left: usize) -> Round {
+        let usual = (ROUND * self.search.aim.points as f64) as usize;
+        let count = usual.clamp(ROUNDS[0], ROUNDS[1]).min(left);
         let mut round: Round = Vec::new();
         while round.len() < count && self.may_go_on() {
             let waiting: Vec<Place> = round.iter().map(|(_, place)| place.clone()).collect();

@@ -41,7 +41,7 @@ impl<'a> Forecast<'a> {
         }
         let parts = self.runs.iter().map(|it| f64::from(it.load(Relaxed)));
         let share = parts.sum::<f64>() / (PARTS * self.runs.len() as f64);
-        if let Some(told) = told(passed, share)
+        if let Some(told) = describe(passed, share)
             && !self.is_told.swap(true, Relaxed)
         {
             self.observer.expect(&told);
@@ -50,7 +50,7 @@ impl<'a> Forecast<'a> {
 }
 
 /// What to tell after a time (s) in which a share of the work was done, if the rest is long.
-fn told(passed: f64, share: f64) -> Option<String> {
+fn describe(passed: f64, share: f64) -> Option<String> {
     let whole = passed / share;
     (whole.is_finite() && whole > WORTH_TELLING).then(|| {
         format!(
@@ -69,12 +69,12 @@ mod tests {
 
     #[test]
     fn long_work_is_told_with_what_shortens_it() {
-        let long = told(10.0, 0.02).expect("long");
+        let long = describe(10.0, 0.02).expect("long");
         assert!(
             long.contains("8.3 min") && long.contains("--runs"),
             "{long}"
         );
-        assert_eq!(told(10.0, 0.5), None);
-        assert_eq!(told(10.0, 0.0), None);
+        assert_eq!(describe(10.0, 0.5), None);
+        assert_eq!(describe(10.0, 0.0), None);
     }
 }

@@ -284,8 +284,8 @@ impl Request {
         let study = Study::new(design, &found.problem, &found.catalogue, &self.making)
             .ok_or(ToleranceError::NoBond)?;
         let made = Maker::new(&design.pair, &self.making, self.seed);
-        let told = |done| observer.part("draws (fewer: --draws)", done, count);
-        let (draws, outcomes) = study.draw(&made, count, &told);
+        let tell = |done| observer.part("draws (fewer: --draws)", done, count);
+        let (draws, outcomes) = study.draw(&made, count, &tell);
         Ok(self.answer(&study, &made, (&draws, outcomes), observer))
     }
 
@@ -474,10 +474,10 @@ impl<'a> Study<'a> {
     }
 
     /// Draws pairs of tiles; how many are done is told.
-    fn draw(&self, maker: &Maker, count: usize, told: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Outcome>) {
+    fn draw(&self, maker: &Maker, count: usize, tell: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Outcome>) {
         let (mut draws, mut outcomes) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for first in (0..count).step_by(TOGETHER) {
-            told(first);
+            tell(first);
             let some = parallel::map(first..count.min(first + TOGETHER), |number| {
                 let draw = maker.draw(number);
                 let outcome = self.outcome(&draw);

@@ -206,18 +206,18 @@ pub(super) struct Given {
 /// If it holds no report of an analysis.
 pub(super) fn read(folder: &Path) -> Result<Given, String> {
     let file = folder.join("report.json");
-    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
+    let describe = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
     let text = text::read(&file).map_err(|error| {
         format!(
             "{}\n  help: give folders that `tilebind analyse --out` wrote",
-            told(&error)
+            describe(&error)
         )
     })?;
     let report: Report = serde_json::from_str(&text).map_err(|error| {
         format!(
             "{}\n  help: only reports of `tilebind analyse` can be verified; analyse the design again if \
              another version wrote this one",
-            told(&error)
+            describe(&error)
         )
     })?;
     let barriers = report.barriers.iter().map(|it| &it.pathway);

@@ -101,7 +101,7 @@ fn of_count(
 ) -> Result<(Vec<SpacedWord>, Judged), DesignError> {
     effort.budget.spend(judging(wanted, count));
     let found = search(wanted, count, &[], 0.0, effort);
-    let words = told(found.map(|found| found.words));
+    let words = describe(found.map(|found| found.words));
     let judged = judged(wanted, &words)?;
     Ok((words, judged))
 }
@@ -126,7 +126,7 @@ fn of_gap(
             let found = effort.share(FOR_A_WORD, |part| {
                 search(wanted, count, &best.0, enough, part)
             });
-            let words = told(found.map(|found| found.words));
+            let words = describe(found.map(|found| found.words));
             let judged = judged(wanted, &words)?;
             let reached = judged.as_ref().and_then(|(_, found)| found.gap());
             if reached.is_some_and(|reached| reached >= gap) {
@@ -144,7 +144,7 @@ fn judging(wanted: &Wanted, count: usize) -> u64 {
     sampling_work(&wanted.bar, wanted.face, count, wanted.magnets)
 }
 
-fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {
+fn describe(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {
     words.unwrap_or_default().iter().map(rounded).collect()
 }
 
@@ -152,10 +152,10 @@ fn told(words: Option<Vec<SpacedWord>>) -> Vec<SpacedWord> {
 fn rounded(word: &SpacedWord) -> SpacedWord {
     let round = |at: f64| (at / STEP).round() * STEP + 0.0;
     // Rounds to the decimals of its text.
-    let told = |at: f64| format!("{:.6}", round(at)).parse().unwrap_or(at);
+    let describe = |at: f64| format!("{:.6}", round(at)).parse().unwrap_or(at);
     let magnets = word.magnets.iter();
     SpacedWord {
-        magnets: magnets.map(|(at, pole)| (told(*at), *pole)).collect(),
+        magnets: magnets.map(|(at, pole)| (describe(*at), *pole)).collect(),
     }
 }
 

@@ -94,7 +94,7 @@ impl Effort {
     }
 
     /// A description of the source of its rates.
-    pub fn told(&self) -> String {
+    pub fn describe(&self) -> String {
         let MotionSettings {
             drag,
             restitution,

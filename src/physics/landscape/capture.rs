@@ -40,14 +40,14 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
     Configuration::new(radius * x, radius * y, theta)
 }
 
-/// The end of each far start, with how many are done told, by overdamped motion (mass metric, sliding along contact); `None` if
-/// it leaves the table. The end need not be a verified minimum: where corners of both tiles meet,
+/// The end of each far start by overdamped motion (mass metric, sliding along contact), `None` if
+/// it leaves the table; `tell` gets how many are done. The end need not be a verified minimum: where corners of both tiles meet,
 /// the last check may fail a micrometre from one.
 pub fn ends(
     problem: &Problem,
     starts: &FarStarts,
     mut known: Known,
-    told: &dyn Fn(usize),
+    tell: &dyn Fn(usize),
 ) -> Vec<Option<Configuration>> {
     let all = (0..starts.count).map(|number| start(problem, starts, number));
     let rest = |outcome: Outcome| match outcome {
@@ -55,7 +55,7 @@ pub fn ends(
         Outcome::Stuck(q) => Some(q),
         Outcome::Free => None,
     };
-    let outcomes = learn(problem, &all.collect::<Vec<_>>(), &mut known, told);
+    let outcomes = learn(problem, &all.collect::<Vec<_>>(), &mut known, tell);
     outcomes.into_iter().map(rest).collect()
 }
 

@@ -99,7 +99,7 @@ impl Projected {
         let size = length(&held, &self.metric);
         Heading {
             direction,
-            held: held * (HELD / size).min(1.0),
+            held: held * (MOST_BALANCED / size).min(1.0),
             pressed: self.pressed().collect(),
         }
     }
@@ -121,7 +121,7 @@ pub fn unbalanced(problem: &Problem, point: &Point) -> f64 {
 
 /// Limit of the balanced force, in units of the remaining one: more would not change which contacts
 /// a step presses on.
-const HELD: f64 = 10.0;
+const MOST_BALANCED: f64 = 10.0;
 
 /// The direction of motion at a point.
 #[derive(Clone, Debug, PartialEq)]

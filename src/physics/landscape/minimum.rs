@@ -96,7 +96,7 @@ pub fn learn(
     problem: &Problem,
     starts: &[Configuration],
     known: &mut Known,
-    told: &dyn Fn(usize),
+    tell: &dyn Fn(usize),
 ) -> Vec<Outcome> {
     let mut outcomes: Vec<Outcome> = Vec::with_capacity(starts.len());
     while outcomes.len() < starts.len() {
@@ -112,7 +112,7 @@ pub fn learn(
         };
         let mut found = Vec::with_capacity(new.len());
         for some in new.chunks(TOLD) {
-            told(outcomes.len() + found.len());
+            tell(outcomes.len() + found.len());
             found.append(&mut parallel::map(some, end));
         }
         for (stretches, outcome) in found {

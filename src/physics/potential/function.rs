@@ -61,7 +61,7 @@ pub trait Potential: Sync {
 
     /// Whether an energy takes so long, because of very many magnets, that as few as possible are
     /// to be computed.
-    fn is_dear(&self) -> bool {
+    fn is_expensive(&self) -> bool {
         false
     }
 

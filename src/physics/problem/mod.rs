@@ -211,8 +211,8 @@ impl Problem {
 
     /// Whether an energy takes so long, because of very many magnets, that as few as possible are
     /// to be computed.
-    pub fn is_dear(&self) -> bool {
-        self.potential().is_dear()
+    pub fn is_expensive(&self) -> bool {
+        self.potential().is_expensive()
     }
 
     /// Whether each state has so many copies that few of them are searched on their own.
@@ -359,10 +359,10 @@ impl Problem {
         ends: impl Fn(usize) -> [&'a Option<Known>; 2] + Sync,
     ) -> Vec<bool> {
         /// Number of motions that share working memory.
-        const TOGETHER: usize = 64;
-        parallel::flat_map(0..count.div_ceil(TOGETHER), |part| {
+        const BATCH: usize = 64;
+        parallel::flat_map(0..count.div_ceil(BATCH), |part| {
             let mut left = Halves::default();
-            let motions = part * TOGETHER..count.min((part + 1) * TOGETHER);
+            let motions = part * BATCH..count.min((part + 1) * BATCH);
             let is_free = |motion| self.known_motion_is_free(ends(motion), &mut left);
             motions.map(is_free).collect::<Vec<_>>()
         })

@@ -59,7 +59,7 @@ pub struct EdgeSettings {
 }
 
 /// Number of edges that are collected together.
-const TOGETHER: usize = 1 << 20;
+const BATCH: usize = 1 << 20;
 /// Number of motions whose energies are evaluated together.
 pub(crate) const SIDE_BY_SIDE: usize = 64;
 
@@ -80,7 +80,7 @@ pub fn edges(
     };
     let mut edges = Vec::with_capacity(free.len());
     // In parts, because collecting in parallel takes twice the memory.
-    for part in free.chunks(TOGETHER) {
+    for part in free.chunks(BATCH) {
         let part: Vec<&[(u32, u32)]> = part.chunks(SIDE_BY_SIDE).collect();
         edges.append(&mut parallel::flat_map(&part, |some| of_some(some)));
     }

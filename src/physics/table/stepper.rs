@@ -15,7 +15,7 @@ use crate::rigid::{
 };
 
 /// Islands per task of a thread.
-const TOGETHER: usize = 8;
+const BATCH: usize = 8;
 /// Pairs apart per task of a thread.
 const APART_TOGETHER: usize = 64;
 /// Usual travel of a tile in a step, as a share of the distance that counts as near; faster tiles are
@@ -424,7 +424,7 @@ impl<'a> Stepper<'a> {
             };
             islands[number[top]].pairs.push((two, near));
         }
-        let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(TOGETHER).collect();
+        let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(BATCH).collect();
         parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
         for (island, members) in islands.into_iter().zip(members) {
             self.account.add(&island.account);

@@ -131,7 +131,7 @@ const FEW: usize = 64;
 /// From this number on, threads pay off.
 const MANY: usize = 2048;
 /// Number of poses per task.
-const TOGETHER: usize = 512;
+const BATCH: usize = 512;
 
 /// `WIDTH` numbers for each pose, computed by `kernel` for several poses at a time. NaN if a pose
 /// is not finite.
@@ -218,7 +218,7 @@ fn evaluate<T: Copy + Send + Sync>(
     } else {
         let out = &mut out;
         job::quietly(py, || {
-            let parts = out.par_chunks_mut(TOGETHER).zip(rows.par_chunks(TOGETHER));
+            let parts = out.par_chunks_mut(BATCH).zip(rows.par_chunks(BATCH));
             parts.for_each(|(out, rows)| {
                 interruption::check();
                 some(rows, out, &kernel);
@@ -241,7 +241,7 @@ fn room<T>(count: usize) -> PyResult<Vec<T>> {
 
 /// Leaves `out` unchanged if a pose is not finite.
 fn some<T: Copy>(rows: &[[f64; 3]], out: &mut [T], kernel: &impl Fn(&[Configuration], &mut [T])) {
-    for (rows, out) in rows.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
+    for (rows, out) in rows.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
         let is_known = |row: &[f64; 3]| row.iter().all(|number| number.abs() <= FARTHEST);
         if rows.iter().all(is_known) {
             let qs: Vec<_> = rows.iter().copied().map(Configuration::from).collect();
@@ -274,7 +274,7 @@ pub fn kernel_seconds(
     let mut out = vec![0.0; qs.len()];
     job::quietly(py, || {
         let start = std::time::Instant::now();
-        let parts = out.par_chunks_mut(TOGETHER).zip(qs.par_chunks(TOGETHER));
+        let parts = out.par_chunks_mut(BATCH).zip(qs.par_chunks(BATCH));
         parts.for_each(|(out, qs)| potential.energies(qs, out));
         start.elapsed().as_secs_f64()
     })

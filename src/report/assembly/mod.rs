@@ -87,7 +87,7 @@ fn entries(assembly: &Assembly) -> Entries {
     };
     let counts = assembly.counts();
     let shaken = assembly.growing.as_ref().map(|it| &it.shaken);
-    let told = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
+    let describe = |[least, most]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * least, 100.0 * most);
     let mut deepest: Vec<_> = assembly.slides.iter().filter(|it| it.deepest.is_some()).collect();
     let all = slid(assembly, deepest.clone());
     deepest.order_by(|a, b| a.energy().total_cmp(&b.energy()));
@@ -121,7 +121,7 @@ fn entries(assembly: &Assembly) -> Entries {
         .fact("strongest_mismatch", "strongest mismatch", mismatch)
             .viewed(si(wrong.map_or(0.0, |it| it.2), "J", 4)).noted("aligned")
         .fact("deeper_in_whole_tiles", "bonds between whole tiles", deeper.map(|ends| json!(ends)))
-            .viewed(deeper.map_or(String::new(), told)).noted("deeper than between two faces")
+            .viewed(deeper.map_or(String::new(), describe)).noted("deeper than between two faces")
         .data("slides", slides::summary(built, shaken, &assembly.slides).map(|it| json!({
             "deepest_J": it.deepest,
             "pairs_that_hold_alone": it.holding,

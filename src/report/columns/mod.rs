@@ -7,4 +7,4 @@ mod unit;
 
 pub use rows::{Rows, rows};
 pub use table::{Cell, Head, Link, Table};
-pub use unit::{Unit, told};
+pub use unit::{Unit, describe};

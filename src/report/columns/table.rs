@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde_json::{Value, json};
 
-use super::unit::{Scale, Unit, told};
+use super::unit::{Scale, Unit, describe};
 use crate::figures::percent;
 use crate::names::{place, place_name};
 use crate::values::{pose, positive_zero, proportion, read_pose};
@@ -42,22 +42,26 @@ pub enum Cell {
 
 impl Cell {
     /// As people read it.
-    pub fn told(&self, unit: Unit, digits: usize) -> String {
+    pub fn describe(&self, unit: Unit, digits: usize) -> String {
         match self {
             Self::Missing => "-".to_owned(),
-            Self::Number(value) => told(*value, unit, digits),
+            Self::Number(value) => describe(*value, unit, digits),
             Self::Whole(value) => value.to_string(),
             Self::Truth(value) => if *value { "yes" } else { "no" }.to_owned(),
             Self::Text(text) => text.clone(),
             Self::Interval([Some(low), Some(high)]) => match unit {
                 Unit::Of(symbol @ ("J" | "m" | "N")) => si_range(*low, *high, symbol, digits),
                 _ => {
-                    let [low, high] = [*low, *high].map(|end| told(end, unit, digits));
+                    let [low, high] = [*low, *high].map(|end| describe(end, unit, digits));
                     format!("{low} to {high}")
                 }
             },
-            Self::Interval([Some(low), None]) => format!("{} or more", told(*low, unit, digits)),
-            Self::Interval([None, Some(high)]) => format!("at most {}", told(*high, unit, digits)),
+            Self::Interval([Some(low), None]) => {
+                format!("{} or more", describe(*low, unit, digits))
+            }
+            Self::Interval([None, Some(high)]) => {
+                format!("at most {}", describe(*high, unit, digits))
+            }
             Self::Interval([None, None]) => "-".to_owned(),
             Self::Pose(q) => {
                 let [x, y, theta] = read_pose(q);
@@ -70,14 +74,16 @@ impl Cell {
     }
 
     /// The text for people, without the unit, which the heading states.
-    fn told_in(&self, scale: &Scale, digits: usize) -> String {
-        let told = |value: f64| scale.told(value, digits);
+    fn describe_in(&self, scale: &Scale, digits: usize) -> String {
+        let describe = |value: f64| scale.describe(value, digits);
         match self {
-            Self::Number(value) => told(*value),
-            Self::Interval([Some(low), Some(high)]) => format!("{} to {}", told(*low), told(*high)),
-            Self::Interval([Some(low), None]) => format!("{} or more", told(*low)),
-            Self::Interval([None, Some(high)]) => format!("at most {}", told(*high)),
-            other => other.told(Unit::None, digits),
+            Self::Number(value) => describe(*value),
+            Self::Interval([Some(low), Some(high)]) => {
+                format!("{} to {}", describe(*low), describe(*high))
+            }
+            Self::Interval([Some(low), None]) => format!("{} or more", describe(*low)),
+            Self::Interval([None, Some(high)]) => format!("at most {}", describe(*high)),
+            other => other.describe(Unit::None, digits),
         }
     }
 
@@ -221,8 +227,8 @@ impl Head {
     }
 
     /// A value for people.
-    pub fn told(&self, cell: &Cell) -> String {
-        cell.told(self.unit, self.digits)
+    pub fn describe(&self, cell: &Cell) -> String {
+        cell.describe(self.unit, self.digits)
     }
 }
 
@@ -338,12 +344,12 @@ impl Table {
     /// The heading of a column, with the unit if its cells share one, and the texts of its cells.
     pub fn column(&self, column: usize) -> (String, Vec<String>) {
         let (head, scale) = (&self.heads[column], self.scale(column));
-        let told = |cell: &Cell| match &scale {
-            Some(scale) => cell.told_in(scale, head.digits),
-            None => head.told(cell),
+        let describe = |cell: &Cell| match &scale {
+            Some(scale) => cell.describe_in(scale, head.digits),
+            None => head.describe(cell),
         };
         let cells = self.rows.iter().map(|row| &row[column]);
-        let cells = cells.map(|(cell, view)| view.clone().unwrap_or_else(|| told(cell)));
+        let cells = cells.map(|(cell, view)| view.clone().unwrap_or_else(|| describe(cell)));
         let name = match &scale {
             Some(scale) => format!("{} ({})", head.name, scale.unit),
             None => head.name.to_string(),
@@ -440,7 +446,7 @@ mod tests {
 
     #[test]
     fn people_read_units_with_prefixes_and_words_for_what_is_none() {
-        let read = |cell: Cell, key| cell.told(Unit::of_key(key), 3);
+        let read = |cell: Cell, key| cell.describe(Unit::of_key(key), 3);
         assert_eq!(read((-0.065_47).into(), "energy_J"), "-65.5 mJ");
         assert_eq!(read(f64::INFINITY.into(), "time_s"), "never");
         assert_eq!(read(f64::NAN.into(), "energy_J"), "-");
@@ -452,6 +458,6 @@ mod tests {
             read([Some(2.0), None].into(), "rate_per_s"),
             "2.00 /s or more"
         );
-        assert_eq!(Cell::from(0.004).told(Unit::Share, 3), "0.40 %");
+        assert_eq!(Cell::from(0.004).describe(Unit::Share, 3), "0.40 %");
     }
 }

@@ -62,7 +62,7 @@ impl Unit {
 }
 
 /// A number for people: with a number of digits, its unit, and an SI prefix where that is usual.
-pub fn told(value: f64, unit: Unit, digits: usize) -> String {
+pub fn describe(value: f64, unit: Unit, digits: usize) -> String {
     match unit {
         _ if value.is_nan() => "-".to_owned(),
         Unit::Of("s") if value.is_infinite() => "never".to_owned(),
@@ -110,7 +110,7 @@ impl Scale {
     }
 
     /// A number without the unit: to so many digits, as far as the decimals go.
-    pub(super) fn told(&self, value: f64, digits: usize) -> String {
+    pub(super) fn describe(&self, value: f64, digits: usize) -> String {
         if !value.is_finite() {
             return "-".to_owned();
         }

@@ -8,7 +8,7 @@ mod data;
 mod page;
 mod text;
 
-pub use crate::columns::{Cell, Head, Link, Rows, Table, Unit, rows, told};
+pub use crate::columns::{Cell, Head, Link, Rows, Table, Unit, describe, rows};
 pub use crate::plots::Drawing;
 
 use std::borrow::Cow;
@@ -195,8 +195,8 @@ impl Entries {
 impl Fact {
     /// The text for people.
     pub fn to_text(&self) -> String {
-        let told = || self.head.told(&self.cell);
-        self.view.clone().unwrap_or_else(told)
+        let describe = || self.head.describe(&self.cell);
+        self.view.clone().unwrap_or_else(describe)
     }
 }
 

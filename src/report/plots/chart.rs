@@ -14,7 +14,7 @@ use super::picture::PictureError;
 use super::sheet::Sheet;
 use super::style::{COLOURS, INK, series_colour, stroke, unit};
 use super::{Drawing, Figure};
-use crate::columns::{Unit, told};
+use crate::columns::{Unit, describe};
 use crate::csv::{number, table};
 use physics::units::si;
 
@@ -137,7 +137,7 @@ impl Dimension {
         if !self.marks.is_empty() {
             let text = |value: f64| match self.unit {
                 Unit::None if value.fract() == 0.0 => value.to_string(),
-                unit => told(value, unit, 2),
+                unit => describe(value, unit, 2),
             };
             let mark = |value: &f64| (axis.spacing.of(*value), text(*value));
             axis.marks = self.marks.iter().map(mark).collect();
@@ -183,7 +183,7 @@ impl Dimension {
             // Powers of ten of minutes and hours are not round.
             Unit::Of("s") => si(value, "s", 1),
             Unit::None if value.fract() == 0.0 => value.to_string(),
-            unit => told(value, unit, 1),
+            unit => describe(value, unit, 1),
         };
         let mark = |value: f64| (libm::log10(value + self.offset), text(value));
         let all = none.into_iter().chain(all).map(mark);

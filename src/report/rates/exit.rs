@@ -59,7 +59,7 @@ fn found_entries(design: &Design, exit: &PoseExit, check: Option<&ExitRuns>) -> 
     let [time, bound] = found.spread();
     entries(design)
         .fact("diffusion_m2_s", "", exit.diffusion)
-        .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(told_error(exit))
+        .fact("mean_exit_s", "mean exit time", exit.mean()).digits(known_digits(exit)).noted(describe_error(exit))
         .fact("mean_exit_error", "", finite(exit.error()))
         // Nothing is proved about an exit: the key stays for those who read it.
         .data("mean_exit_bounds_s", Value::Null)
@@ -130,7 +130,7 @@ fn by_mesh(exit: &PoseExit) -> Chart {
 }
 
 /// The estimated error of the mean exit time.
-fn told_error(exit: &PoseExit) -> String {
+fn describe_error(exit: &PoseExit) -> String {
     match exit.error() {
         error if error.is_finite() => format!("± {} %, estimated", plain(100.0 * error, 2)),
         _ => "error unknown".to_owned(),
@@ -149,7 +149,7 @@ fn notes(exit: &PoseExit, check: Option<&ExitRuns>) -> Vec<String> {
         100.0 * finest.error,
     )];
     if exit.found.way != Way::Open {
-        notes.push(exit.found.way.told().to_owned());
+        notes.push(exit.found.way.describe().to_owned());
     }
     notes.push(SCOPE.to_owned());
     notes.extend(check.into_iter().flat_map(|runs| check_notes(exit, runs)));

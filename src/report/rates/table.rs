@@ -89,7 +89,7 @@ fn error_of(rate: Option<f64>, error: f64) -> Option<f64> {
 }
 
 /// The error of the rate out of a place, or that there is no way out.
-fn told_error(found: &StateRates, place: usize) -> String {
+fn describe_error(found: &StateRates, place: usize) -> String {
     match found.known_rate_out(place) {
         Some(0.0) => "contact blocks every path".to_owned(),
         known => error_of(known, error_out(found, place)).map_or("-".to_owned(), either_way),
@@ -102,7 +102,7 @@ fn either_way(error: f64) -> String {
 }
 
 /// The region of the landscape that a place stands for.
-fn told_set(found: &StateRates, place: usize) -> String {
+fn describe_set(found: &StateRates, place: usize) -> String {
     match found.states.get(place) {
         Some(state) => below(state.below),
         None => format!("{} apart", si(found.asked.free_at, "m", 4)),
@@ -120,7 +120,7 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
     let of_basins = finite(finest.of_rims).filter(|_| error.is_finite());
     entries(design)
         .data("seed", seed)
-        .fact("leaving_per_s", "bonds break", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(told_error(found, 0)).in_view()
+        .fact("leaving_per_s", "bonds break", found.known_rate_out(0)).digits(digits_out(found, 0)).noted(describe_error(found, 0)).in_view()
         .fact("binding_per_s", "free tiles bind", found.known_rate(free, 0)).digits(digits_of(found, free, 0)).noted("by \
             any path").in_view()
         .fact("diffusion_m2_s", "", found.diffusion)
@@ -143,7 +143,7 @@ fn found_entries(design: &Design, found: &StateRates, seed: u64) -> Entries {
 fn places(found: &StateRates) -> Table {
     let of = |get: fn(&RatedState) -> f64| move |k: &usize| found.states.get(*k).map(get);
     let shared = |part: fn(&StateRates, usize) -> f64| move |k: &usize| found.known_share(*k, part(found, *k));
-    let told = |part: Option<f64>| part.map_or("-".to_owned(), share);
+    let describe = |part: Option<f64>| part.map_or("-".to_owned(), share);
     let occupation = shared(|it, k| it.found.finest().occupation[k]);
     let inside = shared(|it, k| it.found.inside[k]);
     rows(0..found.count())
@@ -151,21 +151,21 @@ fn places(found: &StateRates) -> Table {
         .column("place", "", "", |k| found.name(*k)).in_csv()
         .column("copies", "copies", "copies by symmetry", |k| found.states.get(*k).map(|it| it.copies))
         .column("occupation", "fraction of all time", "time between states is divided by committors", occupation)
-            .viewed(move |k| told(occupation(k)))
+            .viewed(move |k| describe(occupation(k)))
         .column("energy_J", "energy", "of the state", of(|it| it.energy)).digits(4)
         .column("basin_energy_J", "", "", of(|it| it.below)).in_json()
         .column("basin_J", "", "", of(|it| it.below)).in_csv()
-        .column("set", "its set", "configurations that make up the state", |k| told_set(found, *k)).in_view()
+        .column("set", "its set", "configurations that make up the state", |k| describe_set(found, *k)).in_view()
         .column("free_at_m", "", "", |k| (*k == found.states.len()).then_some(found.asked.free_at)).in_data()
         .column("inside", "fraction in its set", "fraction of all time spent in the set itself", inside)
-            .viewed(move |k| told(inside(k)))
+            .viewed(move |k| describe(inside(k)))
         .column("pose", "", "", |k| found.states.get(*k).map(|it| it.at)).in_json()
         .column("way_out", "", "", |k| found.found.ways.get(*k).map(|way| way.name())).in_json()
         .column("mean_exit_s", "", "", |k| found.known_rate_out(*k).map(|rate| 1.0 / rate)).in_json()
         .column("leaving_per_s", "escape rate", "rate to any other state", |k| found.known_rate_out(*k))
             .viewed(|k| found.known_rate_out(*k).map_or("-".to_owned(), |rate| per_second(rate, digits_out(found, *k)))).without_csv()
         .column("leaving_error", "error", "of that rate, estimated from two meshes", |k| error_of(found.known_rate_out(*k), error_out(found, *k)))
-            .viewed(|k| told_error(found, *k)).without_csv()
+            .viewed(|k| describe_error(found, *k)).without_csv()
         .table("places").titled("Places", "").in_file("occupation")
 }
 
@@ -284,7 +284,7 @@ fn notes(found: &StateRates) -> Vec<String> {
     }));
     let ways = found.states.iter().zip(&found.found.ways);
     let ways = ways.filter(|(_, way)| **way != Way::Open);
-    notes.extend(ways.map(|(state, way)| format!("{}: {}", state.name, way.told())));
+    notes.extend(ways.map(|(state, way)| format!("{}: {}", state.name, way.describe())));
     notes.push(format!(
         "lifetimes depend on the drag: these are for overdamped motion at {} /s; rates are \
          inversely proportional to the drag. `tilebind yield` counts docking runs with inertia, \

@@ -58,7 +58,7 @@ impl Sweep<'_> {
         let base = self.baseline();
         let is_base = |(index, _): &&(usize, &Assessment)| base.is_none_or(|base| base == *index);
         let base = done.iter().find(is_base).copied().unwrap_or(best);
-        let told = |(index, one): (usize, &Assessment)| {
+        let describe = |(index, one): (usize, &Assessment)| {
             let called = self.called(&self.points[index]);
             let captured = cell(&[quantity("captured")], one);
             format!(
@@ -68,17 +68,17 @@ impl Sweep<'_> {
             )
         };
         if best.1.obstacle().is_some() {
-            return Some(format!("no point reaches its bond; {}", told(best)));
+            return Some(format!("no point reaches its bond; {}", describe(best)));
         }
         let is_best = |(_, one): &&(usize, &Assessment)| {
             degree(one) == 0 && value(one) >= (1.0 - 1e-6) * value(best.1)
         };
         let equal = ranked.iter().filter(is_best).count();
         let mut sentence = match equal {
-            ..2 => format!("best {}", told(best)),
+            ..2 => format!("best {}", describe(best)),
             _ => format!(
                 "best undecided between {equal} points, such as {}",
-                told(best)
+                describe(best)
             ),
         };
         let ratio = value(best.1) / value(base.1);
@@ -86,10 +86,10 @@ impl Sweep<'_> {
             sentence += &format!(", {ratio:.1} x {}", self.called(&self.points[base.0]));
         }
         if self.baseline().is_some() && ![best.0, least.0].contains(&base.0) {
-            sentence += &format!("; {}", told(base));
+            sentence += &format!("; {}", describe(base));
         }
         if least.0 != best.0 {
-            sentence += &format!("; last {}", told(least));
+            sentence += &format!("; last {}", describe(least));
             if let Some((_, why)) = least.1.obstacle() {
                 sentence += &format!(" ({why})");
             }

@@ -203,7 +203,7 @@ impl Content<'_> {
     }
 
     /// The text for the point under the pointer.
-    fn told(&self, point: &Point, quantities: &[&Quantity]) -> Spot {
+    fn describe(&self, point: &Point, quantities: &[&Quantity]) -> Spot {
         let name = self.sweep.called(point);
         let figure = |one: &Assessment| {
             let shown = quantities.iter().filter(|one| one.panel.is_some());
@@ -291,7 +291,7 @@ impl Content<'_> {
                 let at = (plot.at(x_of(point), 0.0).0, bottom - 7.0 - step);
                 let Some(one) = self.sweep.assessment(point.index) else {
                     canvas.cross(at, 3.5, series_colour(number), 1.6);
-                    canvas.spot(&around(at, 8, &[8.0]), self.told(point, quantities));
+                    canvas.spot(&around(at, 8, &[8.0]), self.describe(point, quantities));
                     continue;
                 };
                 if lacks_traps(quantities[0], one) {
@@ -300,11 +300,14 @@ impl Content<'_> {
                     let is_best = measure == Measure::Ratio;
                     let at = (at.0, if is_best { top + 7.0 + step } else { at.1 });
                     canvas.circle(at, series_colour(number));
-                    canvas.spot(&around(at, 8, &[8.0]), self.told(point, quantities));
+                    canvas.spot(&around(at, 8, &[8.0]), self.describe(point, quantities));
                 }
                 for estimate in quantities.iter().filter_map(|quantity| quantity.of(one)) {
                     let y = plot.at(0.0, estimate.value).1.clamp(top, bottom);
-                    canvas.spot(&around((at.0, y), 8, &[8.0]), self.told(point, quantities));
+                    canvas.spot(
+                        &around((at.0, y), 8, &[8.0]),
+                        self.describe(point, quantities),
+                    );
                 }
             }
         }
@@ -382,7 +385,7 @@ impl Content<'_> {
             }
             canvas.spot(
                 &corners(place),
-                self.told(point, &QUANTITIES.iter().collect::<Vec<_>>()),
+                self.describe(point, &QUANTITIES.iter().collect::<Vec<_>>()),
             );
         }
         canvas.frame(plot.frame, INK);

@@ -66,7 +66,7 @@ impl Searched<'_> {
     /// The headline.
     fn answer(&self, sweep: &Sweep) -> String {
         let analysed = self.analysed();
-        let told = |index: usize| {
+        let describe = |index: usize| {
             let point = sweep.called(&self.found.tried[index].point);
             let figures = self.search.aim.objectives.iter().map(|one| {
                 let interval = self.figure(one.quantity(), index);
@@ -84,12 +84,12 @@ impl Searched<'_> {
             return match count {
                 1 => format!(
                     "one of {analysed} points surpasses all others: {}",
-                    told(first)
+                    describe(first)
                 ),
                 _ => format!(
                     "{count} of {analysed} points are on the front, from {} to {}",
-                    told(first),
-                    told(last)
+                    describe(first),
+                    describe(last)
                 ),
             };
         }
@@ -101,7 +101,7 @@ impl Searched<'_> {
             _ if open == others => String::from("; no bounds prove it better than others"),
             _ => format!(", proved better than all but {open} of {others} others"),
         };
-        format!("best of {analysed}: {}{proof}", told(first))
+        format!("best of {analysed}: {}{proof}", describe(first))
     }
 
     fn nothing_fits(&self, sweep: &Sweep) -> String {

@@ -5,7 +5,7 @@ mod text;
 
 use serde_json::{Value, json};
 
-use text::{face, headline, how_many, meetings, told};
+use text::{describe, face, headline, how_many, meetings};
 
 use super::crosstalk::{MOST_DRAWN, histogram};
 use super::document::{Document, Entries, Part, Table, rows};
@@ -158,7 +158,7 @@ fn entries(sought: &Sought) -> Entries {
             flush, in contact")
         .fact("worst", "strongest wrong meeting", worst.map(|it| meeting(&it, bar)))
             .viewed(worst.map_or(String::new(), |it| si(it.energy, "J", 4)))
-            .noted(worst.map_or(String::new(), |it| told(&it, sought)))
+            .noted(worst.map_or(String::new(), |it| describe(&it, sought)))
         // If the widest gap for a number of words was requested: an upper bound of it.
         .data("gap_upper_bound", answer.gap_upper)
         // If the requested gap coincides with a number of contacts: the number of words just beyond

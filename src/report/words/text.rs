@@ -41,7 +41,7 @@ pub(super) fn headline(sought: &Sought) -> String {
             let attraction = si(-worst.energy, "J", 4);
             format!(
                 "strongest wrong meeting {attraction}: {}",
-                told(&worst, sought)
+                describe(&worst, sought)
             )
         }
         Some(_) => "no wrong meeting is attractive".to_owned(),
@@ -72,7 +72,7 @@ pub(super) fn face(word: Word, sought: &Sought) -> String {
 }
 
 /// `A on B*, slid 40 mm`.
-pub(super) fn told(meeting: &WrongContact, sought: &Sought) -> String {
+pub(super) fn describe(meeting: &WrongContact, sought: &Sought) -> String {
     let [first, second] = [meeting.first, meeting.second].map(|word| face(word, sought));
     let slide = match meeting.slide {
         0 => "not slid".to_owned(),

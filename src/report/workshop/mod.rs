@@ -330,7 +330,7 @@ fn drawings(made: &Made, pages: Vec<String>) -> Files {
 // One line a column.
 #[rustfmt::skip]
 fn magnets(magnets: &[(Magnet, usize)]) -> Table {
-    let told = |magnet: &Magnet| {
+    let describe = |magnet: &Magnet| {
         let size = magnet.axis_first().map(plain);
         match magnet.form.shape {
             Shape::Block => format!("{}, magnetised along the first", size.join(" x ")),
@@ -340,7 +340,7 @@ fn magnets(magnets: &[(Magnet, usize)]) -> Table {
     rows(magnets)
         .column("number", "number", "", |(_, count)| *count)
         .column("size_m", "size (mm)", "along the moment first", |(magnet, _)| json!(magnet.axis_first())).without_csv()
-            .viewed(move |(magnet, _)| told(magnet))
+            .viewed(move |(magnet, _)| describe(magnet))
         .column("length_m", "", "", |(magnet, _)| magnet.axis_first()[0]).in_csv()
         .column("width_m", "", "", |(magnet, _)| magnet.axis_first()[1]).in_csv()
         .column("height_m", "", "", |(magnet, _)| magnet.axis_first()[2]).in_csv()
@@ -374,7 +374,7 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
         let words: Vec<&str> = open.into_iter().chain(fragile).chain((pocket.crowded() != [0.0; 2]).then_some("close")).collect();
         if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }
     };
-    let told = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
+    let describe = move |it: &(usize, &Filled)| format!("{}{}", pocket(it).name, open(&pocket(it)));
     let depths = tile.part.pockets.iter().map(|pocket| plain(pocket.depth));
     let mut depths: Vec<String> = depths.collect();
     depths.sort();
@@ -428,7 +428,7 @@ fn steps(made: &Made, tile: &MadeTile) -> Table {
     rows((1..).zip(&tile.steps))
         .column("tile", "", "", |_| name.clone()).in_csv()
         .column("step", "step", "", |(step, _)| *step)
-        .column("pocket", "pocket", "its face, and the magnet's number on it, counter-clockwise", move |it| pocket(it).name).viewed(told)
+        .column("pocket", "pocket", "its face, and the magnet's number on it, counter-clockwise", move |it| pocket(it).name).viewed(describe)
         .column("pole", "pole", "N or S out of the face; U north up, D south up", move |it| pocket(it).pole.letter().to_string())
         .column("push_N", "during insertion", "largest repulsion", |(_, it)| it.push).viewed(|(_, it)| advice(it))
         .column("meets", "faces in the bond", "the pocket of the other tile, which this one repels if one magnet of the two is the wrong way round", |(_, it)| meets(it))

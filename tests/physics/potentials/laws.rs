@@ -218,7 +218,7 @@ fn one_or_many_give_the_same_bits() {
             let potential = kind.energy(level);
             let qs: Vec<_> = kind.poses.iter().chain(&kind.anywhere).collect();
             let qs: Vec<_> = qs.into_iter().take(37).copied().collect();
-            for start in (0..10).step_by(if potential.is_dear() { 5 } else { 1 }) {
+            for start in (0..10).step_by(if potential.is_expensive() { 5 } else { 1 }) {
                 let qs = &qs[start..];
                 let mut energies = vec![0.0; qs.len()];
                 potential.energies(qs, &mut energies);

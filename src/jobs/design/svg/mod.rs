@@ -95,7 +95,7 @@ fn with_drawing<T>(entry: &Entry, use_it: impl FnOnce(&Source) -> Result<T>) -> 
 
 /// Warns of the ignored parts of a drawing.
 fn note_skipped(source: &Source, skipped: &[Skipped]) {
-    if let Some((at, told)) = told(source, skipped) {
+    if let Some((at, told)) = describe(source, skipped) {
         source.drawings.note(source.doubt(
             at,
             format!("ignored in the drawing: {told}"),
@@ -105,7 +105,7 @@ fn note_skipped(source: &Source, skipped: &[Skipped]) {
 }
 
 /// The names of a drawing's ignored parts, and the place of the first.
-fn told(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
+fn describe(source: &Source, skipped: &[Skipped]) -> Option<(Span, String)> {
     let &(first, _) = skipped.first()?;
     let line = |at: usize| source.text[..at].matches('\n').count() + 1;
     // In the order of their first places, each kind once.
@@ -236,7 +236,7 @@ fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<u
         return Ok(painted);
     }
     if all.is_empty() {
-        let (at, message) = match told(source, &drawing.skipped) {
+        let (at, message) = match describe(source, &drawing.skipped) {
             Some((at, told)) => (
                 at,
                 format!("the drawing has no shape that can be read, but {told}"),

@@ -29,7 +29,7 @@ use crate::problem::{Problem, Room};
 /// A matched tile is attached once its total energy lies this many kT below that of tiles at rest far
 /// apart: a tile that only flies by keeps its energy, and one that has lost so much leaves again
 /// before it has come to equilibrium in about exp(-3) = 5 % of cases.
-const HELD: f64 = 3.0;
+const ATTACHED_BELOW_KT: f64 = 3.0;
 
 /// The end of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +110,7 @@ fn arrive(
             apart += now.time - since;
         }
         since = now.time;
-        is_bound = now.total() < -HELD * kt && rule.holds(&now.motion.configuration);
+        is_bound = now.total() < -ATTACHED_BELOW_KT * kt && rule.holds(&now.motion.configuration);
         is_bound
     });
     let run = DockingError::unless_failed(index, run)?;

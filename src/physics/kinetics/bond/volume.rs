@@ -17,7 +17,7 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 /// The extent of the well is measured at lines whose weight is this share of the minimum's.
-const FALLEN: f64 = 0.2;
+const EXTENT_WEIGHT: f64 = 0.2;
 /// A slide (m) or tilt (rad) that counts as no play: the contact tolerance.
 pub const NO_PLAY: f64 = 1e-8;
 /// Most rectangles.
@@ -151,7 +151,7 @@ impl Integral<'_> {
                 _ => [0.0, x],
             };
             let mut scale = end;
-            while self.line(at(scale)) < FALLEN * peak && scale.abs() > NO_PLAY {
+            while self.line(at(scale)) < EXTENT_WEIGHT * peak && scale.abs() > NO_PLAY {
                 scale /= 2.0;
             }
             let range = libm::asinh(end / scale).max(1e-3);

@@ -10,7 +10,7 @@ const SHRUNK: f64 = 1e-9;
 const MOST_STEPS: usize = 20_000;
 /// Most solutions computed together. The sweeps of one wait for each other's results; those of three
 /// take hardly longer.
-const TOGETHER: usize = 3;
+const BATCH: usize = 3;
 
 /// Calls a function with every entry (row, column, value) of a matrix; entries at one position are
 /// summed.
@@ -96,14 +96,14 @@ impl Equations {
     /// # Errors
     /// If the solver does not converge.
     pub fn solve(&self, entries: &Entries, sought: &[Sought]) -> Result<Vec<Vec<f64>>, Unsolved> {
-        let parts = sought.len().div_ceil(TOGETHER).max(1);
+        let parts = sought.len().div_ceil(BATCH).max(1);
         let part = sought.len().div_ceil(parts).max(1);
         let parts: Vec<&[Sought]> = sought.chunks(part).collect();
         let found = parallel::map(&parts[..], |part| match part {
             [a] => self.solved(entries, [a]).map(Vec::from),
             [a, b] => self.solved(entries, [a, b]).map(Vec::from),
             [a, b, c] => self.solved(entries, [a, b, c]).map(Vec::from),
-            _ => unreachable!("at most {TOGETHER} together"),
+            _ => unreachable!("at most {BATCH} together"),
         });
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(found.into_iter().flatten().collect())

@@ -35,7 +35,7 @@ const MOST_CUT: usize = 3;
 /// Number of bisections before a face with only blocked lines is accepted as blocked.
 const LEAST_CUT: usize = 2;
 /// ... and if the mean weight or load along one of them is above this.
-const MATTERS: f64 = 1e-3;
+const LEAST_WEIGHT: f64 = 1e-3;
 
 /// Integrates over cells at one temperature.
 pub(in crate::kinetics) struct Integrator<'a> {
@@ -290,7 +290,7 @@ fn uneven(lines: &[Line; 4], cut: bool, level: u8, halved: usize) -> Option<usiz
     let mut steps = [0.0_f64; 2];
     for which in 0..2 {
         let sum = |k: usize| lines[k].sums[which];
-        if (0..4).map(sum).fold(0.0, f64::max) < MATTERS {
+        if (0..4).map(sum).fold(0.0, f64::max) < LEAST_WEIGHT {
             continue;
         }
         for (axis, step) in steps.iter_mut().enumerate() {

@@ -35,7 +35,7 @@ impl Way {
     }
 
     /// Its description.
-    pub fn told(self) -> String {
+    pub fn describe(self) -> String {
         match self {
             Self::Open => "a path leads to free tiles".to_owned(),
             Self::Blocked => "contact blocks every path to free tiles".to_owned(),

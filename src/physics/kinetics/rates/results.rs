@@ -295,7 +295,7 @@ pub enum ExitError {
     Open(f64),
     /// The mesh has no path from the start to an end.
     #[error(
-        "no path leads from the start to the bond or to free tiles; {}", .0.told()
+        "no path leads from the start to the bond or to free tiles; {}", .0.describe()
     )]
     Closed(Way),
     /// At this kT (J) the start is this deep (kT).

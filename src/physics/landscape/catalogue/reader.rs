@@ -25,7 +25,7 @@ const BOUND: f64 = 5e-3;
 const TELLABLE: f64 = 1e-6;
 
 /// Number of kinds of states read in parallel.
-const TOGETHER: usize = 64;
+const BATCH: usize = 64;
 
 pub(super) struct Reader<'a> {
     pub survey: &'a Exploration<'a>,
@@ -246,7 +246,7 @@ impl Reader<'_> {
     fn barrier_to(&self, found: usize, goals: &HashSet<usize>, ids: &Ids) -> Option<Barrier> {
         let node = self.node(found);
         let own = self.energy(found).abs();
-        let depth = if self.survey.problem.is_dear() {
+        let depth = if self.survey.problem.is_expensive() {
             own.max(self.survey.problem.depth())
         } else {
             own
@@ -274,9 +274,9 @@ impl Reader<'_> {
     /// also if no path is known for the bond, or no exit at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
-        let some = classes.chunks(TOGETHER).enumerate();
+        let some = classes.chunks(BATCH).enumerate();
         let found = some.flat_map(|(turn, some)| {
-            let done = turn * TOGETHER;
+            let done = turn * BATCH;
             self.observer
                 .part("ways out of states", done, classes.len());
             parallel::flat_map(some, of_class)

@@ -33,7 +33,7 @@ impl Exploration<'_> {
         let class = self.states.iter().find(|state| state.node == node);
         let class = class.map(|state| state.class);
         let mut copies = self.states.iter().filter(|copy| Some(copy.class) == class);
-        if self.problem.is_dear() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
+        if self.problem.is_expensive() || copies.any(|copy| !self.network.is_isolated(copy.node)) {
             return;
         }
         for radius in AROUND_STATES.map(|radius| self.problem.scaled(radius)) {

@@ -3,7 +3,7 @@
 
 use ordered_float::OrderedFloat;
 
-use super::{Exploration, TOGETHER, siblings, slides};
+use super::{BATCH, Exploration, siblings, slides};
 use crate::configuration::Configuration;
 use crate::landscape::minimum::{Descent, descend_among};
 use crate::observer::Observer;
@@ -19,7 +19,7 @@ const MOST_MATCHES: usize = 100;
 /// Number of contacts tried for each kind of states to be kept, lowest first.
 const MEETINGS_A_KIND: usize = 3;
 /// Contacts shallower than this share of the bond's depth hold nothing.
-const HELD: f64 = 1e-3;
+const LEAST_DEPTH: f64 = 1e-3;
 /// With very many magnets, contacts this close to a lower one (in pitches) are skipped.
 const AROUND: f64 = 0.75;
 
@@ -49,7 +49,7 @@ impl Exploration<'_> {
     pub(super) fn find_meetings(&mut self, observer: &dyn Observer) {
         let problem = self.problem;
         let known = self.states.len();
-        let held = -HELD * problem.depth();
+        let held = -LEAST_DEPTH * problem.depth();
         let slid = slides::slid_meetings(problem);
         let places = slid.into_iter().chain(problem.matches(MOST_MATCHES));
         let places: Vec<Configuration> = places.collect();
@@ -57,7 +57,7 @@ impl Exploration<'_> {
             let energy = problem.energy(q);
             (energy < held && problem.is_free(q)).then_some((energy, *q))
         });
-        if problem.is_dear() {
+        if problem.is_expensive() {
             places = lowest_around(problem, places, AROUND * slides::pitch(problem));
             let most = self
                 .settings
@@ -77,8 +77,8 @@ impl Exploration<'_> {
             .filter(|q| self.state_at(q, self.problem.scaled(KNOWN)).is_none())
             .collect();
         let verified = self.known();
-        for (turn, some) in places.chunks(TOGETHER).enumerate() {
-            observer.part("states like those found", turn * TOGETHER, places.len());
+        for (turn, some) in places.chunks(BATCH).enumerate() {
+            observer.part("states like those found", turn * BATCH, places.len());
             let descents: Vec<Descent> =
                 parallel::map(some, |q| descend_among(self.problem, q, &verified));
             for descent in &descents {

@@ -53,7 +53,7 @@ const MANY_FACES: usize = 100;
 /// would take nearly all of the time.
 const TRIED: usize = 32;
 /// Number of descents in parallel.
-const TOGETHER: usize = 64;
+const BATCH: usize = 64;
 
 /// Settings of the exploration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -151,7 +151,7 @@ impl<'a> Exploration<'a> {
         let mut tried = HashSet::new();
         for round in 0..self.settings.most_rounds {
             // A transition state found from one copy is found for all.
-            let places = if self.problem.is_dear() {
+            let places = if self.problem.is_expensive() {
                 self.unsettled(self.lowest_merges())
             } else if self.problem.has_many_copies() {
                 self.of_each_kind(self.unsettled(self.merges()), TRIED)
@@ -204,12 +204,12 @@ impl<'a> Exploration<'a> {
             guesses.iter().map(|q| (None, *q)).collect();
         starts.extend(nodes.into_iter().filter_map(|node| {
             let (q, energy) = self.network.nodes[node]?;
-            let is_asked = !problem.is_dear() || energy < -ACTS * problem.depth();
+            let is_asked = !problem.is_expensive() || energy < -ACTS * problem.depth();
             (is_asked && !problem.space.is_far(&q)).then_some((Some(node), q))
         }));
         // Later descents need not verify minima found by earlier ones.
-        for (turn, some) in starts.chunks(TOGETHER).enumerate() {
-            observer.part("states", turn * TOGETHER, starts.len());
+        for (turn, some) in starts.chunks(BATCH).enumerate() {
+            observer.part("states", turn * BATCH, starts.len());
             let known = self.known();
             let descents: Vec<Descent> =
                 parallel::map(some, |(_, q)| descend_among(problem, q, &known));

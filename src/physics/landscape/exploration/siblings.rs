@@ -14,7 +14,7 @@ pub(super) const SAME: f64 = 1e-3;
 const TURNED: f64 = 0.8;
 /// Guesses with less than this share of the minimum's energy are dropped: faces without the
 /// relevant magnets have no such contact, and most pairs of a polygon's faces may be bare.
-const HELD: f64 = 0.1;
+const LEAST_ENERGY: f64 = 0.1;
 
 /// The position of the moving tile's face relative to the fixed one's: its middle along that face
 /// and out of it (m), and its rotation from flush (rad).
@@ -98,7 +98,7 @@ pub(super) fn siblings(problem: &Problem, minima: &[(Configuration, f64)]) -> Ve
     parallel::flat_map(&pairs, |(fixed, moving)| {
         meetings.iter().filter_map(|meeting| {
             let q = meeting.place(problem, fixed, moving);
-            let is_held = problem.energy(&q) < HELD * meeting.energy;
+            let is_held = problem.energy(&q) < LEAST_ENERGY * meeting.energy;
             (is_held && problem.is_free(&q)).then_some(q)
         })
     })

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use nalgebra::Vector3;
 
 use super::copies::distinct;
-use super::{Exploration, SAME, TOGETHER};
+use super::{BATCH, Exploration, SAME};
 use crate::configuration::Configuration;
 use crate::landscape::constrained;
 use crate::landscape::minimum::{Descent, Known, descend_among};
@@ -48,9 +48,9 @@ impl Exploration<'_> {
             stationary::transition_state(problem, q, along)
                 .filter(|found| problem.is_free(&found.point.q))
         };
-        let some = places.chunks(TOGETHER).enumerate();
+        let some = places.chunks(BATCH).enumerate();
         let found = some.flat_map(|(turn, some)| {
-            observer.part("transition states", turn * TOGETHER, places.len());
+            observer.part("transition states", turn * BATCH, places.len());
             parallel::flat_map(some, near)
         });
         let mut known: Vec<Configuration> =

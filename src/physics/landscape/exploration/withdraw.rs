@@ -69,8 +69,9 @@ impl Exploration<'_> {
     pub(super) fn withdraw(&mut self, fresh: usize) {
         let problem = self.problem;
         let joined = self.network.joined_to(self.free);
-        let is_open =
-            |state: &&FoundState| problem.is_dear() && state.class >= fresh || !joined[state.node];
+        let is_open = |state: &&FoundState| {
+            problem.is_expensive() && state.class >= fresh || !joined[state.node]
+        };
         let open: BTreeSet<usize> = self
             .states
             .iter()

@@ -13,7 +13,7 @@ use crate::parallel;
 
 /// Queries open at the same time. It does not depend on the number of threads, so the results do not
 /// either.
-const TOGETHER: usize = 32;
+const OPEN_QUERIES: usize = 32;
 
 /// Halvings of a leaf, one after the other, in one round.
 const HALVINGS: RangeInclusive<u32> = 3..=8;
@@ -87,9 +87,10 @@ impl Certifier<'_> {
         let mut count = 0;
         loop {
             let is_over = self.ended().is_some();
-            while open.len() < TOGETHER && !is_over {
+            while open.len() < OPEN_QUERIES && !is_over {
                 if ready.is_empty() {
-                    let next: Vec<usize> = waiting.drain(..TOGETHER.min(waiting.len())).collect();
+                    let next: Vec<usize> =
+                        waiting.drain(..OPEN_QUERIES.min(waiting.len())).collect();
                     ready = self.begun(&next, questions);
                 }
                 let Some(next) = ready.pop_front() else { break };

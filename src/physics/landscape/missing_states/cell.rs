@@ -24,7 +24,7 @@ const WAYS_OUT: [f64; 2] = [6.0, 60.0];
 /// Sides this much shorter than the longest are not halved.
 const NARROW: f64 = 8.0;
 /// A projected force shorter than this fraction of the whole one counts as zero.
-const HELD: f64 = 1e-6;
+const ZERO_FORCE: f64 = 1e-6;
 /// A step out of contact must clear everything by this distance (m).
 const SPARE: f64 = 1e-9;
 /// Number of attempts to make a step open all contacts throughout a cell.
@@ -146,7 +146,7 @@ impl CellProof<'_> {
         let held: Vec<Constraint> = contacts.iter().map(|c| row(c, 0.0)).collect();
         let (direction, _) = closest_admissible((force, force.norm()), &metric, &held)?;
         let length = |v: &Vector3<f64>| v.dot(&(metric * v)).sqrt();
-        if length(&direction) <= HELD * length(&force) {
+        if length(&direction) <= ZERO_FORCE * length(&force) {
             return None;
         }
         let wanted = fitted(&direction, &cell.half, longest);

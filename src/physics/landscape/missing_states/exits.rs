@@ -24,7 +24,7 @@ const STUCK: f64 = 1e-4;
 const TRIED: usize = 3;
 /// Number of descents made together, before the remaining places try their starts as exits; and of
 /// places that try these together, between two checks of the remaining effort.
-const TOGETHER: usize = 16;
+const BATCH: usize = 16;
 const JOINED: usize = 256;
 /// Units of work to measure the distance to an exit.
 const AN_EXIT: u64 = 4;
@@ -113,7 +113,7 @@ impl<'a> Exits<'a> {
                 break;
             }
             first = self.exits.len();
-            let rest = left.split_off(left.len().min(TOGETHER));
+            let rest = left.split_off(left.len().min(BATCH));
             let ways = parallel::map(&left, |&k| self.descent(&places[k]));
             for (&k, way) in left.iter().zip(ways) {
                 let Some((minimum, highest)) = way else {

@@ -21,7 +21,7 @@ pub struct OpenRegion {
 }
 
 /// Cells closer than this fraction of the distance at which tiles are free belong together.
-const TOGETHER: f64 = 1.0 / 32.0;
+const NEIGHBOURING: f64 = 1.0 / 32.0;
 
 /// A region under construction.
 struct Part {
@@ -67,7 +67,7 @@ impl Part {
 
 /// The regions of some cells with the lowest energy (J) that each can hide, the lowest first.
 pub(super) fn of_cells(space: &ConfigurationSpace, cells: &[(Cell, f64)]) -> Vec<OpenRegion> {
-    let size = TOGETHER * space.free_distance;
+    let size = NEIGHBOURING * space.free_distance;
     let gap = [size, size, size / space.rho];
     let place = |cell: &Cell| {
         let at = cell.centre.to_array();
@@ -139,7 +139,7 @@ mod tests {
             centre: Configuration::new(x, 0.1, theta),
             half,
         };
-        let gap = TOGETHER * space.free_distance;
+        let gap = NEIGHBOURING * space.free_distance;
         let regions = |cells: &[(Cell, f64)]| of_cells(&space, cells);
         // Boxes whose sides are slightly less, and slightly more, than the gap apart.
         for (apart, count) in [(gap + 0.0019, 1), (gap + 0.0021, 2)] {

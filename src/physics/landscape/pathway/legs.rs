@@ -151,7 +151,7 @@ fn add_leg(problem: &Problem, pathway: &mut Vec<At>, [a, b]: [&Point; 2], bend: 
 /// the motions of a roadmap.
 fn closeness(problem: &Problem, bend: f64) -> f64 {
     let closely = CLOSELY * bend;
-    if problem.is_dear() {
+    if problem.is_expensive() {
         closely.max(DEARLY * problem.depth())
     } else {
         closely

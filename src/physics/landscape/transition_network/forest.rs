@@ -30,7 +30,7 @@ type ByPeak = (OrderedFloat<f64>, OrderedFloat<f64>, u32);
 type Queue = BinaryHeap<Reverse<ByPeak>>;
 
 /// Links weighed at the same time, if there are so many that may turn out lowest.
-const TOGETHER: usize = 64;
+const BATCH: usize = 64;
 
 /// The parts of a forest, with the links that may lead out of each.
 struct Parts {
@@ -92,7 +92,7 @@ impl Parts {
             return (lowest, open);
         }
         // As many at once as were weighed before: hardly more than twice as many as needed.
-        let most = (TOGETHER / left.len()).max(1);
+        let most = (BATCH / left.len()).max(1);
         let part = |part: &u32| {
             let part = *part as usize;
             let ahead = self.looked_at[part].clamp(1, most);

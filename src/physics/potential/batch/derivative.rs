@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 
 use super::bundle::Bundle;
-use super::field::{Frame, TOGETHER};
+use super::field::{BATCH, Frame};
 use super::tasks::frame_of_one;
 use super::{DipolePotential, Many};
 use crate::configuration::Configuration;
@@ -97,7 +97,7 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
         first: usize,
         sums: &mut Sums<L::F>,
     ) {
-        let b = Bundle::<L, N, TOGETHER>(l);
+        let b = Bundle::<L, N, BATCH>(l);
         let moving = &self.potential.moving;
         let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
         for (k, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
@@ -105,17 +105,17 @@ impl<const TERMS: usize> DerivativeBound<'_, TERMS> {
             [*x, *y] = frame.place(l, [l.load(&moving.x[i..]), l.load(&moving.y[i..])]);
         }
         let mut shares = [l.splat(0.0); N];
-        for pair in self.potential.sources.as_chunks::<TOGETHER>().0 {
+        for pair in self.potential.sources.as_chunks::<BATCH>().0 {
             let dx = b.sub(
-                [x; TOGETHER],
+                [x; BATCH],
                 b.rows([pair[0].position[0], pair[1].position[0]]),
             );
             let dy = b.sub(
-                [y; TOGETHER],
+                [y; BATCH],
                 b.rows([pair[0].position[1], pair[1].position[1]]),
             );
             let (p, r) = bound(b, &self.terms, [dx, dy], self.reach);
-            for j in 0..TOGETHER {
+            for j in 0..BATCH {
                 let magnitude = l.splat(pair[j].magnitude);
                 for k in 0..N {
                     sums.nearest = l.min(r[j][k], sums.nearest);

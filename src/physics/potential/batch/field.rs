@@ -60,7 +60,7 @@ impl<F: Copy> Field<F> {
 }
 
 /// Number of sources processed together; the number of all sources must be a multiple of it.
-pub const TOGETHER: usize = 2;
+pub const BATCH: usize = 2;
 
 /// The field of the sources at `N` vectors of places.
 ///
@@ -73,14 +73,14 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
     sources: &[Source],
     places: &[[L::F; 2]; N],
 ) -> [Field<L::F>; N] {
-    let b = Bundle::<L, N, TOGETHER>(l);
+    let b = Bundle::<L, N, BATCH>(l);
     let (mut x, mut y) = ([l.splat(0.0); N], [l.splat(0.0); N]);
     for ((x, y), place) in x.iter_mut().zip(&mut y).zip(places) {
         [*x, *y] = *place;
     }
-    let (x, y) = ([x; TOGETHER], [y; TOGETHER]);
+    let (x, y) = ([x; BATCH], [y; BATCH]);
     let mut sums = [Sums::zero(l); N];
-    for pair in sources.as_chunks::<TOGETHER>().0 {
+    for pair in sources.as_chunks::<BATCH>().0 {
         let position = [
             b.rows([pair[0].position[0], pair[1].position[0]]),
             b.rows([pair[0].position[1], pair[1].position[1]]),
@@ -96,7 +96,7 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
 
         let d = [b.sub(x, position[0]), b.sub(y, position[1])];
         let share = Share::new(b, d, moment, thrice);
-        for j in 0..TOGETHER {
+        for j in 0..BATCH {
             for (k, sum) in sums.iter_mut().enumerate() {
                 let v = [share.v[0][j][k], share.v[1][j][k]];
                 sum.add(l, share.w3[j][k], v);
@@ -104,7 +104,7 @@ pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
         }
         if SLOPE {
             let (z, f, w5) = share.bend(b, d);
-            for j in 0..TOGETHER {
+            for j in 0..BATCH {
                 for k in 0..N {
                     let (z, f) = ([z[0][j][k], z[1][j][k]], [f[0][j][k], f[1][j][k]]);
                     sums[k].add_slope(l, z, f, w5[j][k], share.s3[j][k]);

@@ -36,7 +36,7 @@ use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 use derivative::{DerivativeBound, TabulatedBound};
-use field::{Source, TOGETHER};
+use field::{BATCH, Source};
 use patched::Patched;
 use tasks::{InLanes, One};
 
@@ -45,7 +45,7 @@ use tasks::{InLanes, One};
 #[derive(Clone, Debug)]
 pub struct DipolePotential {
     level: Level,
-    /// The fixed tile's dipoles, in groups of [`TOGETHER`].
+    /// The fixed tile's dipoles, in groups of [`BATCH`].
     sources: Vec<Source>,
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
@@ -96,7 +96,7 @@ impl DipolePotential {
     /// The potential of two sets of dipoles, for the given instruction set.
     pub fn with_level(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
         if are_many(fixed.len(), moving.len()) {
-            let trees = [(fixed, TOGETHER), (moving, WIDTH)]
+            let trees = [(fixed, BATCH), (moving, WIDTH)]
                 .map(|(dipoles, fill)| Tree::new(dipoles, Grain::of_dipoles(fill)));
             if trees.iter().any(Tree::has_stands) {
                 let patches = Patches::new(&scaled_and_filled(fixed, 1), level);
@@ -119,7 +119,7 @@ impl DipolePotential {
 
     /// The potential that evaluates every pair, however many there are.
     fn one_by_one(fixed: &[Dipole], moving: &[Dipole], level: Level) -> Self {
-        let sources = scaled_and_filled(fixed, TOGETHER);
+        let sources = scaled_and_filled(fixed, BATCH);
         let lanes = scaled_and_filled(moving, WIDTH);
         let column = |value: fn(&Dipole) -> f64| lanes.iter().map(value).collect();
         Self {
@@ -245,7 +245,7 @@ impl Potential for DipolePotential {
         self.derivative_bound(terms, q, [reach, 0.0])
     }
 
-    fn is_dear(&self) -> bool {
+    fn is_expensive(&self) -> bool {
         self.many.is_some()
     }
 

@@ -19,7 +19,7 @@ use crate::potential::simd::lanes::{Lanes, Task, WIDTH};
 const VECTORS: usize = ORDER / WIDTH;
 
 /// Number of dipoles evaluated together.
-const TOGETHER: usize = 16;
+const BATCH: usize = 16;
 
 /// One configuration, whose moving dipoles all lie within reach of the table of the fixed ones.
 pub struct Patched<'a, const SLOPE: bool> {
@@ -50,11 +50,11 @@ impl<const SLOPE: bool> Task for Patched<'_, SLOPE> {
             let is_filling = |i: &usize| moving.magnitude[*i] == 0.0;
             let mut rest = some.clone().filter(|i| !is_filling(i)).peekable();
             while rest.peek().is_some() {
-                let some = rest.by_ref().take(TOGETHER).map(|i| {
+                let some = rest.by_ref().take(BATCH).map(|i| {
                     let place = sight.place(Vector2::new(moving.x[i], moving.y[i])).into();
                     (i, place, self.many.patches.at(place))
                 });
-                let some: ArrayVec<_, TOGETHER> = some.collect();
+                let some: ArrayVec<_, BATCH> = some.collect();
                 for (i, place, patch) in &some {
                     let moment = [moving.moment_x[*i], moving.moment_y[*i]];
                     let field = field_in::<L, SLOPE>(l, patch, *place);

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::field::{Source, TOGETHER, field};
+use super::field::{BATCH, Source, field};
 use crate::potential::simd::lanes::Arithmetic;
 
 #[path = "../../../../tests/bench/operations.rs"]
@@ -18,11 +18,11 @@ fn operations_a_pair() {
 }
 
 fn check<const SLOPE: bool>() {
-    let (none, some) = (of_field::<SLOPE>(0), of_field::<SLOPE>(TOGETHER));
+    let (none, some) = (of_field::<SLOPE>(0), of_field::<SLOPE>(BATCH));
     let a_pair = Operations {
-        simple: (some.simple - none.simple) / TOGETHER,
-        fused: (some.fused - none.fused) / TOGETHER,
-        guesses: (some.guesses - none.guesses) / TOGETHER,
+        simple: (some.simple - none.simple) / BATCH,
+        fused: (some.fused - none.fused) / BATCH,
+        guesses: (some.guesses - none.guesses) / BATCH,
     };
     assert_eq!(a_pair, Operations::per_pair(SLOPE));
 }

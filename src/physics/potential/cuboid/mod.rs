@@ -353,7 +353,7 @@ impl Potential for CuboidPotential {
         self.lever.displacement(step)
     }
 
-    fn is_dear(&self) -> bool {
+    fn is_expensive(&self) -> bool {
         self.many.is_some()
     }
 
