@@ -36,7 +36,7 @@ RINGS = {
     "inner_radius_mm": (3.0, 10.0),
     "density_kg_m3": (950.0, 1150.0),
 }
-RING_DRAWS, PARTS, SECONDS = 12, 16, 12
+RING_DRAWS, PARTS, SECONDS = 24, 16, 12
 # Panels: stated are 2 x 2 magnets on each and the measured accelerations. Assumed are these ranges.
 PANELS = {
     "side_mm": (15.0, 40.0),
