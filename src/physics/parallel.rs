@@ -69,6 +69,23 @@ pub fn map<I: Items, T: Send>(items: I, f: impl Fn(I::Item) -> T + Sync) -> Vec<
     })
 }
 
+/// The same in batches of this size one after the other; `tell` gets before each how many items are done.
+pub fn map_in_batches<I: Items, T: Send>(
+    items: I,
+    size: usize,
+    mut tell: impl FnMut(usize),
+    f: impl Fn(I::Item) -> T + Sync,
+) -> Vec<T> {
+    let count = items.count();
+    let mut found = Vec::with_capacity(count);
+    for first in (0..count).step_by(size) {
+        tell(first);
+        let batch = first..count.min(first + size);
+        found.append(&mut map(batch, |place| f(items.at(place))));
+    }
+    found
+}
+
 /// Applies `f`, which returns any number of results, to each item.
 pub fn flat_map<I: Items, C: IntoIterator>(
     items: I,
@@ -155,6 +172,10 @@ mod tests {
             assert_eq!(map(0..count, |k| k * k), squares);
             assert_eq!(map(&items, |k| k * k), squares);
             assert_eq!(flat_map(&items, |&k| [k, k]), twice);
+            let mut told = Vec::new();
+            let tell = |done| told.push(done);
+            assert_eq!(map_in_batches(&items, 100, tell, |k| k * k), squares);
+            assert!(told.into_iter().eq((0..count).step_by(100)));
             for_each(&mut items, |k| *k *= *k);
             assert_eq!(items, squares);
         }

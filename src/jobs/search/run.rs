@@ -344,18 +344,19 @@ impl<'a> Course<'a> {
         most.map(|(_, place)| place.clone())
     }
 
+    fn best_place(&self) -> Option<Place> {
+        let is_best = |one: &&Tried| Some(one.point.index) == self.best;
+        self.tried.iter().find(is_best).map(|one| one.place.clone())
+    }
+
     /// The steps of single keys beside the best.
     fn beside(&mut self) -> Round {
-        let best = self
-            .tried
-            .iter()
-            .find(|one| Some(one.point.index) == self.best);
-        let Some(best) = best.filter(|_| self.reserved() > 0).cloned() else {
+        let Some(best) = self.best_place().filter(|_| self.reserved() > 0) else {
             return Vec::new();
         };
-        (self.about, self.is_crossed) = (Some(best.point.index), false);
+        (self.about, self.is_crossed) = (self.best, false);
         let numbers = self.space.numbers();
-        let places = numbers.flat_map(|k| self.space.beside(&best.place, &[k]));
+        let places = numbers.flat_map(|k| self.space.beside(&best, &[k]));
         let places: Vec<Place> = places.collect();
         let round = self.admitted(places, self.search.aim.points - self.analysed);
         // All steps may be known, or impossible.
@@ -379,12 +380,8 @@ impl<'a> Course<'a> {
         self.tried = found.tried;
         let left = self.search.aim.points - self.analysed;
         matter.truncate(left / ACROSS);
-        let best = self
-            .tried
-            .iter()
-            .find(|one| Some(one.point.index) == self.best);
-        let places = best.into_iter().flat_map(|best| {
-            let around = |pair: &[usize; 2]| self.space.beside(&best.place, pair);
+        let places = self.best_place().into_iter().flat_map(|best| {
+            let around = |pair: &[usize; 2]| self.space.beside(&best, pair);
             matter.iter().flat_map(around).collect::<Vec<_>>()
         });
         let places: Vec<Place> = places.collect();

@@ -104,7 +104,9 @@ pub(super) fn anew(
     }
     let settings = Settings::without_proofs(request.seed);
     observer.stage("check", 0.9);
-    let anew = |k: usize| {
+    let batch = CHECKS_A_THREAD * parallel::threads();
+    let tell = |done| observer.part("checks (fewer: --checks)", done, count);
+    let found = parallel::map_in_batches(0..count, batch, tell, |k| {
         let design = design(study, maker, &draws[k]);
         let analysis = pipeline::analyse(&design, &settings, &Silent);
         let (nominal, within) = (study.problem, study.problem.scaled(SAME_BOND));
@@ -124,14 +126,7 @@ pub(super) fn anew(
             trap,
             ..outcomes[k]
         }
-    };
-    let mut found = Vec::with_capacity(count);
-    let together = CHECKS_A_THREAD * parallel::threads();
-    for first in (0..count).step_by(together) {
-        observer.part("checks (fewer: --checks)", first, count);
-        let some = first..count.min(first + together);
-        found.append(&mut parallel::map(some, anew));
-    }
+    });
     let followed = &outcomes[..count];
     let both = || followed.iter().zip(&found);
     let largest = |of: &dyn Fn(&Outcome) -> f64| {

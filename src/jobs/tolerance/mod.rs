@@ -50,7 +50,7 @@ const MOVED: f64 = 0.85;
 const OF_A_DRAW: f64 = 1000.0;
 const OF_A_MAGNET: f64 = 200.0;
 /// Number of draws after which those done are told.
-const TOGETHER: usize = 4096;
+const BATCH: usize = 4096;
 /// A flipped magnet is noticed if the bond is weaker than all but this share of the draws without
 /// flips.
 const ORDINARY: f64 = 0.05;
@@ -475,20 +475,12 @@ impl<'a> Study<'a> {
 
     /// Draws pairs of tiles; how many are done is told.
     fn draw(&self, maker: &Maker, count: usize, tell: &dyn Fn(usize)) -> (Vec<Draw>, Vec<Outcome>) {
-        let (mut draws, mut outcomes) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        for first in (0..count).step_by(TOGETHER) {
-            tell(first);
-            let some = parallel::map(first..count.min(first + TOGETHER), |number| {
-                let draw = maker.draw(number);
-                let outcome = self.outcome(&draw);
-                (draw, outcome)
-            });
-            for (draw, outcome) in some {
-                draws.push(draw);
-                outcomes.push(outcome);
-            }
-        }
-        (draws, outcomes)
+        let all = parallel::map_in_batches(0..count, BATCH, tell, |number| {
+            let draw = maker.draw(number);
+            let outcome = self.outcome(&draw);
+            (draw, outcome)
+        });
+        all.into_iter().unzip()
     }
 
     fn outcome(&self, draw: &Draw) -> Outcome {

@@ -10,7 +10,7 @@ use super::encounter::{BOTH, Encounter, FIXED, MOVING};
 use super::flight;
 use super::force::Forces;
 use super::simulation::{Run, Simulation, Snapshot, Stop};
-use crate::rigid::{Account, Fan, Island, Masses, Mover, NearPair, Pose, Rider, State};
+use crate::rigid::{Account, Island, Masses, Mover, NearPair, Pose, Rider, State};
 use crate::rigid::{Body, Motion, Phase};
 
 /// A tile in contact is at rest when no point of it moves faster than this (m/s), which is a
@@ -323,12 +323,7 @@ impl<'a, 'b> Trajectory<'a, 'b> {
     fn swing(&self) -> f64 {
         let place = self.phase.place.xy();
         let fans = self.forces.fans.iter().filter(|fan| fan.amplitude != 0.0);
-        let swings = fans.map(|fan| {
-            let steady = Fan::steady(fan.place, fan.energy, fan.width);
-            let energy = |fan: &Fan| fan.energy_and_force(place, self.time).0;
-            energy(fan) - energy(&steady)
-        });
-        swings.sum()
+        fans.map(|fan| fan.swing(place, self.time)).sum()
     }
 
     /// Drag and random kicks over a time `h`: an Ornstein-Uhlenbeck step of the velocity, exact,

@@ -41,8 +41,8 @@ pub fn start(problem: &Problem, starts: &FarStarts, number: usize) -> Configurat
 }
 
 /// The end of each far start by overdamped motion (mass metric, sliding along contact), `None` if
-/// it leaves the table; `tell` gets how many are done. The end need not be a verified minimum: where corners of both tiles meet,
-/// the last check may fail a micrometre from one.
+/// it leaves the table; `tell` gets how many are done. The end need not be a verified minimum: where
+/// corners of both tiles meet, the last check may fail a micrometre from one.
 pub fn ends(
     problem: &Problem,
     starts: &FarStarts,

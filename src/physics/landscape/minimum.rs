@@ -32,7 +32,7 @@ const TRY_NEWTON: f64 = 2e-4;
 /// Number of motions that are followed before any can merge with an earlier one.
 const FIRST: usize = 32;
 /// Number of motions after which those done are told.
-const TOLD: usize = 1024;
+const BATCH: usize = 1024;
 const MOST_STEPS: usize = 20_000;
 /// Free configurations tried around a minimum, at distances from 1 µm to 1 mm.
 const PROBES: u64 = 48;
@@ -104,17 +104,13 @@ pub fn learn(
         let next = (2 * outcomes.len()).max(FIRST).min(starts.len());
         let new = &starts[outcomes.len()..next];
         // The paths themselves are not kept: those of many motions would fill the memory.
-        let end = |start: &Configuration| {
+        let tell = |done| tell(outcomes.len() + done);
+        let found = parallel::map_in_batches(new, BATCH, tell, |start| {
             let Descent {
                 stretches, outcome, ..
             } = approach(problem, start, known);
             (stretches, outcome)
-        };
-        let mut found = Vec::with_capacity(new.len());
-        for some in new.chunks(TOLD) {
-            tell(outcomes.len() + found.len());
-            found.append(&mut parallel::map(some, end));
-        }
+        });
         for (stretches, outcome) in found {
             known.add(stretches, &outcome);
             outcomes.push(outcome);

@@ -40,6 +40,20 @@ impl Fan {
         }
     }
 
+    /// The fan without its oscillation.
+    fn without_swing(&self) -> Self {
+        Self {
+            amplitude: 0.0,
+            ..*self
+        }
+    }
+
+    /// The energy (J) of its oscillation, on a centre of mass at `r` (m) and time `t` (s).
+    pub fn swing(&self, r: Vector2<f64>, t: f64) -> f64 {
+        let energy = |fan: &Self| fan.energy_and_force(r, t).0;
+        energy(self) - energy(&self.without_swing())
+    }
+
     /// Energy (J) and force (N) on a centre of mass at `r` (m) and time `t` (s).
     pub fn energy_and_force(&self, r: Vector2<f64>, t: f64) -> (f64, Vector2<f64>) {
         let away = r - Vector2::from(self.place);
@@ -59,7 +73,7 @@ impl Winds<'_> {
     pub fn wind(&self, place: Vector2<f64>, time: f64) -> Wind {
         let mut wind = Wind::default();
         for fan in self.0 {
-            let (energy, force) = steady(fan).energy_and_force(place, time);
+            let (energy, force) = fan.without_swing().energy_and_force(place, time);
             wind.energy += energy;
             wind.force += force;
             wind.swing += force * (fan.amplitude * libm::sin(TAU * fan.frequency * time));
@@ -78,8 +92,8 @@ impl Winds<'_> {
                 return f64::INFINITY;
             }
             let travel = outside.max(TRAVEL * fan.width) / speed.max(f64::MIN_POSITIVE);
-            let energy =
-                steady(fan).energy_and_force(place, 0.0).0.abs() * (1.0 + fan.amplitude.abs());
+            let energy = fan.without_swing().energy_and_force(place, 0.0).0.abs()
+                * (1.0 + fan.amplitude.abs());
             let slope = energy * away.max(fan.width) / (fan.width * fan.width);
             travel.min(longest_step(fan.width, slope / mass))
         };
@@ -91,14 +105,6 @@ impl Winds<'_> {
 /// (m/s^2) of the pair by its own force.
 pub fn longest_step(feature: f64, pull: f64) -> f64 {
     SHARE * (feature / pull.max(f64::MIN_POSITIVE)).sqrt()
-}
-
-/// A fan without its oscillation.
-fn steady(fan: &Fan) -> Fan {
-    Fan {
-        amplitude: 0.0,
-        ..*fan
-    }
 }
 
 /// What fans do to a tile.

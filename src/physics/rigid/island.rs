@@ -13,20 +13,15 @@
 //! acceleration: there `h <= 0.2 sqrt(l / s)`, with s the acceleration along the contact that
 //! friction cannot stop, and `h <= 0.8 sqrt(l / a)`; and touching tiles travel by no more than a
 //! ninth of l. All these limits scale with the step of the table. A step whose impulses are not
-//! found is repeated with half the time.
-//!
-//! # Knocks
-//! A step ends where a gap closes. The knock is an impulse with restitution; where many points or
-//! friction would increase the energy (Kane and Levinson 1985), the restitution is reduced until
-//! they do not. Knocks so slow that tiles would bounce for less than the shortest step are without
-//! restitution, and the points then last for whole steps.
+//! found is repeated with half the time. A step ends where a gap closes, with a
+//! [knock](super::knock).
 
 use nalgebra::{Vector2, Vector3};
 
 use super::World;
 use super::account::Account;
 use super::fan::{Winds, longest_step};
-use super::hold::{Hold, hold_back, kinetic, share_within};
+use super::hold::{Hold, hold_back, kinetic};
 use super::margins::Margins;
 use super::motion::{
     Forces, State, Strength, Unsolved, Way, closes, fastest, put_right, put_right_held,
@@ -56,8 +51,6 @@ const FORECASTS: usize = 8;
 const SEARCHES: usize = 60;
 /// A step is halved this often at most.
 const HALVINGS: i32 = 12;
-/// The impulses of a knock are searched for this often, each time from those of the last.
-const KNOCKS: usize = 8;
 /// A step that ends in an overlap which was not foreseen is repeated with half the time, this often at
 /// most.
 const FORESEEN: i32 = 6;
@@ -410,14 +403,14 @@ impl<W: World> Island<'_, W> {
 
     /// The velocity (m/s) along the normal below which a point that moves apart comes back, and one
     /// that closes stops, within the step: by bounces shorter than the shortest, or than rounding.
-    fn slow(&self, state: &State, hold: &Hold) -> f64 {
+    pub(super) fn slow(&self, state: &State, hold: &Hold) -> f64 {
         let press = -hold.rate(&state.accelerations);
         let bounce = 0.5 * press * state.longest / SHORTEST;
         bounce.max(self.margins.touched / state.longest)
     }
 
     /// The law of contact: friction, and the error of velocities (m/s) for a step (s).
-    fn law(&self, h: f64) -> [f64; 2] {
+    pub(super) fn law(&self, h: f64) -> [f64; 2] {
         [self.laws.friction, PRECISE * self.margins.rounding / h]
     }
 
@@ -704,8 +697,8 @@ impl<W: World> Island<'_, W> {
         if friction == 0.0 {
             return rests;
         }
-        for (tile, pose) in self.poses.iter().enumerate() {
-            let supports = self.world.supports(self.riders[tile].mover.kind);
+        for (tile, (rider, pose)) in self.riders.iter().zip(&self.poses).enumerate() {
+            let supports = self.world.supports(rider.mover.kind);
             let weight = GRAVITY / (inverse[tile].x * supports.len() as f64);
             rests.extend(supports.iter().map(|arm| Rest {
                 tile,
@@ -778,58 +771,6 @@ impl<W: World> Island<'_, W> {
         self.poses[tile] = Pose::of(self.world, mover);
     }
 
-    /// Changes the velocities where touching points close; returns the energy lost (J).
-    fn knock(&self, state: &mut State, [masses, inverse]: Masses) -> Result<f64, Unsolved> {
-        let law = self.law(state.longest);
-        let touching = || {
-            state
-                .holds
-                .iter()
-                .filter(|it| it.gap <= self.margins.touched)
-        };
-        if touching().all(|hold| hold.rate(&state.velocities) >= -law[1]) {
-            return Ok(0.0);
-        }
-        let mut holds: Vec<Hold> = touching().copied().collect();
-        let before = state.velocities.clone();
-        let mut bounces = false;
-        let mut backs = Vec::with_capacity(holds.len());
-        for hold in &mut holds {
-            let back = -self.laws.restitution * hold.rate(&before);
-            let back = if back > self.slow(state, hold) {
-                back
-            } else {
-                0.0
-            };
-            bounces |= back > 0.0;
-            backs.push(back);
-            hold.least = 0.0;
-            hold.impulses = [0.0; 2];
-        }
-        let mut stopped = knocked(inverse, &before, &mut holds, law)?;
-        if bounces {
-            let of_stop: Vec<_> = holds.iter().map(|hold| hold.impulses).collect();
-            for (hold, back) in holds.iter_mut().zip(backs) {
-                hold.least = back;
-            }
-            let bounced = knocked(inverse, &before, &mut holds, law)?;
-            let each = bounced.iter().zip(&stopped);
-            let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
-            let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
-            for (v, change) in stopped.iter_mut().zip(&change) {
-                *v += change * share;
-            }
-            for (hold, stop) in holds.iter_mut().zip(of_stop) {
-                for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
-                    *impulse = stop + (*impulse - stop) * share;
-                }
-            }
-        }
-        state.velocities = stopped;
-        let work = holds.iter().map(|it| it.work(&before, &state.velocities));
-        Ok(-work.sum::<f64>())
-    }
-
     /// Keeps the forces at points of contact, by their impulses in half a step (s), as a guess for the
     /// next step.
     fn remember(&mut self, holds: &[Hold], h: f64) {
@@ -848,23 +789,6 @@ impl<W: World> Island<'_, W> {
             }
         }
     }
-}
-
-/// The velocities after a knock. No shorter step makes one easier, so where the search does not suffice, as
-/// in wedges, it goes on.
-fn knocked(
-    inverse: &[Vector3<f64>],
-    before: &[Vector3<f64>],
-    holds: &mut [Hold],
-    law: [f64; 2],
-) -> Result<Each<Vector3<f64>>, Unsolved> {
-    for _ in 0..KNOCKS {
-        let mut after = Each::from_slice(before);
-        if hold_back(inverse, &mut after, (holds, &mut []), law) {
-            return Ok(after);
-        }
-    }
-    Err(Unsolved)
 }
 
 /// A tile by its index: among those that move, then among those that stand still.

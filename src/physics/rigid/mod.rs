@@ -10,6 +10,7 @@ mod body;
 mod fan;
 mod hold;
 mod island;
+mod knock;
 mod margins;
 mod motion;
 mod mover;

@@ -379,9 +379,7 @@ impl Searched<'_> {
                 "change of the objective by a step of one key, positive if it gets better",
             )
     }
-}
 
-impl Searched<'_> {
     /// What two keys do together about the best.
     fn together(&self) -> Table {
         let directions = self.found.directions(self.search);

@@ -274,14 +274,10 @@ impl Reader<'_> {
     /// also if no path is known for the bond, or no exit at all.
     fn barriers(&self, classes: &[Class], ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {
         let of_class = |class: &Class| self.barriers_from(class[0], ids, bound);
-        let some = classes.chunks(BATCH).enumerate();
-        let found = some.flat_map(|(turn, some)| {
-            let done = turn * BATCH;
-            self.observer
-                .part("ways out of states", done, classes.len());
-            parallel::flat_map(some, of_class)
-        });
-        found.collect()
+        let count = classes.len();
+        let tell = |done| self.observer.part("ways out of states", done, count);
+        let found = parallel::map_in_batches(classes, BATCH, tell, of_class);
+        found.into_iter().flatten().collect()
     }
 
     fn barriers_from(&self, first: usize, ids: &Ids, bound: Option<usize>) -> Vec<Barrier> {

@@ -48,15 +48,12 @@ impl Exploration<'_> {
             stationary::transition_state(problem, q, along)
                 .filter(|found| problem.is_free(&found.point.q))
         };
-        let some = places.chunks(BATCH).enumerate();
-        let found = some.flat_map(|(turn, some)| {
-            observer.part("transition states", turn * BATCH, places.len());
-            parallel::flat_map(some, near)
-        });
+        let tell = |done| observer.part("transition states", done, places.len());
+        let found = parallel::map_in_batches(places, BATCH, tell, near);
         let mut known: Vec<Configuration> =
             self.transition_states.iter().map(|s| s.0.point.q).collect();
         let mut fresh: Vec<Stationary> = Vec::new();
-        for found in found {
+        for found in found.into_iter().flatten() {
             let is_same = |q: &Configuration| {
                 problem.space.distance(q, &found.point.q) <= problem.scaled(SAME)
             };

@@ -1,0 +1,91 @@
+//! Knocks: impulses with restitution where gaps close, at the end of a step.
+//!
+//! Where many points or friction would increase the energy (Kane and Levinson 1985), the restitution
+//! is reduced until they do not. Knocks so slow that tiles would bounce for less than the shortest
+//! step are without restitution, and the points then last for whole steps.
+
+use nalgebra::Vector3;
+
+use super::World;
+use super::hold::{Hold, hold_back, kinetic, share_within};
+use super::island::{Island, Masses};
+use super::motion::{State, Unsolved};
+use super::short::Each;
+
+/// The impulses of a knock are searched for this often, each time from those of the last.
+const KNOCKS: usize = 8;
+
+impl<W: World> Island<'_, W> {
+    /// Changes the velocities where touching points close; returns the energy lost (J).
+    pub(super) fn knock(
+        &self,
+        state: &mut State,
+        [masses, inverse]: Masses,
+    ) -> Result<f64, Unsolved> {
+        let law = self.law(state.longest);
+        let touching = || {
+            state
+                .holds
+                .iter()
+                .filter(|it| it.gap <= self.margins.touched)
+        };
+        if touching().all(|hold| hold.rate(&state.velocities) >= -law[1]) {
+            return Ok(0.0);
+        }
+        let mut holds: Vec<Hold> = touching().copied().collect();
+        let before = state.velocities.clone();
+        let mut bounces = false;
+        let mut backs = Vec::with_capacity(holds.len());
+        for hold in &mut holds {
+            let back = -self.laws.restitution * hold.rate(&before);
+            let back = if back > self.slow(state, hold) {
+                back
+            } else {
+                0.0
+            };
+            bounces |= back > 0.0;
+            backs.push(back);
+            hold.least = 0.0;
+            hold.impulses = [0.0; 2];
+        }
+        let mut stopped = knocked(inverse, &before, &mut holds, law)?;
+        if bounces {
+            let of_stop: Vec<_> = holds.iter().map(|hold| hold.impulses).collect();
+            for (hold, back) in holds.iter_mut().zip(backs) {
+                hold.least = back;
+            }
+            let bounced = knocked(inverse, &before, &mut holds, law)?;
+            let each = bounced.iter().zip(&stopped);
+            let change: Each<_> = each.map(|(bounced, stopped)| bounced - stopped).collect();
+            let share = share_within(masses, &stopped, &change, kinetic(masses, &before));
+            for (v, change) in stopped.iter_mut().zip(&change) {
+                *v += change * share;
+            }
+            for (hold, stop) in holds.iter_mut().zip(of_stop) {
+                for (impulse, stop) in hold.impulses.iter_mut().zip(stop) {
+                    *impulse = stop + (*impulse - stop) * share;
+                }
+            }
+        }
+        state.velocities = stopped;
+        let work = holds.iter().map(|it| it.work(&before, &state.velocities));
+        Ok(-work.sum::<f64>())
+    }
+}
+
+/// The velocities after a knock. No shorter step makes one easier, so where the search does not suffice, as
+/// in wedges, it goes on.
+fn knocked(
+    inverse: &[Vector3<f64>],
+    before: &[Vector3<f64>],
+    holds: &mut [Hold],
+    law: [f64; 2],
+) -> Result<Each<Vector3<f64>>, Unsolved> {
+    for _ in 0..KNOCKS {
+        let mut after = Each::from_slice(before);
+        if hold_back(inverse, &mut after, (holds, &mut []), law) {
+            return Ok(after);
+        }
+    }
+    Err(Unsolved)
+}
