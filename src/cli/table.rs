@@ -152,7 +152,7 @@ impl TableCommand {
         }
         crowd.goal = self
             .request
-            .goal((&about, &crowd), &progress)
+            .goal((&about, &crowd), &start, &progress)
             .map_err(Failure::Usage)?;
         let parts = parts.iter().map(|path| named("part", path));
         let parts = parts.collect::<Result<Vec<_>, Failure>>()?;

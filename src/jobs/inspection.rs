@@ -96,11 +96,7 @@ impl Inspection {
         let bond = self.models[0];
         let no_magnets = design.pair.fixed.largest_magnet() == 0.0;
         if !no_magnets && bond.energy >= 0.0 {
-            faults.push(
-                "the target faces repel: make one the mate of the other (mates = \"FACE\"), or \
-                 reverse its code with N and S exchanged"
-                    .to_owned(),
-            );
+            faults.push(format!("the target faces repel: {}", mates::remedy(design)));
         } else if !no_magnets && bond.contact <= 0.0 {
             faults.push(
                 "the target faces attract each other but are pushed apart at contact: check the \

@@ -4,7 +4,7 @@ use crate::design::Design;
 use nalgebra::Vector2;
 use physics::configuration::Configuration;
 use physics::problem::Problem;
-use physics::tile::{Face, Magnet, Tile};
+use physics::tile::{Face, Magnet, Pair, Tile};
 
 /// A bond weaker than this share of the mates' is not one of mates.
 const WEAK: f64 = 0.7;
@@ -33,10 +33,7 @@ pub(crate) fn fault(design: &Design, problem: &Problem) -> Option<String> {
     let of_fixed = strength(&a, &mated((&b, m), (&a, f)));
     let of_moving = strength(&mated((&a, f), (&b, m)), &b);
     let mates = -(of_fixed * of_moving).max(0.0).sqrt();
-    let help = format!(
-        "make the moving face the mate: {} = {{ mates = \"{}\" }} under [moving.faces]",
-        moving.faces[m].name, fixed.faces[f].name
-    );
+    let help = remedy(design);
     let slid = slid(design, problem);
     if let Some((way, energy)) = slid.filter(|(_, energy)| *energy < STRONGER * bond) {
         return Some(format!(
@@ -51,6 +48,26 @@ pub(crate) fn fault(design: &Design, problem: &Problem) -> Option<String> {
             physics::units::plain((100.0 * own / mates).max(0.0), 2)
         )
     })
+}
+
+/// How the target faces become mates.
+pub(crate) fn remedy(design: &Design) -> String {
+    let Pair {
+        fixed,
+        moving,
+        target: (f, m),
+        ..
+    } = &*design.pair;
+    let [one, other] = [&fixed.faces[*f].name, &moving.faces[*m].name];
+    match f == m && design.is_of_one_kind() {
+        true => format!(
+            "face {one} binds its own kind if its code, read backwards with N and S (or U and D) exchanged, is \
+             the code itself, such as NS, NNSS or UD"
+        ),
+        false => {
+            format!("make the second face the mate of the first: {other} = {{ mates = \"{one}\" }}")
+        }
+    }
 }
 
 /// A tile with the magnets of one face only.

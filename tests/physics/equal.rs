@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use tilebind::design::Design;
 use tilebind::dynamics::Motion;
 use tilebind::many_bodies::contacts::{Tie, held};
-use tilebind::many_bodies::structures::{Goal, Shape, Structure, structures};
+use tilebind::many_bodies::structures::{Goal, Shape, Structure, are_joined, structures};
 use tilebind::many_bodies::{Crowd, Mover};
 use tilebind::table::of_designs;
 use tilebind::{Configuration, Problem};
@@ -180,6 +180,90 @@ fn hexagons_fit_around_one() {
         (built[0].shape, built[0].tiles.len(), built[0].holes),
         (Shape::Ring, 6, 1)
     );
+}
+
+/// Squares that all bind each other, in these cells of a sheet: the only structure.
+fn of_cells(cells: &[[usize; 2]]) -> Structure {
+    let design = one(SQUARE, "all = { code = \"NS\" }", "faces = [\"east\"]");
+    let crowd = of_designs(std::slice::from_ref(&design)).unwrap().0;
+    let place = |[i, j]: &[usize; 2]| [0.05 * *i as f64, 0.05 * *j as f64, 0.0];
+    let places: Vec<[f64; 3]> = cells.iter().map(place).collect();
+    let (counts, built) = found(&crowd, &of_kind(0, &places));
+    assert_eq!((counts[1], built.len()), (0, 1));
+    built[0].clone()
+}
+
+#[test]
+fn holes_tails_and_joined_rings_are_counted() {
+    let cells = |side: usize, without: &[[usize; 2]]| -> Vec<[usize; 2]> {
+        let all = (0..side * side).map(|k| [k % side, k / side]);
+        all.filter(|cell| !without.contains(cell)).collect()
+    };
+    let of = |cells: &[[usize; 2]]| {
+        let it = of_cells(cells);
+        (it.shape, it.tiles.len(), it.bonds, it.holes)
+    };
+    // A hole of one tile, of two tiles, two holes, and a bay, which is none.
+    assert_eq!(of(&cells(4, &[[1, 1]])), (Shape::Sheet, 15, 20, 1));
+    assert_eq!(of(&cells(4, &[[1, 1], [2, 1]])), (Shape::Sheet, 14, 17, 1));
+    assert_eq!(of(&cells(5, &[[1, 1], [3, 3]])), (Shape::Sheet, 23, 32, 2));
+    assert_eq!(of(&cells(4, &[[0, 1]])), (Shape::Sheet, 15, 21, 0));
+    // A ring alone, with a tail, and two rings that share a tile.
+    let ring = cells(3, &[[1, 1]]);
+    assert_eq!(of(&ring), (Shape::Ring, 8, 8, 1));
+    let with = |more: &[[usize; 2]]| [&ring, more].concat();
+    assert_eq!(of(&with(&[[3, 0], [4, 0]])), (Shape::Sheet, 10, 10, 1));
+    let next = cells(3, &[[1, 1], [0, 0]]);
+    let next: Vec<[usize; 2]> = next.iter().map(|[i, j]| [i + 2, j + 2]).collect();
+    assert_eq!(of(&with(&next)), (Shape::Sheet, 15, 16, 2));
+    // Rows are chains, straight or bent.
+    assert_eq!(of(&[[0, 0], [1, 0], [2, 0]]), (Shape::Chain, 3, 2, 0));
+    assert_eq!(of(&[[0, 0], [1, 0], [1, 1]]), (Shape::Chain, 3, 2, 0));
+    assert_eq!(
+        of(&[[0, 1], [1, 1], [2, 1], [1, 0]]),
+        (Shape::Sheet, 4, 3, 0)
+    );
+}
+
+#[test]
+fn hexagons_of_two_codes_fit_around_one() {
+    let tile = "sides = 6\nside = 0.03\nthickness = 0.006\nmass = 0.01\n";
+    for [code, mate] in [["N", "S"], ["NS.N", "S.NS"]] {
+        let face = |k: usize| {
+            format!(
+                "{k} = {{ code = \"{}\", magnet = {{ pitch = 0.006 }} }}\n",
+                [code, mate][k % 2]
+            )
+        };
+        let faces: String = (0..6).map(face).collect();
+        let design = one(tile, &faces, "faces = [\"0\", \"3\"]");
+        let mut crowd = of_designs(std::slice::from_ref(&design)).unwrap().0;
+        let far = 0.03 * libm::sqrt(3.0);
+        let around = (0..6).map(|k| {
+            let (sin, cos) = libm::sincos(FRAC_PI_3 * k as f64);
+            // A third of a turn lays a tile onto itself.
+            [far * cos, far * sin, 2.0 * FRAC_PI_3 * k as f64]
+        });
+        let all: Vec<[f64; 3]> = std::iter::once([0.0; 3]).chain(around).collect();
+        // The pattern lies elsewhere, turned.
+        let off = Configuration::new(0.1, -0.2, 0.7);
+        let pattern = all
+            .iter()
+            .map(|it| (0, off.compose(&Configuration::from(*it))));
+        let pattern: Vec<(usize, Configuration)> = pattern.collect();
+        assert!(are_joined(&crowd, &pattern));
+        assert!(!are_joined(&crowd, &[pattern[1], pattern[4]]));
+        crowd.goal = Some(Goal::Pattern(pattern));
+        let (counts, built) = found(&crowd, &of_kind(0, &all));
+        assert_eq!(counts[..2], [12, 0]);
+        let shapes: Vec<Shape> = built.iter().map(|it| it.shape).collect();
+        assert_eq!(shapes, [Shape::Target, Shape::Sheet]);
+        // One tile turned by a sixth binds nothing, and six are not the pattern.
+        let mut turned = all;
+        turned[3][2] += FRAC_PI_3;
+        let (counts, built) = found(&crowd, &of_kind(0, &turned));
+        assert_eq!((counts[0], built.len()), (9, 1));
+    }
 }
 
 #[test]

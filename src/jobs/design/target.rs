@@ -183,11 +183,9 @@ impl Target<'_> {
             "the target faces bulge towards each other, so they touch in a point instead of coinciding",
             format!(
                 "the bond is where they touch, {} mm farther apart than the ends of the faces; for faces \
-                 that coincide make one the complement of the other: {} = {{ mates = \"{}\" }} under \
-                 [moving.faces]",
+                 that coincide {}",
                 four_digits(apart * 1e3),
-                self.names[1],
-                self.names[0]
+                self.complement()
             ),
         );
         Ok(Bound::At(met, Some(doubt)))
@@ -200,11 +198,25 @@ impl Target<'_> {
                 "the target faces cannot coincide: there the tiles overlap by {} mm",
                 four_digits(overlap * 1e3)
             ),
-            format!(
-                "make the second face the complement of the first: {} = {{ mates = \"{}\" }} under {}",
-                self.names[1], self.names[0], self.faces_of
-            ),
+            self.complement(),
         )
+    }
+
+    /// How the target faces become complements.
+    fn complement(&self) -> String {
+        let ([one, other], faces_of) = (&self.names, self.faces_of);
+        match one == other && faces_of != "[moving.faces]" {
+            // A face that mates itself has no shape.
+            true => format!(
+                "make {one} its own complement, straight or with h(-s) = -h(s) as teeth have, or name a \
+                 second face, faces = [\"{one}\", \"FACE\"], with FACE = {{ mates = \"{one}\" }} under \
+                 {faces_of}"
+            ),
+            false => format!(
+                "make the second face the complement of the first: {other} = {{ mates = \"{one}\" }} under \
+                 {faces_of}"
+            ),
+        }
     }
 
     /// The warning that the target faces overlap by this much (m), and how that is treated.

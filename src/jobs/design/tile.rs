@@ -149,15 +149,18 @@ fn resolve_face(
     let partner = find_face(&tiles[other].base.names, &mates, tiles[other].name)?;
     on_the_way.push((tile, face));
     if on_the_way.contains(&(other, partner)) {
-        return Err(mates.error(
-            format!(
-                "{} mates {}, which in turn mates {} again",
-                name(tiles, (tile, face)),
-                name(tiles, (other, partner)),
-                name(tiles, (tile, face))
+        let [own, others] = [(tile, face), (other, partner)].map(|it| name(tiles, it));
+        let (message, help) = match own == others {
+            true => (
+                format!("{own} mates itself, so nothing says what it is"),
+                "give it a code that binds its own kind, such as NS or UD, or let it mate another face",
             ),
-            "give one of these faces its own code and profile",
-        ));
+            false => (
+                format!("{own} mates {others}, which in turn mates {own} again"),
+                "give one of these faces its own code and profile",
+            ),
+        };
+        return Err(mates.error(message, help));
     }
     let partner_length = tiles[other].base.faces[partner].length();
     tiles[tile].section.source.faults.check_guesses()?;

@@ -7,7 +7,7 @@ use super::start_file;
 use crate::text;
 use physics::observer::Observer;
 use physics::table::Crowd;
-use physics::table::structures::Goal;
+use physics::table::structures::{Goal, are_joined};
 
 /// Largest number of tiles of a goal.
 const MOST: usize = 100_000;
@@ -54,30 +54,65 @@ impl Wanted {
                 let (rows, columns) = sizes
                     .split_once(['x', 'X'])
                     .ok_or_else(|| format!("`{given}` lacks rows or columns: {FORM}"))?;
-                Goal::Sheet(size(rows, 1)?, size(columns, 1)?)
+                let (rows, columns) = (size(rows, 1)?, size(columns, 1)?);
+                if !(2..=MOST).contains(&rows.saturating_mul(columns)) {
+                    return Err(format!("`{given}` has not from 2 to {MOST} tiles: {FORM}"));
+                }
+                Goal::Sheet(rows, columns)
             }
         }))
     }
 
-    /// The goal, for these kinds of tiles.
+    /// The goal, for this many tiles of these kinds.
     ///
     /// # Errors
-    /// If the file cannot be read, or has no tiles that hold together.
+    /// If the file cannot be read, or such tiles can never build it.
     pub(super) fn goal(
         &self,
         (crowd, named): (&Crowd, &Named),
+        tiles: usize,
         observer: &dyn Observer,
     ) -> Result<Goal, String> {
-        let file = match self {
-            Self::Known(goal) => return Ok(goal.clone()),
-            Self::File(file) => file,
+        let goal = match self {
+            Self::Known(goal) => goal.clone(),
+            Self::File(file) => Self::pattern(file, (crowd, named), observer)?,
         };
+        let four = |kind: &physics::table::Kind| kind.tile.faces.len() == 4;
+        if matches!(goal, Goal::Sheet(..)) && !crowd.kinds.iter().any(four) {
+            return Err(
+                "--target: sheets have rows and columns of tiles with four faces, which these have not: give a \
+                 start file as the pattern"
+                    .to_owned(),
+            );
+        }
+        if goal.tiles() > tiles {
+            return Err(format!(
+                "--target: it has {} tiles, but there are only {tiles} on the table: raise --count",
+                goal.tiles()
+            ));
+        }
+        Ok(goal)
+    }
+
+    /// The tiles of a start file.
+    fn pattern(
+        file: &Path,
+        (crowd, named): (&Crowd, &Named),
+        observer: &dyn Observer,
+    ) -> Result<Goal, String> {
         let name = file.display();
         let wrong = |error: &dyn std::fmt::Display| format!("--target {name}: {error}");
         let text = text::read(file).map_err(|error| wrong(&error))?;
         let movers = start_file::read(&text::with_commas(&text), (crowd, named), observer);
         let movers = movers.map_err(|error| wrong(&error))?;
         let place = |it: &physics::table::Mover| (it.kind, it.motion(crowd).configuration);
-        Ok(Goal::Pattern(movers.iter().map(place).collect()))
+        let tiles: Vec<_> = movers.iter().map(place).collect();
+        if tiles.len() < 2 || !are_joined(crowd, &tiles) {
+            return Err(wrong(
+                &"its tiles are not all joined by bonds, so no structure can be like it: place them where \
+                  their faces bind",
+            ));
+        }
+        Ok(Goal::Pattern(tiles))
     }
 }

@@ -8,17 +8,18 @@ use physics::table::run::Start;
 use physics::table::structures::Goal;
 
 impl Request {
-    /// What is to be built.
+    /// What is to be built, of the tiles of a start.
     ///
     /// # Errors
-    /// If the start file that describes it is invalid.
+    /// If the start file that describes it is invalid, or such tiles cannot build it.
     pub fn goal(
         &self,
         (about, crowd): (&About, &Crowd),
+        start: &Start,
         observer: &dyn Observer,
     ) -> Result<Option<Goal>, String> {
         let wanted = self.target.as_ref();
-        let goal = wanted.map(|it| it.goal((crowd, &about.named), observer));
+        let goal = wanted.map(|it| it.goal((crowd, &about.named), start.tiles(), observer));
         goal.transpose()
     }
 

@@ -45,6 +45,14 @@ impl Interval {
         }
     }
 
+    /// With an end that no count can exceed.
+    pub fn up_to(self, most: usize) -> Self {
+        Self {
+            high: self.high.map(|high| high.min(most as f64)),
+            ..self
+        }
+    }
+
     /// As shares of the largest possible count.
     pub fn of_at_most(self, most: usize) -> Self {
         let share = |count: f64| (count / most.max(1) as f64).min(1.0);
@@ -271,6 +279,7 @@ fn in_traps(run: &Run) -> usize {
 }
 
 fn structures(runs: &[Run]) -> Vec<Built> {
+    let tiles = runs.first().map_or(0, |run| run.movers.len());
     let mut found: BTreeMap<(Shape, usize), Vec<(usize, &Structure)>> = BTreeMap::new();
     for (number, run) in runs.iter().enumerate() {
         for it in run.samples.last().into_iter().flat_map(|it| &it.structures) {
@@ -287,7 +296,7 @@ fn structures(runs: &[Run]) -> Vec<Built> {
         Built {
             shape,
             size,
-            count: Interval::of(&counts),
+            count: Interval::of(&counts).up_to(tiles / size),
             closed: mean(|it| it.bonds as f64 / it.possible as f64),
             holes: mean(|it| it.holes as f64),
         }
@@ -298,6 +307,7 @@ fn structures(runs: &[Run]) -> Vec<Built> {
 /// All runs at the times of the first run's samples; with halved steps the times agree to within a
 /// step.
 fn moments(runs: &[Run]) -> Vec<Moment> {
+    let tiles = runs.first().map_or(0, |run| run.movers.len());
     let count = runs.iter().map(|run| run.samples.len()).min().unwrap_or(0);
     (0..count)
         .map(|k| {
@@ -313,8 +323,8 @@ fn moments(runs: &[Run]) -> Vec<Moment> {
                 time: runs[0].samples[k].time,
                 bonds: of(&|it| it.count(Tie::Bond)),
                 traps: of(&|it| it.count(Tie::Trap)),
-                in_target: of(&in_target),
-                largest: of(&|it| it.clusters.first().copied().unwrap_or(0)),
+                in_target: of(&in_target).up_to(tiles),
+                largest: of(&|it| it.clusters.first().copied().unwrap_or(0)).up_to(tiles),
             }
         })
         .collect()
@@ -371,6 +381,7 @@ mod tests {
         let (low, high) = ends(&[12; 20]);
         let off = [12.0 - low.unwrap(), high.unwrap() - 12.0];
         assert!(off.iter().all(|off| (off - 3.689 / 20.0).abs() < 1e-3));
+        assert_eq!(Interval::of(&[8; 2]).up_to(8).high, Some(8.0));
         let of_pairs = Interval::of(&[12; 20]).of_at_most(12);
         assert!(of_pairs.mean == 1.0 && of_pairs.high == Some(1.0) && of_pairs.low < Some(0.99));
         // Student's t of four values with a standard deviation of 2.582.

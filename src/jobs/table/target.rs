@@ -43,7 +43,7 @@ impl Target {
             let inside: Vec<usize> = runs.iter().map(last).collect();
             let outside: Vec<usize> = inside.iter().map(|it| kinds.len() - it).collect();
             return Self {
-                outside: Some(Interval::of(&outside)),
+                outside: Some(Interval::of(&outside).up_to(kinds.len())),
                 possible: Some(possible),
                 ..alone(Interval::of(&inside).of_at_most(possible))
             };

@@ -41,14 +41,10 @@ impl Workload {
     /// That of a request for tiles with this usual step (s) and these starts.
     pub fn of(request: &Request, usual: f64, start: &Start) -> Self {
         let settings = request.settings(usual);
-        let tiles = match start {
-            Start::Random(counts) => counts.iter().sum(),
-            Start::Given(movers) => movers.len(),
-        };
         let steps = (settings.duration / settings.step).ceil().max(1.0);
         Self {
             runs: request.made().len() as f64,
-            tiles: tiles as f64,
+            tiles: start.tiles() as f64,
             steps,
             samples: 2.0 + (settings.duration / settings.sampling).min(steps),
             frames: request.keeps_frames(),

@@ -26,7 +26,7 @@ pub(super) struct Encounter<'a> {
     potential: &'a dyn Potential,
     bodies: [Body; 2],
     reach: f64,
-    rim: Rim,
+    pub rim: Rim,
     pub margins: Margins,
 }
 

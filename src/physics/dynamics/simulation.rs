@@ -7,7 +7,7 @@ use super::force::Forces;
 use super::settings::{MotionSettings, SettingsError};
 use crate::configuration::Configuration;
 use crate::problem::Problem;
-use crate::rigid::{Body, Motion, Phase};
+use crate::rigid::{Body, Motion, Phase, Rim};
 
 /// The moving tile at one time of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -65,6 +65,8 @@ pub struct Simulation<'a> {
     pub(super) settings: MotionSettings,
     /// Largest distance of a point of the tile from its centre of mass (m).
     reach: f64,
+    /// Half the size (m) of the table along x and y.
+    half_size: [f64; 2],
     /// The tiles in contact; `None` if nothing blocks a configuration.
     pub(super) encounter: Option<Encounter<'a>>,
 }
@@ -99,7 +101,17 @@ impl<'a> Simulation<'a> {
             body,
             settings,
             reach,
+            half_size: problem.space.half_size,
         }
+    }
+
+    /// The same on a table of another half size (m) along x and y.
+    pub(super) fn within(mut self, half_size: [f64; 2]) -> Self {
+        self.half_size = half_size;
+        if let Some(encounter) = &mut self.encounter {
+            encounter.rim = Rim::Rectangle(half_size);
+        }
+        self
     }
 
     /// Whether anything can move a tile that rests.
@@ -130,7 +142,7 @@ impl<'a> Simulation<'a> {
         let (true, Some(contact)) = (self.settings.walls, &self.problem.contact) else {
             return f64::INFINITY;
         };
-        let [x, y] = self.problem.space.half_size;
+        let [x, y] = self.half_size;
         let bound = (x - q.x.abs()).min(y - q.y.abs()) - self.reach - self.body.centre.norm();
         if bound > 0.0 {
             return bound;

@@ -37,12 +37,20 @@ impl Room {
     /// # Errors
     /// If there is none.
     pub fn new(problem: &Problem) -> Result<Self, NoRoom> {
-        let [x, y] = problem.space.half_size;
+        Self::within(problem, problem.space.half_size)
+    }
+
+    /// The same on a table of another half size (m) along x and y.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn within(problem: &Problem, half_size: [f64; 2]) -> Result<Self, NoRoom> {
+        let [x, y] = half_size;
         let size = [2.0 * x, 2.0 * y, TAU];
         let place = |k: usize| {
             let at = |axis: usize| (spread(k, BASES[axis]) - 0.5) * size[axis];
             let q = Configuration::new(at(0), at(1), at(2));
-            (is_inside_the_rim(problem, &q) && problem.is_free(&q)).then_some(q)
+            (is_inside_the_rim(problem, &q, half_size) && problem.is_free(&q)).then_some(q)
         };
         let places = parallel::flat_map(1..EXAMINED + 1, place);
         let area = 4.0 * x * y * places.len() as f64 / EXAMINED as f64;
@@ -54,8 +62,8 @@ impl Room {
 }
 
 /// Whether the rim is around all of the moving tile.
-fn is_inside_the_rim(problem: &Problem, q: &Configuration) -> bool {
-    let is_inside = |tile: &Outline| tile.beyond_rim(q, problem.space.half_size) <= 0.0;
+fn is_inside_the_rim(problem: &Problem, q: &Configuration, half_size: [f64; 2]) -> bool {
+    let is_inside = |tile: &Outline| tile.beyond_rim(q, half_size) <= 0.0;
     let contact = problem.contact.as_ref();
     contact.is_none_or(|contact| is_inside(contact.moving()))
 }

@@ -116,6 +116,16 @@ pub enum Start {
     Given(Vec<Mover>),
 }
 
+impl Start {
+    /// The number of tiles.
+    pub fn tiles(&self) -> usize {
+        match self {
+            Self::Random(counts) => counts.iter().sum(),
+            Self::Given(movers) => movers.len(),
+        }
+    }
+}
+
 /// Why a run failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {

@@ -6,10 +6,12 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use nalgebra::Vector2;
+use petgraph::unionfind::UnionFind;
 
 use super::contacts::{Held, Tie, cluster_of_each};
 use super::crowd::Crowd;
 pub use super::goal::Goal;
+use super::neighbours::Neighbours;
 use crate::configuration::{Configuration, wrap_angle};
 use crate::rigid::{Mover, Two};
 use crate::tile::Face;
@@ -98,6 +100,37 @@ pub fn structures(crowd: &Crowd, movers: &[Mover], held: &[Held]) -> Vec<Structu
     all
 }
 
+/// Whether bonds join all of these tiles, given by kind and place.
+pub fn are_joined(crowd: &Crowd, tiles: &[(usize, Configuration)]) -> bool {
+    let places: Vec<Vector2<f64>> = tiles.iter().map(|it| it.1.position()).collect();
+    let radius = |it: &(usize, Configuration)| crowd.kinds[it.0].tile.outline.circumradius();
+    let range = 2.0 * tiles.iter().map(radius).fold(0.0, f64::max);
+    let mut near = Neighbours::default();
+    let mut joined = UnionFind::<usize>::new(tiles.len());
+    for &[a, b] in near.within(2.0 * range, &places) {
+        if bond(crowd, [tiles[a], tiles[b]]).is_some() {
+            joined.union(a, b);
+        }
+    }
+    (1..tiles.len()).all(|k| joined.equiv(0, k))
+}
+
+/// The exact pose of the second tile in the frame of the first, if they are bound in these places.
+fn bond(crowd: &Crowd, tiles: [(usize, Configuration); 2]) -> Option<Configuration> {
+    let two = Two::of(tiles.map(|it| it.0), [0, 1]);
+    let couple = crowd.couple(tiles[0].0, tiles[1].0).0;
+    let [first, second] = [two.first, two.second].map(|k| tiles[k].1);
+    let q = first.inverse().compose(&second);
+    if q.position().norm() > couple.radii() + couple.near {
+        return None;
+    }
+    let pose = couple.bonds.iter().find_map(|rule| rule.pose_of(&q))?;
+    Some(match two.first {
+        0 => pose,
+        _ => pose.inverse(),
+    })
+}
+
 /// Connected tiles in their exact places.
 struct Part<'a> {
     crowd: &'a Crowd,
@@ -139,6 +172,10 @@ impl<'a> Part<'a> {
         self.movers[self.tiles[k]].kind
     }
 
+    fn placed(&self, k: usize) -> (usize, Configuration) {
+        (self.kind(k), self.places[k])
+    }
+
     /// The places that follow from the first tile's along a tree of bonds.
     fn exact(&self) -> Vec<Configuration> {
         let mut next: Vec<Vec<usize>> = vec![Vec::new(); self.tiles.len()];
@@ -155,7 +192,7 @@ impl<'a> Part<'a> {
                 if exact[there].is_some() {
                     continue;
                 }
-                let bond = self.bond([here, there], [self.places[here], self.places[there]]);
+                let bond = bond(self.crowd, [here, there].map(|k| self.placed(k)));
                 exact[there] = Some(bond.map_or(self.places[there], |pose| at.compose(&pose)));
                 open.push_back(there);
             }
@@ -164,22 +201,6 @@ impl<'a> Part<'a> {
         found
             .map(|(exact, place)| exact.unwrap_or(*place))
             .collect()
-    }
-
-    /// The exact pose of the second tile in the frame of the first, if they are bound in these places.
-    fn bond(&self, [a, b]: [usize; 2], places: [Configuration; 2]) -> Option<Configuration> {
-        let two = Two::of([a, b].map(|k| self.kind(k)), [0, 1]);
-        let couple = self.crowd.couple(self.kind(a), self.kind(b)).0;
-        let [first, second] = [two.first, two.second].map(|k| places[k]);
-        let q = first.inverse().compose(&second);
-        if q.position().norm() > couple.radii() + couple.near {
-            return None;
-        }
-        let pose = couple.bonds.iter().find_map(|rule| rule.pose_of(&q))?;
-        Some(match two.first {
-            0 => pose,
-            _ => pose.inverse(),
-        })
     }
 
     fn structure(&self) -> Structure {
@@ -191,10 +212,7 @@ impl<'a> Part<'a> {
         let mut possible = self.bonds.clone();
         for b in 0..count {
             for a in 0..b {
-                if self
-                    .bond([a, b], [self.places[a], self.places[b]])
-                    .is_some()
-                {
+                if bond(self.crowd, [a, b].map(|k| self.placed(k))).is_some() {
                     possible.insert([a, b]);
                 }
             }

@@ -193,6 +193,136 @@ pub(super) fn sector(away: f64) -> String {
     )
 }
 
+/// What is to be built, in every way to say it.
+#[test]
+fn targets_are_found_and_impossible_ones_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name).display().to_string();
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let places = |all: &[[f64; 3]]| {
+        let row = |(k, [x, y, theta]): (usize, &[f64; 3])| {
+            format!("{k},{x:.9},{y:.9},{theta:.9},0,0,0\n")
+        };
+        let rows: String = all.iter().enumerate().map(row).collect();
+        format!("tile,x,y,theta,vx,vy,omega\n{rows}")
+    };
+    let ring = file("ring.toml", &sector(0.0));
+    let quarter = |k: usize| [0.0, 0.0, FRAC_PI_2 * k as f64];
+    let closed = file("closed.csv", &places(&[0, 1, 2, 3].map(quarter)));
+    let open = file("open.csv", &places(&[0, 1, 2].map(quarter)));
+    let apart = file("apart.csv", &places(&[[-0.1, 0.0, 0.0], [0.1, 0.0, 0.0]]));
+    let square = file(
+        "square.toml",
+        "[table]\nsize = [0.4, 0.4]\n[magnet]\nsize = [0.003, 0.005, 0.003]\nremanence = 1.2\npitch = 0.012\n\
+         inset = 0.0005\n[tile]\nside = 0.05\nthickness = 0.006\nmass = 0.02\n[tile.faces]\n\
+         all = { code = \"NS\" }\n[target]\nfaces = [\"0\"]\n",
+    );
+    let hexagon = "shapes/self-binding-hexagon.toml".to_owned();
+    let cell = |k: usize| {
+        [
+            0.05 * (k % 3) as f64,
+            0.05 * (k / 3) as f64,
+            FRAC_PI_2 * k as f64,
+        ]
+    };
+    let sheet: Vec<[f64; 3]> = (0..6).map(cell).collect();
+    let sheet = file("sheet.csv", &places(&sheet));
+    let asked = |design: &str, start: &str, target: &str| {
+        tilebind(&[
+            "table", design, "--start", start, "--time", "0.02", "--target", target, "--json",
+        ])
+    };
+    for (design, start, target, share) in [
+        (&ring, &closed, "ring:4", 1.0),
+        (&ring, &closed, "chain:3", 0.0),
+        (&ring, &closed, &closed[..], 1.0),
+        (&ring, &open, "chain:3", 1.0),
+        (&ring, &open, "ring:3", 0.0),
+        (&ring, &open, &open, 1.0),
+        (&square, &sheet, "sheet:3x2", 1.0),
+        (&square, &sheet, "sheet:2X3", 1.0),
+        (&square, &sheet, "sheet:2x2", 0.0),
+        (&square, &sheet, &sheet, 1.0),
+    ] {
+        let output = asked(design, start, target);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        assert_eq!(found["target"]["share"]["mean"], share, "{target}");
+        let built = found["structures"].as_array().unwrap();
+        let is_target = |it: &Value| it["kind"] == "target" && it["mean"] == 1.0;
+        assert_eq!(built.iter().any(is_target), share > 0.0, "{target}");
+    }
+    for (design, start, target, told) in [
+        (&hexagon, &apart, "sheet:1x2", "four faces"),
+        (&ring, &open, "ring:8", "only 3 on the table"),
+        (&ring, &closed, &apart[..], "not all joined by bonds"),
+        (&ring, &closed, "ring:2", "from 3 to"),
+        (&square, &sheet, "sheet:1x1", "from 2 to"),
+        (&square, &sheet, "sheet:3", "lacks rows or columns"),
+        (&square, &sheet, "heap:3", "is no target"),
+    ] {
+        let output = asked(design, start, target);
+        assert_eq!(output.status.code(), Some(2), "{target}");
+        assert!(
+            stderr(&output).contains(told),
+            "{target}: {}",
+            stderr(&output)
+        );
+    }
+}
+
+/// What to do about faces that cannot bind their own kind names faces of the one tile.
+#[test]
+fn advice_for_one_kind_can_be_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("one.toml").display().to_string();
+    let told = |east: &str| {
+        let text = format!(
+            "[table]\nsize = [1.0, 1.0]\n[magnet]\nsize = [0.005, 0.005, 0.003]\nremanence = 1.2\n\
+             pitch = 0.012\ninset = 0.006\n[tile]\nside = 0.06\nthickness = 0.006\nmass = 0.02\n\
+             [tile.faces]\neast = {{ {east} }}\n[target]\nfaces = [\"east\"]\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        let output = tilebind(&["show", &file]);
+        let all = stdout(&output) + &stderr(&output);
+        all.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    for (east, advice) in [
+        ("code = \"NN\"", "binds its own kind if its code"),
+        ("code = \"NNSN\"", "binds its own kind if its code"),
+        ("mates = \"east\"", "mates itself"),
+        (
+            "profile = { shape = \"tab\", width = 0.02, depth = 0.004 }",
+            "make east its own complement",
+        ),
+        (
+            "profile = { shape = \"arc\", width = 0.02, depth = 0.004 }",
+            "make east its own complement",
+        ),
+    ] {
+        let told = told(east);
+        assert!(told.contains(advice), "{east}: {told}");
+        assert!(!told.contains("[moving"), "{east}: {told}");
+    }
+    // Whole teeth fit themselves, in every form, as a tab beside its slot does.
+    for east in [
+        "code = \"NS\", profile = { shape = \"teeth\", depth = 0.004, count = 3, form = \"sine\" }",
+        "code = \"NNSS\", profile = { shape = \"teeth\", depth = 0.004, count = 3, form = \"triangle\" }",
+        "code = \"NS\", profile = { shape = \"teeth\", depth = 0.004, count = 3, form = \"square\" }",
+        "code = \"NS\", profile = { shape = \"points\", points = [[-0.03, 0], [-0.02, 0.004], [-0.01, 0], [0.01, 0], \
+         [0.02, -0.004], [0.03, 0]] }",
+    ] {
+        let told = told(east);
+        assert!(
+            !told.contains("own complement") && !told.contains("own kind"),
+            "{east}: {told}"
+        );
+    }
+}
+
 /// A table that starts with its ring closed has four bonds that no prediction for single tiles has.
 #[test]
 fn a_comparison_can_disagree() {

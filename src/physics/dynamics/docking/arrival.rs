@@ -7,7 +7,8 @@
 //! `a = integral of exp(-U / kT) over the configurations apart / 2 pi` (m^2),
 //!
 //! and kappa (m^2/s) is the rate for one partner per square metre, whatever the size of the table.
-//! Time that a tile spends in contact or in a trap is not time apart. Runs start in equilibrium
+//! The runs therefore take place on a table only so large that most of its room is apart, where tiles
+//! meet soonest. Time that a tile spends in contact or in a trap is not time apart. Runs start in equilibrium
 //! among the configurations apart, and end at the first attachment, so their number per time does
 //! not depend on the duration either.
 //!
@@ -71,9 +72,10 @@ pub fn arrivals(
     settings: &DockingSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Arrivals, DockingError> {
-    let experiment = Experiment::of_body(problem, settings, Body::relative)?;
+    let mut experiment = Experiment::of_body(problem, settings, Body::relative)?;
     let kt = settings.motion.shaking.unwrap_or(0.0);
     let starts = Apart::new(problem, kt)?;
+    experiment.simulation = experiment.simulation.within(starts.half_size);
     let arrive = |index: usize| {
         let arrival = arrive(&experiment, &starts, kt, index);
         done();
@@ -137,11 +139,40 @@ struct Apart {
     /// For each place the sum of the Boltzmann factors up to it.
     sums: Vec<f64>,
     area: f64,
+    /// Half the size (m) of the table along x and y.
+    half_size: [f64; 2],
 }
 
+/// Half the size of the smallest table, over the distance at which tiles are free of each other.
+const NEAR: f64 = 1.5;
+/// How much larger the next one is.
+const LARGER: f64 = 1.25;
+/// The share of a table's room that is to be apart.
+const MOST_APART: f64 = 0.5;
+
 impl Apart {
+    /// On the smallest table that leaves room to be apart, at most that of the problem.
     fn new(problem: &Problem, kt: f64) -> Result<Self, DockingError> {
+        let whole = problem.space.half_size;
+        let mut reach = NEAR * problem.space.free_distance;
+        while reach < whole[0].max(whole[1]) {
+            let half_size = whole.map(|half| half.min(reach));
+            let found = Room::within(problem, half_size).ok().and_then(|room| {
+                let apart = Self::of(problem, &room, half_size, kt)?;
+                let is_wide = apart.places.len() as f64 >= MOST_APART * room.places.len() as f64;
+                is_wide.then_some(apart)
+            });
+            if let Some(found) = found {
+                return Ok(found);
+            }
+            reach *= LARGER;
+        }
         let room = Room::new(problem)?;
+        Self::of(problem, &room, whole, kt).ok_or(DockingError::NeverApart(kt))
+    }
+
+    /// Those of some room; `None` if there are none.
+    fn of(problem: &Problem, room: &Room, half_size: [f64; 2], kt: f64) -> Option<Self> {
         let energies = problem.energies(&room.places);
         let (mut places, mut sums, mut sum) = (Vec::new(), Vec::new(), 0.0);
         for (place, &energy) in room.places.iter().zip(&energies) {
@@ -151,11 +182,13 @@ impl Apart {
                 sums.push(sum);
             }
         }
-        if places.is_empty() {
-            return Err(DockingError::NeverApart(kt));
-        }
         let area = room.area * sum / room.places.len() as f64;
-        Ok(Self { places, sums, area })
+        (!places.is_empty()).then_some(Self {
+            places,
+            sums,
+            area,
+            half_size,
+        })
     }
 
     fn draw(&self, rng: &mut ChaCha8Rng) -> Configuration {

@@ -194,9 +194,9 @@ impl Design {
         let found = job::answer(py, progress, |told| {
             let designs = std::slice::from_ref(design);
             let (about, mut crowd) = About::of_designs(designs)?;
-            crowd.goal = asked.goal((&about, &crowd), told)?;
             let text = text.as_deref().map(|text| ("start", text));
             let start = asked.start((&about, &crowd), text, told)?;
+            crowd.goal = asked.goal((&about, &crowd), &start, told)?;
             asked.check()?;
             let found = put((&about, crowd), &asked, start, &[], told);
             let found = found.map_err(|error| error.to_string())?;
