@@ -32,8 +32,8 @@ their numbers by size are simulated (--simulations), with the rates of a pair fo
 A chain closes where the bond's turn brings its ends together, such as eight sectors of 45 degrees. The
 rows named `bound` still say which pairs there would be if a tile bound one other at most.
 
-Attachment rates are counted in docking runs of shaken tiles. These start in equilibrium anywhere on
-the design's table where the tiles are apart (|U| below kT), and end once the tiles are bound: matched,
+Attachment rates are counted in docking runs of shaken tiles. These start in equilibrium where the tiles
+are apart (|U| below kT), on a table just large enough for that, and end once the tiles are bound: matched,
 with so little kinetic and potential energy that 3 kT are missing to become free, so that a tile that
 only flies by does not count. Both tiles move: the simulated one has the pair's reduced mass and moment
 of inertia. The rate is the number of attachments over the time apart, times the area

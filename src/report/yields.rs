@@ -168,7 +168,7 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .data("mixture", mixture(found))
         .data("rates", format!("{}; detachment {}", effort.describe(), detachment(question)))
         .data("docking", json!({
-            "runs": effort.runs, "duration_s": effort.duration,
+            "runs": effort.runs, "attachments": effort.attachments, "duration_s": effort.duration,
             "drag_per_s": motion.drag, "restitution": motion.restitution,
             "friction": motion.friction,
         }))
@@ -415,7 +415,7 @@ fn uncounted(outcome: &Outcome) -> Option<String> {
     outcome.least_times?;
     Some(format!(
         "at kT = {} none of {} docking runs attached to the bond: its rates are upper limits and its \
-         times lower ones (95 %); more or longer runs (--runs, --duration) can count some",
+         times lower ones (95 %); more or longer runs (--attachments 20, --runs, --duration) can count some",
         si(outcome.kt, "J", 3),
         outcome.attached.runs
     ))

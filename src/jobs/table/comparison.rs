@@ -8,6 +8,9 @@ use crate::request::of_keywords;
 use crate::yields::{Question, YieldError, Yields, yields};
 use physics::observer::Observer;
 
+/// Attachments that determine the rate to 20 %: a comparison with a wide interval cannot disagree.
+const ENOUGH: usize = 100;
+
 /// The corresponding request of `yield`: the same number of pairs, table area, time, drag,
 /// restitution and friction. The scarcer kind of tile determines the number of pairs.
 fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
@@ -37,6 +40,7 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
             "simulations",
             if kinds_are_one { "1000" } else { "0" }.to_owned(),
         ),
+        ("attachments", ENOUGH.to_string()),
         ("seed", request.seed.to_string()),
     ];
     let words = words.map(|(key, value)| (key.to_owned(), vec![value]));

@@ -34,6 +34,12 @@ pub struct Effort {
     #[arg(long, value_name = "N", default_value_t = 400, value_parser = request::runs)]
     pub runs: usize,
 
+    /// Repeat the docking runs, up to ten times in all, until so many attached to the bond
+    ///
+    /// 100 determine the attachment rate to 20 %; 0: no repeats.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = request::runs_or_none)]
+    pub attachments: usize,
+
     /// Duration of each docking run (s)
     #[arg(long, value_name = "S", default_value_t = 10.0,
           value_parser = crate::docking::duration)]
@@ -103,9 +109,10 @@ impl Effort {
         } = self.motion();
         match self.source {
             Source::Docking => format!(
-                "attachment counted in {} docking runs for each kT (drag {drag} per s, restitution \
+                "attachment counted in {}{} docking runs for each kT (drag {drag} per s, restitution \
                  {restitution}, friction {friction})",
-                self.runs
+                self.runs,
+                if self.attachments > 0 { " or more" } else { "" }
             ),
             Source::Overdamped => format!(
                 "attachment of overdamped motion, solved on a mesh (drag {drag} per s, \
@@ -298,7 +305,7 @@ pub fn count(
     seed: u64,
 ) -> Result<Attachments, DockingError> {
     let settings = effort.runs_at(kt, seed);
-    let arrivals = docking::arrivals(problem, &settings, &|| ())?;
+    let arrivals = docking::arrivals(problem, &settings, effort.attachments, &|| ())?;
     Ok(tally(problem, catalogue, &arrivals))
 }
 

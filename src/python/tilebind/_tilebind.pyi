@@ -171,6 +171,7 @@ class Design:
         time: float,
         coverage: float = 0.3,
         runs: int = 400,
+        attachments: int = 0,
         duration: float = 10.0,
         rates: str = "docking",
         drag: float | None = None,

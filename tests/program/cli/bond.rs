@@ -172,7 +172,7 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
     let found = json(&[
         "yield",
         file.to_str().unwrap(),
-        "--tiles=6",
+        "--tiles=4",
         "--time=600",
         "--kt=1.6e-3,2.1e-3",
         "--runs=120",
@@ -200,7 +200,7 @@ fn a_yield_agrees_with_its_simulation_whatever_the_lifetimes_of_traps() {
         best = best.max(share("yield"));
     }
     // A schedule of as many tiles is no worse than its best setting.
-    assert_eq!(found["mixture"]["tiles"], 6);
+    assert_eq!(found["mixture"]["tiles"], 4);
     assert!(
         found["mixture"]["yield"].as_f64().unwrap() > best - 1e-6,
         "{best}"
@@ -377,6 +377,26 @@ fn rates_of_attachment_are_those_of_the_bond_alone() {
 }
 
 /// Without attachments in docking runs only limits are known.
+/// Docking runs need no more of the table than tiles that are apart do, so that attachments are counted
+/// on a large table as on a small one; and they are repeated until enough are counted.
+#[test]
+fn attachments_are_counted_whatever_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let [narrow, wide] = [0.4, 0.8].map(|table| small(folder.path(), table));
+    let asked = "--runs=20 --duration=1 --drag=5";
+    let of = |file: &str, more: &str| bond_of(file, "4e-4", &format!("{asked}{more}"));
+    let [one, two] = [&narrow, &wide].map(|file| of(file, ""));
+    assert_eq!(one, two);
+    let count = |state: &Value| state["attachments"].as_f64().unwrap();
+    let width = |state: &Value| {
+        let [low, high] = [0, 1].map(|end| state["on_interval_m2_per_s"][end].as_f64().unwrap());
+        (high - low) / state["on_m2_per_s"].as_f64().unwrap()
+    };
+    let many = of(&narrow, " --attachments=40");
+    assert!(count(&one) >= 5.0 && count(&many) >= 40.0, "{one} {many}");
+    assert!(width(&many) < 0.7 && width(&one) > 1.0, "{one} {many}");
+}
+
 #[test]
 fn no_attachment_is_not_told_as_never() {
     let file = design(PAPER);

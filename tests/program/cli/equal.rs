@@ -46,7 +46,7 @@ fn without_checksums(file: &str) -> String {
     text.lines().map(kept).collect::<Vec<_>>().join("\n")
 }
 
-const ASKED: [&str; 13] = [
+const ASKED: [&str; 15] = [
     "show --json",
     "energy --pose 0.05,0,0.3 --pose 0.1,0.02,-2",
     "match --json",
@@ -59,6 +59,8 @@ const ASKED: [&str; 13] = [
     "tolerance --strength 0.05 --draws 20 --json",
     "compare --milestones 200 --far-starts 20 --json",
     "sweep --vary magnet.remanence=1.0,1.2 --milestones 200 --far-starts 20",
+    "sweep --vary magnet.remanence=1.0:1.2 --maximise selectivity --points 2 --milestones 200 --far-starts 20",
+    "assemble lattice FILE --lattice 1x2 --length 2 --json",
     "analyse --quick --milestones 200 --far-starts 20",
 ];
 
@@ -70,9 +72,11 @@ fn every_way_to_write_one_kind_gives_the_same_bytes() {
     let answers = |text: &str| -> Vec<String> {
         std::fs::write(&file, text).unwrap();
         let answer = |asked: &&str| {
-            let mut words = asked.split(' ');
-            let command = [words.next().unwrap(), &file].into_iter();
-            let mut all: Vec<String> = command.chain(words).map(str::to_owned).collect();
+            let mut all: Vec<String> = asked.split(' ').map(str::to_owned).collect();
+            match all.iter().position(|word| word == "FILE") {
+                Some(place) => all[place] = file.clone(),
+                None => all.insert(1, file.clone()),
+            }
             let out = folder.path().join("out").display().to_string();
             let table = match all[0].as_str() {
                 "make" => Some(None),
@@ -191,6 +195,99 @@ pub(super) fn sector(away: f64) -> String {
          inset = 0.0005\n[potential]\nmodel = \"dipole\"\n[tile]\nvertices = [{corners}]\nthickness = 0.006\n\
          mass = 0.02\n[tile.faces]\n0 = {{ code = \"S\" }}\n2 = {{ code = \"N\" }}\n[target]\nfaces = [\"0\", \"2\"]\n"
     )
+}
+
+/// Rows and columns of a matrix in another order.
+fn in_order(matrix: &Value, order: &[usize]) -> Vec<f64> {
+    let at = |i: usize, j: usize| matrix[i][j].as_f64().unwrap();
+    let pairs = order.iter().flat_map(|i| order.iter().map(|j| (*i, *j)));
+    pairs.map(|(i, j)| at(i, j)).collect()
+}
+
+/// Neither their order nor which of two mates is called the word changes how strongly words attract.
+#[test]
+fn labels_of_words_change_no_crosstalk() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("words.toml").display().to_string();
+    let strongest = |words: &str| {
+        let text = format!(
+            "words = {words}\n[magnet]\nsize = [0.01, 0.01, 0.003]\nremanence = 1.2\npitch = 0.04\n\
+             [tile]\nside = 0.36\n[potential]\nmodel = \"dipole\"\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        let output = tilebind(&["crosstalk", &file, "--json"]);
+        let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        found["strongest_J"].clone()
+    };
+    let first = strongest("[\"NNSN\", \"NSSN\", \"NNNN\"]");
+    let all = in_order(&first, &[0, 1, 2, 3, 4, 5]);
+    for (words, order) in [
+        ("[\"NNNN\", \"NNSN\", \"NSSN\"]", [1, 2, 0, 4, 5, 3]),
+        ("[\"SNSS\", \"SNNS\", \"SSSS\"]", [3, 4, 5, 0, 1, 2]),
+        ("[\"NNSN\", \"SNNS\", \"NNNN\"]", [0, 4, 2, 3, 1, 5]),
+    ] {
+        let other = in_order(&strongest(words), &order);
+        for (one, two) in all.iter().zip(&other) {
+            assert!(
+                (one - two).abs() <= 1e-12 * one.abs(),
+                "{words}: {one} {two}"
+            );
+        }
+    }
+}
+
+/// Other names of tiles and glues change only names; another order changes which word a glue gets,
+/// and no figure of the set.
+#[test]
+fn labels_of_a_set_change_no_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("set.yaml").display().to_string();
+    let built = |tiles: &str| -> Value {
+        std::fs::write(&file, format!("size: 3\ntau: 1\ntiles:\n{tiles}")).unwrap();
+        let asked = format!("assemble {file} --kt 3e-3 --coverage 0.1 --length 6 --json");
+        let output = tilebind(&asked.split(' ').collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", stderr(&output));
+        serde_json::from_str(&stdout(&output)).unwrap()
+    };
+    let first = built(
+        "- {name: a, edges: [0, g, h, 0]}\n- {name: b, edges: [0, 0, 0, g]}\n\
+         - {name: c, edges: [h, k, 0, 0]}\n- {name: d, edges: [0, 0, 0, k]}\nseed: [1, 1, a]\n",
+    );
+    let renamed = built(
+        "- {name: q, edges: [0, z, y, 0]}\n- {name: r, edges: [0, 0, 0, z]}\n\
+         - {name: s, edges: [y, x, 0, 0]}\n- {name: t, edges: [0, 0, 0, x]}\nseed: [1, 1, q]\n",
+    );
+    let reordered = built(
+        "- {name: c, edges: [h, k, 0, 0]}\n- {name: d, edges: [0, 0, 0, k]}\n\
+         - {name: b, edges: [0, 0, 0, g]}\n- {name: a, edges: [0, g, h, 0]}\nseed: [1, 1, a]\n",
+    );
+    for key in [
+        "bond_J",
+        "Gse",
+        "Gmc",
+        "docking_cost_kT",
+        "tau_effective",
+        "window_kt_J",
+        "proposed_kt_J",
+        "verdict",
+        "strongest_mismatch",
+        "slides",
+        "faces_tried",
+    ] {
+        assert!(!first[key].is_null(), "{key}");
+        assert_eq!(first[key], renamed[key], "{key}");
+        assert_eq!(first[key], reordered[key], "{key}");
+    }
+    for key in [
+        "words",
+        "mates",
+        "matrix_J",
+        "deeper_in_whole_tiles",
+        "growths",
+        "errors_at_standstill",
+    ] {
+        assert_eq!(first[key], renamed[key], "{key}");
+    }
 }
 
 /// What is to be built, in every way to say it.

@@ -304,6 +304,8 @@ fn yield_is_compared() {
         "0.5",
         "--coverage",
         "0.0924500",
+        "--attachments",
+        "100",
         "--simulations",
         "0",
         "--json",

@@ -62,14 +62,19 @@ pub struct Arrivals {
     pub runs: Vec<Arrival>,
 }
 
+/// The runs are repeated at most so many times to count enough attachments.
+pub const MOST_REPEATS: usize = 10;
+
 /// Simulates shaken tiles that start apart, anywhere inside the rim and in thermal motion, until
-/// they attach or the time is over; the starts of `settings` are ignored.
+/// they attach or the time is over; the starts of `settings` are ignored. More runs follow, as many
+/// again each time, until `enough` of all end in the bond.
 ///
 /// # Errors
 /// As [`super::dock`]; if the tiles have no place to be apart.
 pub fn arrivals(
     problem: &Problem,
     settings: &DockingSettings,
+    enough: usize,
     done: &(dyn Fn() + Sync),
 ) -> Result<Arrivals, DockingError> {
     let mut experiment = Experiment::of_body(problem, settings, Body::relative)?;
@@ -81,10 +86,19 @@ pub fn arrivals(
         done();
         arrival
     };
-    let runs = parallel::map(0..settings.runs, arrive);
+    let mut runs = Vec::new();
+    for repeat in 0..MOST_REPEATS {
+        let first = repeat * settings.runs;
+        let more = parallel::map(first..first + settings.runs, arrive);
+        runs.extend(more.into_iter().collect::<Result<Vec<_>, _>>()?);
+        let is_bound = |run: &&Arrival| run.caught == Some(Caught::Bond);
+        if runs.iter().filter(is_bound).count() >= enough {
+            break;
+        }
+    }
     Ok(Arrivals {
         area: starts.area,
-        runs: runs.into_iter().collect::<Result<_, _>>()?,
+        runs,
     })
 }
 

@@ -145,6 +145,8 @@ impl Design {
     ///     Fraction of the table covered by tiles.
     /// runs : int, optional
     ///     Docking runs per kT, to count attachments.
+    /// attachments : int, optional
+    ///     Repeat the runs, up to ten times in all, until so many attached to the bond.
     /// duration : float, optional
     ///     Duration of each run (s).
     /// rates : str, optional
