@@ -29,9 +29,9 @@ fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
             gradient: Vector3::zeros(),
         })
         .collect();
-    let search = NeighbourSearch::new(&milestones, &space);
-    for m in &milestones {
-        let q = &m.q;
+    let places: Vec<Configuration> = milestones.iter().map(|m| m.q).collect();
+    let search = NeighbourSearch::new(&places, &space);
+    for q in &places {
         let mut plain: Vec<(f64, u32)> = milestones
             .iter()
             .enumerate()
@@ -43,6 +43,9 @@ fn neighbours_agree_with_a_plain_search_also_across_the_seam() {
         for (f, p) in found.iter().zip(&plain) {
             assert!((f.0 - p.0).abs() < 1e-12 && f.1 == p.1);
         }
+        let all: Vec<usize> = search.by_distance(*q).collect();
+        let plain: Vec<usize> = plain.iter().map(|it| it.1 as usize).collect();
+        assert_eq!(all, plain);
     }
 }
 
@@ -77,15 +80,15 @@ fn few_neighbours_across_the_seam_are_as_far_as_the_metric_says() {
         energy: 0.0,
         gradient: Vector3::zeros(),
     };
-    let milestones = [0.1, 3.0, -3.0, -0.2].map(at);
+    let milestones = [0.1, 3.0, -3.0, -0.2].map(|theta| at(theta).q);
     let search = NeighbourSearch::new(&milestones, &space);
-    for q in milestones.map(|m| m.q) {
+    for q in milestones {
         for k in 0..7 {
             let found = search.nearest(&q, k);
             assert_eq!(found.len(), k.min(milestones.len()));
             assert!(found.windows(2).all(|pair| pair[0].0 <= pair[1].0));
             for (squared, i) in found {
-                let other = &milestones[i as usize].q;
+                let other = &milestones[i as usize];
                 let distance = space.distance(&q, other);
                 assert!((squared.sqrt() - distance).abs() < 1e-12, "{k} {i}");
             }

@@ -18,6 +18,9 @@ pub fn neighbours_per_milestone(n: usize) -> usize {
     (E * (1.0 + 1.0 / 3.0) * libm::log(n.max(2) as f64)).ceil() as usize
 }
 
+/// The number of milestones that are looked for at first.
+const FIRST: usize = 32;
+
 /// Finds the milestones closest to a configuration.
 ///
 /// The metric `d^2 = dx^2 + dy^2 + rho^2 dtheta^2` is Euclidean in (x, y, rho theta); theta's
@@ -30,10 +33,10 @@ pub struct NeighbourSearch<'a> {
 
 impl<'a> NeighbourSearch<'a> {
     /// The search over milestones, indexed in the given order.
-    pub fn new(milestones: &[Point], space: &'a ConfigurationSpace) -> Self {
+    pub fn new(milestones: &[Configuration], space: &'a ConfigurationSpace) -> Self {
         let points: Vec<[f64; 3]> = milestones
             .iter()
-            .map(|m| point(&m.q, space.rho, 0.0))
+            .map(|q| point(q, space.rho, 0.0))
             .collect();
         Self {
             tree: ImmutableKdTree::new_from_slice(&points)
@@ -58,6 +61,20 @@ impl<'a> NeighbourSearch<'a> {
             found.truncate(k);
         }
         found
+    }
+
+    /// All milestones, nearest to `q` first. Few are looked for at once, as most callers need a few.
+    pub fn by_distance(&self, q: Configuration) -> impl Iterator<Item = usize> {
+        let all = self.tree.size();
+        let ends = std::iter::successors(Some(FIRST.min(all)), move |&end| {
+            (end < all).then_some((2 * end).min(all))
+        });
+        let mut from = 0;
+        ends.flat_map(move |end| {
+            let found = self.nearest(&q, end);
+            let fresh = found.into_iter().skip(std::mem::replace(&mut from, end));
+            fresh.map(|(_, index)| index as usize)
+        })
     }
 
     fn ask(&self, q: &Configuration, count: NonZeroUsize, turn: f64) -> Vec<(f64, u32)> {
@@ -89,7 +106,8 @@ pub fn neighbour_pairs(
         return Vec::new();
     }
     let k = k.min(milestones.len() - 1);
-    let search = NeighbourSearch::new(milestones, space);
+    let places: Vec<Configuration> = milestones.iter().map(|milestone| milestone.q).collect();
+    let search = NeighbourSearch::new(&places, space);
     let near: Vec<Vec<u32>> = parallel::map(milestones, |milestone| {
         let found = search.nearest(&milestone.q, k + 1);
         found.into_iter().map(|(_, index)| index).collect()

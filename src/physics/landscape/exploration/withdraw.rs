@@ -1,8 +1,7 @@
 //! Straight ways that sampled milestones are unlikely to find: out of states that the roadmap does
 //! not reach, and from state to state.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 use nalgebra::Vector2;
 use ordered_float::OrderedFloat;
@@ -13,6 +12,7 @@ use crate::configuration::{Configuration, ConfigurationSpace};
 use crate::landscape::constrained;
 use crate::parallel;
 use crate::problem::Problem;
+use crate::roadmap::neighbour::NeighbourSearch;
 use crate::roadmap::{EdgeCosts, Point, edge};
 
 /// Number of neighbouring states that a state is joined to by straight motions, and the largest
@@ -106,15 +106,12 @@ impl Exploration<'_> {
     fn join_to_milestones(&mut self, fresh: usize) {
         let problem = self.problem;
         let at = |node: usize| self.network.nodes[node].map(|known| known.0);
+        let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
+        let (numbers, places): (Vec<usize>, Vec<Configuration>) = milestones.unzip();
+        let search = NeighbourSearch::new(&places, &problem.space);
         let nearest = |here: Configuration| {
-            let milestones = (0..self.free).filter_map(|other| Some((other, at(other)?)));
-            let far = |q: &Configuration| OrderedFloat(problem.space.distance(&here, q));
-            // Only a few come out of the queue.
-            let mut near: BinaryHeap<_> = milestones
-                .map(|(other, q)| Reverse((far(&q), other)))
-                .collect();
-            std::iter::from_fn(move || near.pop().map(|Reverse((_, other))| other))
-                .filter(move |&other| at(other).is_some_and(|q| problem.motion_is_free(&here, &q)))
+            let near = search.by_distance(here).map(|place| numbers[place]);
+            near.filter(move |&other| at(other).is_some_and(|q| problem.motion_is_free(&here, &q)))
                 .take(MOST_MILESTONES)
         };
         let joined: Vec<[usize; 2]> = parallel::flat_map(fresh..self.network.nodes.len(), |node| {
