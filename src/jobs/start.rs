@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::design::{Material, STARTER, Shape, ShopMagnet, Start, StartError};
+use crate::design::{Material, STARTER, Shape, ShopMagnet, Start, StartError, check_name};
 use crate::request::{self, Word};
 
 /// The options of a new design; without any options, it is one that explains every key.
@@ -57,6 +57,7 @@ impl Request {
     /// # Errors
     /// If there is no such design.
     pub fn text(&self, stem: &str) -> Result<String, StartError> {
+        check_name(stem)?;
         let asked = (self.sides, self.side, self.magnets, self.shape);
         let made = (self.magnet, self.thickness, self.material);
         let is_usual = asked == (None, None, None, None) && made == (None, None, None);
@@ -74,7 +75,7 @@ impl Request {
             material: self.material.unwrap_or(usual.material),
             one_kind: self.one_kind,
         };
-        // A name without quotes or control characters.
+        // A name without quotes.
         let plain = |c: &char| c.is_alphanumeric() || "-_. ".contains(*c);
         let name: String = stem.chars().filter(plain).collect();
         let name = name.trim_matches(|c| c == '-' || c == ' ');

@@ -115,6 +115,29 @@ def test_what_is_no_number_is_no_option(design, value):
             call()
 
 
+@pytest.mark.parametrize("value", [True, np.True_, b"1", np.ma.masked, -1, 1.5, "1", 10**400])
+def test_what_is_no_whole_number_is_no_index(design, analysis, value):
+    docked = design.dock(runs=2, duration=0.1, progress=False)
+    calls = [
+        lambda: design.matches(value),
+        lambda: analysis.landscape_map(samples=value),
+        lambda: analysis.landscape_map(orientations=value),
+        lambda: analysis.pathway(value),
+        lambda: docked.trajectory(value),
+        lambda: docked.trajectory(0, interval=value if value not in (1.5, "1") else None),
+        lambda: tilebind.search(design, {"magnet.pitch": [0.04, 0.05]}, maximise="captured", points=value),
+    ]
+    for call in calls:
+        with pytest.raises((TypeError, ValueError, OverflowError, LookupError)):
+            call()
+
+
+@pytest.mark.parametrize("name", ["a\0b", "a\u202eb", "a\nb", "\u200b"])
+def test_names_of_designs_can_be_seen(name):
+    with pytest.raises(ValueError, match="invisible character"):
+        tilebind.Design.start(name)
+
+
 def test_what_numpy_calls_a_number_is_one(design):
     assert design.replace("magnet.pitch", np.float32(0.04)).text == design.replace("magnet.pitch", float(np.float32(0.04))).text
     few = [tilebind.tolerance(design, strength=0.05, draws=draws, checks=0) for draws in (20, np.int64(20))]

@@ -79,6 +79,7 @@ pub(crate) use file::read_text;
 pub use physics::potential::MagnetModel;
 pub(crate) use reader::nearest_help;
 pub use schema::{SCHEMA, STARTER};
+pub(crate) use starting::check_name;
 pub use starting::{Material, Shape, ShopMagnet, Start, StartError};
 pub use units::{angle, area, density, energy, frequency, length, rate, speed, spin, time};
 pub use weight::Weight;

@@ -96,6 +96,27 @@ pub fn check_meant(value: &Bound<'_, PyAny>) -> PyResult<()> {
     }
 }
 
+/// A whole number from 0. Python's truth values are whole numbers, too, but hardly meant as such.
+pub fn whole(value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    check_number(value)?;
+    value.extract()
+}
+
+/// A number that is no truth value.
+pub fn real(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    check_number(value)?;
+    value.extract()
+}
+
+/// Refuses truth values, and what is no number at all.
+pub fn check_number(value: &Bound<'_, PyAny>) -> PyResult<()> {
+    check_meant(value)?;
+    match value.extract::<bool>() {
+        Ok(_) => Err(fault::value("truth values are no numbers")),
+        Err(_) => Ok(()),
+    }
+}
+
 /// A mapping as a table of TOML.
 pub fn table(mapping: &Bound<'_, PyMapping>) -> PyResult<Table> {
     table_within(mapping, DEEPEST)

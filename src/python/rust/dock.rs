@@ -171,8 +171,8 @@ impl Docking {
     fn trajectory<'py>(
         &self,
         py: Python<'py>,
-        index: usize,
-        interval: f64,
+        #[pyo3(from_py_with = convert::whole)] index: usize,
+        #[pyo3(from_py_with = convert::real)] interval: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let count = self.found.runs.len();
         if index >= count {

@@ -17,7 +17,7 @@ use crate::job::Told;
 use crate::request::request;
 use crate::shown::{self, Reduced};
 use crate::sweep::axis;
-use crate::{fault, job, pickle, table};
+use crate::{convert, fault, job, pickle, table};
 
 /// A text, or several.
 #[derive(FromPyObject)]
@@ -85,7 +85,7 @@ pub fn search(
     maximise: Option<Texts>,
     minimise: Option<Texts>,
     subject: Option<Texts>,
-    points: usize,
+    #[pyo3(from_py_with = convert::whole)] points: usize,
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Search> {
@@ -239,7 +239,11 @@ impl Search {
     /// Returns
     /// -------
     /// Design
-    fn design(&self, py: Python<'_>, index: usize) -> PyResult<Design> {
+    fn design(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = convert::whole)] index: usize,
+    ) -> PyResult<Design> {
         self.of_point(py, index)
     }
 

@@ -172,7 +172,11 @@ impl Sweep {
     /// Returns
     /// -------
     /// Design
-    fn design(&self, py: Python<'_>, index: usize) -> PyResult<Design> {
+    fn design(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = convert::whole)] index: usize,
+    ) -> PyResult<Design> {
         let points = self.plan.points();
         let point = points.get(index).ok_or_else(|| {
             pyo3::exceptions::PyIndexError::new_err(format!("there are {} points", points.len()))

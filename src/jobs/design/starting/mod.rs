@@ -10,6 +10,7 @@ use std::fmt::Write;
 
 use super::quantity::{four_digits, rounded_down};
 use super::{Design, DesignError};
+use crate::text::is_invisible;
 use physics::tile::barcode::Barcode;
 
 use code::code;
@@ -108,6 +109,20 @@ fn wrong(wrong: impl Into<String>, fix: impl Into<String>) -> StartError {
     StartError {
         wrong: wrong.into(),
         fix: fix.into(),
+    }
+}
+
+/// Refuses a name with characters that are not seen.
+pub(crate) fn check_name(name: &str) -> Result<(), StartError> {
+    match name.chars().find(|&c| is_invisible(c)) {
+        None => Ok(()),
+        Some(odd) => Err(wrong(
+            format!(
+                "the name contains the invisible character U+{:04X}",
+                odd as u32
+            ),
+            "delete it",
+        )),
     }
 }
 

@@ -135,6 +135,7 @@ impl Analysis {
                 names.first().map_or("there are none", String::as_str)
             )));
         }
+        convert::check_number(place)?;
         let id: i64 = place.extract()?;
         match usize::try_from(id) {
             Ok(id) if id < self.found.catalogue.states.len() => Ok(Place::State(id)),

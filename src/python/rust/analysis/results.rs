@@ -128,8 +128,8 @@ impl Analysis {
     fn landscape_map<'py>(
         &self,
         py: Python<'py>,
-        samples: usize,
-        orientations: usize,
+        #[pyo3(from_py_with = convert::whole)] samples: usize,
+        #[pyo3(from_py_with = convert::whole)] orientations: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         const MOST: usize = 4096;
         if !(2..=MOST).contains(&samples) || !(1..=MOST).contains(&orientations) {

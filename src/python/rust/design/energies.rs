@@ -9,7 +9,7 @@ use tilebind::report::{json, matching};
 use super::Design;
 use crate::poses::{self, Poses};
 use crate::request::request_with;
-use crate::{job, table};
+use crate::{convert, job, table};
 
 #[pymethods]
 impl Design {
@@ -126,7 +126,11 @@ impl Design {
     /// numpy.ndarray
     ///     Structured, longest contact first: `x_m`, `y_m`, `theta_rad`, `contact_m`, `gap_m2`.
     #[pyo3(signature = (most = 100))]
-    fn matches<'py>(&self, py: Python<'py>, most: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn matches<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = convert::whole)] most: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let asked: tilebind::matching::Request = request_with(py, None, "most", most)?;
         let design = &self.content.design;
         let found = job::quietly(py, || asked.matches(design))?;
