@@ -15,20 +15,24 @@
 //!                                                                          report <----/
 //! ```
 //!
-//! There are four crates. Each uses only those above it in this table, which the compiler enforces,
-//! and an edit recompiles only the crates below it. This crate re-exports the public modules of all
-//! of them.
+//! Each crate uses only those above it in this table (`shaken` and `words` not each other), which the
+//! compiler enforces, and an edit recompiles only the crates below it. This crate re-exports the public
+//! modules of all of them.
 //!
 //! | crate | contents |
 //! |---|---|
-//! | `src/physics` | the physics of two tiles: outlines, contact, energies, roadmaps, landscapes, kinetics, words |
+//! | `src/tiles` | two tiles: outlines, magnets, contact, energies, and bounds of both |
+//! | `src/landscape` | their energy landscape: roadmaps, states, barriers, captures, and proofs of them |
+//! | `src/shaken` | tiles in motion: rigid bodies, docking, tables of many tiles, rates |
+//! | `src/words` | sets of barcodes |
+//! | `src/physics` | these four under one name |
 //! | `src/jobs` | the jobs, from a design file to a result: analyses, comparisons, sweeps, yields, tile sets |
 //! | `src/report` | results as JSON, tables, pictures, pages and text |
 //! | `src/main.rs`, `src/cli`; `src/python` | the command line; the Python package |
 //!
 //! Imports within a crate are layered in the same way: a module uses only those in lower layers,
-//! never one in its own layer. The front pages of `src/physics/lib.rs`, `src/jobs/lib.rs` and
-//! `src/report/lib.rs` list the modules.
+//! never one in its own layer. The file `lib.rs` of each crate lists
+//! its modules.
 //!
 //! # What to read first
 //!
@@ -36,13 +40,13 @@
 //!
 //! 1. `src/cli/analyse.rs` - the options, and where results are written;
 //! 2. `src/jobs/pipeline/mod.rs` - the whole analysis on one page;
-//! 3. `src/physics/tile/mod.rs` - a tile: outline, faces, magnets;
-//! 4. `src/physics/potential/mod.rs` - U(x, y, theta), its gradient and its bounds;
-//! 5. `src/physics/roadmap/mod.rs` - milestones, neighbours, motions;
-//! 6. `src/physics/landscape/exploration/mod.rs` - minima and the passes between their basins;
-//! 7. `src/physics/landscape/catalogue/mod.rs` - the listed states and barriers;
-//! 8. `src/physics/landscape/minimax/mod.rs` - bounds of barriers by subdivision;
-//! 9. `src/physics/landscape/missing_states/mod.rs` - the proof that no state is missing;
+//! 3. `src/tiles/tile/mod.rs` - a tile: outline, faces, magnets;
+//! 4. `src/tiles/potential/mod.rs` - U(x, y, theta), its gradient and its bounds;
+//! 5. `src/landscape/roadmap/mod.rs` - milestones, neighbours, motions;
+//! 6. `src/landscape/exploration/mod.rs` - minima and the passes between their basins;
+//! 7. `src/landscape/catalogue/mod.rs` - the listed states and barriers;
+//! 8. `src/landscape/minimax/mod.rs` - bounds of barriers by subdivision;
+//! 9. `src/landscape/missing_states/mod.rs` - the proof that no state is missing;
 //! 10. `src/report/analysis.rs` - the report.
 //!
 //! `src/report/document` describes how a result becomes text, JSON, tables, pictures and a page;
@@ -82,9 +86,8 @@
 //!   (`<use>`, `<symbol>` and nested `<svg>` are read); a tile has one outline without holes and at
 //!   most 64 faces.
 //! - TopSearch's files have one transition state between two kinds of state, the lowest.
-//! - Barriers, lists of states and `crosstalk` are not certified for discs and for upright magnets,
-//!   nor barriers and states for the nearest-face rule, whose energy is discontinuous. `words` and
-//!   `crosstalk` take all magnets, but no shields.
+//! - Barriers and lists of states are not certified for the nearest-face rule, whose energy is
+//!   discontinuous. `words` and `crosstalk` take all magnets, but no shields.
 //! - Overdamped capture has neither inertia nor shaking. `tilebind dock` moves tiles with inertia,
 //!   contact and drag.
 //! - Magnets and tiles stay in one plane: there is no tilting and no lifting. Iron is a shield behind
@@ -119,7 +122,7 @@
 //! sweeps and tables, `start` and `part` those of starts and parts of tables, `gaps` fits of magnets,
 //! `analyse` whole analyses of small designs, and `bounds` compares the bounds of energies over cells
 //! with plain interval arithmetic. It is built separately, with its own compiler flags. `cargo mutants
-//! --file 'src/physics/roadmap/**'` finds changes of the code that no test notices
+//! --file 'src/landscape/roadmap/**'` finds changes of the code that no test notices
 //! (`.cargo/mutants.toml`). `.ci/deny` checks the dependencies against `.ci/deny.toml`.
 //! `rust-version` in `Cargo.toml` is what the dependencies state; a compiler that old has not been
 //! tried.
@@ -138,7 +141,7 @@
 //! `results/bench.csv` is the history of the benches; everything else is in the log of the
 //! repository.
 //!
-//! `cargo package --workspace --exclude tilebind-python` packs the four crates, which belong
+//! `cargo package --workspace --exclude tilebind-python` packs the crates, which belong
 //! together, without results, tests and benches; `maturin sdist` packs the Python package.
 //! `tests/package/run.sh` does both and checks their contents and that each is below 2 MB;
 //! `tests/package/run.sh install` also installs the program with cargo and the Python package with

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The packages: four crates for cargo, and a source distribution for pip.
+# The packages: eight crates for cargo, and a source distribution for pip.
 #
 #     tests/package/run.sh            packs all of it; checks what is in it and how large it is
 #     tests/package/run.sh install    also installs the program and the Python package from what was
@@ -26,7 +26,7 @@ program=$scratch/tilebind-$version
 [ -f "$program/src/main.rs" ] || fail "there is no package of version $version"
 
 # Every source and every design is in some package, and nothing that only the repository needs.
-for crate in physics jobs report; do
+for crate in tiles landscape shaken words physics jobs report; do
     (cd "$scratch/tilebind-$crate-$version" && find . -type f -printf "src/$crate/%P\n")
 done >"$scratch/found"
 (cd "$program" && find . -type f -printf '%P\n') >>"$scratch/found"
@@ -36,7 +36,7 @@ git ls-files Cargo.toml LICENSE README.md results/paper-tile/map.png shapes src 
 diff "$scratch/wanted" "$scratch/is" || fail "the packages hold other files (<: missing, >: too many)"
 size() { cat "$@" | wc -c; }
 total=$(size "$packed"/*.crate)
-echo "package: four crates of version $version, $((total / 1000)) kB"
+echo "package: eight crates of version $version, $((total / 1000)) kB"
 [ "$total" -le 2000000 ] || fail "the crates are larger than 2 MB"
 
 python=$CARGO_TARGET_DIR/python/venv/bin/python
@@ -59,7 +59,7 @@ fi
 # The crates below the program's come from their packages, as they would from a registry.
 export CARGO_TARGET_DIR=$packed/build
 lower=()
-for crate in physics jobs report; do
+for crate in tiles landscape shaken words physics jobs report; do
     lower+=(--config "patch.crates-io.tilebind-$crate.path='$scratch/tilebind-$crate-$version'")
 done
 sed -i '/^name = "tilebind-/,/^$/{/^\(source\|checksum\) /d}' "$program/Cargo.lock"

@@ -10,8 +10,11 @@ use syn::visit::Visit;
 use syn::{Attribute, Item, UseTree};
 
 /// The crates' first files.
-const CRATES: [&str; 5] = [
-    "src/physics/lib.rs",
+const CRATES: [&str; 8] = [
+    "src/tiles/lib.rs",
+    "src/landscape/lib.rs",
+    "src/shaken/lib.rs",
+    "src/words/lib.rs",
     "src/jobs/lib.rs",
     "src/report/lib.rs",
     "src/main.rs",

@@ -19,7 +19,7 @@ use tilebind::report::plots::{self, Scene, Sheet};
 use crate::design::{Content, Design};
 use crate::request::request;
 use crate::table::FREE;
-use crate::{fault, job, shown};
+use crate::{convert, fault, job, shown};
 
 /// Result of an analysis: states, traps, barriers with their bounds, pathways.
 /// Immutable.

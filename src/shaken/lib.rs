@@ -1,0 +1,13 @@
+//! Magnetic tiles in motion. A module uses only those in earlier rows:
+//!
+//! | modules | contents |
+//! |---|---|
+//! | `rigid` | rigid bodies in contact, for two tiles or many |
+//! | [`dynamics`] | tiles with inertia: docking runs, and a check of barriers |
+//! | [`table`] | many tiles with inertia |
+//! | [`kinetics`] | overdamped motion at kT on a landscape: exit times and where exits lead |
+
+pub mod dynamics;
+pub mod kinetics;
+mod rigid;
+pub mod table;

@@ -1,0 +1,172 @@
+//! Two tiles that are near each other, and tiles at the rim: their pull and their contact points.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::World;
+use super::margins::Margins;
+use super::mover::Mover;
+use super::pair::{Pose, Pull, Two, pull};
+use tiles::configuration::Configuration;
+use tiles::contact::{Contact, ContactPoint, NearPairs};
+use tiles::tile::outline::cross;
+
+/// Two tiles that are near each other, with the state of their contact.
+#[derive(Debug)]
+pub struct NearPair {
+    pub two: Two,
+    /// Whether the tiles may touch, or attract or repel each other too strongly for the step of the
+    /// table: they are in one island then.
+    pub is_tied: bool,
+    edges: NearPairs,
+    /// The distance (m) from `at` that `edges` cover.
+    seen: f64,
+    at: Configuration,
+    /// The tiles are apart by at least this (m) at `room_at`.
+    pub last_room: f64,
+    room_at: Configuration,
+    /// The last places of both tiles, and their pull there.
+    pulled: Option<([Vector3<f64>; 2], Pull)>,
+    /// The last contact points.
+    pub held: Vec<Touch>,
+    /// The last points, with the pose and the margin (m) that they are of.
+    found: Option<(Configuration, f64, Vec<ContactPoint>)>,
+}
+
+/// A contact point of the last step, in the frame of the first tile.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Its position (m).
+    pub at: Vector2<f64>,
+    /// The normal, from the first tile to the second.
+    pub normal: Vector2<f64>,
+    /// The forces (N) along normal and tangent.
+    pub forces: [f64; 2],
+}
+
+impl NearPair {
+    pub fn new(two: Two) -> Self {
+        Self {
+            two,
+            is_tied: true,
+            edges: NearPairs::default(),
+            seen: f64::NEG_INFINITY,
+            at: Configuration::new(0.0, 0.0, 0.0),
+            last_room: f64::NEG_INFINITY,
+            room_at: Configuration::new(0.0, 0.0, 0.0),
+            pulled: None,
+            held: Vec::new(),
+            found: None,
+        }
+    }
+
+    /// The pull of the tiles on each other, which is known from the end of the last step unless one
+    /// has moved since.
+    pub fn pull(&mut self, world: &impl World, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
+        let places = movers.map(|mover| mover.place);
+        match self.pulled {
+            Some((at, known)) if at == places => known,
+            _ => {
+                let found = pull(world, movers, poses);
+                self.pulled = Some((places, found));
+                found
+            }
+        }
+    }
+
+    /// The last forces (N) at a point, in the first tile's frame.
+    pub fn force(&self, at: &Vector2<f64>, margins: &Margins) -> [f64; 2] {
+        let same = |it: &&Touch| (it.at - at).norm_squared() < margins.same * margins.same;
+        self.held.iter().find(same).map_or([0.0; 2], |it| it.forces)
+    }
+
+    /// The force (N) along the contact that friction cannot stop, of a force on the second tile in
+    /// the frame of the first: by the contact point where it is largest. All of it where the points are not
+    /// known yet.
+    pub fn slide(&self, force: Vector2<f64>, friction: f64) -> f64 {
+        if self.held.is_empty() {
+            return force.norm();
+        }
+        let along = self.held.iter().map(|touch| {
+            let press = -touch.normal.dot(&force);
+            cross(touch.normal, force).abs() - friction * press.max(0.0)
+        });
+        along.fold(0.0, f64::max)
+    }
+
+    /// A lower bound of the distance (m) of the tiles, from where it was last looked at.
+    pub fn room(&self, world: &impl World, q: &Configuration, kinds: [usize; 2]) -> f64 {
+        self.last_room - moved(world.contact(kinds), [&self.room_at, q])
+    }
+
+    /// Calls `meet` with each point of contact within a margin (m), and the last forces (N) there.
+    pub fn points(
+        &mut self,
+        world: &impl World,
+        q: &Configuration,
+        kinds: [usize; 2],
+        (margin, margins): (f64, &Margins),
+        mut meet: impl FnMut(&ContactPoint, [f64; 2]),
+    ) {
+        let is_known =
+            |(at, seen, _): &(Configuration, f64, Vec<ContactPoint>)| at == q && *seen >= margin;
+        if !self.found.as_ref().is_some_and(is_known) {
+            if self.room(world, q, kinds) > margin {
+                return;
+            }
+            let contact = world.contact(kinds);
+            let seen = margin.max(margins.seen);
+            let needed = 1.5 * seen;
+            if self.seen - moved(contact, [&self.at, q]) < needed {
+                self.seen = needed + margins.ahead;
+                self.at = *q;
+                self.edges = contact.near(q, self.seen);
+            }
+            let points = contact.points(q, margin, &self.edges);
+            let gaps = |points: &[ContactPoint]| {
+                let gaps = points.iter().map(|point| point.gap);
+                gaps.fold(seen, f64::min)
+            };
+            self.room_at = *q;
+            if points.is_empty() {
+                self.last_room = gaps(&contact.points(q, seen, &self.edges));
+                return;
+            }
+            self.last_room = gaps(&points);
+            self.found = Some((*q, margin, points));
+        }
+        let points = self.found.iter().flat_map(|found| &found.2);
+        for point in points.filter(|point| point.gap <= margin) {
+            meet(point, self.force(&point.on_moving, margins));
+        }
+    }
+}
+
+/// The largest way (m) of a point of the second tile from one configuration to another.
+fn moved(contact: &Contact, [from, to]: [&Configuration; 2]) -> f64 {
+    let step = from.step_to(to);
+    step.xy().norm() + contact.moving().circumradius() * step.z.abs()
+}
+
+/// The corners of a tile within a margin (m) of the rim: position, the rim's normal, and the gap.
+pub fn at_rim(
+    world: &impl World,
+    (mover, pose): (&Mover, &Pose),
+    margin: f64,
+    found: &mut dyn FnMut(Vector2<f64>, Vector2<f64>, f64),
+) {
+    let room = rim_room(world, mover);
+    if room > margin {
+        return;
+    }
+    for corner in world.corners(mover.kind) {
+        let p = pose.transform(*corner);
+        for (normal, gap) in world.rim().sides(p).filter(|it| it.1 <= margin) {
+            found(p, normal, gap);
+        }
+    }
+}
+
+/// A lower bound of a tile's distance (m) from the rim.
+pub fn rim_room(world: &impl World, mover: &Mover) -> f64 {
+    world.rim().room(mover.place.xy()) - world.reach(mover.kind)
+}
