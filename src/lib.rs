@@ -114,6 +114,8 @@
 //! release build takes 8 s after an edit in `src/cli`, 26 s after one in `src/report` and 75 s
 //! after one in `src/physics` (two cores).
 //!
+//! `cargo test --release -- --ignored` runs the tests that take minutes; `.ci/run` does so as well.
+//!
 //! After a change that is meant to change results, `results/make.py PART` rebuilds that part of
 //! `results`, together with the tables and the block of output in the READMEs.
 //!

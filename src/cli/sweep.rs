@@ -10,7 +10,9 @@ use tilebind::report::json;
 use tilebind::report::sweep::{FILES, Sweep as Report, counts};
 use tilebind::request;
 use tilebind::search::{Request as Aims, Search, SearchError};
-use tilebind::sweep::{self, Axis, Plan, Point, Progress as Counts, Request, Shard, Source, Store};
+use tilebind::sweep::{
+    self, Axis, DesignSource, Plan, Point, Progress as Counts, Request, Shard, Store,
+};
 
 use super::failure::tell_refuted;
 use super::figures::FigureOptions;
@@ -163,7 +165,7 @@ impl Sweep {
         }
         let mut designs = Vec::new();
         for file in &self.designs {
-            let (source, design) = Source::read(file)?;
+            let (source, design) = DesignSource::read(file)?;
             input::tell_doubts(&design);
             designs.push((source, design));
         }
@@ -372,7 +374,7 @@ impl Manifest {
 
 /// The input files of a sweep.
 fn inputs(plan: &Plan, manifest: Option<&Path>) -> Vec<PathBuf> {
-    let designs = plan.designs.iter().flat_map(Source::files);
+    let designs = plan.designs.iter().flat_map(DesignSource::files);
     let manifest = manifest.map(|file| match file.is_dir() {
         true => file.join(PLAN),
         false => file.to_owned(),

@@ -7,7 +7,7 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::grid::{Grid, Sample, evenly};
-use super::orientation::{Found, Search};
+use super::orientation::{Found, OrientationSearch};
 use tiles::parallel;
 use tiles::problem::Problem;
 use tiles::tile::Pair;
@@ -122,7 +122,7 @@ impl EnergyMap {
         let [columns, rows] = window.samples;
         let x = evenly(window.low[0], window.high[0], columns);
         let y = evenly(window.low[1], window.high[1], rows);
-        let search = Search::new(problem, orientations);
+        let search = OrientationSearch::new(problem, orientations);
         let found = parallel::flat_map(&y, |&y| {
             let places: Vec<_> = x.iter().map(|&x| window.place(x, y)).collect();
             search.find(&places)
@@ -157,7 +157,7 @@ const HALVINGS: usize = 4;
 
 /// The free orientations at each point of a grid.
 struct Field<'a> {
-    search: Search<'a>,
+    search: OrientationSearch<'a>,
     window: &'a Window,
     x: Vec<f64>,
     y: Vec<f64>,

@@ -20,7 +20,7 @@ const REFINEMENTS: i32 = 6;
 const BISECTIONS: usize = 4;
 
 /// The search for the lowest energy over theta.
-pub struct Search<'a> {
+pub struct OrientationSearch<'a> {
     problem: &'a Problem,
     /// Orientations repeat after this angle (rad).
     period: f64,
@@ -48,7 +48,7 @@ pub struct Found {
 /// A range of free orientations (rad), `first <= last`.
 type FreeRange = (f64, f64);
 
-impl<'a> Search<'a> {
+impl<'a> OrientationSearch<'a> {
     pub fn new(problem: &'a Problem, orientations: usize) -> Self {
         let pair = problem.pair.as_deref();
         let period = pair.map_or(TAU, |pair| TAU / rotations(&pair.moving).len() as f64);

@@ -13,7 +13,7 @@ use jobs::output::Command;
 use physics::configuration::Configuration;
 use physics::order::Order;
 use physics::units::si;
-use physics::words::crosstalk::{Crosstalk, Kind, StrongestContact};
+use physics::words::crosstalk::{ContactKind, Crosstalk, StrongestContact};
 use physics::words::set::name;
 
 /// The files of the command.
@@ -109,9 +109,9 @@ fn table(set: &WordSet, found: &Crosstalk, all: Vec<StrongestContact>) -> Table 
     let codes: Vec<String> = found.faces().map(|word| word.to_string()).collect();
     let face = |it: &StrongestContact, k: usize| face_name(set, found, it.faces[k]);
     let kind = |it: &StrongestContact| match it.kind {
-        Kind::Bond => "bond",
-        Kind::Wrong => "wrong",
-        Kind::Trap => "trap",
+        ContactKind::Bond => "bond",
+        ContactKind::Wrong => "wrong",
+        ContactKind::Trap => "trap",
     };
     rows(all)
         .column("faces", "faces", "the two faces", |it| met(set, found, it)).in_view()
@@ -216,7 +216,7 @@ pub(super) fn histogram(title: &str, gaps: impl Iterator<Item = f64>) -> Chart {
 /// The name of a contact, such as `A on B*`; that of a word and its own mate is a trap.
 pub(super) fn met(set: &WordSet, found: &Crosstalk, meeting: &StrongestContact) -> String {
     let [a, b] = meeting.faces.map(|face| face_name(set, found, face));
-    let trap = if meeting.kind == Kind::Trap {
+    let trap = if meeting.kind == ContactKind::Trap {
         ", a trap"
     } else {
         ""
@@ -252,7 +252,11 @@ pub fn headline(set: &WordSet, found: &Crosstalk) -> String {
             "strongest wrong meeting {}: {}{} at {}",
             si(-worst.energy, "J", 4),
             met(set, found, &worst),
-            if worst.kind == Kind::Trap { "," } else { "" },
+            if worst.kind == ContactKind::Trap {
+                ","
+            } else {
+                ""
+            },
             describe(&worst.pose)
         ),
         _ => "no wrong meeting is attractive".to_owned(),

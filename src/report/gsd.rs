@@ -15,7 +15,7 @@ const NAME: usize = 64;
 
 /// The type of a chunk's numbers.
 #[derive(Clone, Copy)]
-enum Kind {
+enum NumberType {
     U8 = 1,
     U32 = 3,
     U64 = 4,
@@ -50,16 +50,16 @@ pub fn file(kinds: &[(String, Polygon)], table: [f64; 2], frames: &[Vec<Particle
         let count = particles.len();
         writer.chunk(
             "configuration/step",
-            Kind::U64,
+            NumberType::U64,
             [1, 1],
             bytes(&[number as u64], |x| x.to_le_bytes()),
         );
         if number == 0 {
-            writer.chunk("configuration/dimensions", Kind::U8, [1, 1], vec![2]);
+            writer.chunk("configuration/dimensions", NumberType::U8, [1, 1], vec![2]);
             let size = [table[0], table[1], 0.0, 0.0, 0.0, 0.0];
             writer.floats("configuration/box", [6, 1], size);
             let whole = bytes(&[count as u32], |x| x.to_le_bytes());
-            writer.chunk("particles/N", Kind::U32, [1, 1], whole);
+            writer.chunk("particles/N", NumberType::U32, [1, 1], whole);
             let names: Vec<&str> = kinds.iter().map(|kind| kind.0.as_str()).collect();
             writer.texts("particles/types", &names);
             let shapes: Vec<String> = kinds.iter().map(|kind| shape(&kind.1)).collect();
@@ -67,7 +67,7 @@ pub fn file(kinds: &[(String, Polygon)], table: [f64; 2], frames: &[Vec<Particle
             writer.texts("particles/type_shapes", &shapes);
             let of_kind: Vec<u32> = particles.iter().map(|it| it.kind as u32).collect();
             let of_kind = bytes(&of_kind, |x| x.to_le_bytes());
-            writer.chunk("particles/typeid", Kind::U32, [count, 1], of_kind);
+            writer.chunk("particles/typeid", NumberType::U32, [count, 1], of_kind);
             writer.floats(
                 "particles/mass",
                 [count, 1],
@@ -134,7 +134,7 @@ impl Writer {
     fn chunk(
         &mut self,
         name: &'static str,
-        kind: Kind,
+        kind: NumberType,
         [rows, columns]: [usize; 2],
         bytes: Vec<u8>,
     ) {
@@ -161,7 +161,7 @@ impl Writer {
         values: impl IntoIterator<Item = f64>,
     ) {
         let bytes = values.into_iter().flat_map(|x| (x as f32).to_le_bytes());
-        self.chunk(name, Kind::F32, size, bytes.collect());
+        self.chunk(name, NumberType::F32, size, bytes.collect());
     }
 
     /// Texts as rows of zero-terminated bytes.
@@ -175,7 +175,7 @@ impl Writer {
                 bytes.resize(bytes.len() + longest, 0);
             }
         }
-        self.chunk(name, Kind::U8, [texts.len(), longest], bytes);
+        self.chunk(name, NumberType::U8, [texts.len(), longest], bytes);
     }
 
     fn finish(mut self) -> Vec<u8> {

@@ -38,7 +38,7 @@ pub fn largest(graph: &Graph, known: Vec<usize>, budget: &mut Budget) -> Clique 
         .iter()
         .map(|image| order.iter().map(|v| position[image[*v]]).collect())
         .collect();
-    let mut search = Search {
+    let mut search = CliqueSearch {
         rows,
         best: known.iter().map(|v| position[*v]).collect(),
         budget,
@@ -91,14 +91,14 @@ const OVERHEAD: u64 = 24;
 /// Larger graphs are ordered only by the number of neighbours.
 const MOST_ORDERED: usize = 4096;
 
-struct Search<'a> {
+struct CliqueSearch<'a> {
     /// Neighbours, the vertices in the order of branching.
     rows: Vec<FixedBitSet>,
     best: Vec<usize>,
     budget: &'a mut Budget,
 }
 
-impl Search<'_> {
+impl CliqueSearch<'_> {
     /// Searches all of the graph and gives an upper bound: the size of the best clique if the
     /// budget suffices.
     fn root(&mut self, symmetries: &[Vec<usize>]) -> usize {

@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tilebind::budget::Allowance;
 use tilebind::landscape::barrier_bounds::{CertificationSettings, certify};
-use tilebind::landscape::missing_states::Search;
+use tilebind::landscape::missing_states::StateSearch;
 use tilebind::landscape::{Catalogue, Claims, CompletenessSettings};
 use tilebind::observer::Silent;
 use tilebind::{Design, Problem};
@@ -68,7 +68,7 @@ fn work(problem: &Problem) -> [f64; 2] {
         allowed,
         ..missing_states::USUAL
     };
-    let search = Search::run(problem, &survey, &looked_for, &Silent).unwrap();
+    let search = StateSearch::run(problem, &survey, &looked_for, &Silent).unwrap();
     survey.add(&search.missed());
     let mut catalogue = Catalogue::of_survey(&survey, 1e-4, &Silent);
     let complete = search.conclude(&survey, &catalogue).work;
@@ -105,7 +105,7 @@ fn no_proof_takes_twice_what_it_is_allowed() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "slow"]
 fn no_proof_of_two_hundred_designs_takes_twice_what_it_is_allowed() {
     check(200);
 }

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use tilebind::budget::Allowance;
 use tilebind::landscape::exploration::{Exploration, ExplorationSettings};
 use tilebind::landscape::minimum::{Outcome, descend};
-use tilebind::landscape::missing_states::Search;
+use tilebind::landscape::missing_states::StateSearch;
 use tilebind::landscape::{Catalogue, Completeness, CompletenessSettings};
 use tilebind::observer::Silent;
 use tilebind::roadmap::Point;
@@ -49,7 +49,7 @@ pub fn survey(problem: &Problem, milestones: usize) -> Exploration<'_> {
     surveys::survey(problem, built, &settings)
 }
 
-fn conclude(survey: &Exploration, search: Search) -> Completeness {
+fn conclude(survey: &Exploration, search: StateSearch) -> Completeness {
     let listed = Catalogue::of_survey(survey, 1e-4, &Silent);
     search.conclude(survey, &listed)
 }
@@ -104,7 +104,7 @@ fn forgotten_traps_are_found_again_and_the_list_is_proved() {
         .states
         .retain(|state| state.minimum.point.energy < -60e-3);
     assert!(survey.states.len() < all.len());
-    let search = Search::run(&problem, &survey, &USUAL, &Silent).unwrap();
+    let search = StateSearch::run(&problem, &survey, &USUAL, &Silent).unwrap();
     assert!(!search.missed().is_empty());
     survey.add(&search.missed());
     let found = energies(&survey);
@@ -131,7 +131,7 @@ fn traps_too_shallow_to_list_lead_on_to_listed_ones() {
         ..USUAL
     };
     let without = |least_depth| {
-        let search = Search::run(&problem, &survey, &allowed, &Silent).unwrap();
+        let search = StateSearch::run(&problem, &survey, &allowed, &Silent).unwrap();
         let listed = Catalogue::of_survey(&survey, least_depth, &Silent);
         (listed.states.len(), search.conclude(&survey, &listed))
     };
@@ -153,7 +153,7 @@ fn tilted_traps_behind_a_tab_are_found() {
         escape: 0.05,
         ..USUAL
     };
-    let search = Search::run(&problem, &survey, &deep, &Silent).unwrap();
+    let search = StateSearch::run(&problem, &survey, &deep, &Silent).unwrap();
     let trap = Configuration::new(0.170439631, -0.046621664, 2.903201968);
     let is_trap = |q: &Configuration| problem.space.distance(q, &trap) < 1e-5;
     let missed = search.missed();
@@ -177,7 +177,7 @@ fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
         cells: 10_000,
         ..USUAL
     };
-    let search = Search::run(&problem, &survey, &hasty, &Silent).unwrap();
+    let search = StateSearch::run(&problem, &survey, &hasty, &Silent).unwrap();
     let known = conclude(&survey, search);
     assert!(!known.is_complete());
     assert!(known.share > 0.0 && known.share < 1.0);
@@ -192,13 +192,13 @@ fn what_was_not_looked_at_is_open_and_covers_all_that_may_hide_something() {
 fn an_energy_without_bounds_or_no_work_proves_nothing() {
     let problem = load("shapes/shielded-nearest-face.toml").problem();
     let survey = survey(&problem, 100);
-    assert!(Search::run(&problem, &survey, &USUAL, &Silent).is_err());
+    assert!(StateSearch::run(&problem, &survey, &USUAL, &Silent).is_err());
     let none = CompletenessSettings {
         allowed: Allowance::NONE,
         ..USUAL
     };
     let problem = load("shapes/paper-tile.toml").problem();
-    assert!(Search::run(&problem, &survey, &none, &Silent).is_err());
+    assert!(StateSearch::run(&problem, &survey, &none, &Silent).is_err());
 }
 
 /// A small square tile with a hole for a peg in a random place of a random face, a magnet behind
@@ -256,7 +256,7 @@ fn a_planted_trap_is_found_or_completeness_is_not_claimed() {
 }
 
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "slow"]
 fn none_of_a_hundred_planted_traps_is_denied() {
     plant(100);
 }
@@ -286,7 +286,7 @@ fn plant(number_of_traps: usize) {
             cells: 60_000,
             ..USUAL
         };
-        let search = Search::run(&problem, &survey, &looked_for, &Silent).unwrap();
+        let search = StateSearch::run(&problem, &survey, &looked_for, &Silent).unwrap();
         let is_trap = |q: &Configuration| problem.space.distance(q, &trap.point.q) < 1e-4;
         let is_found = search
             .missed()

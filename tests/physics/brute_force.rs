@@ -172,7 +172,7 @@ fn exits_are_those_of_overdamped_motion_step_by_step() {
 
 /// Half a minute; `cargo test --release -- --ignored --nocapture step_by_step` prints the figures.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "slow"]
 fn exits_are_those_of_many_finer_steps_step_by_step() {
     compare(&small(), asked(), &[0.7e-3, 1e-3, 1.4e-3, 2e-3], 20_000);
 }
@@ -189,7 +189,7 @@ fn compare_shipped(file: &str, start: [f64; 3], [kt, basin]: [f64; 2], steps: &[
 
 /// A minute each.
 #[test]
-#[ignore = "a minute"]
+#[ignore = "slow"]
 fn the_hexagons_exits_step_by_step() {
     let file = "shapes/hexagon.toml";
     compare_shipped(
@@ -201,7 +201,7 @@ fn the_hexagons_exits_step_by_step() {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "slow"]
 fn the_tabs_exits_step_by_step() {
     let file = "shapes/tab-20mm.toml";
     compare_shipped(
@@ -213,7 +213,7 @@ fn the_tabs_exits_step_by_step() {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "slow"]
 fn the_teeths_exits_step_by_step() {
     let file = "shapes/triangle-teeth-10mm.toml";
     compare_shipped(
@@ -225,7 +225,7 @@ fn the_teeths_exits_step_by_step() {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "slow"]
 fn the_paper_tiles_exits_at_another_temperature_step_by_step() {
     let file = "shapes/paper-tile.toml";
     compare_shipped(

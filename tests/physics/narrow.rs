@@ -207,7 +207,7 @@ fn a_corridor_narrower_than_first_cells_is_open_and_a_dovetail_is_not() {
 /// The flux through a corridor much narrower than long is the reciprocal of the integral of 1 /
 /// cross-section; no initial cell of the mesh meets it.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "slow"]
 fn a_corridor_far_narrower_than_first_cells_carries_what_its_cross_section_says() {
     let design = Design::parse(CORRIDOR, "corridor.toml").unwrap();
     let (problem, bond) = (design.problem(), design.pair.bound);

@@ -133,7 +133,7 @@ impl PairDistances {
                 .map(|p| libm::log(p.max(f64::MIN_POSITIVE)))
                 .collect()
         };
-        let search = Search {
+        let search = Likelihood {
             nodes,
             logarithms: &logarithms,
             counts: &counts,
@@ -161,13 +161,13 @@ impl PairDistances {
 }
 
 /// The likelihood over the logarithm of the depth in kT, in fine steps.
-struct Search<'a> {
+struct Likelihood<'a> {
     nodes: [i32; 2],
     logarithms: &'a dyn Fn(i32) -> Vec<f64>,
     counts: &'a [usize],
 }
 
-impl Search<'_> {
+impl Likelihood<'_> {
     /// The maximum, and the positions on both sides where the likelihood has dropped.
     fn run(&self) -> (i32, [Option<i32>; 2]) {
         let [low, high] = self.nodes;

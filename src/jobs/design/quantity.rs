@@ -7,7 +7,7 @@ use super::units::{self, Units};
 /// A kind of quantity, with its range for tiles and magnets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantity {
-    kind: Kind,
+    kind: Dimension,
     sign: Sign,
     /// Magnitudes accepted without question.
     accepted: (f64, f64),
@@ -17,7 +17,7 @@ pub(super) struct Quantity {
 
 /// A dimension with its units.
 #[derive(Clone, Copy, Debug)]
-struct Kind {
+struct Dimension {
     /// The symbol of the unit after a number: `m`.
     unit: &'static str,
     /// The message for a user who used another unit.
@@ -35,45 +35,45 @@ enum Sign {
     Any,
 }
 
-const LENGTH: Kind = Kind {
+const LENGTH: Dimension = Dimension {
     unit: "m",
     rule: "lengths are in metres",
     others: &[(100.0, "cm"), (1000.0, "mm")],
     units: units::LENGTH,
 };
-const ANGLE: Kind = Kind {
+const ANGLE: Dimension = Dimension {
     unit: "rad",
     rule: "angles are in radians",
     others: &[(180.0 / PI, "degrees")],
     units: units::ANGLE,
 };
-const WEIGHT: Kind = Kind {
+const WEIGHT: Dimension = Dimension {
     unit: "kg",
     rule: "masses are in kilograms",
     others: &[(1000.0, "g")],
     units: units::MASS,
 };
-const FIELD: Kind = Kind {
+const FIELD: Dimension = Dimension {
     unit: "T",
     rule: "remanence and surface field are in tesla",
     others: &[(1000.0, "mT"), (1e4, "G")],
     units: units::FIELD,
 };
-const FORCE: Kind = Kind {
+const FORCE: Dimension = Dimension {
     unit: "N",
     rule: "a pull is in newtons, or in kilograms as shops state it: pull = \"1.8 kg\"",
     others: &[],
     units: units::FORCE,
 };
-const DIPOLE: Kind = Kind {
+const DIPOLE: Dimension = Dimension {
     unit: "A m^2",
     rule: "magnetic moments are in A m^2",
     others: &[(1000.0, "mA m^2, or emu")],
     units: units::MOMENT,
 };
 
-const fn share(rule: &'static str) -> Kind {
-    Kind {
+const fn share(rule: &'static str) -> Dimension {
+    Dimension {
         unit: "",
         rule,
         others: &[(100.0, "%")],
@@ -81,7 +81,7 @@ const fn share(rule: &'static str) -> Kind {
     }
 }
 
-impl Kind {
+impl Dimension {
     const fn positive(self, accepted: (f64, f64), typical: (f64, f64)) -> Quantity {
         self.signed(Sign::Positive, accepted, typical)
     }
@@ -118,7 +118,7 @@ pub(super) const ALONG_FACE: Quantity = LENGTH.any(10.0, (1e-3, 2.0));
 /// A user unit of a drawing: from that of 25,400 dots per inch to drawings in metres.
 pub(super) const DRAWING_UNIT: Quantity = LENGTH.positive((1e-6, 1.0), (1e-5, 0.01));
 /// Dots per inch of a drawing.
-pub(super) const DPI: Quantity = Kind {
+pub(super) const DPI: Quantity = Dimension {
     unit: "",
     rule: "a user unit of the drawing is an inch over `dpi`",
     others: &[],

@@ -20,7 +20,7 @@ use physics::dynamics::Body;
 use physics::dynamics::check::{self, BarrierCheck};
 use physics::landscape::barrier_bounds::Certified;
 use physics::landscape::exploration::Exploration;
-use physics::landscape::missing_states::Search;
+use physics::landscape::missing_states::StateSearch;
 use physics::landscape::{Barrier, Catalogue, Claims, Uncertified, barrier_bounds, capture};
 use physics::observer::{Observer, Silent};
 use physics::parallel;
@@ -55,8 +55,10 @@ pub fn analyse_showing(
         unlisted = problem.evaluations() - before;
     }
     clock.start("states that may be missing", 0.5);
-    let search = Search::run(&problem, &survey, &settings.completeness, observer);
-    let missed = search.as_ref().map_or_else(|_| Vec::new(), Search::missed);
+    let search = StateSearch::run(&problem, &survey, &settings.completeness, observer);
+    let missed = search
+        .as_ref()
+        .map_or_else(|_| Vec::new(), StateSearch::missed);
     if !missed.is_empty() {
         survey.add(&missed);
     }

@@ -15,7 +15,7 @@ use physics::landscape::minimax::{Certifier, Effort, End};
 use physics::landscape::{Barrier, Place, Uncertified, barrier_bounds, pathway};
 use physics::observer::Observer;
 use physics::problem::Problem;
-use ways::Search;
+use ways::PathSearch;
 
 /// Number of cells of the certificate before a roadmap is built: they take about as long as a
 /// roadmap.
@@ -96,7 +96,7 @@ pub fn barrier(
     if query.to == End::Free && problem.space.is_far(&query.from) {
         barrier.lead_along(pathway::of_configurations(&problem, &[query.from], 0.0));
     }
-    let search = Search::new(&problem, query);
+    let search = PathSearch::new(&problem, query);
     let certificate = Certificate::new(&problem, query, &search);
     let uncertified = certificate.as_ref().err().copied();
     let mut ended = None;
@@ -160,7 +160,7 @@ fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
 struct Certificate<'a> {
     certifier: Certifier<'a>,
     query: &'a Query,
-    search: &'a Search<'a>,
+    search: &'a PathSearch<'a>,
     tolerance: f64,
 }
 
@@ -168,7 +168,7 @@ impl<'a> Certificate<'a> {
     fn new(
         problem: &'a Problem,
         query: &'a Query,
-        search: &'a Search<'a>,
+        search: &'a PathSearch<'a>,
     ) -> Result<Self, Uncertified> {
         let allowed = query.settings.certify;
         let (contact, space) = (problem.contact.as_ref(), &problem.space);

@@ -34,7 +34,7 @@ const PASSING: f64 = 2e-3;
 const FAR_STARTS: usize = 100;
 
 /// Searches paths between the two ends of a query.
-pub(super) struct Search<'a> {
+pub(super) struct PathSearch<'a> {
     problem: &'a Problem,
     query: &'a Query,
     roadmap: RoadmapSettings,
@@ -42,7 +42,7 @@ pub(super) struct Search<'a> {
     arrivals: OnceCell<Vec<(Configuration, Configuration)>>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> PathSearch<'a> {
     pub fn new(problem: &'a Problem, query: &'a Query) -> Self {
         Self {
             problem,

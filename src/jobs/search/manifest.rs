@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::aim::Aim;
 use crate::comparison::{self, Question};
 use crate::design::Design;
-use crate::sweep::{Axis, Plan, PlanError, Source};
+use crate::sweep::{Axis, DesignSource, Plan, PlanError};
 
 /// The manifest of a search: all its inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +33,7 @@ impl Search {
     /// # Errors
     /// As [`Plan::of`]; whether any point is possible is found out by the search.
     pub fn of(
-        designs: Vec<Source>,
+        designs: Vec<DesignSource>,
         axes: Vec<Axis>,
         settings: comparison::Request,
         seed: u64,
@@ -49,7 +49,7 @@ impl Search {
     /// As [`Search::of`], and if errors of making are needed and none is stated.
     pub fn asked(
         question: &Question,
-        designs: Vec<(Source, Design)>,
+        designs: Vec<(DesignSource, Design)>,
         axes: Vec<Axis>,
         aim: Aim,
     ) -> Result<Self, PlanError> {
@@ -57,7 +57,7 @@ impl Search {
         for quantity in sought.chain(aim.subject.iter().map(|it| it.quantity())) {
             question.request.check_ranking(quantity)?;
         }
-        let (sources, designs): (Vec<Source>, Vec<Design>) = designs.into_iter().unzip();
+        let (sources, designs): (Vec<DesignSource>, Vec<Design>) = designs.into_iter().unzip();
         let settings = question.request.of(&designs);
         Self::of(sources, axes, settings, question.seed, aim)
     }

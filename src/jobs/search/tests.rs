@@ -7,12 +7,12 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::comparison::{self, Assessment, Bond, Trap, Way};
-use crate::sweep::{Axis, Outcome, Plan, PlanError, Point, Source};
+use crate::sweep::{Axis, DesignSource, Outcome, Plan, PlanError, Point};
 use physics::landscape::SaddleBounds;
 
-fn source() -> Source {
+fn source() -> DesignSource {
     let file = "../../shapes/tab-20mm.toml";
-    let (source, _) = Source::read(file.as_ref()).unwrap();
+    let (source, _) = DesignSource::read(file.as_ref()).unwrap();
     source
 }
 

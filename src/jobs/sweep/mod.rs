@@ -72,7 +72,7 @@ pub use plan::Plan;
 pub use point::Point;
 pub use request::Request;
 pub use run::run;
-pub use source::Source;
+pub use source::DesignSource;
 pub use store::{Outcome, Progress, Store};
 pub(crate) use vary::rounded;
 pub use vary::{Axis, Value};

@@ -9,7 +9,7 @@ use toml::Table;
 
 use super::error::{MOST_POINTS, PlanError};
 use super::point::Point;
-use super::source::Source;
+use super::source::DesignSource;
 use super::vary::{Axis, Value, number};
 use super::{document, drawings};
 use crate::comparison::Request;
@@ -26,7 +26,7 @@ pub struct Plan {
     /// Version of tilebind.
     pub tilebind: String,
     /// The designs; their names are distinct.
-    pub designs: Vec<Source>,
+    pub designs: Vec<DesignSource>,
     /// The varied keys; the first varies slowest.
     pub axes: Vec<Axis>,
     /// The settings of all points.
@@ -47,7 +47,7 @@ impl Plan {
     /// points, or none is possible. A key that the design does not have counts as a mistake if none
     /// of its values gives a possible design.
     pub fn of(
-        designs: Vec<Source>,
+        designs: Vec<DesignSource>,
         axes: Vec<Axis>,
         settings: Request,
         seed: u64,
@@ -65,7 +65,7 @@ impl Plan {
     /// # Errors
     /// As [`Plan::of`].
     pub fn between(
-        designs: Vec<Source>,
+        designs: Vec<DesignSource>,
         axes: Vec<Axis>,
         settings: Request,
         seed: u64,
@@ -76,7 +76,7 @@ impl Plan {
     }
 
     fn new(
-        mut designs: Vec<Source>,
+        mut designs: Vec<DesignSource>,
         axes: Vec<Axis>,
         settings: Request,
         seed: u64,
@@ -249,7 +249,7 @@ impl Plan {
     /// Applies a function to each point, in order, without storing the points: a million of them
     /// would take gigabytes.
     pub fn each<T: Send>(&self, of: impl Fn(Point) -> T + Sync) -> Vec<T> {
-        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
+        let documents: Vec<Table> = self.designs.iter().map(DesignSource::document).collect();
         let settings = self.named_settings();
         parallel::map(0..self.count(), |index| {
             of(self.point(&documents, &settings, index))
@@ -351,7 +351,7 @@ impl Plan {
 
     /// Rejects a key that the designs do not have, if none of its values gives a possible design.
     fn check_keys(&self) -> Result<(), PlanError> {
-        let documents: Vec<Table> = self.designs.iter().map(Source::document).collect();
+        let documents: Vec<Table> = self.designs.iter().map(DesignSource::document).collect();
         for axis in &self.axes {
             for (source, document) in self.designs.iter().zip(&documents) {
                 if document::holds(document, &axis.key) {

@@ -5,7 +5,7 @@ use clap::Args;
 use super::error::PlanError;
 use super::plan::Plan;
 use super::refine::refined;
-use super::source::Source;
+use super::source::DesignSource;
 use super::store::Outcome;
 use super::vary::Axis;
 use crate::comparison::Question;
@@ -37,8 +37,12 @@ impl Request {
     /// # Errors
     /// As [`Plan::of`] and [`Plan::against`], and if points are to be added to a sweep that is not
     /// a curve over one number.
-    pub fn plan(&self, designs: Vec<(Source, Design)>, axes: Vec<Axis>) -> Result<Plan, PlanError> {
-        let (sources, designs): (Vec<Source>, Vec<Design>) = designs.into_iter().unzip();
+    pub fn plan(
+        &self,
+        designs: Vec<(DesignSource, Design)>,
+        axes: Vec<Axis>,
+    ) -> Result<Plan, PlanError> {
+        let (sources, designs): (Vec<DesignSource>, Vec<Design>) = designs.into_iter().unzip();
         let settings = self.question.request.of(&designs);
         let mut plan = Plan::of(sources, axes, settings, self.question.seed)?;
         if let Some(point) = &self.baseline {

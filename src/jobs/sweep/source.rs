@@ -11,9 +11,9 @@ use super::{document, drawings};
 use crate::checksum::sha256;
 use crate::design::{Design, DesignError, file};
 
-/// A varied design.
+/// A design as it was read, which can be varied.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Source {
+pub struct DesignSource {
     /// Its name.
     pub name: String,
     /// Its file name, as given.
@@ -27,7 +27,7 @@ pub struct Source {
     pub drawings: BTreeMap<String, String>,
 }
 
-impl Source {
+impl DesignSource {
     /// A design file with its drawings.
     ///
     /// # Errors

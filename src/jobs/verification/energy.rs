@@ -25,8 +25,8 @@ pub(super) enum Model {
 /// The magnets of two tiles.
 pub(super) struct Magnets {
     model: Model,
-    fixed: Vec<Source>,
-    moving: Vec<Source>,
+    fixed: Vec<ShieldedMagnet>,
+    moving: Vec<ShieldedMagnet>,
     /// Energies of discs that stand, by the kinds of both.
     radial: Vec<([Disc; 2], Radial)>,
     /// The middles (m) of both tiles' faces, if only the nearest two act.
@@ -44,7 +44,7 @@ const OVERLAP: f64 = 1e-9;
 type Disc = [f64; 3];
 
 /// A magnet with the shield behind it.
-struct Source {
+struct ShieldedMagnet {
     position: [f64; 2],
     /// Along x, y and z (A m^2).
     moment: [f64; 3],
@@ -101,7 +101,7 @@ fn turned([x, y]: Flat, [sine, cosine]: [Jet; 2]) -> Flat {
     [cosine * x - sine * y, sine * x + cosine * y]
 }
 
-impl Source {
+impl ShieldedMagnet {
     fn new(tile: &Tile, magnet: &Magnet) -> Option<Self> {
         let (sine, cosine) = (libm::sin(magnet.angle), libm::cos(magnet.angle));
         let m = magnet.moment;
@@ -306,10 +306,10 @@ impl Magnets {
             Some("nearest-face") => Some([middles(&tiles.fixed), middles(&tiles.moving)]),
             Some(other) => return Err(format!("shields by the rule {other:?} are unknown here")),
         };
-        let sources = |tile: &Tile| -> Option<Vec<Source>> {
+        let sources = |tile: &Tile| -> Option<Vec<ShieldedMagnet>> {
             tile.magnets
                 .iter()
-                .map(|it| Source::new(tile, it))
+                .map(|it| ShieldedMagnet::new(tile, it))
                 .collect()
         };
         let both = sources(&tiles.fixed).zip(sources(&tiles.moving));
@@ -340,7 +340,7 @@ impl Magnets {
         })
     }
 
-    fn radial(&self, target: &Source, source: &Source) -> Option<&Radial> {
+    fn radial(&self, target: &ShieldedMagnet, source: &ShieldedMagnet) -> Option<&Radial> {
         let kinds = kinds(target, source)?;
         let found = self.radial.iter().find(|it| it.0 == kinds);
         found.map(|it| &it.1)
@@ -453,7 +453,7 @@ impl Magnets {
         if !self.has_bounds() || all().any(|it| it.shield.is_some()) {
             return None;
         }
-        let radius = |it: &Source| match self.model {
+        let radius = |it: &ShieldedMagnet| match self.model {
             Model::Dipoles => 0.0,
             Model::Bodies => it.radius,
         };
@@ -574,7 +574,7 @@ impl Magnets {
 }
 
 /// The kinds of two discs, if both stand.
-fn kinds(target: &Source, source: &Source) -> Option<[Disc; 2]> {
+fn kinds(target: &ShieldedMagnet, source: &ShieldedMagnet) -> Option<[Disc; 2]> {
     Some([target.disc()?, source.disc()?])
 }
 
@@ -602,7 +602,7 @@ fn dipoles(first: &Placed, second: &Placed, way: Flat, height: Jet) -> Jet {
 
 /// Two magnets, as dipoles anywhere in them: the energy of two magnets is the mean of that of their
 /// elements, wherever they do not touch. Near ones are cut in pieces, whose places are known better.
-fn spread([fixed, moving]: [&Source; 2], [first, second]: [&Placed; 2], way: Flat) -> Jet {
+fn spread([fixed, moving]: [&ShieldedMagnet; 2], [first, second]: [&Placed; 2], way: Flat) -> Jet {
     let distance = (way[0].squared() + way[1].squared()).value.root().low;
     let pieces = if distance > 4.0 * (fixed.radius + moving.radius) {
         1

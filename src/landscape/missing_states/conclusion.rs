@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::exits::{SAME, SHARP};
-use super::search::{Queue, Search, push};
+use super::search::{Queue, StateSearch, push};
 use super::{Completeness, OpenRegion, regions};
 use crate::catalogue::Catalogue;
 use crate::exploration::Exploration;
@@ -18,7 +18,7 @@ const CELLS: usize = 50_000;
 /// The part of the remaining effort that all of these may take.
 const WAYS_ON: f64 = 0.5;
 
-impl<'a> Search<'a> {
+impl<'a> StateSearch<'a> {
     /// The proved statement about the listed states. Minima that are not listed must have a path on
     /// to a listed one, or to `free`. Cells from whose lowest energy this path rises too far are
     /// examined again, because bounds of smaller cells are tighter. All that is left of the effort

@@ -44,7 +44,7 @@ mod search;
 use tiles::budget::{Allowance, Ended};
 
 pub use regions::OpenRegion;
-pub use search::Search;
+pub use search::StateSearch;
 
 /// The statement to be proved, and the effort allowed for it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -30,7 +30,7 @@ const LAST: u64 = 8;
 const RESERVE: f64 = 0.1;
 
 /// A search for states that may be missing.
-pub struct Search<'a> {
+pub struct StateSearch<'a> {
     pub(super) problem: &'a Problem,
     pub(super) settings: CompletenessSettings,
     pub(super) budget: Budget,
@@ -57,7 +57,7 @@ pub(super) fn push(queue: &mut Queue, cell: Cell, lowest: f64) {
     queue.push((halvings, OrderedFloat(lowest)), (cell, lowest));
 }
 
-impl<'a> Search<'a> {
+impl<'a> StateSearch<'a> {
     /// Searches the whole space for traps besides the minima of a survey.
     ///
     /// The result is the same on every machine, unless a time limit ends it.

@@ -21,7 +21,7 @@ pub struct Crowd {
     /// Whether it is a disc.
     round: bool,
     /// The kinds of tiles.
-    kinds: Vec<Kind>,
+    kinds: Vec<TileKind>,
     /// The index of each tile's kind.
     tiles: Vec<usize>,
     /// The frames, in order.
@@ -30,7 +30,7 @@ pub struct Crowd {
 
 /// A kind of tiles.
 #[derive(Clone, Debug, Serialize)]
-struct Kind {
+struct TileKind {
     name: String,
     /// The centre of mass (m), where lines end.
     centre: [f64; 2],
@@ -95,7 +95,7 @@ impl Crowd {
             kinds: crowd
                 .kinds
                 .iter()
-                .map(|kind| Kind {
+                .map(|kind| TileKind {
                     name: kind.name.clone(),
                     centre: kind.body.centre.into(),
                     shape: Drawn::new(&kind.tile),

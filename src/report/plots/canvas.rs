@@ -12,7 +12,7 @@ use plotters::prelude::{
 use plotters::style::{Color, WHITE};
 use plotters_backend::BackendCoord;
 
-use super::recorder::{Recorder, Shape};
+use super::recorder::{Mark, Recorder};
 use super::style::{Anchor, INK, SMALL, Text, stroke, unit, units};
 
 /// A point (pixels).
@@ -93,7 +93,7 @@ impl Canvas {
     }
 
     /// The drawing, or its first error.
-    pub fn shapes(&self) -> Result<Ref<'_, [Shape]>, String> {
+    pub fn shapes(&self) -> Result<Ref<'_, [Mark]>, String> {
         match &self.failure {
             Some(why) => Err(why.clone()),
             None => Ok(Ref::map(self.recorder.borrow(), |it| &it.shapes[..])),

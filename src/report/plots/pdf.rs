@@ -10,7 +10,7 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use tiny_skia::{Path, PathSegment, Point, Transform};
 
 use super::canvas::{Bitmap, Canvas};
-use super::recorder::Shape;
+use super::recorder::Mark;
 use crate::packing::deflated;
 
 /// Points per millimetre.
@@ -24,7 +24,7 @@ const INFO: i32 = 5;
 const FIRST: i32 = 6;
 
 /// The file of a canvas, with the size of a unit in mm.
-pub fn page(title: &str, canvas: &Canvas, shapes: &[Shape], millimetres: f64) -> Vec<u8> {
+pub fn page(title: &str, canvas: &Canvas, shapes: &[Mark], millimetres: f64) -> Vec<u8> {
     let scale = (millimetres * POINTS_A_MILLIMETRE) as f32;
     let size = canvas.root.dim_in_pixel();
     let [width, height] = [size.0, size.1].map(|side| side as f32 * scale);
@@ -85,7 +85,7 @@ pub fn page(title: &str, canvas: &Canvas, shapes: &[Shape], millimetres: f64) ->
 }
 
 /// Draws a shape; `opacities` are the degrees in use, in percent.
-fn paint(content: &mut Content, opacities: &mut BTreeSet<u32>, shape: &Shape) {
+fn paint(content: &mut Content, opacities: &mut BTreeSet<u32>, shape: &Mark) {
     let (colour, width) = shape.paint();
     let opacity = (100.0 * colour.alpha).round() as u32;
     let Some((path, transform)) = shape.path().filter(|_| opacity > 0) else {

@@ -13,7 +13,7 @@ use tiny_skia::{
 use super::canvas::{Bitmap, Canvas, Spot};
 use super::font::FAMILY;
 use super::pdf;
-use super::recorder::Shape;
+use super::recorder::Mark;
 use super::sheet::Sheet;
 use super::style::UNITS;
 
@@ -64,11 +64,7 @@ impl Picture {
 
 /// The output of plotters with a custom header (size in pixels or mm, coordinates in units, round
 /// joins), images beneath and tooltip regions above. Writing to a string cannot fail.
-fn svg(
-    canvas: &Canvas,
-    shapes: &[Shape],
-    millimetres: Option<f64>,
-) -> Result<String, PictureError> {
+fn svg(canvas: &Canvas, shapes: &[Mark], millimetres: Option<f64>) -> Result<String, PictureError> {
     let size = canvas.root.dim_in_pixel();
     let mut elements = String::new();
     let mut backend = SVGBackend::with_string(&mut elements, size);
@@ -154,7 +150,7 @@ pub(super) fn animated(
 }
 
 /// The bitmap with a number of dots per unit, anti-aliased.
-fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureError> {
+fn png(canvas: &Canvas, shapes: &[Mark], dots: f64) -> Result<Vec<u8>, PictureError> {
     let ([width, height], rgb) = pixels(canvas, shapes, dots)?;
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -170,7 +166,7 @@ fn png(canvas: &Canvas, shapes: &[Shape], dots: f64) -> Result<Vec<u8>, PictureE
 /// Width and height in pixels, and the pixels' red, green and blue.
 fn pixels(
     canvas: &Canvas,
-    shapes: &[Shape],
+    shapes: &[Mark],
     dots: f64,
 ) -> Result<([u32; 2], Vec<u8>), PictureError> {
     let size = canvas.root.dim_in_pixel();

@@ -18,14 +18,14 @@ use super::style::{FONT_SCALE, UNITS};
 type Outcome<E = Infallible> = Result<(), DrawingErrorKind<E>>;
 
 /// A shape drawn by plotters; all lengths in drawing units.
-pub enum Shape {
+pub enum Mark {
     Line(Vec<BackendCoord>, ShapeStyle),
     Area(Vec<BackendCoord>, ShapeStyle),
     Circle(BackendCoord, u32, ShapeStyle),
     Words(String, TextStyle<'static>, BackendCoord),
 }
 
-impl Shape {
+impl Mark {
     /// Draws it on another backend.
     pub fn draw<B: DrawingBackend>(&self, backend: &mut B) -> Outcome<B::ErrorType> {
         match self {
@@ -110,7 +110,7 @@ fn is_bold<S: BackendTextStyle>(style: &S) -> bool {
 pub struct Recorder {
     /// Units.
     pub size: (u32, u32),
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Mark>,
 }
 
 impl Recorder {
@@ -119,7 +119,7 @@ impl Recorder {
         &mut self,
         style: &S,
         filled: bool,
-        shape: impl FnOnce(ShapeStyle) -> Shape,
+        shape: impl FnOnce(ShapeStyle) -> Mark,
     ) -> Outcome {
         let BackendColor { alpha, rgb } = style.color();
         if alpha > 0.0 {
@@ -202,7 +202,7 @@ impl DrawingBackend for Recorder {
         if kept.len() < 2 {
             return Ok(());
         }
-        self.keep(style, false, |style| Shape::Line(kept, style))
+        self.keep(style, false, |style| Mark::Line(kept, style))
     }
 
     fn draw_circle<S: BackendStyle>(
@@ -212,7 +212,7 @@ impl DrawingBackend for Recorder {
         style: &S,
         fill: bool,
     ) -> Outcome {
-        self.keep(style, fill, |style| Shape::Circle(center, radius, style))
+        self.keep(style, fill, |style| Mark::Circle(center, radius, style))
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
@@ -221,7 +221,7 @@ impl DrawingBackend for Recorder {
         style: &S,
     ) -> Outcome {
         let corners = path.into_iter().collect();
-        self.keep(style, true, |style| Shape::Area(corners, style))
+        self.keep(style, true, |style| Mark::Area(corners, style))
     }
 
     fn draw_text<S: BackendTextStyle>(
@@ -236,7 +236,7 @@ impl DrawingBackend for Recorder {
             color: style.color(),
             pos: style.anchor(),
         };
-        self.shapes.push(Shape::Words(text.to_owned(), style, pos));
+        self.shapes.push(Mark::Words(text.to_owned(), style, pos));
         Ok(())
     }
 

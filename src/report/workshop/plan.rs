@@ -33,7 +33,7 @@ const MARGIN: f64 = 5.0;
 
 /// A shape, in m.
 #[derive(Clone)]
-enum Shape {
+enum Figure {
     Closed(Vec<Corner>),
     Circle(Vector2<f64>, f64),
     Line([Vector2<f64>; 2]),
@@ -41,7 +41,7 @@ enum Shape {
     Text(String, Vector2<f64>, f64, f64),
 }
 
-impl Shape {
+impl Figure {
     /// The line of a pocket.
     fn of_pocket(pocket: &Pocket) -> Self {
         match pocket.circle() {
@@ -54,7 +54,7 @@ impl Shape {
 /// A drawing for the cutter.
 #[derive(Clone, Default)]
 pub struct Plan {
-    shapes: Vec<(Work, Shape)>,
+    shapes: Vec<(Work, Figure)>,
 }
 
 impl Plan {
@@ -64,7 +64,7 @@ impl Plan {
         let mut plan = Self::default();
         let pockets = part.pockets.iter().filter(|_| with_pockets);
         for pocket in pockets.filter(|pocket| !pocket.is_notch) {
-            plan.add(Work::CutInside, Shape::of_pocket(pocket));
+            plan.add(Work::CutInside, Figure::of_pocket(pocket));
         }
         let marks = part.marks.pockets.iter().flatten();
         let marks = marks.filter(|_| with_pockets).chain(&part.marks.tile);
@@ -75,33 +75,33 @@ impl Plan {
             };
             plan.add(
                 Work::Engrave,
-                Shape::Text(text, mark.middle, mark.height, mark.turn),
+                Figure::Text(text, mark.middle, mark.height, mark.turn),
             );
             if let Some([tail, tip]) = mark.arrow {
                 let back = (tail - tip) * 0.4;
                 let aside = Vector2::new(-back.y, back.x) * 0.6;
                 for from in [tail, tip + back + aside, tip + back - aside] {
-                    plan.add(Work::Engrave, Shape::Line([from, tip]));
+                    plan.add(Work::Engrave, Figure::Line([from, tip]));
                 }
             }
         }
-        plan.add(Work::CutOutside, Shape::Closed(part.outline.clone()));
+        plan.add(Work::CutOutside, Figure::Closed(part.outline.clone()));
         plan
     }
 
     /// The outline to engrave or print, and magnets with their letters at full size.
     pub fn check(part: &Part) -> Self {
         let mut plan = Self::default();
-        plan.add(Work::CutOutside, Shape::Closed(part.outline.clone()));
+        plan.add(Work::CutOutside, Figure::Closed(part.outline.clone()));
         for pocket in &part.pockets {
-            plan.add(Work::CutInside, Shape::of_pocket(pocket));
+            plan.add(Work::CutInside, Figure::of_pocket(pocket));
             let [low, high] = extent(&pocket.corners);
             let reach = (high[0] - low[0]).min(high[1] - low[1]);
             let (north, pole) = (pocket.north, pocket.pole.letter().to_string());
             if pocket.pole.stands() {
                 plan.add(
                     Work::Engrave,
-                    Shape::Text(pole, pocket.middle, 0.6 * reach, 0.0),
+                    Figure::Text(pole, pocket.middle, 0.6 * reach, 0.0),
                 );
                 continue;
             }
@@ -110,7 +110,7 @@ impl Plan {
                 let at = pocket.middle + north * side;
                 plan.add(
                     Work::Engrave,
-                    Shape::Text(letter.to_owned(), at, height, 0.0),
+                    Figure::Text(letter.to_owned(), at, height, 0.0),
                 );
             }
         }
@@ -118,7 +118,7 @@ impl Plan {
         for mark in part.marks.pockets.iter().flatten() {
             plan.add(
                 Work::Engrave,
-                Shape::Text(mark.text.clone(), mark.middle, mark.height, mark.turn),
+                Figure::Text(mark.text.clone(), mark.middle, mark.height, mark.turn),
             );
         }
         plan
@@ -126,7 +126,7 @@ impl Plan {
 
     /// Adds a text.
     pub fn text(&mut self, text: &str, middle: [f64; 2], height: f64) {
-        let shape = Shape::Text(text.to_owned(), Vector2::from(middle), height, 0.0);
+        let shape = Figure::Text(text.to_owned(), Vector2::from(middle), height, 0.0);
         self.add(Work::Engrave, shape);
     }
 
@@ -139,11 +139,11 @@ impl Plan {
             [left - end, left + end],
             [right - end, right + end],
         ] {
-            self.add(Work::Engrave, Shape::Line(line));
+            self.add(Work::Engrave, Figure::Line(line));
         }
     }
 
-    fn add(&mut self, work: Work, shape: Shape) {
+    fn add(&mut self, work: Work, shape: Figure) {
         self.shapes.push((work, shape));
     }
 
@@ -173,14 +173,14 @@ impl Plan {
     fn map(&mut self, place: &dyn Fn(Vector2<f64>) -> Vector2<f64>, turn: f64) {
         for (_, shape) in &mut self.shapes {
             match shape {
-                Shape::Closed(corners) => {
+                Figure::Closed(corners) => {
                     for corner in corners {
                         corner.point = place(corner.point);
                     }
                 }
-                Shape::Line(ends) => *ends = ends.map(place),
-                Shape::Circle(middle, _) => *middle = place(*middle),
-                Shape::Text(_, middle, _, own) => {
+                Figure::Line(ends) => *ends = ends.map(place),
+                Figure::Circle(middle, _) => *middle = place(*middle),
+                Figure::Text(_, middle, _, own) => {
                     *middle = place(*middle);
                     *own += turn;
                 }
@@ -191,7 +191,7 @@ impl Plan {
     /// The extent of its closed lines (m).
     pub fn extent(&self) -> [[f64; 2]; 2] {
         let closed = self.shapes.iter().filter_map(|(_, shape)| match shape {
-            Shape::Closed(corners) => Some(extent(corners)),
+            Figure::Closed(corners) => Some(extent(corners)),
             _ => None,
         });
         let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
@@ -203,7 +203,7 @@ impl Plan {
     }
 
     /// Its shapes, layer by layer.
-    fn layered(&self) -> impl Iterator<Item = (usize, impl Iterator<Item = &Shape>)> {
+    fn layered(&self) -> impl Iterator<Item = (usize, impl Iterator<Item = &Figure>)> {
         WORK.iter().enumerate().map(|(k, (work, ..))| {
             let own = self.shapes.iter().filter(move |shape| shape.0 == *work);
             (k, own.map(|shape| &shape.1))
@@ -217,10 +217,10 @@ impl Plan {
             let layer = WORK[k].1.0;
             for shape in shapes {
                 match shape {
-                    Shape::Closed(corners) => dxf.closed_line(layer, corners),
-                    Shape::Circle(middle, radius) => dxf.circle(layer, *middle, *radius),
-                    Shape::Line(ends) => dxf.line(layer, *ends),
-                    Shape::Text(text, middle, height, turn) => {
+                    Figure::Closed(corners) => dxf.closed_line(layer, corners),
+                    Figure::Circle(middle, radius) => dxf.circle(layer, *middle, *radius),
+                    Figure::Line(ends) => dxf.line(layer, *ends),
+                    Figure::Text(text, middle, height, turn) => {
                         dxf.text(layer, *middle, (*height, *turn), text);
                     }
                 }
@@ -269,17 +269,17 @@ impl Plan {
             let _ = writeln!(text, "<g id=\"{name}\" stroke=\"{colour}\">");
             for shape in shapes {
                 let _ = match shape {
-                    Shape::Closed(corners) => writeln!(text, "<path d=\"{}\"/>", path(corners)),
-                    Shape::Circle(middle, radius) => {
+                    Figure::Closed(corners) => writeln!(text, "<path d=\"{}\"/>", path(corners)),
+                    Figure::Circle(middle, radius) => {
                         let [x, y] = spot(middle);
                         let radius = number(1e3 * radius);
                         writeln!(text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
                     }
-                    Shape::Line(ends) => {
+                    Figure::Line(ends) => {
                         let [from, to] = ends.map(|end| spot(&end).join(" "));
                         writeln!(text, "<path d=\"M{from}L{to}\"/>")
                     }
-                    Shape::Text(words, middle, height, turn) => {
+                    Figure::Text(words, middle, height, turn) => {
                         let [x, y] = spot(middle);
                         let (size, turn) = (plain(*height), number(-turn.to_degrees()));
                         let words = words.replace('&', "&amp;").replace('<', "&lt;");

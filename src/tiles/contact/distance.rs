@@ -8,7 +8,7 @@
 use nalgebra::Vector2;
 
 use super::Contact;
-use super::shape::Shape;
+use super::shape::SearchedOutline;
 use super::tree::{Below, Branch};
 use crate::configuration::Configuration;
 use crate::tile::outline::distance_to_segment;
@@ -25,10 +25,15 @@ impl Contact {
 
 /// The least distance (m) of a corner of `theirs`, which lies at `pose` in the frame of `ours`,
 /// from an edge of `ours`, if it is below `most`.
-fn nearest(ours: &Shape, theirs: &Shape, pose: &Configuration, [least, most]: [f64; 2]) -> f64 {
+fn nearest(
+    ours: &SearchedOutline,
+    theirs: &SearchedOutline,
+    pose: &Configuration,
+    [least, most]: [f64; 2],
+) -> f64 {
     let (rotation, position) = (pose.rotation(), pose.position());
     let place = |p: Vector2<f64>| position + rotation * p;
-    let mut search = Search {
+    let mut search = NearestPair {
         ours,
         theirs,
         place: &place,
@@ -44,15 +49,15 @@ fn nearest(ours: &Shape, theirs: &Shape, pose: &Configuration, [least, most]: [f
 /// A branch of our edges, one of their corners, and the position of its centre.
 type Pair = (Branch, Branch, Vector2<f64>);
 
-struct Search<'a, P> {
-    ours: &'a Shape,
-    theirs: &'a Shape,
+struct NearestPair<'a, P> {
+    ours: &'a SearchedOutline,
+    theirs: &'a SearchedOutline,
     place: &'a P,
     least: f64,
     best: f64,
 }
 
-impl<P: Fn(Vector2<f64>) -> Vector2<f64>> Search<'_, P> {
+impl<P: Fn(Vector2<f64>) -> Vector2<f64>> NearestPair<'_, P> {
     /// Least distance (m) of the contents of two branches.
     fn gap(&self, (edges, corners, centre): &Pair) -> f64 {
         (edges.centre - centre).norm() - edges.radius - corners.radius

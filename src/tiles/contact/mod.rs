@@ -27,7 +27,7 @@ pub use points::{ContactPoint, NearPairs, TurnsWith};
 
 use nalgebra::{Rotation2, Vector2};
 
-use self::shape::Shape;
+use self::shape::SearchedOutline;
 use crate::configuration::Configuration;
 use crate::scale::Scale;
 use crate::tile::Outline;
@@ -41,8 +41,8 @@ pub const TOUCH: f64 = 1e-9;
 /// The two outlines of a pair of tiles.
 #[derive(Clone)]
 pub struct Contact {
-    fixed: Shape,
-    moving: Shape,
+    fixed: SearchedOutline,
+    moving: SearchedOutline,
     scale: Scale,
 }
 
@@ -50,8 +50,8 @@ impl Contact {
     /// For a fixed and a moving outline, each in its own tile's frame (m).
     pub fn new(fixed: &Outline, moving: &Outline) -> Self {
         Self {
-            fixed: Shape::new(fixed),
-            moving: Shape::new(moving),
+            fixed: SearchedOutline::new(fixed),
+            moving: SearchedOutline::new(moving),
             scale: Scale::of([fixed.circumradius(), moving.circumradius()]),
         }
     }

@@ -15,7 +15,7 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::Contact;
-use super::shape::Shape;
+use super::shape::SearchedOutline;
 use crate::configuration::Configuration;
 use crate::tile::Outline;
 use crate::tile::outline::distance_to_segment;
@@ -208,7 +208,12 @@ impl Contact {
 
 /// Edges of `ours`, and the convex corners of `theirs`, which lies at `pose` in the frame of `ours`,
 /// within `distance` (m) of them.
-fn near(ours: &Shape, theirs: &Shape, pose: &Configuration, distance: f64) -> Vec<[usize; 2]> {
+fn near(
+    ours: &SearchedOutline,
+    theirs: &SearchedOutline,
+    pose: &Configuration,
+    distance: f64,
+) -> Vec<[usize; 2]> {
     let (rotation, position) = (pose.rotation(), pose.position());
     let place = |p: Vector2<f64>| position + rotation * p;
     let mut pairs = Vec::new();
@@ -229,7 +234,7 @@ fn near(ours: &Shape, theirs: &Shape, pose: &Configuration, distance: f64) -> Ve
 /// Calls `found(vertex, where it is, what it meets)` for convex corners of `theirs` near `ours`,
 /// in whose frame `theirs` is placed.
 fn meet(
-    [ours, theirs]: [&Shape; 2],
+    [ours, theirs]: [&SearchedOutline; 2],
     (rotation, position): Placed,
     margin: f64,
     pairs: &[[usize; 2]],

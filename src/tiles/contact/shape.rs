@@ -9,7 +9,7 @@ use crate::tile::outline::{Bounds, ConvexPart};
 
 /// One tile's outline with its search structures.
 #[derive(Clone, Debug)]
-pub(super) struct Shape {
+pub(super) struct SearchedOutline {
     pub outline: Outline,
     pub edges: CircleTree,
     pub corners: CircleTree,
@@ -24,7 +24,7 @@ pub(super) struct Shape {
     pub core: ConvexPart,
 }
 
-impl Shape {
+impl SearchedOutline {
     pub fn new(outline: &Outline) -> Self {
         let n = outline.vertices().len();
         let circle = |i: usize| {

@@ -79,7 +79,7 @@ pub struct Crosstalk {
 
 /// The kind of contact of two faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ContactKind {
     /// A word on its own mate, which may be the word itself.
     Bond,
     /// Faces other than a word and its own mate.
@@ -94,7 +94,7 @@ pub struct StrongestContact {
     /// Row and column.
     pub faces: [usize; 2],
     /// Its kind.
-    pub kind: Kind,
+    pub kind: ContactKind,
     /// The lowest energy (J) found.
     pub energy: f64,
     /// Its proved lower bound (J).
@@ -315,8 +315,8 @@ impl Crosstalk {
         });
         let pairs = pairs.map(move |[i, j]| StrongestContact {
             kind: match self.binds(i, j) {
-                true => Kind::Bond,
-                false => Kind::Wrong,
+                true => ContactKind::Bond,
+                false => ContactKind::Wrong,
             },
             ..self.wrong_of([i, j])
         });
@@ -325,7 +325,7 @@ impl Crosstalk {
 
     /// All contacts other than bonds: of two faces other than a word and its own mate, and traps.
     pub fn wrong(&self) -> impl Iterator<Item = StrongestContact> {
-        self.meetings().filter(|it| it.kind != Kind::Bond)
+        self.meetings().filter(|it| it.kind != ContactKind::Bond)
     }
 
     /// The wrong contact that attracts most.
@@ -342,7 +342,7 @@ impl Crosstalk {
             let (energy, pose) = self.traps[row.min(column) % m]?;
             return Some(StrongestContact {
                 faces,
-                kind: Kind::Trap,
+                kind: ContactKind::Trap,
                 energy,
                 lower: None,
                 pose: if row < m { pose } else { exchanged(&pose) },
@@ -356,7 +356,7 @@ impl Crosstalk {
         let [i, j] = faces;
         StrongestContact {
             faces,
-            kind: Kind::Wrong,
+            kind: ContactKind::Wrong,
             energy: self.strongest[i][j],
             lower: self.lower.as_ref().map(|lower| lower[i][j]),
             pose: self.poses[i][j],

@@ -122,7 +122,7 @@ fn no_bracket_contradicts_a_finer_grid() {
 
 /// As above with many more designs and a finer grid; takes minutes.
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "slow"]
 fn no_bracket_of_hundreds_contradicts_a_dense_grid() {
     let informative = against_the_grid(of_dipoles, 1000..1400, [40, 40, 36]);
     assert!(informative >= 300, "{informative}");

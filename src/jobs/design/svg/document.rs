@@ -87,7 +87,7 @@ const OFF_ARC_SHARE: f64 = 2e-3;
 
 /// A drawing, read.
 pub(super) struct Drawing {
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<DrawnShape>,
     pub skipped: Vec<Skipped>,
     /// Whether the length of a user unit is known; if not, it was read as a millimetre.
     pub sized: bool,
@@ -99,7 +99,7 @@ pub(super) struct Drawing {
 
 /// A shape of a drawing.
 #[derive(Clone, Debug)]
-pub(super) struct Shape {
+pub(super) struct DrawnShape {
     /// The element's name.
     pub element: String,
     /// Its own id, those of the groups it is in, and of the elements that use it.
@@ -116,7 +116,7 @@ pub(super) struct Shape {
     pub chord_error: f64,
 }
 
-impl Shape {
+impl DrawnShape {
     /// The shape with chords of another largest distance (m) from its curves.
     pub fn with_chords(&self, chord_error: f64) -> Self {
         Self {
@@ -297,7 +297,7 @@ struct Reader<'a, 'd> {
     /// Whether the drawing has a style sheet, which may paint any shape.
     styled: bool,
     by_id: HashMap<&'d str, Node<'d, 'd>>,
-    shapes: Vec<Shape>,
+    shapes: Vec<DrawnShape>,
     skipped: Vec<Skipped>,
 }
 
@@ -534,7 +534,7 @@ impl<'d> Reader<'_, 'd> {
             self.skipped.push((span(node), note));
             return Ok(());
         }
-        self.shapes.push(Shape {
+        self.shapes.push(DrawnShape {
             element: node.tag_name().name().to_owned(),
             ids: context.ids.clone(),
             span: span(node),

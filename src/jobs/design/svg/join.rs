@@ -6,7 +6,7 @@ use kurbo::{Point, Vec2};
 use super::super::quantity::four_digits;
 use super::super::source::Source;
 use super::SAME_POINT;
-use super::document::{Line, Segment, Shape};
+use super::document::{DrawnShape, Line, Segment};
 use super::line::apart;
 
 /// Widest gap that is closed (m): half the kerf of laser cutters.
@@ -23,7 +23,7 @@ const MOST_LINES: usize = 10_000;
 
 /// The lines of some shapes, joined where their ends meet, and the allowed width of gaps (m).
 /// Visible gaps are closed with a warning.
-pub(super) fn joined(source: &Source, shapes: &[Shape]) -> (Vec<Line>, f64) {
+pub(super) fn joined(source: &Source, shapes: &[DrawnShape]) -> (Vec<Line>, f64) {
     let all = || shapes.iter().flat_map(|shape| &shape.lines);
     let widest = WIDEST_GAP.min(WIDEST_SHARE * extent(all().flat_map(Line::points)));
     let (closed, open): (Vec<Line>, Vec<Line>) = all()

@@ -6,7 +6,7 @@ use super::super::error::Result;
 use super::super::quantity;
 use super::super::reader::Section;
 use super::super::source::Source;
-use super::document::{Line, Shape};
+use super::document::{DrawnShape, Line};
 use super::simplify::simplified;
 use super::{SAME_POINT, only_line, with_shape};
 use physics::tile::outline::{Outline, OutlineError};
@@ -71,7 +71,7 @@ pub(super) fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// The points of a closed line without its lowest edge, from one end of this edge to the other.
-fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>> {
+fn standing(source: &Source, shape: &DrawnShape, line: &Line) -> Result<Vec<[f64; 2]>> {
     let mut ring: Vec<[f64; 2]> = line.points().collect();
     if apart(ring[0], ring[ring.len() - 1]) <= SAME_POINT {
         ring.pop();
@@ -94,7 +94,7 @@ fn standing(source: &Source, shape: &Shape, line: &Line) -> Result<Vec<[f64; 2]>
 /// also whether they were reversed, and the translation.
 fn on_base_line(
     source: &Source,
-    shape: &Shape,
+    shape: &DrawnShape,
     mut points: Vec<[f64; 2]>,
 ) -> Result<(Polyline, bool, [f64; 2])> {
     let fault = |message: String, help: &str| Err(source.error(shape.span, message, help));

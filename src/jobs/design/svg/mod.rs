@@ -58,7 +58,7 @@ use super::error::{DesignError, Result, Span};
 use super::quantity;
 use super::reader::{Entry, Section, nearest_help};
 use super::source::Source;
-use document::{Drawing, Shape, Skipped};
+use document::{Drawing, DrawnShape, Skipped};
 use path::INCH;
 
 /// Largest distance (m) of two points that are meant to coincide: files are precise to micrometres
@@ -152,7 +152,7 @@ fn user_unit(section: &Section) -> Result<Option<f64>> {
 /// drawing. Lines whose ends meet are joined.
 fn with_shape<T>(
     section: &Section,
-    use_it: impl FnOnce(&Source, &Shape) -> Result<T>,
+    use_it: impl FnOnce(&Source, &DrawnShape) -> Result<T>,
 ) -> Result<T> {
     let file = section.require("file", "give the drawing: file = \"tile.svg\"")?;
     let unit = user_unit(section)?;
@@ -165,19 +165,19 @@ fn with_shape<T>(
             let chosen = chosen.as_deref().unwrap_or(&[]);
             return Err(unsized_error(source, &drawing, chosen));
         }
-        let chosen: Vec<&Shape> = chosen?.iter().map(|&k| &drawing.shapes[k]).collect();
+        let chosen: Vec<&DrawnShape> = chosen?.iter().map(|&k| &drawing.shapes[k]).collect();
         // For the whole shape, which may be drawn in pieces.
         let error = document::chord_error(chosen.iter().flat_map(|shape| &shape.strokes));
-        let drawn = |error| -> Vec<Shape> {
+        let drawn = |error| -> Vec<DrawnShape> {
             let drawn = chosen.iter().map(|shape| shape.with_chords(error));
             drawn.collect()
         };
         let mut shapes = drawn(error);
-        if shapes.iter().map(Shape::points).sum::<usize>() > simplify::MANY {
+        if shapes.iter().map(DrawnShape::points).sum::<usize>() > simplify::MANY {
             // Removing points must not exceed the chord error of any curve.
             shapes = drawn((1.0 - simplify::SHARE) * error);
         }
-        let whole = Shape {
+        let whole = DrawnShape {
             chord_error: error,
             ..merged(source, &shapes)?
         };
@@ -250,7 +250,7 @@ fn choose(source: &Source, drawing: &Drawing, id: Option<Entry>) -> Result<Vec<u
 }
 
 /// One shape of several, their lines joined where they meet.
-fn merged(source: &Source, shapes: &[Shape]) -> Result<Shape> {
+fn merged(source: &Source, shapes: &[DrawnShape]) -> Result<DrawnShape> {
     let (lines, widest) = join::joined(source, shapes);
     let first = &shapes[0];
     if let (2.., [_, second, ..]) = (lines.len(), shapes) {
@@ -282,7 +282,7 @@ fn merged(source: &Source, shapes: &[Shape]) -> Result<Shape> {
             },
         ));
     }
-    Ok(Shape {
+    Ok(DrawnShape {
         lines,
         ..first.clone()
     })
@@ -319,7 +319,7 @@ fn unsized_error(source: &Source, drawing: &Drawing, chosen: &[usize]) -> Design
 }
 
 /// The one line of a shape.
-fn only_line<'a>(source: &Source, shape: &'a Shape) -> Result<&'a document::Line> {
+fn only_line<'a>(source: &Source, shape: &'a DrawnShape) -> Result<&'a document::Line> {
     match shape.lines.as_slice() {
         [line] => Ok(line),
         lines => Err(source.error(

@@ -7,7 +7,7 @@ use super::super::error::Result;
 use super::super::quantity;
 use super::super::reader::Entry;
 use super::super::source::Source;
-use super::document::Shape;
+use super::document::DrawnShape;
 use super::join::extent;
 use super::line::apart;
 use super::simplify::{MANY, simplified};
@@ -91,7 +91,7 @@ fn ring(segments: &Segments) -> Vec<Vector2<f64>> {
 /// The segments of a shape's only closed line relative to the centre of its area, this centre in
 /// the drawing, and its arcs. For a line with very many points, the check that it is a valid
 /// outline is left to its simplified form.
-fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec<Ends>)> {
+fn closed(source: &Source, shape: &DrawnShape) -> Result<(Segments, Vector2<f64>, Vec<Ends>)> {
     let line = only_line(source, shape)?;
     let fault = |message: String, help: &str| source.error(shape.span, message, help);
     let mut segments: Segments = Vec::new();
@@ -154,7 +154,7 @@ fn closed(source: &Source, shape: &Shape) -> Result<(Segments, Vector2<f64>, Vec
 }
 
 /// The outline of a drawn ring.
-fn sound(source: &Source, shape: &Shape, ring: Vec<Vector2<f64>>) -> Result<Outline> {
+fn sound(source: &Source, shape: &DrawnShape, ring: Vec<Vector2<f64>>) -> Result<Outline> {
     Outline::new(ring.clone()).map_err(|error| {
         let message = match error {
             OutlineError::SelfCrossing(i, j) => {

@@ -3,7 +3,7 @@
 use super::super::error::Result;
 use super::super::quantity::four_digits;
 use super::super::source::Source;
-use super::document::Shape;
+use super::document::DrawnShape;
 
 /// Lines and outlines with more points than this are simplified: the time to split an outline into
 /// convex parts grows with the cube of its points.
@@ -28,7 +28,7 @@ pub(super) const SHARE: f64 = 0.5;
 /// If there are too many points before or after.
 pub(super) fn simplified<P: Copy + Into<[f64; 2]>>(
     source: &Source,
-    shape: &Shape,
+    shape: &DrawnShape,
     lines: Vec<Vec<P>>,
 ) -> Result<Vec<Vec<P>>> {
     // Several lines surround a tile, each ending where the next begins.

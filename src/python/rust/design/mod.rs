@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 use pyo3::prelude::*;
 use tilebind::design::{Design as Whole, MagnetModel};
 use tilebind::problem::Problem;
-use tilebind::sweep::Source;
+use tilebind::sweep::DesignSource;
 use tilebind::tile::Tile;
 
 use crate::fault;
@@ -18,7 +18,7 @@ use crate::fault;
 /// A design with its source and its problems.
 pub struct Content {
     /// Its text, with the drawings that it names.
-    pub source: Source,
+    pub source: DesignSource,
     /// The tiles.
     pub design: Whole,
     /// The problems with magnets as dipoles and as blocks, created on first use.
@@ -26,7 +26,7 @@ pub struct Content {
 }
 
 impl Content {
-    fn new((source, design): (Source, Whole)) -> Arc<Self> {
+    fn new((source, design): (DesignSource, Whole)) -> Arc<Self> {
         Arc::new(Self {
             source,
             design,
@@ -80,7 +80,7 @@ pub struct Design {
 impl Design {
     pub(super) fn read(
         py: Python<'_>,
-        read: Result<(Source, Whole), tilebind::design::DesignError>,
+        read: Result<(DesignSource, Whole), tilebind::design::DesignError>,
     ) -> PyResult<Self> {
         read.map(|read| Self {
             content: Content::new(read),
@@ -89,7 +89,7 @@ impl Design {
     }
 
     /// A design from a source.
-    pub fn of_source(py: Python<'_>, source: Source) -> PyResult<Self> {
+    pub fn of_source(py: Python<'_>, source: DesignSource) -> PyResult<Self> {
         let design = source.design();
         Self::read(py, design.map(|design| (source, design)))
     }

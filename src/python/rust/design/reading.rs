@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyMapping};
 use tilebind::checksum::sha256;
 use tilebind::design::DesignError;
 use tilebind::start;
-use tilebind::sweep::Source;
+use tilebind::sweep::DesignSource;
 
 use super::Design;
 use crate::request::request;
@@ -37,7 +37,7 @@ impl Design {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         fault::if_missing(&path)?;
-        let read = py.detach(|| Source::read(&path));
+        let read = py.detach(|| DesignSource::read(&path));
         Self::read(py, read)
     }
 
@@ -61,7 +61,7 @@ impl Design {
     #[staticmethod]
     #[pyo3(signature = (text, *, file = "design.toml"))]
     fn loads(py: Python<'_>, text: &str, file: &str) -> PyResult<Self> {
-        let read = py.detach(|| Source::of_text(text, file));
+        let read = py.detach(|| DesignSource::of_text(text, file));
         Self::read(py, read)
     }
 

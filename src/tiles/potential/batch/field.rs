@@ -13,7 +13,7 @@ use crate::potential::simd::lanes::Arithmetic;
 
 /// A dipole of the fixed tile: place (m), scaled moment (sqrt(J m^3)) and three times that.
 #[derive(Clone, Copy, Debug)]
-pub struct Source {
+pub struct FieldDipole {
     pub position: [f64; 2],
     pub moment: [f64; 2],
     pub thrice: [f64; 2],
@@ -21,7 +21,7 @@ pub struct Source {
     pub magnitude: f64,
 }
 
-impl From<&Dipole> for Source {
+impl From<&Dipole> for FieldDipole {
     fn from(dipole: &Dipole) -> Self {
         Self {
             position: dipole.position.into(),
@@ -70,7 +70,7 @@ pub const BATCH: usize = 2;
 #[inline(always)]
 pub fn field<L: Arithmetic, const N: usize, const SLOPE: bool>(
     l: L,
-    sources: &[Source],
+    sources: &[FieldDipole],
     places: &[[L::F; 2]; N],
 ) -> [Field<L::F>; N] {
     let b = Bundle::<L, N, BATCH>(l);

@@ -36,7 +36,7 @@ use crate::configuration::Configuration;
 use crate::tile::Magnet;
 use crate::units::MU0_OVER_4PI;
 use derivative::{DerivativeBound, TabulatedBound};
-use field::{BATCH, Source};
+use field::{BATCH, FieldDipole};
 use patched::Patched;
 use tasks::{InLanes, One};
 
@@ -46,7 +46,7 @@ use tasks::{InLanes, One};
 pub struct DipolePotential {
     level: Level,
     /// The fixed tile's dipoles, in groups of [`BATCH`].
-    sources: Vec<Source>,
+    sources: Vec<FieldDipole>,
     /// The moving tile's dipoles, in groups of the number of lanes.
     moving: Moving,
     lever: Lever,
@@ -124,7 +124,7 @@ impl DipolePotential {
         let column = |value: fn(&Dipole) -> f64| lanes.iter().map(value).collect();
         Self {
             level,
-            sources: sources.iter().map(Source::from).collect(),
+            sources: sources.iter().map(FieldDipole::from).collect(),
             moving: Moving {
                 count: moving.len(),
                 x: column(|d| d.position.x),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::DipolePotential;
-use super::field::{Frame, Shares, Source, field, pair_of};
+use super::field::{FieldDipole, Frame, Shares, field, pair_of};
 use crate::configuration::Configuration;
 use crate::potential::finite;
 use crate::potential::groups::walk::{Leeway, Walk};
@@ -69,7 +69,7 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         &self,
         l: L,
         frame: &Frame<L::F>,
-        sources: &[Source],
+        sources: &[FieldDipole],
         moving: Range<usize>,
         shares: &mut Shares<L::F>,
     ) {
@@ -91,7 +91,7 @@ impl<const SLOPE: bool> One<'_, SLOPE> {
         &self,
         l: L,
         frame: &Frame<L::F>,
-        sources: &[Source],
+        sources: &[FieldDipole],
         first: usize,
         shares: &mut Shares<L::F>,
     ) {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::field::{BATCH, Source, field};
+use super::field::{BATCH, FieldDipole, field};
 use crate::potential::simd::lanes::Arithmetic;
 
 #[path = "../../../../tests/bench/operations.rs"]
@@ -29,7 +29,7 @@ fn check<const SLOPE: bool>() {
 
 fn of_field<const SLOPE: bool>(sources: usize) -> Operations {
     let counted = Cell::default();
-    let source = Source {
+    let source = FieldDipole {
         position: [0.0; 2],
         moment: [0.0; 2],
         thrice: [0.0; 2],

@@ -12,10 +12,10 @@ use super::x86::{Avx2, Avx512};
 
 /// An instruction set of this machine. Results are the same bits with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Level(Kind);
+pub struct Level(InstructionSet);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum InstructionSet {
     #[cfg(any(not(target_arch = "x86_64"), test, feature = "portable"))]
     Portable(Portable),
     #[cfg(target_arch = "x86_64")]
@@ -37,11 +37,11 @@ impl Level {
     pub fn available() -> Vec<Self> {
         let mut levels = Vec::new();
         #[cfg(any(not(target_arch = "x86_64"), test, feature = "portable"))]
-        levels.push(Self(Kind::Portable(Portable)));
+        levels.push(Self(InstructionSet::Portable(Portable)));
         #[cfg(target_arch = "x86_64")]
         {
-            levels.extend(Avx2::detect().map(|lanes| Self(Kind::Avx2(lanes))));
-            levels.extend(Avx512::detect().map(|lanes| Self(Kind::Avx512(lanes))));
+            levels.extend(Avx2::detect().map(|lanes| Self(InstructionSet::Avx2(lanes))));
+            levels.extend(Avx512::detect().map(|lanes| Self(InstructionSet::Avx512(lanes))));
         }
         levels
     }
@@ -70,11 +70,11 @@ impl Level {
     pub fn word(self) -> &'static str {
         match self.0 {
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx512(_) => WORDS[0],
+            InstructionSet::Avx512(_) => WORDS[0],
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(_) => WORDS[1],
+            InstructionSet::Avx2(_) => WORDS[1],
             #[cfg(any(not(target_arch = "x86_64"), test, feature = "portable"))]
-            Kind::Portable(_) => PORTABLE,
+            InstructionSet::Portable(_) => PORTABLE,
         }
     }
 
@@ -89,11 +89,11 @@ impl Level {
         }
         match self.0 {
             #[cfg(any(not(target_arch = "x86_64"), test, feature = "portable"))]
-            Kind::Portable(lanes) => lanes.run(task),
+            InstructionSet::Portable(lanes) => lanes.run(task),
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx2(lanes) => lanes.run(task),
+            InstructionSet::Avx2(lanes) => lanes.run(task),
             #[cfg(target_arch = "x86_64")]
-            Kind::Avx512(lanes) => lanes.run(task),
+            InstructionSet::Avx512(lanes) => lanes.run(task),
         }
     }
 }
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn levels_that_are_not_there_are_named_with_those_that_are() {
-        let there = [Level(Kind::Portable(Portable))];
+        let there = [Level(InstructionSet::Portable(Portable))];
         assert_eq!(choose(&there, None), Ok(there[0]));
         assert_eq!(choose(&there, Some(OsStr::new(PORTABLE))), Ok(there[0]));
         for (asked, why) in [("avx512", "lacks"), ("sse2", "not an instruction set")] {
