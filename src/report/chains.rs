@@ -80,10 +80,14 @@ pub(crate) fn notes(built: &Rows) -> Vec<String> {
         .closings
         .iter()
         .map(|it| {
+            // Without counted attachments the rate is not known.
+            let rate = match it.rate > 0.0 {
+                true => format!("{} /s", plain(it.rate, 2)),
+                false => "an unknown rate".to_owned(),
+            };
             format!(
-                "a chain of {} closes to a ring at {} /s, as its ends are as near as in {}",
+                "a chain of {} closes to a ring at {rate}, as its ends are as near as in {}",
                 it.size,
-                plain(it.rate, 2),
                 area(it.area)
             )
         })

@@ -30,12 +30,13 @@ pub struct Named {
 }
 
 impl Named {
-    /// The kind of a tile without a name, if there is only one kind.
+    /// The kind of a tile without a name, if all are equal: in different frames, that of the fixed one.
     pub fn only(&self) -> Option<usize> {
-        match self.kinds[..] {
-            [[one, other]] if one == other => Some(one),
-            _ => None,
-        }
+        let mut aliases = self.aliases.iter();
+        let tile = aliases
+            .find(|it| it.0 == "tile")
+            .filter(|_| self.kinds.len() == 1);
+        tile.map(|it| it.1)
     }
 }
 

@@ -103,9 +103,7 @@ fn counts(given: &[usize], about: &About, crowd: &Crowd) -> Option<Vec<usize>> {
         2 => given.repeat(kinds.len()),
         many if many == 2 * kinds.len() => given.to_vec(),
         // Equal tiles in different frames: all of them are drawn as the fixed one.
-        1 if kinds.len() == 1 && about.named.aliases.iter().any(|it| it.0 == "tile") => {
-            return Some(vec![given[0], 0]);
-        }
+        1 if about.named.only().is_some() => return Some(vec![given[0], 0]),
         _ => return None,
     };
     if kinds.is_empty() {

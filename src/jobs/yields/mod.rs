@@ -26,7 +26,7 @@ use attachment::Effort;
 pub use attachment::Source;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
-use physics::dynamics::docking::DockingError;
+use physics::dynamics::docking::{DockingError, MOST_REPEATS};
 use physics::kinetics::bond::volume::NO_PLAY;
 use physics::kinetics::bond::{BondError, Hold, LEAST_DEPTH, Shaking, traps};
 use physics::kinetics::population::Crowd;
@@ -89,7 +89,7 @@ impl Question {
     }
 }
 
-/// About how long (s on one core) the docking runs at all kT take; `None` if that are seconds.
+/// About how long (s on one core) the docking runs at all kT take at most; `None` if that are seconds.
 ///
 /// # Errors
 /// As [`yields`].
@@ -103,7 +103,11 @@ pub fn expected(design: &Design, question: &Question) -> Result<Option<f64>, Yie
     }
     let runs = effort.runs_at(hottest, question.seed);
     let one = docking::expected(&design.problem(), &runs)?;
-    Ok(one.map(|one| one * kts.len() as f64))
+    let repeats = match effort.attachments {
+        0 => 1,
+        _ => MOST_REPEATS,
+    };
+    Ok(one.map(|one| one * (repeats * kts.len()) as f64))
 }
 
 /// A number of tiles, half of each kind.

@@ -13,6 +13,7 @@ use crate::dynamics::thermal_velocity;
 use crate::rigid::{Motion, Mover, Pose};
 use tiles::configuration::{Configuration, wrap_angle};
 use tiles::tile::outline::Bounds;
+use tiles::units::si;
 
 /// Smallest distance of randomly placed tiles from each other and from the rim, as a share of the
 /// smallest circumradius.
@@ -61,7 +62,7 @@ pub enum StartError {
         share: f64,
     },
     /// Two of the given tiles overlap.
-    #[error("tiles {first} and {second} overlap by {depth:.3e} m")]
+    #[error("tiles {first} and {second} overlap by {}", si(*depth, "m", 3))]
     Overlap {
         /// Its number, from 0.
         first: usize,

@@ -371,6 +371,41 @@ fn targets_are_found_and_impossible_ones_refused() {
     }
 }
 
+/// Equal tiles that are drawn in different frames need no kinds in a start file either.
+#[test]
+fn starts_of_equal_tiles_need_no_kinds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [design, start] =
+        ["turned.toml", "start.csv"].map(|name| folder.path().join(name).display().to_string());
+    let tile = "side = 0.05\nthickness = 0.005\nmass = 0.01\n";
+    let of = |west: &str| {
+        let text = format!(
+            "[table]\nsize = [0.3, 0.3]\n[magnet]\nsize = [0.004, 0.004, 0.003]\nremanence = 0.6\npitch = 0.016\n\
+             inset = 0.002\n[fixed]\n{tile}[fixed.faces]\neast = {{ code = \"NS\" }}\n[moving]\n{tile}\
+             [moving.faces]\nwest = {{ {west} }}\n[target]\nfixed = \"east\"\nmoving = \"west\"\n"
+        );
+        std::fs::write(&design, text).unwrap();
+        std::fs::write(
+            &start,
+            "tile,x,y,theta,vx,vy,omega\n0,0,0,0,0,0,0\n1,0.05,0,3.14159265,0,0,0\n",
+        )
+        .unwrap();
+        tilebind(&[
+            "table", &design, "--start", &start, "--time", "0.01", "--json",
+        ])
+    };
+    let found: Value = serde_json::from_str(&stdout(&of("mates = \"east\""))).unwrap();
+    assert_eq!(found["bonds"]["mean"], 1.0);
+    // Tiles of two kinds need them.
+    let output = of("code = \"N.S\"");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("no column `kind`"),
+        "{}",
+        stderr(&output)
+    );
+}
+
 /// What to do about faces that cannot bind their own kind names faces of the one tile.
 #[test]
 fn advice_for_one_kind_can_be_followed() {

@@ -9,7 +9,7 @@ mod release;
 mod results;
 mod starts;
 
-pub use arrival::{Arrival, Arrivals, Caught, arrivals};
+pub use arrival::{Arrival, Arrivals, Caught, MOST_REPEATS, arrivals};
 use experiment::Experiment;
 pub(super) use experiment::{minimum_below, out_of_contact};
 pub use map::{DockingMap, MapCell};
