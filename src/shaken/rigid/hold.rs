@@ -148,6 +148,12 @@ impl Hold {
         self.tiles == other.tiles && self.axis.dot(&other.axis) > ALIKE
     }
 
+    /// How far (m) two points of the same tiles are apart on both, by the table's directions.
+    pub fn apart(&self, other: &Self) -> f64 {
+        let sides = self.arms.iter().zip(&other.arms);
+        sides.map(|(one, other)| (one - other).norm()).sum()
+    }
+
     /// The work (J) of the impulses where the velocities change from `before` to `after`: each
     /// impulse times the mean of both rates.
     pub fn work(&self, before: &[Vector3<f64>], after: &[Vector3<f64>]) -> f64 {

@@ -17,6 +17,7 @@
 //! [knock](super::knock).
 
 use nalgebra::{Vector2, Vector3};
+use ordered_float::OrderedFloat;
 
 use super::World;
 use super::account::Account;
@@ -229,7 +230,7 @@ impl<W: World> Island<'_, W> {
         for (two, near) in &mut self.pairs {
             let tiles = [two.first, two.second];
             let movers = tiles.map(|k| mover(riders, &self.still, k));
-            let (energy, pulls) = near.pull(world, movers, tiles.map(|k| &poses[k]));
+            let (energy, pulls) = near.pull(world, movers, tiles.map(|k| &poses[k]), self.margins);
             potential += energy;
             let mut acceleration = 0.0;
             for ((tile, mover), pull) in tiles.into_iter().zip(movers).zip(pulls) {
@@ -501,7 +502,13 @@ impl<W: World> Island<'_, W> {
     ) -> Result<Each<Vector3<f64>>, Unsolved> {
         let free = state.halfway(h);
         // By how much the gaps at the end differ from a linear forecast (m).
-        let mut bends: Points<f64> = holds.iter().map(|_| 0.0).collect();
+        let bent = |hold: &Hold, way: &[Vector3<f64>]| {
+            let linear = hold.gap + h * hold.rate(way);
+            hold.gap_after(way, h, self.margins.skin) - linear
+        };
+        // Tiles turn much as they did.
+        let bends = holds.iter().map(|hold| bent(hold, &state.velocities));
+        let mut bends: Points<f64> = bends.collect();
         for _ in 0..FORECASTS {
             for (hold, bend) in holds.iter_mut().zip(&bends) {
                 // Overlaps within the skin stay as they are: to undo them would add energy.
@@ -514,7 +521,7 @@ impl<W: World> Island<'_, W> {
             let mut change: f64 = 0.0;
             for (hold, bend) in holds.iter().zip(&mut bends) {
                 let linear = hold.gap + h * hold.rate(&way);
-                let now = hold.gap_after(&way, h, self.margins.skin) - linear;
+                let now = bent(hold, &way);
                 if hold.is_held() || linear + now < hold.gap.min(0.0) {
                     change = change.max((now - *bend).abs());
                     *bend = now;
@@ -587,9 +594,11 @@ impl<W: World> Island<'_, W> {
         // nor those that bounced within it.
         let lasts = |hold: &Hold| {
             let slow = self.slow(&next, hold);
-            held.iter().any(|it| it.is_like(hold))
-                && hold.rate(&way) >= -slow
-                && hold.rate(&state.velocities) <= slow
+            let like = state.holds.iter().filter(|it| it.is_like(hold));
+            let same = like.min_by_key(|it| OrderedFloat(it.apart(hold)));
+            // By its normal at the start: where tiles turn together, that at the end would show a bounce.
+            let bounced = same.is_some_and(|it| it.rate(&state.velocities) > slow);
+            held.iter().any(|it| it.is_like(hold)) && hold.rate(&way) >= -slow && !bounced
         };
         let mut holds: Vec<Hold> = next.holds.iter().filter(|it| lasts(it)).copied().collect();
         for hold in &mut holds {

@@ -1,14 +1,18 @@
 //! Two tiles that are near each other, and tiles at the rim: their pull and their contact points.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
 use super::World;
 use super::margins::Margins;
 use super::mover::Mover;
-use super::pair::{Pose, Pull, Two, pull};
+use super::pair::{Pose, Pull, Two, Within, on_the_table};
 use tiles::configuration::Configuration;
 use tiles::contact::{Contact, ContactPoint, NearPairs};
 use tiles::tile::outline::cross;
+
+/// The motion, in skins, over which a pull counts as the same. A force changes over a magnet's half side l: its
+/// error is at most of the order of this over l, 2e-5 for the paper's tile, and the energy's half the square.
+const SAME_PULL: f64 = 0.3;
 
 /// Two tiles that are near each other, with the state of their contact.
 #[derive(Debug)]
@@ -24,8 +28,8 @@ pub struct NearPair {
     /// The tiles are apart by at least this (m) at `room_at`.
     pub last_room: f64,
     room_at: Configuration,
-    /// The last places of both tiles, and their pull there.
-    pulled: Option<([Vector3<f64>; 2], Pull)>,
+    /// A pose of the second tile in the first one's frame, and the pull there.
+    pulled: Option<(Configuration, Within)>,
     /// The last contact points.
     pub held: Vec<Touch>,
     /// The last points, with the pose and the margin (m) that they are of.
@@ -59,18 +63,28 @@ impl NearPair {
         }
     }
 
-    /// The pull of the tiles on each other, which is known from the end of the last step unless one
-    /// has moved since.
-    pub fn pull(&mut self, world: &impl World, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
-        let places = movers.map(|mover| mover.place);
-        match self.pulled {
-            Some((at, known)) if at == places => known,
-            _ => {
-                let found = pull(world, movers, poses);
-                self.pulled = Some((places, found));
-                found
-            }
+    /// The pull of the tiles on each other. Force and torque stay as they are, and the energy changes linearly,
+    /// until a point of the second tile has moved by [`SAME_PULL`] relative to the first: tiles that hold each
+    /// other move by less.
+    pub fn pull(
+        &mut self,
+        world: &impl World,
+        movers: [&Mover; 2],
+        poses: [&Pose; 2],
+        margins: &Margins,
+    ) -> Pull {
+        let kinds = movers.map(|it| it.kind);
+        let q = poses[0].to(&poses[1].at);
+        if let Some((at, (energy, force, torque))) = self.pulled
+            && moved(world.contact(kinds), [&at, &q]) <= SAME_PULL * margins.skin
+        {
+            let step = at.step_to(&q);
+            let energy = energy - force.dot(&step.xy()) - torque * step.z;
+            return on_the_table((energy, force, torque), movers, poses);
         }
+        let found = world.pull(kinds, &q);
+        self.pulled = Some((q, found));
+        on_the_table(found, movers, poses)
     }
 
     /// The last forces (N) at a point, in the first tile's frame.

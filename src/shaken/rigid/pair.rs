@@ -71,13 +71,27 @@ impl Two {
     }
 }
 
+/// The energy (J) of two tiles, the force (N) on the second in the frame of the first and the torque (N m)
+/// about its reference point.
+pub type Within = (f64, Vector2<f64>, f64);
+
 /// The energy (J) of two tiles, and the force and torque on each about its centre of mass (N, N,
 /// N m).
 pub type Pull = (f64, [Vector3<f64>; 2]);
 
 /// The pull of two tiles on each other, in the order of a [`Two`].
-pub fn pull(world: &impl World, [first, second]: [&Mover; 2], [a, b]: [&Pose; 2]) -> Pull {
-    let (energy, force, torque) = world.pull([first.kind, second.kind], &a.to(&b.at));
+pub fn pull(world: &impl World, movers: [&Mover; 2], poses: [&Pose; 2]) -> Pull {
+    let q = poses[0].to(&poses[1].at);
+    let own = world.pull(movers.map(|it| it.kind), &q);
+    on_the_table(own, movers, poses)
+}
+
+/// The same on the table, from that in the frame of the first.
+pub fn on_the_table(
+    (energy, force, torque): Within,
+    [first, second]: [&Mover; 2],
+    [a, b]: [&Pose; 2],
+) -> Pull {
     let force: Vector2<f64> = a.rotation * force;
     let arm = |mover: &Mover| b.at.position() - mover.place.xy();
     // The forces are equal and opposite, and so are their torques about any one point.

@@ -55,7 +55,7 @@ pub struct Cutoff {
     pub left_out: f64,
 }
 
-/// The error of each pair of discs or upright magnets, as a share of their dipoles' energy.
+/// The error of each pair of magnets whose energy is interpolated, as a share of their dipoles' energy.
 const INTERPOLATED: f64 = 1e-5;
 
 /// Number of directions and of orientations sampled for the cut-off.

@@ -16,6 +16,9 @@ use tiles::parallel;
 
 /// Islands per task of a thread.
 const BATCH: usize = 8;
+/// Islands are shared among threads if they and their pairs are this many: for less than some hundred
+/// microseconds of work, threads wait longer than they work.
+const WORTH_SHARING: usize = 64;
 /// Pairs apart per task of a thread.
 const APART_TOGETHER: usize = 64;
 /// Usual travel of a tile in a step, as a share of the distance that counts as near; faster tiles are
@@ -25,6 +28,12 @@ const SHARE_OF_NEAR: f64 = 0.25;
 const MOST_OF_NEAR: f64 = 2.0;
 /// Pairs are tied if their tiles may come this near in a step, as a share of the same distance.
 const SHARE_TIED: f64 = 0.1;
+/// The pull of two tiles that are not near each other is computed anew after this many steps ...
+const MOST_STEPS: f64 = 16.0;
+/// ... or once they have moved by this share of the distance of their circles, over which it changes ...
+const SHARE_OF_ROOM: f64 = 0.02;
+/// ... and which counts as this share of the circles' radii at least.
+const LEAST_ROOM: f64 = 0.1;
 
 /// Why a run cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -89,6 +98,9 @@ struct Scratch {
     apart: Vec<Apart>,
     /// The near pairs of the step before.
     known: Vec<NearPair>,
+    /// The pulls of pairs apart, in their order, and those of the step before.
+    lasting: Vec<Lasting>,
+    lasted: Vec<Lasting>,
 }
 
 /// A pair of tiles that do not touch within the step.
@@ -96,6 +108,19 @@ struct Apart {
     two: Two,
     /// The pair's index if it is near.
     near: Option<usize>,
+    /// By this distance (m) the pull changes little if the tiles move relative to each other.
+    room: f64,
+}
+
+/// The pull of two tiles apart for some steps, of the middle of their way in this time.
+#[derive(Clone, Copy)]
+struct Lasting {
+    two: Two,
+    pulls: [Vector3<f64>; 2],
+    /// The places of both at the first of the steps.
+    at: [Vector3<f64>; 2],
+    /// The number of steps that it is for, with this one.
+    steps: usize,
 }
 
 /// A tile became too fast for the step.
@@ -272,11 +297,7 @@ impl<'a> Stepper<'a> {
         let Scratch { movers, poses, .. } = scratch;
         refill(movers, self.riders.iter().map(|it| it.mover));
         refill(poses, movers.iter().map(|it| Pose::of(crowd, it)));
-        let halfway = movers.iter().map(|mover| {
-            let place = mover.place + mover.velocity * (0.5 * h);
-            let mover = Mover { place, ..*mover };
-            (mover, Pose::of(crowd, &mover))
-        });
+        let halfway = movers.iter().map(|mover| ahead(crowd, mover, 0.5 * h));
         refill(&mut scratch.halfway, halfway);
         scratch.carried = self.drive.carry(self.time + 0.5 * h);
         let steady = scratch.carried.push(0.0);
@@ -302,7 +323,6 @@ impl<'a> Stepper<'a> {
         apart.clear();
         for &[i, j] in pairs {
             let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
-            let key = |two: &Two| [two.first.min(two.second), two.first.max(two.second)];
             while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
             let kept = known.next_if(|near| near.two == two);
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
@@ -328,7 +348,9 @@ impl<'a> Stepper<'a> {
             }
             if !is_tied && (is_near || distance <= couple.cutoff.to + near) {
                 let near = is_near.then(|| self.near.len() - 1);
-                apart.push(Apart { two, near });
+                let room = (distance - couple.radii()).max(LEAST_ROOM * couple.radii());
+                let room = SHARE_OF_ROOM * room;
+                apart.push(Apart { two, near, room });
             }
         }
     }
@@ -337,16 +359,67 @@ impl<'a> Stepper<'a> {
     /// whose forces are too strong for the step.
     fn pull_apart(&mut self, scratch: &mut Scratch) {
         let crowd = self.crowd;
-        let (apart, halfway) = (&scratch.apart, &scratch.halfway);
-        let parts: Vec<&[Apart]> = apart.chunks(APART_TOGETHER).collect();
+        let h = self.settings.step;
+        let Scratch {
+            apart,
+            halfway,
+            movers,
+            lasting,
+            lasted,
+            ..
+        } = scratch;
+        std::mem::swap(lasting, lasted);
+        lasting.clear();
+        let mut lasted = lasted.iter().peekable();
+        let mut new = Vec::new();
+        for Apart { two, near, room } in apart.iter() {
+            while lasted.next_if(|it| key(&it.two) < key(two)).is_some() {}
+            let known = lasted.next_if(|it| it.two == *two);
+            let [first, second] = [two.first, two.second].map(|k| &movers[k]);
+            let at = [first.place, second.place];
+            // A turn of either tile moves the other one's magnets in its frame.
+            let moved = |from: &[Vector3<f64>; 2]| {
+                let [a, b] = [0, 1].map(|k| at[k] - from[k]);
+                let [first, second] = [first, second].map(|it| crowd.kinds[it.kind].reach);
+                (b - a).xy().norm() + first * a.z.abs() + second * b.z.abs()
+            };
+            // Those that are near may have to be tied.
+            let known = known.filter(|it| it.steps > 1 && near.is_none() && moved(&it.at) <= *room);
+            if let Some(known) = known {
+                lasting.push(Lasting {
+                    steps: known.steps - 1,
+                    ..*known
+                });
+                continue;
+            }
+            let speeds = [first, second].map(|it| fastest(crowd, it, &it.velocity));
+            let steps = room / ((speeds[0] + speeds[1]) * h).max(f64::MIN_POSITIVE);
+            let most = if near.is_some() { 1.0 } else { MOST_STEPS };
+            new.push(lasting.len());
+            lasting.push(Lasting {
+                two: *two,
+                pulls: Default::default(),
+                at,
+                steps: steps.clamp(1.0, most) as usize,
+            });
+        }
+        let parts: Vec<&[usize]> = new.chunks(APART_TOGETHER).collect();
         let pulls = parallel::flat_map(&parts, |part| {
-            let pull_of = |Apart { two, .. }: &Apart| {
-                let [(first, a), (second, b)] = [two.first, two.second].map(|k| &halfway[k]);
-                pull(crowd, [first, second], [a, b]).1
+            let pull_of = |k: &usize| {
+                let Lasting { two, steps, .. } = &lasting[*k];
+                let middle = |tile: usize| match steps {
+                    1 => halfway[tile],
+                    _ => ahead(crowd, &movers[tile], 0.5 * *steps as f64 * h),
+                };
+                let [(first, a), (second, b)] = [two.first, two.second].map(middle);
+                pull(crowd, [&first, &second], [&a, &b]).1
             };
             part.iter().map(pull_of).collect::<Vec<_>>()
         });
-        for (Apart { two, near }, pulls) in apart.iter().zip(pulls) {
+        for (k, pulls) in new.into_iter().zip(pulls) {
+            lasting[k].pulls = pulls;
+        }
+        for (Apart { two, near, .. }, Lasting { pulls, .. }) in apart.iter().zip(&*lasting) {
             let tiles = [two.first, two.second];
             let own = [0, 1].map(|side| pulls[side].component_div(&self.masses[tiles[side]]));
             if let Some(near) = near.map(|k| &mut self.near[k]) {
@@ -424,8 +497,13 @@ impl<'a> Stepper<'a> {
             };
             islands[number[top]].pairs.push((two, near));
         }
-        let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(BATCH).collect();
-        parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
+        let work: usize = islands.iter().map(|it| 1 + it.pairs.len()).sum();
+        if work < WORTH_SHARING {
+            islands.iter_mut().for_each(Island::advance);
+        } else {
+            let mut parts: Vec<&mut [Island<Crowd>]> = islands.chunks_mut(BATCH).collect();
+            parallel::for_each(&mut parts, |part| part.iter_mut().for_each(Island::advance));
+        }
         for (island, members) in islands.into_iter().zip(members) {
             self.account.add(&island.account);
             self.steps += island.steps;
@@ -494,6 +572,18 @@ impl<'a> Stepper<'a> {
         let speed = rider.mover.velocity.xy().norm() + h * steady.xy().norm();
         rim_room(self.crowd, &rider.mover) > 3.0 * speed * h + self.least_near * SHARE_OF_NEAR
     }
+}
+
+/// The tiles of a pair, in the order in which pairs come.
+fn key(two: &Two) -> [usize; 2] {
+    [two.first.min(two.second), two.first.max(two.second)]
+}
+
+/// A tile after a time (s), if nothing acts on it.
+fn ahead(crowd: &Crowd, mover: &Mover, time: f64) -> (Mover, Pose) {
+    let place = mover.place + mover.velocity * time;
+    let mover = Mover { place, ..*mover };
+    (mover, Pose::of(crowd, &mover))
 }
 
 /// Replaces the elements of a vector.

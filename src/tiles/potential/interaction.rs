@@ -35,6 +35,9 @@ use super::{
 use crate::tile::magnet::{Form, Shape};
 use crate::tile::{Magnet, Pair, Tile};
 
+/// Up to this many pairs of blocks are interpolated one by one.
+const FEW_PAIRS: usize = 64;
+
 /// The interaction between two tiles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interaction {
@@ -131,7 +134,9 @@ impl Interaction {
     pub fn in_motion(&self, error: f64, fixed: &Tile, moving: &Tile) -> Box<dyn Potential + Send> {
         let (model, first, second) = (self.model, &fixed.magnets, &moving.magnets);
         let is_of_bodies = model.is_of_bodies(first) || model.is_of_bodies(second);
-        match is_of_bodies && self.shields.is_none() {
+        // Among many blocks most pairs are far apart, and their series are faster together.
+        let is_of_blocks = model == MagnetModel::Cuboid && first.len() * second.len() <= FEW_PAIRS;
+        match (is_of_bodies || is_of_blocks) && self.shields.is_none() {
             true => Box::new(BodyPotential::within(error, model, first, second)),
             false => self.between(fixed, moving).potential,
         }
