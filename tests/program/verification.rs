@@ -70,9 +70,8 @@ fn results_of_dipoles_are_confirmed() {
 fn results_of_other_magnets_and_rules_are_confirmed_as_far_as_they_go() {
     let folder = with_shapes();
     let here = folder.path();
-    let stand = ("axis = \"up\"\nsize = [0.004, 0.010, 0.003]", "0.0");
-    fs::write(here.join("discs.toml"), tab_with("", (DISC, "0.002"))).expect("a design");
-    fs::write(here.join("upright.toml"), tab_with("up", stand)).expect("a design");
+    fs::write(here.join("discs.toml"), tab_with(DISC, "0.002")).expect("a design");
+    fs::write(here.join("upright.toml"), tab_with(UPRIGHT, "0.002")).expect("a design");
     for (design, has_bounds) in [
         ("shapes/upright-discs.toml", true),
         ("shapes/shielded-nearest-face.toml", false),
@@ -83,27 +82,30 @@ fn results_of_other_magnets_and_rules_are_confirmed_as_far_as_they_go() {
     }
 }
 
-/// Those of discs that touch take longest.
+/// Magnets that touch take longest.
 #[test]
 #[ignore = "slow"]
-fn results_of_discs_that_touch_are_confirmed() {
+fn results_of_magnets_that_touch_are_confirmed() {
     let folder = with_shapes();
     let here = folder.path();
-    fs::write(here.join("discs.toml"), tab_with("", (DISC, "0.0"))).expect("a design");
-    is_confirmed(here, "discs.toml", true);
+    for (design, magnet) in [("discs.toml", DISC), ("upright.toml", UPRIGHT)] {
+        fs::write(here.join(design), tab_with(magnet, "0.0")).expect("a design");
+        is_confirmed(here, design, true);
+    }
 }
 
 const DISC: &str = "shape = \"disc\"\ndiameter = 0.01\nheight = 0.003";
+const UPRIGHT: &str = "axis = \"up\"\nsize = [0.004, 0.010, 0.003]";
 
 /// The shipped tab with other magnets, at an inset (m).
-fn tab_with(axis: &str, (magnet, inset): (&str, &str)) -> String {
+fn tab_with(magnet: &str, inset: &str) -> String {
     let text = fs::read_to_string("shapes/tab-20mm.toml").expect("a design");
     let [size, flush] = ["size = [0.010, 0.010, 0.003]", "inset = 0.0"];
     assert!(text.contains(size) && text.contains(flush));
     let text = text.replace(size, magnet);
     let text = text.replace(flush, &format!("inset = {inset}"));
-    match axis {
-        "up" => text.replace('N', "U").replace('S', "D"),
+    match magnet {
+        UPRIGHT => text.replace('N', "U").replace('S', "D"),
         _ => text,
     }
 }

@@ -65,6 +65,7 @@ const ASKED: [&str; 15] = [
 ];
 
 #[test]
+#[ignore = "slow"]
 fn every_way_to_write_one_kind_gives_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let [new, others @ ..] = written();
@@ -457,6 +458,7 @@ fn advice_for_one_kind_can_be_followed() {
 
 /// A table that starts with its ring closed has four bonds that no prediction for single tiles has.
 #[test]
+#[ignore = "slow"]
 fn a_comparison_can_disagree() {
     let folder = tempfile::tempdir().unwrap();
     let [design, start] =
