@@ -111,8 +111,8 @@
 //! `cargo check --all-targets` reports mistakes within seconds. `cargo run --profile quick --
 //! analyse ...` and `cargo test --profile quick --test landscape -- seam` build incrementally (into
 //! `target/quick`); the program is then half as fast as a release build, so measure the latter. A
-//! release build takes 8 s after an edit in `src/cli`, 26 s after one in `src/report` and 75 s
-//! after one in `src/physics` (two cores).
+//! release build takes 8 s after an edit in `src/cli`, 26 s after one in `src/report` and 88 s
+//! after one in `src/landscape` (two cores).
 //!
 //! `cargo test --release -- --ignored` runs the tests that take minutes; `.ci/run` does so as well.
 //!
