@@ -278,8 +278,13 @@ fn in_traps(run: &Run) -> usize {
         .len()
 }
 
+/// The number of tiles, the same in all runs.
+fn tiles_of(runs: &[Run]) -> usize {
+    runs.first().map_or(0, |run| run.movers.len())
+}
+
 fn structures(runs: &[Run]) -> Vec<Built> {
-    let tiles = runs.first().map_or(0, |run| run.movers.len());
+    let tiles = tiles_of(runs);
     let mut found: BTreeMap<(Shape, usize), Vec<(usize, &Structure)>> = BTreeMap::new();
     for (number, run) in runs.iter().enumerate() {
         for it in run.samples.last().into_iter().flat_map(|it| &it.structures) {
@@ -307,7 +312,7 @@ fn structures(runs: &[Run]) -> Vec<Built> {
 /// All runs at the times of the first run's samples; with halved steps the times agree to within a
 /// step.
 fn moments(runs: &[Run]) -> Vec<Moment> {
-    let tiles = runs.first().map_or(0, |run| run.movers.len());
+    let tiles = tiles_of(runs);
     let count = runs.iter().map(|run| run.samples.len()).min().unwrap_or(0);
     (0..count)
         .map(|k| {

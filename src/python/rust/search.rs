@@ -16,7 +16,7 @@ use crate::design::Design;
 use crate::job::Told;
 use crate::request::request;
 use crate::shown::{self, Reduced};
-use crate::sweep::axis;
+use crate::sweep::{axis, design_of};
 use crate::{convert, fault, job, pickle, table};
 
 /// A text, or several.
@@ -180,12 +180,7 @@ impl Search {
         let point = tried.get(index).ok_or_else(|| {
             pyo3::exceptions::PyIndexError::new_err(format!("there are {} points", tried.len()))
         })?;
-        let plan = &self.search.plan;
-        let mut source = plan.designs[point.point.design].clone();
-        for (axis, value) in plan.axes.iter().zip(&point.point.values) {
-            source = source.with(&axis.key, value.toml()).map_err(fault::value)?;
-        }
-        Design::of_source(py, source)
+        design_of(py, &self.search.plan, &point.point)
     }
 }
 

@@ -7,13 +7,22 @@ use std::sync::{Mutex, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use tilebind::report::sweep::Sweep as Swept;
-use tilebind::sweep::{Axis, Outcome, Plan, Request, Value, run as work_on};
+use tilebind::sweep::{Axis, Outcome, Plan, Point, Request, Value, run as work_on};
 
 use crate::design::Design;
 use crate::job::Told;
 use crate::request::request;
 use crate::shown::{self, Reduced};
 use crate::{convert, fault, job, pickle, table};
+
+/// The design of a point of a plan.
+pub fn design_of(py: Python<'_>, plan: &Plan, point: &Point) -> PyResult<Design> {
+    let mut source = plan.designs[point.design].clone();
+    for (axis, value) in plan.axes.iter().zip(&point.values) {
+        source = source.with(&axis.key, value.toml()).map_err(fault::value)?;
+    }
+    Design::of_source(py, source)
+}
 
 /// A key's values.
 pub fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axis> {
@@ -181,12 +190,7 @@ impl Sweep {
         let point = points.get(index).ok_or_else(|| {
             pyo3::exceptions::PyIndexError::new_err(format!("there are {} points", points.len()))
         })?;
-        let source = &self.plan.designs[point.design];
-        let mut source = source.clone();
-        for (axis, value) in self.plan.axes.iter().zip(&point.values) {
-            source = source.with(&axis.key, value.toml()).map_err(fault::value)?;
-        }
-        Design::of_source(py, source)
+        design_of(py, &self.plan, point)
     }
 
     /// Curves over one varied number, maps over two, as SVG documents.

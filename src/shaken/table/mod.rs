@@ -15,7 +15,8 @@
 //! are impulses that obey Coulomb's law. The energy lost in contact is the sum of all impulses times
 //! the mean of the velocities before and after, so that the energy balance checks the motion. The
 //! forces of the other pairs, of fans and of shaking are constant over a step, with their values in
-//! its middle; those of pairs far apart over as many steps as they change little in. Each force acts on both tiles of a pair, so that momentum is conserved up to rounding.
+//! its middle; those of pairs far apart over as many steps as they change little in. Each force acts
+//! on both tiles of a pair, so that momentum is conserved up to rounding.
 //!
 //! # Shaking
 //! Random kicks at fixed times. Each kick, together with the drag since the last one, is an exact

@@ -1,5 +1,7 @@
 //! Advances all tiles step by step, and keeps the energy balance.
 
+use std::iter::Peekable;
+
 use nalgebra::{Vector2, Vector3};
 use petgraph::unionfind::UnionFind;
 use rand_chacha::ChaCha8Rng;
@@ -323,8 +325,7 @@ impl<'a> Stepper<'a> {
         apart.clear();
         for &[i, j] in pairs {
             let two = Two::of([i, j].map(|k| movers[k].kind), [i, j]);
-            while known.next_if(|near| key(&near.two) < [i, j]).is_some() {}
-            let kept = known.next_if(|near| near.two == two);
+            let kept = next_of(&two, &mut known, |near| near.two);
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
             let couple = crowd.couple(first.kind, second.kind).0;
             let distance = (positions[i] - positions[j]).norm();
@@ -373,8 +374,7 @@ impl<'a> Stepper<'a> {
         let mut lasted = lasted.iter().peekable();
         let mut new = Vec::new();
         for Apart { two, near, room } in apart.iter() {
-            while lasted.next_if(|it| key(&it.two) < key(two)).is_some() {}
-            let known = lasted.next_if(|it| it.two == *two);
+            let known = next_of(two, &mut lasted, |it| it.two);
             let [first, second] = [two.first, two.second].map(|k| &movers[k]);
             let at = [first.place, second.place];
             // A turn of either tile moves the other one's magnets in its frame.
@@ -577,6 +577,16 @@ impl<'a> Stepper<'a> {
 /// The tiles of a pair, in the order in which pairs come.
 fn key(two: &Two) -> [usize; 2] {
     [two.first.min(two.second), two.first.max(two.second)]
+}
+
+/// What is known of a pair, in a list whose pairs come in the same order.
+fn next_of<T>(
+    two: &Two,
+    known: &mut Peekable<impl Iterator<Item = T>>,
+    of: impl Fn(&T) -> Two,
+) -> Option<T> {
+    while known.next_if(|it| key(&of(it)) < key(two)).is_some() {}
+    known.next_if(|it| of(it) == *two)
 }
 
 /// A tile after a time (s), if nothing acts on it.
