@@ -151,9 +151,9 @@
 //! install .`.
 
 pub use jobs::{
-    Analysis, Design, Refused, Settings, assembly, bond, calibration, checksum, comparison, design,
-    docking, inspection, matching, memory, output, pipeline, query, rates, request, search, start,
-    sweep, table, text, tolerance, verification, word_sets, workshop, yields,
+    Analysis, Design, Refused, assembly, bond, calibration, checksum, comparison, design, docking,
+    inspection, matching, memory, output, pipeline, query, rates, request, search, start, sweep,
+    table, text, tolerance, verification, word_sets, workshop, yields,
 };
 pub use physics::table as many_bodies;
 pub use physics::{

@@ -86,20 +86,20 @@ impl Analyse {
         let output = Output::folder(&FILES, &self.out).reading(inputs);
         let output = output.forced(self.force.force);
         output.check(|name| extent.may_hold(name))?;
-        let settings = self.request.settings(&design);
-        workload::tell_memory(settings.check_memory())?;
+        let request = self.request.of([&design]);
+        workload::tell_memory(request.check_memory())?;
         self.threads.use_threads()?;
-        workload::tell_of(&design, &settings);
-        workload::tell_time(&design, &settings, self.threads.count());
+        workload::tell_of(&design, &request);
+        workload::tell_time(&design, &request, self.threads.count());
 
         let progress = self.print.progress();
         let show = |first: &Analysis| {
             progress.print(&analysis::unproved(&design, first).text(style::columns()));
         };
-        let is_shown = progress.is_shown() && settings.has_proofs();
+        let is_shown = progress.is_shown() && request.has_proofs();
         let show: Option<&dyn Fn(&Analysis)> = if is_shown { Some(&show) } else { None };
         let problem = design.problem();
-        let analysis = pipeline::analyse_showing(&design, problem, &settings, &progress, show);
+        let analysis = pipeline::analyse_showing(&design, problem, &request, &progress, show);
         progress.stage("pictures", 0.95);
         let scene = Scene::new(&design, &analysis.problem, &analysis.catalogue);
         let wall = start.elapsed().as_secs_f64();

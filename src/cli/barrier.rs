@@ -69,10 +69,11 @@ impl Barrier {
             )));
         }
         let progress = Progress::new(self.quiet);
-        let query = self.request.query(&design, &progress);
-        workload::tell_memory(query.settings.check_memory())?;
+        let query = self.request.seated(&design, &progress);
+        let analysis = query.analysis(&design);
+        workload::tell_memory(analysis.check_memory())?;
         self.threads.use_threads()?;
-        workload::tell_of(&design, &query.settings);
+        workload::tell_of(&design, &analysis);
         let answer = query::barrier(&design, &query, &progress).map_err(Failure::of)?;
         progress.finish();
         if let Some(pathway) = pathway {

@@ -60,12 +60,12 @@ impl Compare {
             .request
             .check_ranking(self.by)
             .map_err(Failure::usage)?;
-        let settings = question.request.settings(question.seed);
-        workload::tell_memory(settings.check_memory())?;
+        let analysis = question.request.analysis(question.seed);
+        workload::tell_memory(analysis.check_memory())?;
         self.threads.use_threads()?;
         designs
             .iter()
-            .for_each(|design| workload::tell_of(design, &settings));
+            .for_each(|design| workload::tell_of(design, &analysis));
 
         let progress = self.results.progress();
         let assessments = assess_all(&designs, &question, &progress);

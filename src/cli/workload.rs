@@ -3,30 +3,35 @@
 
 use std::collections::BTreeSet;
 
+use tilebind::Design;
+use tilebind::pipeline::Request;
 use tilebind::potential::MagnetModel;
 use tilebind::tile::Tile;
 use tilebind::units::{duration, si};
-use tilebind::{Design, Settings};
 
 use super::{Failure, tell};
 
 /// For a design with very many magnets, prints the energy of the bond, which needs no survey, and
 /// the reduced amounts of work.
-pub fn tell_of(design: &Design, asked: &Settings) {
-    if Settings::of([design]) == Settings::default() {
+pub fn tell_of(design: &Design, asked: &Request) {
+    if Request::usual([design]) == Request::default() {
         return;
     }
     let pair = &design.pair;
     let pairs = pair.fixed.magnets.len() * pair.moving.magnets.len();
     let bond = si(design.problem().energy(&pair.bound), "J", 4);
-    let mut less = vec![format!("{} milestones (--milestones)", asked.milestones)];
-    if let Some(kinds) = asked.most_kinds {
+    let mut less = vec![format!(
+        "{} milestones (--milestones)",
+        asked.survey.milestones()
+    )];
+    if let Some(kinds) = asked.survey.kinds {
         less.push(format!("the {kinds} deepest kinds of state (--kinds)"));
     }
-    if asked.far_starts > 0 {
-        less.push(format!("{} far starts (--far-starts)", asked.far_starts));
+    let far_starts = asked.survey.far_starts();
+    if far_starts > 0 {
+        less.push(format!("{far_starts} far starts (--far-starts)"));
     }
-    if asked.certify.is_none() && asked.completeness.allowed.is_none() {
+    if !asked.has_proofs() {
         less.push("no proofs (--certify-work, --complete-work)".to_owned());
     }
     tell(format!(
@@ -80,9 +85,9 @@ fn tell_faces(design: &Design) {
 }
 
 /// For proofs that may take minutes, says how long, and how to do without them; and so for states.
-pub fn tell_time(design: &Design, asked: &Settings, threads: usize) {
+pub fn tell_time(design: &Design, asked: &Request, threads: usize) {
     tell_faces(design);
-    if let Some(note) = of_trajectories(asked.dynamics_runs, threads as f64) {
+    if let Some(note) = of_trajectories(asked.check.dynamics_runs, threads as f64) {
         tell(note);
     }
     if let Some(note) = of_time(design, asked, threads as f64) {
@@ -105,12 +110,12 @@ fn of_trajectories(runs: usize, threads: f64) -> Option<String> {
     })
 }
 
-fn of_time(design: &Design, asked: &Settings, threads: f64) -> Option<String> {
+fn of_time(design: &Design, asked: &Request, threads: f64) -> Option<String> {
     let (pair, model) = (&design.pair, design.interaction.model);
     let pairs = pair.fixed.magnets.len() * pair.moving.magnets.len();
     let is_proved = design.interaction.bounds(&pair.fixed, &pair.moving).is_ok();
     let is_slow = model == MagnetModel::Cuboid && pairs >= MANY_BODIES && is_proved;
-    let [bounds, list] = [asked.certify, asked.completeness.allowed].map(|allowed| {
+    let [bounds, list] = [asked.certify.allowed(), asked.completeness().allowed].map(|allowed| {
         let work = allowed.work.unwrap_or(f64::INFINITY) / threads;
         work.min(allowed.seconds.unwrap_or(f64::INFINITY))
     });
@@ -149,7 +154,7 @@ pub fn tell_memory(checked: Result<Option<String>, String>) -> Result<(), Failur
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tilebind::budget::Allowance;
+    use tilebind::pipeline::Certify;
 
     /// Sides with equal codes are one kind; with a code of its own, each is one.
     #[test]
@@ -199,7 +204,7 @@ mod tests {
             );
             Design::parse(&text, "paper-tile.toml").unwrap()
         };
-        let usual = Settings::default();
+        let usual = Request::default();
         let [blocks, dipoles] = [MagnetModel::Cuboid, MagnetModel::Dipole].map(load);
         let on_two = of_time(&blocks, &usual, 2.0).unwrap();
         let told = ["256 pairs", "about 2 s", "up to 3 minutes", "--quick"];
@@ -207,8 +212,8 @@ mod tests {
         let on_one = of_time(&blocks, &usual, 1.0).unwrap();
         assert!(on_one.contains("up to 6 minutes"), "{on_one}");
         let mut short = usual.clone();
-        short.certify = Allowance::of(10.0);
-        short.completeness.allowed = Allowance::NONE;
+        short.certify = Certify::of(10.0);
+        short.complete_work = Some(0.0);
         assert_eq!(of_time(&blocks, &short, 1.0), None);
         assert_eq!(of_time(&dipoles, &usual, 1.0), None);
     }

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::design::Design;
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use crate::request;
 use physics::configuration::Configuration;
 use physics::kinetics::bond::{BondError, Docking, Hold, Shaking, TOLERANCE, traps};
@@ -29,7 +29,7 @@ pub struct Request {
     pub coverage: f64,
 
     /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
           value_parser = request::seed)]
     pub seed: u64,
 }
@@ -46,7 +46,7 @@ impl Request {
         is_pictured: bool,
         observer: &dyn Observer,
     ) -> Result<Held, BondError> {
-        let settings = Settings::without_proofs(self.seed);
+        let settings = pipeline::Request::without_proofs(self.seed);
         let found = pipeline::analyse(design, &settings, observer);
         let Self { kt, coverage, .. } = *self;
         let shaking = Shaking { kt, coverage };

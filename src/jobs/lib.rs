@@ -48,5 +48,5 @@ pub mod workshop;
 pub mod yields;
 
 pub use design::Design;
-pub use pipeline::{Analysis, Settings};
+pub use pipeline::Analysis;
 pub use refused::Refused;

@@ -111,7 +111,7 @@ pub fn document<'a>(
         beside: beside(analysis, scene, is_whole),
         origin: format!(
             "seed {}, design sha256 {}",
-            analysis.settings.seed, design.sha256
+            analysis.request.seed, design.sha256
         ),
         ..Document::default()
     }
@@ -167,7 +167,7 @@ pub fn report(design: &Design, analysis: &Analysis, is_whole: bool, wall: f64) -
         .data("tilebind", env!("CARGO_PKG_VERSION"))
         .data("design", identity(design))
         .data("tiles", geometry::tiles(design))
-        .data("seed", analysis.settings.seed)
+        .data("seed", analysis.request.seed)
         .data("settings", settings(design, analysis))
         // The configuration in which the target faces coincide, and the state in which the tiles are
         // bound; null if the bond does not hold.
@@ -220,42 +220,34 @@ fn identity(design: &Design) -> Value {
     identity
 }
 
-/// Everything that determines the result, besides the design and the seed.
+/// The order of settings in reports; others follow.
+#[rustfmt::skip]
+const ORDER: &[&str] = &[
+    "model", "shields", "milestones", "neighbours", "boltzmann_J", "thermal_energy_J", "settled", "least_depth",
+    "kinds", "far_starts", "repeats", "tolerance_J", "certify_work", "certify_s", "certify_cells", "claims",
+    "complete_below", "complete_escape", "complete_cells", "complete_work", "complete_s",
+];
+
+/// Everything that determines the result, besides the design and the seed: the request, with the
+/// roadmap's settings that follow from it. Limits of work are null if there are none.
 fn settings(design: &Design, analysis: &Analysis) -> Value {
-    let settings = &analysis.settings;
+    let mut all = json!(analysis.request);
     let shields = &design.interaction.shields;
-    json!({
-        "model": design.interaction.model.name(),
-        // The rule of the shields; null for bare magnets.
-        "shields": (!shields.is_none()).then(|| shields.rule.name()),
-        "milestones": settings.milestones,
-        "neighbours": analysis.roadmap.neighbours,
-        // Energy of Boltzmann's acceptance rule; null for the linear rule.
-        "boltzmann_J": settings.boltzmann,
-        "thermal_energy_J": analysis.roadmap.edges.thermal_energy,
-        "settled": settings.settled,
-        "least_depth": settings.least_depth,
-        // Number of kinds of states to analyse, deepest first; null for all.
-        "kinds": settings.most_kinds,
-        "far_starts": settings.far_starts,
-        "repeats": settings.repeats,
-        // Target width of certified bounds; null for a hundredth of the bond or a twentieth of the
-        // barrier, whichever is smaller.
-        "tolerance_J": settings.tolerance,
-        // Limits of the certification: work in core-seconds (counted), wall-clock seconds, and
-        // cells per barrier; null for no limit.
-        "certify_work": settings.certify.work,
-        "certify_s": settings.certify.seconds,
-        "certify_cells": settings.certify_cells,
-        // Which barriers are certified, and checked by moving tiles.
-        "claims": names::claims(settings.claims),
-        // The proof that no state is missing: shares of the depth, and its limits.
-        "complete_below": settings.completeness.below,
-        "complete_escape": settings.completeness.escape,
-        "complete_cells": settings.completeness.cells,
-        "complete_work": settings.completeness.allowed.work,
-        "complete_s": settings.completeness.allowed.seconds,
-    })
+    all["model"] = json!(design.interaction.model.name());
+    // The rule of the shields; null for bare magnets.
+    all["shields"] = json!((!shields.is_none()).then(|| shields.rule.name()));
+    all["neighbours"] = json!(analysis.roadmap.neighbours);
+    all["thermal_energy_J"] = json!(analysis.roadmap.edges.thermal_energy);
+    // Null for all.
+    all["kinds"] = json!(analysis.request.survey.kinds);
+    let place = |key: &str| ORDER.iter().position(|known| *known == key);
+    let mut all: Vec<(String, Value)> = all.as_object().cloned().into_iter().flatten().collect();
+    // The seed and the trajectories of the check have places of their own.
+    all.retain(|(key, _)| {
+        !["seed", "dynamics_runs", "most_kinds", "added_milestones"].contains(&&key[..])
+    });
+    all.sort_by_key(|(key, _)| place(key).unwrap_or(ORDER.len()));
+    all.into_iter().collect()
 }
 
 /// What is proved about missing states: besides the listed states there is no configuration below
@@ -403,7 +395,7 @@ fn facts(design: &Design, analysis: &Analysis, scene: &Scene) -> Entries {
     facts = describe(facts, "list of states", value.to_owned(), note);
     match analysis.certificate_ended {
         Some(ended) => {
-            let note = ended_by(ended, "certify", analysis.settings.certify);
+            let note = ended_by(ended, "certify", analysis.request.certify.allowed());
             describe(
                 facts,
                 "certified bounds",
@@ -435,7 +427,7 @@ fn list(analysis: &Analysis) -> (&'static str, String) {
                 [known.below, known.escape, known.lowest()].map(|u| minus(&si(u, "J", 3)));
             let claim = format!("no other state below {below} needs more than {escape} to escape");
             let ended = known.ended.map_or(String::new(), |ended| {
-                let allowed = analysis.settings.completeness.allowed;
+                let allowed = analysis.request.completeness().allowed;
                 format!("; {}", ended_by(ended, "complete", allowed))
             });
             match known.open.len() {

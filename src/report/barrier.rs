@@ -10,7 +10,7 @@ use crate::plots::poses;
 use crate::states::{barriers, why_no_way};
 use jobs::design::Design;
 use jobs::output::Command;
-use jobs::query::{Answer, Query};
+use jobs::query::{Answer, Request};
 use physics::budget::Ended;
 use physics::landscape::minimax::End;
 use physics::units::{si, si_range};
@@ -28,7 +28,7 @@ pub const PATHWAY: &str = "pathway.csv";
 /// The document of a barrier; `file` is the file of its pathway, if it is written.
 pub fn document<'a>(
     design: &'a Design,
-    query: &Query,
+    query: &Request,
     answer: &'a Answer,
     file: Option<&str>,
 ) -> Document<'a> {
@@ -56,7 +56,7 @@ pub fn document<'a>(
 }
 
 /// The barrier as in a list of barriers, with its ends given by poses.
-fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
+fn entries(query: &Request, answer: &Answer, file: Option<&str>) -> Entries {
     let to = match query.to {
         End::At(pose) => Cell::from(pose),
         End::Free => "free".into(),
@@ -76,7 +76,7 @@ fn entries(query: &Query, answer: &Answer, file: Option<&str>) -> Entries {
         .data("pathway", json!(file))
 }
 
-fn sentence(design: &Design, query: &Query, answer: &Answer) -> String {
+fn sentence(design: &Design, query: &Request, answer: &Answer) -> String {
     let (name, barrier) = (&design.name, &answer.barrier);
     let to = match query.to {
         End::At(_) => "the second",
@@ -116,7 +116,7 @@ fn profile(answer: &Answer) -> Chart {
 }
 
 /// The tiles at the start, the saddle and the end of the path.
-fn ends<'a>(design: &'a Design, query: &Query, answer: &Answer) -> Drawing<'a> {
+fn ends<'a>(design: &'a Design, query: &Request, answer: &Answer) -> Drawing<'a> {
     let barrier = &answer.barrier;
     let start = (query.from, barrier.from_energy, "start");
     let highest = (barrier.saddle, barrier.saddle_energy, "highest");

@@ -14,7 +14,7 @@ pub fn json(analysis: &Analysis) -> Value {
     };
     json!({
         // Requested number of trajectories below each barrier.
-        "runs": analysis.settings.dynamics_runs,
+        "runs": analysis.request.check.dynamics_runs,
         "contradicted": analysis.contradicted().count(),
         "overestimated": analysis.overestimated().count(),
         "barriers": checks.iter().map(entry).collect::<Value>(),

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use jobs::design::Design;
-use physics::landscape::{Alternative, Barrier, Claims, PathwayCost, Place, State, StateKind};
+use physics::landscape::{Alternative, Barrier, PathwayCost, Place, State, StateKind};
 use physics::tile::Tile;
 
 /// The name of a kind of state.
@@ -19,14 +19,6 @@ pub(super) fn cost(cost: PathwayCost) -> &'static str {
     match cost {
         PathwayCost::Work => "work",
         PathwayCost::Probability => "probability",
-    }
-}
-
-/// The name of the set of barriers with proved bounds.
-pub(super) fn claims(claims: Claims) -> &'static str {
-    match claims {
-        Claims::All => "all",
-        Claims::BondAndDeepestTrap => "bond-and-deepest-trap",
     }
 }
 

@@ -174,7 +174,7 @@ pub fn notes(design: &Design, analysis: &Analysis) -> Vec<String> {
     let uncertified = analysis.uncertified;
     notes.extend(uncertified.map(|why| format!("barriers are not certified: {why}")));
     notes.extend(analysis.certificate_ended.map(|ended| {
-        let ended = ended_by(ended, "certify", analysis.settings.certify);
+        let ended = ended_by(ended, "certify", analysis.request.certify.allowed());
         format!("some barriers' bounds are wider than requested: {ended}")
     }));
     notes.extend(dynamics::notes(analysis));
@@ -224,7 +224,7 @@ fn completeness(analysis: &Analysis) -> Vec<String> {
             pose(&lowest.pose),
         ),
     });
-    let allowed = analysis.settings.completeness.allowed;
+    let allowed = analysis.request.completeness().allowed;
     let ended = known.ended;
     notes.extend(ended.map(|ended| ended_by(ended, "complete", allowed)));
     notes

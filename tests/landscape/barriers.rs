@@ -1,21 +1,12 @@
 //! Barriers of real tiles: no barrier is higher than a path via a third state, nor are its bounds
 //! worse than that path's; and an exit without play.
 
-use tilebind::budget::Allowance;
-use tilebind::landscape::{Barrier, Claims, CompletenessSettings, Place};
+use tilebind::landscape::{Barrier, Claims, Place};
 use tilebind::observer::Silent;
-use tilebind::pipeline::analyse;
-use tilebind::{Analysis, Configuration, Settings};
+use tilebind::pipeline::{Certify, MILESTONES, Request, analyse};
+use tilebind::{Analysis, Configuration};
 
 use crate::designs;
-
-/// No search for states that the survey missed.
-fn unsought() -> CompletenessSettings {
-    CompletenessSettings {
-        allowed: Allowance::NONE,
-        ..Settings::default().completeness
-    }
-}
 
 /// Barriers, those that start where they end, and those that lead to the same places at once.
 fn triples(barriers: &[Barrier]) -> impl Iterator<Item = [&Barrier; 3]> {
@@ -32,7 +23,7 @@ fn triples(barriers: &[Barrier]) -> impl Iterator<Item = [&Barrier; 3]> {
 #[test]
 fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
     let design = designs::load("shapes/paper-tile.toml");
-    let analysis = analyse(&design, &Settings::default(), &Silent);
+    let analysis = analyse(&design, &Request::default(), &Silent);
     let mut compared = 0;
     for [first, second, direct] in triples(&analysis.catalogue.barriers) {
         let upper = |barrier: &Barrier| barrier.bounds.upper.unwrap();
@@ -54,10 +45,9 @@ fn no_two_barriers_of_the_papers_tile_lead_lower_than_a_third_one() {
 /// proved.
 #[test]
 fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
-    let settings = Settings {
-        far_starts: 100,
-        completeness: unsought(),
-        ..Settings::default()
+    let settings = Request {
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(MILESTONES, 100)
     };
     let design = designs::load("shapes/arrowhead.toml");
     let analysis = analyse(&design, &settings, &Silent);
@@ -75,13 +65,7 @@ fn what_is_proved_of_a_ways_end_is_proved_of_the_way() {
 /// Few milestones and no certificate.
 fn square_teeth() -> Analysis {
     let design = designs::load("shapes/square-teeth-10mm.toml");
-    let settings = Settings {
-        milestones: 300,
-        certify: Allowance::NONE,
-        completeness: unsought(),
-        far_starts: 1,
-        ..Settings::default()
-    };
+    let settings = Request::default().unproved().surveyed(300, 1);
     analyse(&design, &settings, &Silent)
 }
 
@@ -112,13 +96,12 @@ fn what_rests_beside_the_way_in_is_no_trap() {
 #[test]
 fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
     let design = designs::load("shapes/square-teeth-10mm.toml");
-    let settings = Settings {
-        certify: Allowance::UNLIMITED,
+    let settings = Request {
+        certify: Certify::of(f64::INFINITY),
         certify_cells: 50_000,
         claims: Claims::BondAndDeepestTrap,
-        completeness: unsought(),
-        far_starts: 1,
-        ..Settings::default()
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(MILESTONES, 1)
     };
     let analysis = analyse(&design, &settings, &Silent);
     let escape = analysis.escape(1).unwrap();
@@ -138,17 +121,15 @@ fn no_way_out_is_left_out_because_the_roadmap_does_not_hold_it() {
 #[test]
 fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
     let design = designs::load("tests/designs/good/vertex-points.toml");
-    let settings = Settings {
-        milestones: 2000,
-        far_starts: 20,
-        certify: Allowance::of(2.0),
-        completeness: unsought(),
-        ..Settings::default()
+    let settings = Request {
+        certify: Certify::of(2.0),
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(2000, 20)
     };
     let analysis = analyse(&design, &settings, &Silent);
     let states = &analysis.catalogue.states;
     let deepest = states.iter().map(|state| state.energy.abs());
-    let least = Settings::default().least_depth * deepest.fold(0.0, f64::max);
+    let least = Request::default().least_depth * deepest.fold(0.0, f64::max);
     for (id, state) in states.iter().enumerate() {
         assert_eq!(
             (state.id, analysis.catalogue.kinds().count()),
@@ -179,13 +160,7 @@ fn what_the_certificate_finds_a_way_down_from_is_no_trap() {
 #[test]
 fn far_starts_that_rest_beside_the_bond_are_bound() {
     let design = designs::load("tests/designs/good/triangles.toml");
-    let settings = Settings {
-        milestones: 2000,
-        far_starts: 4000,
-        certify: Allowance::NONE,
-        completeness: unsought(),
-        ..Settings::default()
-    };
+    let settings = Request::default().unproved().surveyed(2000, 4000);
     let analysis = analyse(&design, &settings, &Silent);
     let bound = analysis
         .catalogue
@@ -202,5 +177,8 @@ fn far_starts_that_rest_beside_the_bond_are_bound() {
     );
     let kinds = analysis.catalogue.kinds();
     let captured: usize = kinds.map(|kind| kind.captured().count).sum();
-    assert_eq!(captured + uncaptured.all().count, settings.far_starts);
+    assert_eq!(
+        captured + uncaptured.all().count,
+        settings.survey.far_starts()
+    );
 }

@@ -1,10 +1,9 @@
 //! Tiles with so many magnets that their energy is evaluated as rarely as possible.
 
-use tilebind::budget::Allowance;
 use tilebind::design::Design;
-use tilebind::landscape::{Barrier, CompletenessSettings, Place};
+use tilebind::landscape::{Barrier, Place};
 use tilebind::observer::Silent;
-use tilebind::pipeline::{Settings, analyse};
+use tilebind::pipeline::{MILESTONES, Request, analyse};
 
 use crate::designs::load;
 
@@ -30,15 +29,9 @@ fn squares(pitch: f64, [fixed, moving]: &[String; 2]) -> Design {
     Design::parse(&text, "many.toml").unwrap()
 }
 
-fn without_proofs(settings: Settings) -> Settings {
-    Settings {
-        certify: Allowance::NONE,
-        completeness: CompletenessSettings {
-            allowed: Allowance::NONE,
-            ..settings.completeness
-        },
-        ..settings
-    }
+fn of_kinds(kinds: usize, mut request: Request) -> Request {
+    request.survey.kinds = Some(kinds);
+    request
 }
 
 #[test]
@@ -48,18 +41,19 @@ fn of_very_many_magnets_less_is_asked_for() {
         of_magnets(256),
         of_magnets(800),
     ];
-    assert_eq!(Settings::of([&few]), Settings::default());
-    let [of_many, of_most] = [&many, &most].map(|design| Settings::of([design]));
-    assert_eq!(Settings::of([&few, &most, &many]), of_most);
-    for (more, less) in [(&Settings::default(), &of_many), (&of_many, &of_most)] {
+    assert_eq!(Request::usual([&few]), Request::default());
+    let [of_many, of_most] = [&many, &most].map(|design| Request::usual([design]));
+    assert_eq!(Request::usual([&few, &most, &many]), of_most);
+    for (more, less) in [(&Request::default(), &of_many), (&of_many, &of_most)] {
+        let (more, less) = (&more.survey, &less.survey);
         assert!(more.milestones > less.milestones);
         assert!(more.far_starts > less.far_starts);
-        assert!(more.most_kinds.unwrap_or(usize::MAX) > less.most_kinds.unwrap());
+        assert!(more.kinds.unwrap_or(usize::MAX) > less.kinds.unwrap());
     }
     // With four times as many pairs, the effort is reduced by 4^(2/3).
-    let ratio = Settings::default().milestones as f64 / of_many.milestones as f64;
+    let ratio = MILESTONES as f64 / of_many.survey.milestones() as f64;
     assert!((ratio / 4f64.powf(2.0 / 3.0) - 1.0).abs() < 1e-3, "{ratio}");
-    assert!(!of_many.certify.is_none() && of_most.certify.is_none());
+    assert!(of_many.has_proofs() && !of_most.has_proofs());
 }
 
 #[test]
@@ -70,12 +64,7 @@ fn from_every_trap_the_bond_is_reached_through_free_space() {
     ];
     let faces = codes.map(|code| format!("all = {{ code = \"{code}\" }}"));
     let design = squares(0.0125, &faces);
-    let settings = Settings {
-        milestones: 60,
-        most_kinds: Some(4),
-        far_starts: 0,
-        ..without_proofs(Settings::of([&design]))
-    };
+    let settings = of_kinds(4, Request::usual([&design]).unproved().surveyed(60, 0));
     let analysis = analyse(&design, &settings, &Silent);
     let catalogue = &analysis.catalogue;
     let bond = catalogue.bound_state.unwrap();
@@ -97,16 +86,9 @@ fn from_every_trap_the_bond_is_reached_through_free_space() {
 #[test]
 fn the_deepest_kinds_are_kept_and_what_is_left_out_is_said() {
     let design = load("shapes/paper-tile.toml");
-    let all = Settings {
-        milestones: 500,
-        far_starts: 0,
-        ..without_proofs(Settings::default())
-    };
-    let few = Settings {
-        most_kinds: Some(2),
-        ..all.clone()
-    };
-    let kinds = |settings: &Settings| {
+    let all = Request::default().unproved().surveyed(500, 0);
+    let few = of_kinds(2, all.clone());
+    let kinds = |settings: &Request| {
         let analysis = analyse(&design, settings, &Silent);
         let kinds = analysis.catalogue.kinds();
         let energies: Vec<f64> = kinds.map(|kind| kind.first().energy).collect();
@@ -125,12 +107,7 @@ fn the_deepest_kinds_are_kept_and_what_is_left_out_is_said() {
 #[test]
 fn what_far_starts_come_to_rest_in_is_listed() {
     let design = load("shapes/paper-tile.toml");
-    let settings = Settings {
-        milestones: 20,
-        most_kinds: Some(1),
-        far_starts: 300,
-        ..without_proofs(Settings::default())
-    };
+    let settings = of_kinds(1, Request::default().unproved().surveyed(20, 300));
     let analysis = analyse(&design, &settings, &Silent);
     let kinds = analysis.catalogue.kinds();
     assert!(kinds.filter(|kind| kind.captured().count > 0).count() > 1);

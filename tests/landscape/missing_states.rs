@@ -9,10 +9,11 @@ use tilebind::landscape::minimum::{Outcome, descend};
 use tilebind::landscape::missing_states::StateSearch;
 use tilebind::landscape::{Catalogue, Completeness, CompletenessSettings};
 use tilebind::observer::Silent;
+use tilebind::pipeline::Request;
 use tilebind::roadmap::Point;
 use tilebind::roadmap::RoadmapSettings;
 use tilebind::tile::face_to_face;
-use tilebind::{Configuration, Design, Problem, Settings};
+use tilebind::{Configuration, Design, Problem};
 
 use crate::designs::load;
 use crate::surveys;
@@ -27,14 +28,11 @@ pub const USUAL: CompletenessSettings = CompletenessSettings {
 
 /// Settings of a survey with this many milestones.
 fn settings(problem: &Problem, milestones: usize) -> (RoadmapSettings, ExplorationSettings) {
-    let settings = Settings {
-        milestones,
-        ..Settings::default()
-    };
-    let roadmap = settings.roadmap(problem);
+    let request = Request::default().surveyed(milestones, 0);
+    let roadmap = request.roadmap(problem);
     let settings = ExplorationSettings {
         edge: roadmap.edges,
-        settled: settings.settled,
+        settled: request.survey.settled,
         most_kinds: None,
         added_milestones: 100,
         most_rounds: 8,

@@ -2,12 +2,11 @@
 //! theta the short way) they are free and rise nowhere above the stated peak. And tiles dock along
 //! the natural way.
 
-use tilebind::budget::Allowance;
-use tilebind::landscape::{Barrier, CompletenessSettings, Place, highest_point, work};
+use tilebind::landscape::{Barrier, Place, highest_point, work};
 use tilebind::observer::Silent;
-use tilebind::pipeline::analyse;
+use tilebind::pipeline::{Certify, MILESTONES, Request, analyse};
 use tilebind::report::csv;
-use tilebind::{Analysis, Configuration, Settings};
+use tilebind::{Analysis, Configuration};
 
 use crate::designs;
 
@@ -18,16 +17,11 @@ const SAMPLES: usize = 6;
 const STEP: f64 = 1e-3;
 
 fn analysis(file: &str) -> Analysis {
-    let settings = Settings {
-        milestones: 600,
-        far_starts: 60,
-        certify: Allowance::UNLIMITED,
+    let settings = Request {
+        certify: Certify::of(f64::INFINITY),
         certify_cells: 2000,
-        completeness: CompletenessSettings {
-            allowed: Allowance::NONE,
-            ..Settings::default().completeness
-        },
-        ..Settings::default()
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(600, 60)
     };
     analyse(&designs::load(file), &settings, &Silent)
 }
@@ -119,13 +113,11 @@ type Widths = Vec<([Place; 2], f64)>;
 fn a_smaller_tolerance_never_gives_a_wider_bracket() {
     let design = designs::load("tests/designs/good/ties.toml");
     let brackets = |tolerance: f64, cells: usize| -> Widths {
-        let settings = Settings {
-            milestones: 1000,
-            far_starts: 50,
-            certify: Allowance::UNLIMITED,
+        let settings = Request {
+            certify: Certify::of(f64::INFINITY),
             certify_cells: cells,
             tolerance: Some(tolerance),
-            ..Settings::default()
+            ..Request::default().surveyed(1000, 50)
         };
         let catalogue = analyse(&design, &settings, &Silent).catalogue;
         let barriers = catalogue.barriers.iter();
@@ -161,12 +153,7 @@ fn a_smaller_tolerance_never_gives_a_wider_bracket() {
 #[test]
 fn ways_are_the_same_on_any_number_of_threads() {
     let design = designs::load("shapes/square-teeth-10mm.toml");
-    let mut settings = Settings {
-        far_starts: 60,
-        certify: Allowance::NONE,
-        ..Settings::default()
-    };
-    settings.completeness.allowed = Allowance::NONE;
+    let settings = Request::default().unproved().surveyed(MILESTONES, 60);
     let [one, two] = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap()

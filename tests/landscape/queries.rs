@@ -1,12 +1,12 @@
 //! Queries for one barrier: what an answer states about itself is true, and a missing answer has a
 //! reason.
 
-use tilebind::budget::Allowance;
 use tilebind::landscape::Uncertified;
 use tilebind::landscape::minimax::End;
 use tilebind::observer::Silent;
-use tilebind::query::{Answer, Query, QueryError, barrier};
-use tilebind::{Configuration, Design, Settings};
+use tilebind::pipeline::Certify;
+use tilebind::query::{Answer, QueryError, Request, barrier};
+use tilebind::{Configuration, Design};
 
 use crate::designs;
 
@@ -15,20 +15,19 @@ fn design() -> Design {
 }
 
 /// From the bond, or a pose, to anywhere free.
-fn query(from: Configuration, to: End) -> Query {
-    Query {
+fn query(from: Configuration, to: End) -> Request {
+    Request {
         from,
         to,
-        settings: Settings {
-            milestones: 800,
-            ..Settings::default()
-        },
         tolerance: None,
+        certify: Certify::default(),
+        milestones: Some(800),
+        seed: 1,
     }
 }
 
 /// Checks for every answer.
-fn check(design: &Design, query: &Query, answer: &Answer) {
+fn check(design: &Design, query: &Request, answer: &Answer) {
     let problem = design.problem();
     let barrier = &answer.barrier;
     assert_eq!(barrier.from_energy, problem.energy(&query.from));
@@ -76,7 +75,7 @@ fn answers_are_what_they_say() {
 fn a_tolerance_is_kept() {
     let design = design();
     let tolerance = 1e-3 * design.problem().depth();
-    let query = Query {
+    let query = Request {
         tolerance: Some(tolerance),
         ..query(design.pair.bound, End::Free)
     };
@@ -89,11 +88,8 @@ fn a_tolerance_is_kept() {
 fn without_work_for_the_certificate_the_roadmap_answers() {
     let design = design();
     let certified = query(design.pair.bound, End::Free);
-    let uncertified = Query {
-        settings: Settings {
-            certify: Allowance::NONE,
-            ..certified.settings.clone()
-        },
+    let uncertified = Request {
+        certify: Certify::of(0.0),
         ..certified.clone()
     };
     let answer = barrier(&design, &uncertified, &Silent).unwrap();

@@ -1,14 +1,13 @@
 //! Tiles of any size: with all lengths times s and the same remanence, energies are times s^3 and nothing
 //! else changes.
 
-use tilebind::budget::Allowance;
+use tilebind::Analysis;
 use tilebind::design::Design;
 use tilebind::dynamics::docking::Starts;
 use tilebind::landscape::Place;
 use tilebind::observer::Silent;
-use tilebind::pipeline;
+use tilebind::pipeline::{self, Certify, Request};
 use tilebind::potential::MagnetModel;
-use tilebind::{Analysis, Settings};
 
 /// A design of `shapes` with all its lengths times `s`, and masses times s^3: the numbers behind the
 /// keys of lengths are multiplied, line by line.
@@ -63,12 +62,9 @@ fn scaled(name: &str, s: f64) -> Design {
 fn analysed(name: &str, s: f64, model: MagnetModel) -> Analysis {
     let mut design = scaled(name, s);
     design.interaction.model = model;
-    let settings = Settings {
-        milestones: 1000,
-        added_milestones: 100,
-        far_starts: 40,
-        certify: Allowance::of(2.0),
-        ..Settings::default()
+    let settings = Request {
+        certify: Certify::of(2.0),
+        ..Request::default().surveyed(1000, 40)
     };
     pipeline::analyse(&design, &settings, &Silent)
 }

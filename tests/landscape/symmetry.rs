@@ -1,12 +1,11 @@
 //! Results that symmetries determine: of two tiles exchanged, of their mirror image, of more
 //! threads.
 
-use tilebind::budget::Allowance;
+use tilebind::Analysis;
 use tilebind::configuration::Configuration;
 use tilebind::design::Design;
 use tilebind::observer::Silent;
-use tilebind::pipeline;
-use tilebind::{Analysis, Settings};
+use tilebind::pipeline::{self, Certify, MILESTONES, Request};
 
 /// Squares with one code on all faces of each.
 fn design(fixed: &str, moving: &str, target: [&str; 2]) -> Design {
@@ -22,12 +21,10 @@ fn design(fixed: &str, moving: &str, target: [&str; 2]) -> Design {
 }
 
 fn analyse(design: &Design, seed: u64) -> Analysis {
-    let settings = Settings {
+    let settings = Request {
         seed,
-        milestones: 3000,
-        far_starts: 20,
-        certify: Allowance::NONE,
-        ..Settings::default()
+        certify: Certify::of(0.0),
+        ..Request::default().surveyed(3000, 20)
     };
     pipeline::analyse(design, &settings, &Silent)
 }
@@ -116,11 +113,7 @@ fn states_with_hundreds_of_copies_are_searched_once() {
             sides / 2
         );
         let design = Design::parse(&text, "many.toml").unwrap();
-        let settings = Settings {
-            milestones: Settings::default().milestones,
-            far_starts: Settings::default().far_starts,
-            ..Settings::without_proofs(1)
-        };
+        let settings = Request::without_proofs(1).surveyed(MILESTONES, 1000);
         let analysis = pipeline::analyse(&design, &settings, &Silent);
         let bonds = analysis.catalogue.kinds().next().unwrap().copies();
         assert_eq!(bonds, sides * sides);

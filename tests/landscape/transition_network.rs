@@ -5,22 +5,20 @@ use std::collections::HashSet;
 use petgraph::algo::dijkstra;
 use petgraph::graphmap::DiGraphMap;
 use rayon::prelude::*;
+use tilebind::Configuration;
 use tilebind::landscape::exploration::ExplorationSettings;
 use tilebind::landscape::transition_network::{Cost, Network};
+use tilebind::pipeline::Request;
 use tilebind::problem::Problem;
 use tilebind::roadmap::{Roadmap, RoadmapSettings};
-use tilebind::{Configuration, Settings};
 
 use crate::designs;
 use crate::surveys;
 
 fn paper_tile(milestones: usize) -> (Problem, RoadmapSettings) {
     let problem = designs::load("shapes/paper-tile.toml").problem();
-    let settings = Settings {
-        milestones,
-        ..Settings::default()
-    };
-    let roadmap = settings.roadmap(&problem);
+    let request = Request::default().surveyed(milestones, 0);
+    let roadmap = request.roadmap(&problem);
     (problem, roadmap)
 }
 

@@ -2,9 +2,9 @@
 
 use tilebind::kinetics::rates::{Basin, RateSettings, Rates, rates};
 use tilebind::observer::Silent;
-use tilebind::pipeline::analyse;
+use tilebind::pipeline::{Request, analyse};
 use tilebind::rates::RatedState;
-use tilebind::{Configuration, Problem, Settings};
+use tilebind::{Configuration, Problem};
 
 use crate::designs;
 
@@ -120,10 +120,7 @@ fn integral(problem: &Problem, basin: &Basin, kt: f64) -> f64 {
 #[test]
 fn twins_have_basins_of_their_own_where_they_hold_apart_and_one_where_they_do_not() {
     let design = designs::load("shapes/dovetail.toml");
-    let settings = Settings {
-        far_starts: 10,
-        ..Settings::without_proofs(1)
-    };
+    let settings = Request::without_proofs(1).surveyed(3000, 10);
     let analysis = analyse(&design, &settings, &Silent);
     let held = |kt| {
         let all = RatedState::held(&analysis, kt, 3, None);

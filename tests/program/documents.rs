@@ -3,12 +3,13 @@
 use std::collections::{HashMap, HashSet};
 
 use serde_json::Value;
-use tilebind::budget::Allowance;
+use tilebind::Design;
 use tilebind::comparison::quantity::QUANTITIES;
 use tilebind::comparison::{self, Assessment};
 use tilebind::docking::Paths;
 use tilebind::dynamics::docking::{DockingSettings, dock};
 use tilebind::observer::Silent;
+use tilebind::pipeline::{self, Certify, Request};
 use tilebind::report::analysis::{self, Extent};
 use tilebind::report::comparison::Comparison;
 use tilebind::report::document::{Cell, Document, Drawing, Table, Unit};
@@ -16,18 +17,13 @@ use tilebind::report::plots::{Scene, Sheet};
 use tilebind::report::{docking, yields as of_yields};
 use tilebind::request::of_keywords;
 use tilebind::yields::{Question, yields};
-use tilebind::{Design, Settings, pipeline};
 
 fn design() -> Design {
     Design::load("shapes/tab-20mm.toml".as_ref()).unwrap()
 }
 
-fn few() -> Settings {
-    Settings {
-        milestones: 500,
-        far_starts: 20,
-        ..Settings::without_proofs(1)
-    }
+fn few() -> Request {
+    Request::without_proofs(1).surveyed(500, 20)
 }
 
 fn keywords(words: &[(&str, &str)]) -> Vec<(String, Vec<String>)> {
@@ -215,8 +211,8 @@ fn an_analysis_says_the_same_in_all_forms() {
 #[test]
 fn certified_are_bounds_of_the_barrier_in_its_unit() {
     let design = design();
-    let settings = Settings {
-        certify: Allowance::UNLIMITED,
+    let settings = Request {
+        certify: Certify::of(f64::INFINITY),
         certify_cells: 500,
         ..few()
     };

@@ -24,7 +24,7 @@ pub mod strength;
 use clap::Args;
 
 use crate::design::{Design, DesignError};
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use crate::request::{self, Unanswered};
 use bonds::{PairTimes, TimesFit};
 use distances::{DistanceFit, PairDistances};
@@ -147,7 +147,7 @@ impl Request {
             return Ok(Fitted::Distances(found));
         }
         let times = PairTimes::read(table)?;
-        let settings = Settings::without_proofs(Settings::default().seed);
+        let settings = pipeline::Request::without_proofs(pipeline::Request::default().seed);
         let analysis = pipeline::analyse(design, &settings, observer);
         let bond = Hold::bond(&analysis.problem, &analysis.catalogue)?;
         let area = match self.area {

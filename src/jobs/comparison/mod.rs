@@ -160,11 +160,11 @@ pub fn assess(
     seed: u64,
     observer: &dyn Observer,
 ) -> Assessment {
-    let mut settings = request.settings(seed);
+    let mut asked = request.analysis(seed);
     if design.interaction.model == MagnetModel::Cuboid {
-        settings.completeness.cells /= CELLS_OF_BLOCKS;
+        asked.complete_cells /= CELLS_OF_BLOCKS;
     }
-    let analysis = pipeline::analyse(design, &settings, observer);
+    let analysis = pipeline::analyse(design, &asked, observer);
     let states = (&*analysis.problem, &analysis.catalogue);
     Assessment {
         robust: tolerance::robust(design, states, &request.making, seed),
@@ -257,7 +257,7 @@ impl Assessment {
             drawings: design.drawings.clone(),
             model: design.interaction.model.name().to_owned(),
             magnets: design.interaction.model.plural(&design.pair).to_owned(),
-            seed: analysis.settings.seed,
+            seed: analysis.request.seed,
             target_energy: analysis.bound.1,
             bond: bound.map(|state| bond(analysis, state)),
             trap_kinds: catalogue.kinds().filter(|kind| !kind.is_bond()).count(),

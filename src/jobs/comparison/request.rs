@@ -6,11 +6,10 @@ use serde_json::{Value, json};
 
 use super::Quantity;
 use crate::design::Design;
-use crate::pipeline::{Check, Settings, Survey};
+use crate::pipeline::{self, Certify, Check, Survey};
 use crate::request::{self, Misused, of_keywords};
 use crate::tolerance::{Making, NO_ERRORS};
-use physics::budget::Allowance;
-use physics::landscape::{Claims, CompletenessSettings};
+use physics::landscape::Claims;
 
 const DYNAMICS: &str = "\
 Check the barriers of bond and deepest trap with RUNS trajectories each [default: 1000]";
@@ -72,23 +71,22 @@ pub struct Question {
     pub request: Request,
 
     /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
           value_parser = request::seed)]
     pub seed: u64,
 }
 
 impl Request {
-    /// With all defaults filled in, the same for all designs: see [`Settings::of`].
+    /// With all defaults filled in, the same for all designs: see [`pipeline::Request::usual`].
     #[must_use]
     pub fn of<'a>(&self, designs: impl IntoIterator<Item = &'a Design>) -> Self {
-        let usual = Settings::of(designs);
-        let cells = |allowed: Allowance, usual: usize| if allowed.is_none() { 0 } else { usual };
-        let certify = cells(usual.certify, 200_000);
-        let complete = cells(usual.completeness.allowed, 300_000);
+        let usual = pipeline::Request::usual(designs);
+        // Very many magnets are not proved.
+        let cells = |cells: usize| if usual.has_proofs() { cells } else { 0 };
         Self {
             survey: self.survey.of(&usual),
-            certify_cells: self.certify_cells.or(Some(certify)),
-            complete_cells: self.complete_cells.or(Some(complete)),
+            certify_cells: self.certify_cells.or(Some(cells(200_000))),
+            complete_cells: self.complete_cells.or(Some(cells(300_000))),
             ..self.clone()
         }
     }
@@ -131,28 +129,23 @@ impl Request {
         of_keywords::<Self>(given.map(option)).map(drop)
     }
 
-    /// The settings of an analysis.
-    pub fn settings(&self, seed: u64) -> Settings {
-        let worth = |cells: usize| match cells {
-            0 => Allowance::NONE,
-            _ => Allowance::UNLIMITED,
-        };
+    /// The request of an analysis.
+    pub fn analysis(&self, seed: u64) -> pipeline::Request {
+        // Cells are the only limit.
+        let work = |cells: usize| if cells == 0 { 0.0 } else { f64::INFINITY };
         let [certify_cells, complete_cells] =
             [self.certify_cells, self.complete_cells].map(Option::unwrap_or_default);
-        let usual = Settings::default();
-        self.survey.settings(Settings {
-            seed,
+        pipeline::Request {
+            survey: self.survey.clone(),
+            check: self.check,
             tolerance: self.tolerance,
+            certify: Certify::of(work(certify_cells)),
             certify_cells,
-            certify: worth(certify_cells),
-            completeness: CompletenessSettings {
-                cells: complete_cells,
-                allowed: worth(complete_cells),
-                ..usual.completeness
-            },
+            complete_work: Some(work(complete_cells)),
+            complete_cells,
+            seed,
             claims: Claims::BondAndDeepestTrap,
-            dynamics_runs: self.check.dynamics_runs,
-            ..usual
-        })
+            ..pipeline::Request::default()
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::Settings;
+use super::Request;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
 use physics::dynamics::check::BarrierCheck;
@@ -17,7 +17,7 @@ pub struct Analysis {
     /// The analysed problem.
     pub problem: Arc<Problem>,
     /// The request.
-    pub settings: Settings,
+    pub request: Request,
     /// The resulting settings of the roadmap.
     pub roadmap: RoadmapSettings,
     /// The configuration in which the target faces coincide, and its energy (J).

@@ -3,11 +3,10 @@
 mod analysis;
 mod clock;
 mod request;
-mod settings;
+mod stages;
 
 pub use analysis::{Analysis, Counts, Stage};
-pub use request::{Certify, Check, Request, Survey};
-pub use settings::Settings;
+pub use request::{Certify, Check, MILESTONES, Request, Survey};
 
 pub(crate) use clock::Clock;
 
@@ -28,34 +27,34 @@ use physics::potential::{Interaction, MagnetModel};
 use physics::problem::Problem;
 use physics::roadmap::{Roadmap, RoadmapSettings};
 
-/// Analyses a design. The same design and settings give the same result on any number of threads,
+/// Analyses a design. The same design and request give the same result on any number of threads,
 /// unless a time limit ends a proof.
-pub fn analyse(design: &Design, settings: &Settings, observer: &dyn Observer) -> Analysis {
-    analyse_showing(design, design.problem(), settings, observer, None)
+pub fn analyse(design: &Design, request: &Request, observer: &dyn Observer) -> Analysis {
+    analyse_showing(design, design.problem(), request, observer, None)
 }
 
 /// The same for the given problem of a design. `show` gets what the survey found before the proofs begin, which take most of the time.
 pub fn analyse_showing(
     design: &Design,
     problem: Problem,
-    settings: &Settings,
+    request: &Request,
     observer: &dyn Observer,
     show: Option<&dyn Fn(&Analysis)>,
 ) -> Analysis {
     let problem = Arc::new(problem);
-    let roadmap = settings.roadmap(&problem);
+    let roadmap = request.roadmap(&problem);
     let mut clock = Clock::new(&problem, observer);
 
-    let (mut survey, counts) = survey(&problem, settings, &roadmap, &[], &mut clock);
+    let (mut survey, counts) = survey(&problem, request, &roadmap, &[], &mut clock);
     let mut unlisted = 0;
     if let Some(show) = show {
         clock.start("first answer", 0.45);
         let before = problem.evaluations();
-        show(&unproved(design, &problem, settings, &roadmap, &survey));
+        show(&unproved(design, &problem, request, &roadmap, &survey));
         unlisted = problem.evaluations() - before;
     }
     clock.start("states that may be missing", 0.5);
-    let search = StateSearch::run(&problem, &survey, &settings.completeness, observer);
+    let search = StateSearch::run(&problem, &survey, &request.completeness(), observer);
     let missed = search
         .as_ref()
         .map_or_else(|_| Vec::new(), StateSearch::missed);
@@ -63,34 +62,34 @@ pub fn analyse_showing(
         survey.add(&missed);
     }
     clock.start("capture shares", 0.6);
-    let far_starts = settings.far_starts();
+    let far_starts = request.far_starts();
     let tell = |done| observer.part("far starts (fewer: --far-starts)", done, far_starts.count);
     let ends = capture::ends(&problem, &far_starts, survey.known(), &tell);
-    let shallow = -settings.least_depth * problem.depth();
+    let shallow = -request.least_depth * problem.depth();
     survey.add_rests(&ends, shallow);
     let arrivals = capture::arrivals(&problem, &far_starts, &ends);
     survey.add_arrivals(&arrivals);
     clock.start("states and barriers", 0.7);
-    let mut catalogue = Catalogue::of_survey(&survey, settings.least_depth, observer);
-    for repeat in 1..settings.repeats as u64 {
+    let mut catalogue = Catalogue::of_survey(&survey, request.least_depth, observer);
+    for repeat in 1..request.repeats as u64 {
         let mut again = roadmap;
         again.milestones.seed += repeat;
-        let (survey, _) = self::survey(&problem, settings, &again, &[], &mut clock);
-        let other = Catalogue::of_survey(&survey, settings.least_depth, observer);
+        let (survey, _) = self::survey(&problem, request, &again, &[], &mut clock);
+        let other = Catalogue::of_survey(&survey, request.least_depth, observer);
         catalogue.widen_spread(&problem, &other);
     }
     weigh_blocks(design, &mut catalogue);
     // States that capture most are certified first.
     catalogue.count_captures(&problem, &ends);
     clock.start("certificate", 0.75);
-    let certified = certify(&problem, &mut catalogue, settings, observer);
-    catalogue.leave_out_shallow(&problem, settings.least_depth);
+    let certified = certify(&problem, &mut catalogue, request, observer);
+    catalogue.leave_out_shallow(&problem, request.least_depth);
     let completeness = search.map(|search| search.conclude(&survey, &catalogue));
     let uncaptured = catalogue.count_captures(&problem, &ends);
-    let dynamics = check_barriers(&problem, &catalogue, settings, observer, &mut clock);
+    let dynamics = check_barriers(&problem, &catalogue, request, observer, &mut clock);
     let stages = clock.stop();
     Analysis {
-        settings: settings.clone(),
+        request: request.clone(),
         roadmap,
         bound: (design.pair.bound, problem.energy(&design.pair.bound)),
         catalogue,
@@ -116,16 +115,16 @@ pub fn analyse_showing(
 fn unproved(
     design: &Design,
     problem: &Arc<Problem>,
-    settings: &Settings,
+    request: &Request,
     roadmap: &RoadmapSettings,
     survey: &Exploration,
 ) -> Analysis {
-    let ends = capture::ends(problem, &settings.far_starts(), survey.known(), &|_| ());
-    let mut catalogue = Catalogue::of_survey(survey, settings.least_depth, &Silent);
-    catalogue.leave_out_shallow(problem, settings.least_depth);
+    let ends = capture::ends(problem, &request.far_starts(), survey.known(), &|_| ());
+    let mut catalogue = Catalogue::of_survey(survey, request.least_depth, &Silent);
+    catalogue.leave_out_shallow(problem, request.least_depth);
     weigh_blocks(design, &mut catalogue);
     Analysis {
-        settings: settings.clone(),
+        request: request.clone(),
         roadmap: *roadmap,
         bound: (design.pair.bound, problem.energy(&design.pair.bound)),
         uncaptured: catalogue.count_captures(problem, &ends),
@@ -146,10 +145,10 @@ fn unproved(
 fn certify(
     problem: &Problem,
     catalogue: &mut Catalogue,
-    settings: &Settings,
+    request: &Request,
     observer: &dyn Observer,
 ) -> Result<Certified, Uncertified> {
-    let mut asked = settings.certification();
+    let mut asked = request.certification();
     let begun = Instant::now();
     let mut all = Certified::default();
     loop {
@@ -158,11 +157,11 @@ fn certify(
         all.work += certified.work;
         all.ended = all.ended.or(certified.ended);
         let count = catalogue.states.len();
-        catalogue.leave_out_shallow(problem, settings.least_depth);
-        if settings.claims == Claims::All || catalogue.states.len() == count {
+        catalogue.leave_out_shallow(problem, request.least_depth);
+        if request.claims == Claims::All || catalogue.states.len() == count {
             return Ok(all);
         }
-        asked.allowed = settings.certify.after(all.work, begun.elapsed());
+        asked.allowed = request.certify.allowed().after(all.work, begun.elapsed());
         if asked.allowed.is_none() {
             return Ok(all);
         }
@@ -173,7 +172,7 @@ fn certify(
 /// near minima, besides those suggested by the faces.
 pub(crate) fn survey<'a>(
     problem: &'a Problem,
-    settings: &Settings,
+    request: &Request,
     roadmap: &RoadmapSettings,
     guesses: &[Configuration],
     clock: &mut Clock,
@@ -187,7 +186,7 @@ pub(crate) fn survey<'a>(
         clock.start(name, shares(name))
     });
     let milestones = built.milestones.len();
-    let mut survey = Exploration::of_roadmap(problem, built, &settings.survey(roadmap));
+    let mut survey = Exploration::of_roadmap(problem, built, &request.exploration(roadmap));
     clock.start("states and transition states", 0.4);
     survey.explore(guesses, clock.observer);
     let counts = Counts {
@@ -226,23 +225,23 @@ fn weigh_blocks(design: &Design, catalogue: &mut Catalogue) {
 fn check_barriers(
     problem: &Problem,
     catalogue: &Catalogue,
-    settings: &Settings,
+    request: &Request,
     observer: &dyn Observer,
     clock: &mut Clock,
 ) -> Option<Vec<BarrierCheck>> {
     let pair = problem.pair.as_deref()?;
-    if settings.dynamics_runs == 0 {
+    if request.check.dynamics_runs == 0 {
         return None;
     }
     clock.start("dynamics", 0.8);
-    let is_claimed = |barrier: &&Barrier| settings.claims.include(barrier, catalogue);
+    let is_claimed = |barrier: &&Barrier| request.claims.include(barrier, catalogue);
     let claimed: Vec<&Barrier> = catalogue.barriers.iter().filter(is_claimed).collect();
     Some(check::check(
         problem,
         Body::of_tile(&pair.moving),
         &catalogue.states,
         &claimed,
-        &settings.check(),
+        &request.dynamics(),
         &|done, count| observer.part("dynamics", done, count),
     ))
 }

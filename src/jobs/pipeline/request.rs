@@ -1,50 +1,59 @@
-//! The request of an analysis.
+//! The request of an analysis: its options, their defaults, and what the report says of them.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::Settings;
 use crate::design::Design;
 use crate::request;
 use physics::budget::Allowance;
-use physics::landscape::CompletenessSettings;
+use physics::landscape::Claims;
+use physics::potential::MANY_PAIRS;
 
-/// The options of an analysis.
-#[derive(Clone, Debug, PartialEq, Args)]
+/// Everything that determines the result of an analysis, besides the design. Its keys are those of
+/// `report.json`.
+///
+/// What is not given is filled in by [`Request::of`]; without that, it is as for ordinary designs.
+#[derive(Clone, Debug, PartialEq, Args, Serialize, Deserialize)]
 pub struct Request {
     /// The thoroughness of the survey.
     #[command(flatten)]
+    #[serde(flatten)]
     pub survey: Survey,
 
     /// Whether moving tiles check the barriers.
     #[command(flatten)]
+    #[serde(flatten)]
     pub check: Check,
 
     /// Number of runs with consecutive seeds, to report each barrier's spread
-    #[arg(long, value_name = "R", default_value_t = Settings::default().repeats,
-          value_parser = repeats)]
+    #[arg(long, value_name = "R", default_value_t = Request::default().repeats, value_parser = repeats)]
     pub repeats: usize,
 
     /// Accept milestones by the Boltzmann rule at this energy (J), not the linear rule
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
+    #[serde(rename = "boltzmann_J")]
     pub boltzmann: Option<f64>,
 
     /// Thermal energy (J) of the transition probabilities [default: 1/100 of the bond]
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
+    #[serde(rename = "thermal_energy_J")]
     pub thermal_energy: Option<f64>,
 
     /// Target width (J) of the certified bounds [default: 1/100 of the bond, or less]
     ///
     /// The default is 1/100 of the bond's depth or 1/20 of the barrier, whichever is smaller.
     #[arg(long, value_name = "E_J", value_parser = request::energy)]
+    #[serde(rename = "tolerance_J")]
     pub tolerance: Option<f64>,
 
     /// The effort of bounds of barriers.
     #[command(flatten)]
+    #[serde(flatten)]
     pub certify: Certify,
 
     /// Most cells for the bounds of one barrier
-    #[arg(long, value_name = "N", default_value_t = Settings::default().certify_cells,
+    // So that a hard one leaves work for the others.
+    #[arg(long, value_name = "N", default_value_t = Request::default().certify_cells,
           value_parser = request::count_or_none)]
     pub certify_cells: usize,
 
@@ -52,6 +61,7 @@ pub struct Request {
     ///
     /// The same as --certify-work 0 --complete-work 0.
     #[arg(long, conflicts_with_all = ["certify_work", "certify_seconds", "complete_work", "complete_seconds"])]
+    #[serde(skip)]
     pub quick: bool,
 
     /// Effort of the proof that no state is missing, in core-seconds; 0: none [default: 180]
@@ -64,60 +74,175 @@ pub struct Request {
     ///
     /// Wall-clock time, so two runs can differ.
     #[arg(long, value_name = "S", value_parser = request::time_or_none)]
+    #[serde(rename = "complete_s")]
     pub complete_seconds: Option<f64>,
 
     /// Search for traps below this fraction of the bond's energy
-    #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.below,
+    #[arg(long, value_name = "F", default_value_t = Request::default().complete_below,
           value_parser = request::fraction)]
     pub complete_below: f64,
 
     /// List traps whose escape barrier exceeds this fraction of the bond's energy
-    #[arg(long, value_name = "F", default_value_t = Settings::default().completeness.escape,
+    #[arg(long, value_name = "F", default_value_t = Request::default().complete_escape,
           value_parser = request::fraction)]
     pub complete_escape: f64,
 
     /// Most cells for the proof that no state is missing
-    #[arg(long, value_name = "N", default_value_t = Settings::default().completeness.cells,
+    #[arg(long, value_name = "N", default_value_t = Request::default().complete_cells,
           value_parser = request::count_or_none)]
     pub complete_cells: usize,
 
     /// Random seed; the same seed gives the same results
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
-          value_parser = request::seed)]
+    #[arg(long, value_name = "N", default_value_t = Request::default().seed, value_parser = request::seed)]
     pub seed: u64,
+
+    /// Milestones added in each round around a pass between basins that has not converged.
+    #[arg(skip = Request::default().added_milestones)]
+    pub added_milestones: usize,
+
+    /// Minima with an escape barrier below this fraction of the deepest energy are omitted.
+    #[arg(skip = Request::default().least_depth)]
+    pub least_depth: f64,
+
+    /// Which barriers are certified, and checked by moving tiles.
+    #[arg(skip = Claims::All)]
+    pub claims: Claims,
 }
 
-impl Request {
-    /// The settings for a design.
-    pub fn settings(&self, design: &Design) -> Settings {
-        let default = Settings::of([design]);
-        let complete = default.completeness;
-        let allowed = |allowed: Allowance| match self.quick {
-            true => Allowance::NONE,
-            false => allowed,
-        };
-        self.survey.settings(Settings {
-            seed: self.seed,
-            boltzmann: self.boltzmann,
-            thermal_energy: self.thermal_energy,
-            repeats: self.repeats,
-            tolerance: self.tolerance,
-            certify: allowed(self.certify.allowed(default.certify)),
-            certify_cells: self.certify_cells,
-            completeness: CompletenessSettings {
-                below: self.complete_below,
-                escape: self.complete_escape,
-                cells: self.complete_cells,
-                allowed: allowed(complete.allowed.or(
-                    self.complete_work,
-                    self.complete_seconds,
-                    Settings::default().completeness.allowed,
-                )),
+/// Default work of the certification, and of the proof that no state is missing, in core-seconds
+/// each. For the shipped designs the proof takes up to 15, and 160 for the paper's tile with
+/// blocks; where it does not finish, more work would not help.
+const WORK: f64 = 180.0;
+/// Default number of milestones.
+pub const MILESTONES: usize = 8000;
+/// Default number of far starts.
+const FAR_STARTS: usize = 1000;
+
+impl Default for Request {
+    fn default() -> Self {
+        Self {
+            survey: Survey {
+                milestones: Some(MILESTONES),
+                far_starts: Some(FAR_STARTS),
+                ..Survey::default()
             },
-            dynamics_runs: self.check.dynamics_runs,
-            ..default
-        })
+            check: Check::default(),
+            repeats: 1,
+            boltzmann: None,
+            thermal_energy: None,
+            tolerance: None,
+            certify: Certify::of(WORK),
+            certify_cells: 1_000_000,
+            quick: false,
+            complete_work: Some(WORK),
+            complete_seconds: None,
+            complete_below: 0.01,
+            complete_escape: 0.005,
+            complete_cells: 4_000_000,
+            seed: 1,
+            added_milestones: 100,
+            least_depth: 1e-4,
+            claims: Claims::All,
+        }
     }
+}
+
+/// From [`MANY_PAIRS`] of magnets on, all amounts of work are reduced by this power of their
+/// number: with groups of far magnets, energies cost less than in proportion to the pairs.
+const THINNED: f64 = 2.0 / 3.0;
+/// Number of kinds of states analysed at [`MANY_PAIRS`].
+const KINDS_OF_MANY: f64 = 800.0;
+/// Least number of far starts: 0 of 60 still means less than 7 %.
+const FEWEST_STARTS: f64 = 60.0;
+/// From this number of pairs on, the default work does not suffice for proofs: squares with 100
+/// magnets per face ...
+const HOPELESS_PAIRS: f64 = 500_000.0;
+
+impl Request {
+    /// Defaults for designs: less of everything for very many magnets, so that a result takes
+    /// minutes. All designs have the same, those for the largest number of pairs of magnets.
+    pub fn usual<'a>(designs: impl IntoIterator<Item = &'a Design>) -> Self {
+        let pairs = |design: &Design| {
+            let tiles = [&design.pair.fixed, &design.pair.moving];
+            tiles.map(|tile| tile.magnets.len() as f64).iter().product()
+        };
+        let pairs = designs.into_iter().map(pairs).fold(0.0, f64::max);
+        let default = Self::default();
+        let many = pairs / MANY_PAIRS as f64;
+        if many <= 1.0 {
+            return default;
+        }
+        let thinned = libm::pow(many, THINNED);
+        let fewer = |count: usize| count as f64 / thinned;
+        let proof = if pairs < HOPELESS_PAIRS { WORK } else { 0.0 };
+        Self {
+            survey: Survey {
+                milestones: Some(fewer(MILESTONES) as usize),
+                far_starts: Some(fewer(FAR_STARTS).max(FEWEST_STARTS) as usize),
+                kinds: Some((KINDS_OF_MANY / thinned) as usize),
+                ..default.survey
+            },
+            certify: Certify::of(proof),
+            complete_work: Some(proof),
+            added_milestones: fewer(default.added_milestones) as usize,
+            ..default
+        }
+    }
+
+    /// For states and barriers without proofs and capture shares, as needed for kinetics.
+    pub fn without_proofs(seed: u64) -> Self {
+        Self {
+            seed,
+            ..Self::default().unproved().surveyed(3000, 0)
+        }
+    }
+
+    /// The same without proofs.
+    #[must_use]
+    pub fn unproved(self) -> Self {
+        Self {
+            certify: Certify::of(0.0),
+            complete_work: Some(0.0),
+            ..self
+        }
+    }
+
+    /// The same with this number of milestones and of far starts.
+    #[must_use]
+    pub fn surveyed(mut self, milestones: usize, far_starts: usize) -> Self {
+        self.survey.milestones = Some(milestones);
+        self.survey.far_starts = Some(far_starts);
+        self
+    }
+
+    /// With what is not given filled in, as is usual for these designs.
+    #[must_use]
+    pub fn of<'a>(&self, designs: impl IntoIterator<Item = &'a Design>) -> Self {
+        let usual = Self::usual(designs);
+        let all = Self {
+            survey: self.survey.of(&usual),
+            certify: self.certify.or(usual.certify),
+            complete_work: work(
+                self.complete_work,
+                self.complete_seconds,
+                usual.complete_work,
+            ),
+            added_milestones: usual.added_milestones,
+            quick: false,
+            ..self.clone()
+        };
+        match self.quick {
+            true => all.unproved(),
+            false => all,
+        }
+    }
+}
+
+/// The requested work (core-seconds), or else what is usual; but a time limit (s) for work that is
+/// not usual allows that of ordinary designs.
+fn work(given: Option<f64>, seconds: Option<f64>, usual: Option<f64>) -> Option<f64> {
+    let is_timed = usual == Some(0.0) && seconds.is_some();
+    given.or(if is_timed { Some(WORK) } else { usual })
 }
 
 /// The thoroughness of the survey.
@@ -132,7 +257,7 @@ pub struct Survey {
     pub neighbours: Option<usize>,
 
     /// A barrier has converged when it changes by less than this fraction
-    #[arg(long, value_name = "F", default_value_t = Settings::default().settled,
+    #[arg(long, value_name = "F", default_value_t = Survey::default().settled,
           value_parser = request::fraction)]
     pub settled: f64,
 
@@ -157,7 +282,7 @@ impl Default for Survey {
         Self {
             milestones: None,
             neighbours: None,
-            settled: Settings::default().settled,
+            settled: 0.005,
             far_starts: None,
             kinds: None,
         }
@@ -165,27 +290,26 @@ impl Default for Survey {
 }
 
 impl Survey {
-    /// The options with missing ones filled in from `usual`.
+    /// The options with missing ones filled in from what is usual.
     #[must_use]
-    pub fn of(&self, usual: &Settings) -> Self {
+    pub fn of(&self, usual: &Request) -> Self {
+        let usual = &usual.survey;
         Self {
-            milestones: self.milestones.or(Some(usual.milestones)),
-            far_starts: self.far_starts.or(Some(usual.far_starts)),
-            kinds: self.kinds.or(usual.most_kinds),
+            milestones: self.milestones.or(usual.milestones),
+            far_starts: self.far_starts.or(usual.far_starts),
+            kinds: self.kinds.or(usual.kinds),
             ..self.clone()
         }
     }
 
-    /// Settings with this survey.
-    pub(crate) fn settings(&self, others: Settings) -> Settings {
-        Settings {
-            milestones: self.milestones.unwrap_or(others.milestones),
-            neighbours: self.neighbours,
-            settled: self.settled,
-            far_starts: self.far_starts.unwrap_or(others.far_starts),
-            most_kinds: self.kinds.or(others.most_kinds),
-            ..others
-        }
+    /// Milestones of the roadmap.
+    pub fn milestones(&self) -> usize {
+        self.milestones.unwrap_or(MILESTONES)
+    }
+
+    /// Far starts for the capture shares.
+    pub fn far_starts(&self) -> usize {
+        self.far_starts.unwrap_or(FAR_STARTS)
     }
 }
 
@@ -215,7 +339,7 @@ fn is_zero(runs: &usize) -> bool {
 }
 
 /// The effort of certification.
-#[derive(Clone, Debug, PartialEq, Args)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 pub struct Certify {
     /// Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
     ///
@@ -227,16 +351,33 @@ pub struct Certify {
     ///
     /// Wall-clock time, so two runs can differ.
     #[arg(long, value_name = "S", value_parser = request::time_or_none)]
+    #[serde(rename = "certify_s")]
     pub certify_seconds: Option<f64>,
 }
 
 impl Certify {
-    /// The requested limits, or else the default.
-    pub fn allowed(&self, default: Allowance) -> Allowance {
-        default.or(
-            self.certify_work,
-            self.certify_seconds,
-            Settings::default().certify,
-        )
+    /// This work (core-seconds), without a time limit.
+    pub const fn of(work: f64) -> Self {
+        Self {
+            certify_work: Some(work),
+            certify_seconds: None,
+        }
+    }
+
+    /// The requested limits, or else what is usual.
+    #[must_use]
+    pub fn or(self, usual: Self) -> Self {
+        Self {
+            certify_work: work(self.certify_work, self.certify_seconds, usual.certify_work),
+            certify_seconds: self.certify_seconds.or(usual.certify_seconds),
+        }
+    }
+
+    /// The limits as an allowance.
+    pub fn allowed(self) -> Allowance {
+        Allowance {
+            work: self.certify_work,
+            seconds: self.certify_seconds,
+        }
     }
 }

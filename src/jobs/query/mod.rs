@@ -7,7 +7,7 @@ mod ways;
 pub use request::Request;
 
 use crate::design::Design;
-use crate::pipeline::Settings;
+use crate::pipeline;
 use crate::request::Unanswered;
 use physics::budget::Ended;
 use physics::configuration::Configuration;
@@ -20,19 +20,6 @@ use ways::PathSearch;
 /// Number of cells of the certificate before a roadmap is built: they take about as long as a
 /// roadmap.
 const CELLS_BEFORE_ROADMAP: usize = 100_000;
-
-/// A query for one barrier.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Query {
-    /// The start of the path.
-    pub from: Configuration,
-    /// The end of the path.
-    pub to: End,
-    /// Settings of the roadmap, and the allowance of the certification.
-    pub settings: Settings,
-    /// Target width (J) of the bounds; a hundredth of the bond's depth if `None`.
-    pub tolerance: Option<f64>,
-}
 
 /// The answer.
 #[derive(Clone, Debug)]
@@ -84,7 +71,7 @@ impl Unanswered for QueryError {
 /// disproved.
 pub fn barrier(
     design: &Design,
-    query: &Query,
+    query: &Request,
     observer: &dyn Observer,
 ) -> Result<Answer, QueryError> {
     let problem = design.problem();
@@ -96,8 +83,9 @@ pub fn barrier(
     if query.to == End::Free && problem.space.is_far(&query.from) {
         barrier.lead_along(pathway::of_configurations(&problem, &[query.from], 0.0));
     }
-    let search = PathSearch::new(&problem, query);
-    let certificate = Certificate::new(&problem, query, &search);
+    let analysis = query.analysis(design);
+    let search = PathSearch::new(&problem, query, &analysis);
+    let certificate = Certificate::new(&problem, query, &search, &analysis);
     let uncertified = certificate.as_ref().err().copied();
     let mut ended = None;
     match certificate {
@@ -137,7 +125,7 @@ pub fn barrier(
 }
 
 /// The requested barrier, with nothing known yet.
-fn unknown_barrier(problem: &Problem, query: &Query) -> Barrier {
+fn unknown_barrier(problem: &Problem, query: &Request) -> Barrier {
     let from = (Place::State(0), problem.energy(&query.from));
     let to = match &query.to {
         End::At(to) => (Place::State(1), problem.energy(to)),
@@ -159,7 +147,7 @@ fn check(problem: &Problem, q: &Configuration) -> Result<(), QueryError> {
 /// The certification of one query.
 struct Certificate<'a> {
     certifier: Certifier<'a>,
-    query: &'a Query,
+    query: &'a Request,
     search: &'a PathSearch<'a>,
     tolerance: f64,
 }
@@ -167,10 +155,11 @@ struct Certificate<'a> {
 impl<'a> Certificate<'a> {
     fn new(
         problem: &'a Problem,
-        query: &'a Query,
+        query: &'a Request,
         search: &'a PathSearch<'a>,
+        analysis: &pipeline::Request,
     ) -> Result<Self, Uncertified> {
-        let allowed = query.settings.certify;
+        let allowed = analysis.certify.allowed();
         let (contact, space) = (problem.contact.as_ref(), &problem.space);
         Ok(Self {
             certifier: Certifier::within(problem.bounds()?, contact, space, allowed)?,
@@ -188,7 +177,7 @@ impl<'a> Certificate<'a> {
             tolerance: width,
             cells: cells.saturating_sub(self.certifier.assessed()),
         };
-        let Query { from, to, .. } = self.query;
+        let Request { from, to, .. } = self.query;
         let bracket = self
             .certifier
             .bracket(from, to, &known, &effort)

@@ -2,9 +2,8 @@
 
 use clap::Args;
 
-use super::Query;
 use crate::design::Design;
-use crate::pipeline::{Certify, Settings};
+use crate::pipeline::{self, Certify, Survey};
 use crate::request;
 use crate::seated::seated;
 use physics::configuration::Configuration;
@@ -20,7 +19,7 @@ Effort of the certified bounds, in core-seconds; 0: no bounds [default: 180]
 Counted in steps, not timed.";
 
 /// The options of a query for one barrier.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, PartialEq, Args)]
 #[command(mut_arg("certify_work", |work| work.help(WORK).long_help(WORK_LONG)))]
 pub struct Request {
     /// Initial pose (m, m, rad)
@@ -44,32 +43,39 @@ pub struct Request {
     pub milestones: Option<usize>,
 
     /// Random seed
-    #[arg(long, value_name = "N", default_value_t = Settings::default().seed,
+    #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
           value_parser = request::seed)]
     pub seed: u64,
 }
 
 impl Request {
-    /// The query about a design. Ends at which the tiles overlap slightly are moved out to contact;
-    /// the observer is warned.
-    pub fn query(&self, design: &Design, observer: &dyn Observer) -> Query {
-        let default = Settings::of([design]);
+    /// With ends at which the tiles overlap slightly moved out to contact; the observer is warned.
+    #[must_use]
+    pub fn seated(&self, design: &Design, observer: &dyn Observer) -> Self {
         let problem = design.problem();
-        Query {
+        Self {
             from: seated(&problem, &self.from, observer),
             to: match &self.to {
                 End::At(to) => End::At(seated(&problem, to, observer)),
                 End::Free => End::Free,
             },
-            settings: Settings {
-                seed: self.seed,
-                milestones: self.milestones.unwrap_or(default.milestones),
-                far_starts: 0,
-                most_kinds: None,
-                certify: self.certify.allowed(Settings::default().certify),
-                ..default
+            ..self.clone()
+        }
+    }
+
+    /// The survey of the roadmap on which paths are searched, and the effort of the bounds.
+    pub fn analysis(&self, design: &Design) -> pipeline::Request {
+        let usual = pipeline::Request::usual([design]);
+        pipeline::Request {
+            survey: Survey {
+                milestones: self.milestones.or(usual.survey.milestones),
+                far_starts: Some(0),
+                kinds: None,
+                ..usual.survey
             },
-            tolerance: self.tolerance,
+            certify: self.certify.or(pipeline::Request::default().certify),
+            seed: self.seed,
+            ..usual
         }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
-use super::Query;
+use super::Request;
 use crate::pipeline::{self, Clock};
 use physics::configuration::Configuration;
 use physics::landscape::capture::FarStarts;
@@ -36,18 +36,20 @@ const FAR_STARTS: usize = 100;
 /// Searches paths between the two ends of a query.
 pub(super) struct PathSearch<'a> {
     problem: &'a Problem,
-    query: &'a Query,
+    query: &'a Request,
+    analysis: &'a pipeline::Request,
     roadmap: RoadmapSettings,
     /// Far starts, each with its end; computed on first use.
     arrivals: OnceCell<Vec<(Configuration, Configuration)>>,
 }
 
 impl<'a> PathSearch<'a> {
-    pub fn new(problem: &'a Problem, query: &'a Query) -> Self {
+    pub fn new(problem: &'a Problem, query: &'a Request, analysis: &'a pipeline::Request) -> Self {
         Self {
             problem,
             query,
-            roadmap: query.settings.roadmap(problem),
+            analysis,
+            roadmap: analysis.roadmap(problem),
             arrivals: OnceCell::new(),
         }
     }
@@ -60,7 +62,7 @@ impl<'a> PathSearch<'a> {
         let arrivals = self.arrivals.get_or_init(|| {
             let far_starts = FarStarts {
                 count: FAR_STARTS,
-                seed: self.query.settings.seed,
+                seed: self.query.seed,
             };
             let known = survey.known();
             let ends = capture::ends(self.problem, &far_starts, known, &|_| ());
@@ -71,15 +73,20 @@ impl<'a> PathSearch<'a> {
 
     /// The minimax pathway of a roadmap; empty if there is none.
     pub fn through_roadmap(&self, observer: &dyn Observer) -> Pathway {
-        let Query { from, settings, .. } = self.query;
+        let from = &self.query.from;
         let guesses: Vec<Configuration> = [Some(from), self.query.to.configuration()]
             .into_iter()
             .flatten()
             .copied()
             .collect();
         let mut clock = Clock::new(self.problem, observer);
-        let (mut survey, _) =
-            pipeline::survey(self.problem, settings, &self.roadmap, &guesses, &mut clock);
+        let (mut survey, _) = pipeline::survey(
+            self.problem,
+            self.analysis,
+            &self.roadmap,
+            &guesses,
+            &mut clock,
+        );
         let from = self.attach(&mut survey, from);
         let to = match &self.query.to {
             End::At(to) => self.attach(&mut survey, to),
@@ -108,7 +115,7 @@ impl<'a> PathSearch<'a> {
             return Pathway::new();
         };
         let peaks = peaks(self.problem, &points);
-        let settings = self.query.settings.survey(&self.roadmap);
+        let settings = self.analysis.exploration(&self.roadmap);
         let mut survey = Exploration::of_roadmap(self.problem, Roadmap::default(), &settings);
         let from = self.attach(&mut survey, &self.query.from);
         let to = match &self.query.to {

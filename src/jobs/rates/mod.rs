@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::design::Design;
 use crate::memory;
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use crate::request::{self, Unanswered};
 use crate::seated::seated;
 use physics::configuration::Configuration;
@@ -174,11 +174,8 @@ impl Request {
 
     /// The settings of the survey of states that rates begin with: only states and their lowest
     /// barriers are needed, without proofs.
-    pub fn survey(&self) -> Settings {
-        Settings {
-            milestones: Settings::default().milestones,
-            ..Settings::without_proofs(self.seed)
-        }
+    pub fn survey(&self) -> pipeline::Request {
+        pipeline::Request::without_proofs(self.seed).surveyed(pipeline::MILESTONES, 0)
     }
 
     /// Surveys the states of a design and solves for the rates between the bond, the deepest traps

@@ -3,7 +3,7 @@
 use super::made::{Draw, Maker};
 use super::{Outcome, Request, Study, working};
 use crate::design::Design;
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use ordered_float::OrderedFloat;
 use physics::configuration::Configuration;
 use physics::landscape::minimum::{Outcome as End, descend};
@@ -102,7 +102,7 @@ pub(super) fn anew(
     if count == 0 {
         return None;
     }
-    let settings = Settings::without_proofs(request.seed);
+    let settings = pipeline::Request::without_proofs(request.seed);
     observer.stage("check", 0.9);
     let batch = CHECKS_A_THREAD * parallel::threads();
     let tell = |done| observer.part("checks (fewer: --checks)", done, count);

@@ -26,7 +26,7 @@ pub use safer::Safer;
 
 use crate::design::Design;
 use crate::memory;
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use crate::request::Unanswered;
 use expansion::{ERRORS, Pairs, Placed};
 use made::{Draw, Maker};
@@ -278,7 +278,7 @@ impl Request {
                 self.checks
             ));
         }
-        let settings = Settings::without_proofs(self.seed);
+        let settings = pipeline::Request::without_proofs(self.seed);
         let found = pipeline::analyse(design, &settings, observer);
         observer.stage("draws", 0.8);
         let study = Study::new(design, &found.problem, &found.catalogue, &self.making)

@@ -20,7 +20,7 @@ use clap::Args;
 use crate::design::Design;
 use crate::docking;
 use crate::memory;
-use crate::pipeline::{self, Settings};
+use crate::pipeline;
 use crate::request::{self, Unanswered};
 use attachment::Effort;
 pub use attachment::Source;
@@ -239,7 +239,11 @@ pub fn yields(
         return Err(YieldError::Many(count));
     }
     let design = &design.centred();
-    let analysis = pipeline::analyse(design, &Settings::without_proofs(question.seed), observer);
+    let analysis = pipeline::analyse(
+        design,
+        &pipeline::Request::without_proofs(question.seed),
+        observer,
+    );
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
     let bond = Hold::bond(problem, catalogue)?;
     let refused = |kt: f64| match () {

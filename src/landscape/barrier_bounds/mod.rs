@@ -38,6 +38,7 @@ pub struct CertificationSettings {
 /// The barriers with claims beyond the roadmap's estimate: they are certified and, if requested,
 /// checked by moving tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Claims {
     /// All that are reported.
     All,

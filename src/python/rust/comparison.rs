@@ -59,7 +59,7 @@ pub fn compare(
     };
     let ranking = question.request.check_ranking(by);
     ranking.map_err(|error| fault::value(error.to_string()))?;
-    job::check_memory(question.request.settings(question.seed).check_memory())?;
+    job::check_memory(question.request.analysis(question.seed).check_memory())?;
     let found = job::run(py, progress, |told| assess_all(designs(), &question, told))?;
     Ok(Comparison(Compared::new(&found, by, question.request)))
 }

@@ -13,13 +13,12 @@ use jobs::Design;
 use jobs::assembly::{TileSet, rgrow, xgrow};
 use jobs::calibration::{Fitted, bonds, distances, read_rows};
 use jobs::design::{DesignError, WordSet};
-use jobs::pipeline::{self, Settings};
+use jobs::pipeline::{self, Certify, Request};
 use jobs::query::poses;
 use jobs::sweep::Plan;
 use jobs::table::{About, Ensemble, read_start};
 use jobs::text::with_commas;
 use physics::Configuration;
-use physics::budget::Allowance;
 use physics::observer::Silent;
 use physics::table::run::Start;
 
@@ -227,17 +226,19 @@ pub fn gaps(text: &str, pair: &Design) {
 /// # Panics
 /// Where one is not, or they are not.
 pub fn analyse(bytes: &[u8]) {
+    const FAR_STARTS: usize = 20;
     let Ok(design) = Design::parse_with(&small_design::of(bytes), "fuzz.toml", &BTreeMap::new())
     else {
         return;
     };
     let seed = u64::from(bytes.last().copied().unwrap_or_default());
-    let mut settings = Settings::without_proofs(1 + seed);
-    settings.milestones = 300;
-    settings.far_starts = 20;
-    settings.certify = Allowance::of(0.05);
-    settings.completeness.allowed = Allowance::of(0.05);
-    let found = pipeline::analyse(&design, &settings, &Silent);
+    let request = Request {
+        seed: 1 + seed,
+        certify: Certify::of(0.05),
+        complete_work: Some(0.05),
+        ..Request::default().surveyed(300, FAR_STARTS)
+    };
+    let found = pipeline::analyse(&design, &request, &Silent);
     let states = &found.catalogue.states;
     let deepest = states.iter().map(|it| it.energy.abs()).fold(0.0, f64::max);
     for state in states {
@@ -257,6 +258,6 @@ pub fn analyse(bytes: &[u8]) {
         .filter_map(|it| it.capture)
         .map(|it| it.count)
         .sum();
-    assert_eq!(caught + found.uncaptured.all().count, settings.far_starts);
+    assert_eq!(caught + found.uncaptured.all().count, FAR_STARTS);
     let _ = found.contradicted();
 }

@@ -1,9 +1,8 @@
 //! Slots: deep ones without play, in which almost every configuration overlaps, and one with little play.
 
-use tilebind::budget::Allowance;
 use tilebind::design::Design;
 use tilebind::observer::Silent;
-use tilebind::pipeline::{Settings, analyse};
+use tilebind::pipeline::{MILESTONES, Request, analyse};
 
 use crate::designs;
 
@@ -20,12 +19,10 @@ fn teeth(depth: f64) -> Design {
 /// divide between two states lies outside the slots, not in them.
 #[test]
 fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
-    let mut settings = Settings {
-        milestones: 4000,
-        far_starts: 100,
-        ..Settings::default()
+    let settings = Request {
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(4000, 100)
     };
-    settings.completeness.allowed = Allowance::NONE;
     let analysis = analyse(&teeth(0.05), &settings, &Silent);
     // Three of them do not reach a worthwhile width after 20,000 to 50,000 cells each.
     let cells = analysis.counts.cells;
@@ -36,11 +33,10 @@ fn no_cells_are_lost_in_slots_through_which_ways_are_known() {
 /// millimetre away are misleading when a pathway is lifted off contact.
 #[test]
 fn pathways_out_of_a_slot_are_proved_no_higher_than_they_lead() {
-    let mut settings = Settings {
-        far_starts: 100,
-        ..Settings::default()
+    let settings = Request {
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(MILESTONES, 100)
     };
-    settings.completeness.allowed = Allowance::NONE;
     let design = designs::load("shapes/dovetail.toml");
     let analysis = analyse(&design, &settings, &Silent);
     let told = analysis.catalogue.barriers.iter().filter(|b| b.has_way());

@@ -6,8 +6,8 @@ use tilebind::dynamics::Body;
 use tilebind::dynamics::check::{BarrierCheck, CheckSettings, SideVerdict, check};
 use tilebind::landscape::{Barrier, Place};
 use tilebind::observer::Silent;
-use tilebind::pipeline;
-use tilebind::{Analysis, Design, Settings};
+use tilebind::pipeline::{self, MILESTONES, Request};
+use tilebind::{Analysis, Design};
 
 use super::paper_tile;
 use crate::designs;
@@ -25,19 +25,18 @@ fn few() -> CheckSettings {
 
 /// An analysis without a proof of its list of states.
 fn analysis(design: Design, milestones: usize) -> (Design, Analysis) {
-    let mut settings = Settings {
-        milestones,
-        ..Settings::default()
+    let request = Request {
+        complete_work: Some(0.0),
+        ..Request::default().surveyed(milestones, 1000)
     };
-    settings.completeness.allowed = tilebind::budget::Allowance::NONE;
-    let analysis = pipeline::analyse(&design, &settings, &Silent);
+    let analysis = pipeline::analyse(&design, &request, &Silent);
     (design, analysis)
 }
 
 /// The paper's tile and its analysis, made once for all tests.
 fn paper() -> &'static (Design, Analysis) {
     static ONCE: OnceLock<(Design, Analysis)> = OnceLock::new();
-    ONCE.get_or_init(|| analysis(paper_tile(), Settings::default().milestones))
+    ONCE.get_or_init(|| analysis(paper_tile(), MILESTONES))
 }
 
 /// The check of an analysed design's barriers by moving tiles, after `change` has modified them.

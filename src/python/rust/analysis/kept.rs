@@ -15,7 +15,7 @@ impl Analysis {
         // The problem is that of the design.
         let Found {
             problem: _,
-            settings,
+            request,
             roadmap,
             bound,
             catalogue,
@@ -28,7 +28,7 @@ impl Analysis {
             counts,
             stages,
         } = &this.found;
-        let asked = (&this.content.source, this.wall_s, settings, roadmap);
+        let asked = (&this.content.source, this.wall_s, request, roadmap);
         let landscape = (bound, catalogue, completeness, uncaptured, ring);
         let work = (uncertified, certificate_ended, dynamics, counts, stages);
         shown::reduced(slf, &(asked, landscape, work))
@@ -37,13 +37,13 @@ impl Analysis {
     #[staticmethod]
     fn _restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         let (asked, landscape, work) = pickle::load(bytes)?;
-        let (source, wall_s, settings, roadmap) = asked;
+        let (source, wall_s, request, roadmap) = asked;
         let (bound, catalogue, completeness, uncaptured, ring) = landscape;
         let (uncertified, certificate_ended, dynamics, counts, stages) = work;
         let design = Design::of_source(py, source)?;
         let found = Found {
             problem: design.content.problem(None).clone(),
-            settings,
+            request,
             roadmap,
             bound,
             catalogue,

@@ -87,11 +87,11 @@ impl Design {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Analysis> {
         let content = slf.get().content.clone();
-        let settings = request::<pipeline::Request>(settings)?.settings(&content.design);
-        job::check_memory(settings.check_memory())?;
+        let asked = request::<pipeline::Request>(settings)?.of([&content.design]);
+        job::check_memory(asked.check_memory())?;
         let start = Instant::now();
         let found = job::run(py, progress, |told| {
-            pipeline::analyse(&content.design, &settings, told)
+            pipeline::analyse(&content.design, &asked, told)
         })?;
         Ok(Analysis {
             wall_s: start.elapsed().as_secs_f64(),

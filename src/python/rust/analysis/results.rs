@@ -183,7 +183,7 @@ impl Analysis {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = PyDict::new(py);
         asked.set_item("coverage", coverage)?;
-        asked.set_item("seed", self.found.settings.seed)?;
+        asked.set_item("seed", self.found.request.seed)?;
         let asked: bond::Request = request_with(py, Some(&asked), "kt", kt)?;
         let design = &self.content.design;
         let held = job::answer(py, Some(false), |told| asked.run(design, false, told))?;
@@ -225,7 +225,7 @@ impl Analysis {
             None => PyDict::new(py),
         };
         if !given.contains("seed")? {
-            given.set_item("seed", self.found.settings.seed)?;
+            given.set_item("seed", self.found.request.seed)?;
         }
         let asked: rates::Request = request_with(py, Some(&given), "kt", kt)?;
         job::check_memory(asked.check_memory(job::threads()))?;

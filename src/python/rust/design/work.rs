@@ -64,8 +64,8 @@ impl Design {
         }
         let design = &self.content.design;
         let asked = request::<query::Request>(Some(&settings))?;
-        let query = job::run(py, Some(false), |told| asked.query(design, told))?;
-        job::check_memory(query.settings.check_memory())?;
+        let query = job::run(py, Some(false), |told| asked.seated(design, told))?;
+        job::check_memory(query.analysis(design).check_memory())?;
         let answer = job::answer(py, progress, |told| query::barrier(design, &query, told))?;
         let barrier = &answer.barrier;
         let fields = PyDict::new(py);
