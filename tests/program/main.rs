@@ -11,6 +11,7 @@ mod faults;
 mod fits;
 #[path = "../shared/folder.rs"]
 mod folder;
+mod keywords;
 mod levels;
 mod outputs;
 mod pictures;

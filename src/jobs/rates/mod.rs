@@ -50,7 +50,7 @@ pub struct Question {
     #[arg(long, value_name = "RATE", default_value_t = OVERDAMPED, value_parser = request::rate)]
     pub drag: f64,
 
-    /// Energy (J) below which the tile counts as bound [default: half the bond's energy]
+    /// Energy (J) below which the tile counts as bound [default: with --start half the bond's, else half way up its barrier]
     ///
     /// The tile is bound in the basin of the bond or of a symmetric copy, below this energy. Without
     /// --start the default is half way from the bond up to its lowest barrier.

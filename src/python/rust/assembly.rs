@@ -27,31 +27,7 @@ use crate::{convert, fault, job};
 ///     or a whole set with the keys of its file. Searched by default.
 /// design : Design, optional
 ///     Its target face gives magnets, pitch and side; the paper's tile by default.
-/// kt : float, optional
-///     Effective energy kT of the shaking (J), for growth; without it tiles are laid by hand.
-/// coverage : float, optional
-///     Fraction of the table covered by tiles.
-/// lattice : sequence of int, optional
-///     Rows and columns of a lattice.
-/// side : int, optional
-///     Side of a counted square (tiles).
-/// proofread : int, optional
-///     Replace each tile by a block with this many tiles per side.
-/// length : int, optional
-///     Magnet positions per face; the fewest that carry the words by default.
-/// magnets : int, optional
-///     Magnets per word of the strongest bonds, if spacing is part of the code.
-/// gap : float, optional
-///     Smallest gap of the words: 0.5 by default, with `length` the widest.
-/// shape : {"none", "shared", "polar"}, optional
-///     Complementary shapes of the faces.
-/// pitch : float, optional
-///     Distance between magnet positions (m).
-/// model : {"dipole", "cuboid"}, optional
-///     Magnet model; the design's by default.
-/// seconds : float, optional
-///     Effort of the word search in core-seconds for each length of face, counted in steps.
-/// seed : int, optional
+#[doc = include_str!("keywords/assemble.txt")]
 /// progress : bool, optional
 ///
 /// Returns

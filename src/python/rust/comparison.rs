@@ -26,12 +26,7 @@ fn quantity(key: &str) -> PyResult<&'static Quantity> {
 /// designs : sequence of Design
 /// by : str, optional
 ///     Figure to rank by, "selectivity" by default; largest first.
-/// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
-/// complete_cells, dynamics_runs, seed
-///     As for :meth:`Design.analyse`, except `certify_cells`: most cells for the bounds of one
-///     barrier; 0 for no bounds.
-/// strength, place, turn, gap, flip, batch, draws, selectivity
-///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
+#[doc = include_str!("keywords/compare.txt")]
 /// progress : bool, optional
 ///
 /// Returns

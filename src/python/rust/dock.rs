@@ -21,26 +21,7 @@ use crate::{convert, fault, job, pickle, table};
 /// Parameters
 /// ----------
 /// design : Design
-/// runs : int, optional
-///     Number of trajectories, 2000 by default.
-/// seed : int, optional
-/// duration : float, optional
-///     Duration of each (s).
-/// drag, friction, restitution : float, optional
-///     Drag rate (1/s), coefficient of friction, coefficient of restitution.
-/// no_walls : bool, optional
-///     Let tiles leave the table.
-/// shaking : float, optional
-///     Effective energy kT of random shaking (J).
-/// fan : sequence, optional
-///     (x, y, energy, width) in m, m, J and m, optionally followed by relative amplitude
-///     and frequency (Hz).
-/// threshold : float, optional
-///     Distance (m) within which target magnets count as matched.
-/// distance, speed : tuple of float, optional
-///     Lowest and highest initial values (m, m/s).
-/// direction, orientation, aim, spin : float, optional
-///     Largest initial deviations (rad, rad, rad, rad/s).
+#[doc = include_str!("keywords/dock.txt")]
 /// progress : bool, optional
 ///
 /// Returns

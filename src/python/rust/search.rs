@@ -47,18 +47,7 @@ fn all(texts: Option<Texts>) -> Vec<String> {
 /// vary : Mapping
 ///     By dotted path of the key: a range as text, ``{"magnet.inset": "0 mm:5 mm"}``, of which
 ///     it takes any number, or the values among which it chooses.
-/// maximise, minimise : str or sequence of str, optional
-///     One figure in all, or two and their front: ``"selectivity"``, ``"bond_depth"`` and the
-///     others of :func:`compare`.
-/// subject : str or sequence of str, optional
-///     Conditions, such as ``"captured > 0.5"`` or ``"bond_depth > 20 mJ"``.
-/// points : int, optional
-///     Number of designs to try, 60 by default.
-/// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
-/// complete_cells, dynamics_runs, seed
-///     As for :func:`compare`.
-/// strength, place, turn, gap, flip, batch, draws, selectivity
-///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
+#[doc = include_str!("keywords/search.txt")]
 /// progress : bool, optional
 ///
 /// Returns
@@ -73,7 +62,7 @@ fn all(texts: Option<Texts>) -> Vec<String> {
 /// >>> print(found.best.text)
 #[pyfunction]
 #[pyo3(signature = (
-    designs, vary, *, maximise = None, minimise = None, subject = None, points = 60,
+    designs, vary, *, maximise = None, minimise = None, subject = None, points = None,
     progress = None, **settings
 ))]
 // Its keywords.
@@ -85,7 +74,7 @@ pub fn search(
     maximise: Option<Texts>,
     minimise: Option<Texts>,
     subject: Option<Texts>,
-    #[pyo3(from_py_with = convert::whole)] points: usize,
+    points: Option<&Bound<'_, PyAny>>,
     progress: Option<bool>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Search> {
@@ -104,11 +93,12 @@ pub fn search(
     let items = vary.items()?;
     let axes = items.iter().map(|item| range(item.extract()?));
     let axes = axes.collect::<PyResult<Vec<_>>>()?;
+    let points = points.map(convert::whole).transpose()?;
     let given = [
         ("maximise", all(maximise)),
         ("minimise", all(minimise)),
         ("subject", all(subject)),
-        ("points", vec![points.to_string()]),
+        ("points", points.iter().map(ToString::to_string).collect()),
     ];
     let given = given.map(|(key, values)| (key.to_owned(), values));
     let aim: Aims = of_keywords(given).map_err(fault::value)?;

@@ -49,15 +49,7 @@ pub fn axis((key, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)) -> PyResult<Axi
 /// vary : Mapping
 ///     Values by dotted path of the key, ``{"magnet.pitch": np.linspace(0.03, 0.05, 5)}``;
 ///     several keys make a grid, in which the first varies slowest.
-/// baseline : str, optional
-///     Point to compare all points with: varied values, such as ``"depth=0"``.
-/// refine : int, optional
-///     Add this many points where the curves bend most (one varied number).
-/// milestones, neighbours, settled, far_starts, kinds, tolerance, certify_cells,
-/// complete_cells, dynamics_runs, seed
-///     As for :func:`compare`.
-/// strength, place, turn, gap, flip, batch, draws, selectivity
-///     Errors of making, for the figure "robust"; as for :func:`tolerance`.
+#[doc = include_str!("keywords/sweep.txt")]
 /// progress : bool, optional
 ///
 /// Returns

@@ -17,28 +17,7 @@ use crate::{job, shown};
 /// Parameters
 /// ----------
 /// design : Design
-/// strength : float or str, optional
-///     Standard deviation of the magnets' relative strength: 0.05 or "5%".
-/// place : float or str, optional
-///     Standard deviation of the magnets' places, along and across the face: "0.3 mm".
-/// turn : float or str, optional
-///     Standard deviation of the magnets' axes: "3 deg".
-/// gap : float or str, optional
-///     Gap left between touching faces: "0.1 mm".
-/// flip : float, optional
-///     Chance that a magnet is glued in with its poles exchanged.
-/// batch : float, optional
-///     Share of the strength's variance that all magnets of a draw have in common.
-/// draws : int, optional
-///     Number of drawn pairs of tiles; 1000 by default.
-/// selectivity : float, optional
-///     Least ratio of the bond's depth to the deepest trap's with which a pair works; 1.5 by
-///     default.
-/// beats : float, optional
-///     Also count the draws whose deepest trap is deeper than this share of the nominal bond.
-/// checks : int, optional
-///     Number of draws that are analysed anew.
-/// seed : int, optional
+#[doc = include_str!("keywords/tolerance.txt")]
 /// progress : bool, optional
 ///
 /// Returns

@@ -14,59 +14,9 @@ use crate::{convert, fault, job};
 ///
 /// Parameters
 /// ----------
-/// length : int, optional
-///     Magnets per word; with `slots`, the same as `magnets`.
-/// gap : float, optional
-///     Smallest gap, 0 to 1: find the largest set.
-/// count : int, optional
-///     Number of words: find the set with the widest gap. With neither, find the number of
-///     words for every number of matching contacts.
-/// contacts : int, optional
-///     Count contacts: at most this many more matches than mismatches in wrong meetings.
-/// slots : int, optional
-///     Positions per face, of which `length` have magnets: spacing is part of the code.
-/// magnets : int, optional
-///     Magnets per word with `slots` or `continuous`; `length` by default.
-/// continuous : bool, optional
-///     Place magnets anywhere along the face, at least a pitch apart. Positions and poles
-///     are optimised together, and wrong meetings are searched over all poses. Needs `gap`
-///     or `count`.
-/// face : float, optional
-///     Face length (m) with `continuous`; the design's by default, or the paper's.
 /// design : Design, optional
 ///     Its target face gives magnets and pitch; the paper's tile by default.
-/// self : bool, optional
-///     Words that bind their own kind and nothing else: there are no mates.
-/// faces : {"all", "mates"}, optional
-///     Which faces can meet.
-/// shape : {"none", "shared", "polar"}, optional
-///     Complementary shapes.
-/// flip : bool, optional
-///     Tiles can lie upside down.
-/// tolerate : {"missing=1", "flipped=1"}, optional
-///     Keep the gap even if one magnet per face is missing or flipped.
-/// pitch : float, optional
-///     Distance between magnet positions (m).
-/// balanced : bool, optional
-///     As many north poles as south poles, or one more.
-/// max_run : int, optional
-///     Longest run of equal poles.
-/// min_mismatch : sequence of int, optional
-///     Smallest numbers of mismatches: between two aligned words, between an aligned word
-///     and complement, and of either at any slide (overhanging magnets count as
-///     mismatches).
-/// consecutive : sequence of int, optional
-///     Range of the longest run of consecutive matches of two words over all slides.
-/// min_bond : float, optional
-///     Smallest depth of a bond (J).
-/// word_word, word_mate, mate_mate : sequence of float, optional
-///     Range of the lowest energy (J) over all slides of two words, of a word and another
-///     word's mate, and of two mates.
-/// model : {"dipole", "cuboid"}, optional
-///     Magnet model; the design's by default.
-/// seconds : float, optional
-///     Search effort in core-seconds, counted in steps.
-/// seed : int, optional
+#[doc = include_str!("keywords/words.txt")]
 /// progress : bool, optional
 ///
 /// Returns
@@ -102,13 +52,7 @@ pub fn words<'py>(
 /// ----------
 /// words : sequence of str or Mapping
 ///     The words, without their mates, or a whole set with the keys of its file.
-/// certify : float or bool, optional
-///     Prove that no attraction is stronger, to within this energy (J); True for 1/4 of a
-///     contact.
-/// certify_cells : int, optional
-///     Most cells for the proof.
-/// model : {"dipole", "cuboid"}, optional
-///     Magnet model; the set's by default.
+#[doc = include_str!("keywords/crosstalk.txt")]
 /// progress : bool, optional
 ///
 /// Returns

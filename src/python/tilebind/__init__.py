@@ -2,7 +2,8 @@
 
 Everything is in SI units (m, kg, s, T, J, N, rad). A pose is ``(x, y, theta)``: the moving tile's
 reference point in the fixed tile's frame and its orientation, counter-clockwise; arrays of poses
-are ``(n, 3)``. The intended contact of the tiles is the *bond*, any other stable
+are ``(n, 3)``. Numbers among the options may be texts with a unit, as on the command line:
+``"3 mJ"``. The intended contact of the tiles is the *bond*, any other stable
 contact is a *trap*, and tiles far apart are *free*.
 
 >>> import tilebind
@@ -14,7 +15,7 @@ contact is a *trap*, and tiles far apart are *free*.
 
 from ._errors import DesignError
 from ._magpylib import Tile
-from ._results import Barrier, LandscapeMap, Share
+from ._results import AirTable, Barrier, LandscapeMap, Share
 from ._tilebind import (
     Analysis,
     Comparison,
@@ -33,6 +34,9 @@ from ._tilebind import (
     verify,
     words,
 )
+
+# Calling the table is a method of designs.
+AirTable.__call__.__doc__ = Design._on_table.__doc__
 
 __all__ = [
     "Analysis",

@@ -16,52 +16,6 @@ class AirTable(tuple):  # type: ignore[type-arg]
         return table
 
     def __call__(self, time, **settings):
-        """Simulate many tiles on one table, with contact, friction and drives; count bonds and traps.
-
-        Parameters
-        ----------
-        time : float
-            Duration of each run (s).
-        count : int or sequence of int, optional
-            Numbers of tiles of the fixed and of the moving kind, at random positions; one number
-            for a design of one kind.
-        start : str or os.PathLike, optional
-            Instead of `count`: a CSV file of the initial tiles, with the columns `tile`, `kind`
-            ("fixed" or "moving"; not needed for a design of one kind), `x`, `y`, `theta`, `vx`, `vy`, `omega` (m, rad, m/s, rad/s).
-        target : str or os.PathLike, optional
-            What is to be built: "ring:8", "chain:5", "sheet:3x3", or a start file.
-        runs : int, optional
-        shard : str, optional
-            "i/n": compute only every nth run, from the ith on.
-        shaking : float, optional
-            Effective energy kT (J) of shaking.
-        correlation : float, optional
-            Time between random kicks of the shaking (s).
-        orbital : tuple of float, optional
-            Move the table in a circle: radius (m) and revolutions per second (Hz).
-        linear : tuple of float, optional
-            Shake the table along a line: amplitude (m), periods per second (Hz) and angle (rad) from the x axis.
-        table_friction : float, optional
-            Coefficient of dry friction of tiles on the table; 0 is an air table.
-        drag, friction, restitution : float, optional
-            Drag rate (1/s), coefficient of friction, coefficient of restitution.
-        fan : sequence, optional
-            (x, y, energy, width) in m, m, J and m, optionally followed by relative amplitude
-            and frequency (Hz).
-        step : float, optional
-            Longest step (s).
-        frames : float, optional
-            Interval (s) at which poses are recorded.
-        compare : bool, optional
-            Compare with the predictions of `bond` and `yields`.
-        seed : int, optional
-        progress : bool, optional
-
-        Returns
-        -------
-        dict
-            As ``tilebind table --json``.
-        """
         return self._put(time, **settings)
 
     def __reduce__(self):

@@ -37,36 +37,7 @@ impl Design {
     ///
     /// Parameters
     /// ----------
-    /// seed : int, optional
-    ///     Random seed.
-    /// milestones, neighbours : int, optional
-    ///     Size of the roadmap.
-    /// boltzmann, thermal_energy : float, optional
-    ///     Energies (J) of the Boltzmann rule for milestones and of the transition
-    ///     probabilities.
-    /// settled : float, optional
-    ///     A barrier has converged when it changes by less than this fraction.
-    /// far_starts : int, optional
-    ///     Number of far starts for the capture shares.
-    /// kinds : int, optional
-    ///     Number of kinds of state to analyse, deepest first; all by default.
-    /// repeats : int, optional
-    ///     Number of runs with consecutive seeds; the spread is reported.
-    /// tolerance : float, optional
-    ///     Target width (J) of the certified bounds.
-    /// quick : bool, optional
-    ///     States, captures and barriers without proofs, in seconds.
-    /// certify_work, complete_work : float, optional
-    ///     Effort of the bounds of barriers, and of the proof that no state is missing, in
-    ///     core-seconds, counted in steps. 0 for none.
-    /// certify_seconds, complete_seconds : float, optional
-    ///     Wall-clock limits (s) of the same, with which two runs can differ; no limit by
-    ///     default, 0 for none.
-    /// complete_below, complete_escape : float, optional
-    ///     Fractions of the bond's energy: list all traps deeper than the first whose escape
-    ///     barrier exceeds the second.
-    /// dynamics_runs : int, optional
-    ///     Simulated trajectories that check each barrier.
+    #[doc = include_str!("../keywords/analyse.txt")]
     /// progress : bool, optional
     ///     Show a tqdm progress bar; shown by default in terminals and notebooks.
     ///

@@ -165,10 +165,7 @@ impl Analysis {
     ///
     /// Parameters
     /// ----------
-    /// kt : float
-    ///     Effective energy kT of the shaking (J).
-    /// coverage : float
-    ///     Fraction of the table covered by tiles.
+    #[doc = include_str!("../keywords/bond.txt")]
     ///
     /// Returns
     /// -------
@@ -196,17 +193,7 @@ impl Analysis {
     ///
     /// Parameters
     /// ----------
-    /// kt : float
-    ///     Effective energy kT of the shaking (J).
-    /// drag : float, optional
-    ///     Drag rate (1/s); the drag coefficient is this times the mass.
-    /// traps : int, optional
-    ///     Number of kinds of traps with rates, deepest first, if they hold at kT.
-    /// basin_energy : float, optional
-    ///     Energy (J) below which the tile counts as bound; by default half way from the bond
-    ///     up to its lowest barrier.
-    /// free_at : float, optional
-    ///     Distance (m) between centres at which tiles are free.
+    #[doc = include_str!("../keywords/rates.txt")]
     ///
     /// Returns
     /// -------

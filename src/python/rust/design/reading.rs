@@ -91,20 +91,7 @@ impl Design {
     /// Parameters
     /// ----------
     /// name : str, optional
-    /// sides, side, magnets : int, float, int, optional
-    ///     Sides of both tiles, side length (m), magnets on each of the two binding faces.
-    /// shape : {"flat", "tab", "arc", "sine", "triangle"}, optional
-    ///     Of those faces.
-    /// magnet : str, optional
-    ///     A magnet as sold, a block or a disc, magnetised along the last length:
-    ///     ``"10 x 5 x 2 mm N42"``, ``"10 x 3 mm N42"``; upright: ``"10 x 3 mm N42 up"``.
-    /// thickness : float or str, optional
-    ///     Thickness of both tiles (m).
-    /// material : str, optional
-    ///     What they are made of, for their mass: ``"plywood"`` (default), ``"acrylic"``, ... or
-    ///     a density, ``"0.6 g/cm3"``.
-    /// one_kind : bool, optional
-    ///     Both tiles of one kind: each has both binding faces.
+    #[doc = include_str!("../keywords/start.txt")]
     ///
     /// Returns
     /// -------

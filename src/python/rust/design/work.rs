@@ -28,14 +28,7 @@ impl Design {
     ///     Initial pose (3,) (m, m, rad).
     /// end : array_like or "free", optional
     ///     Final pose; "free" for anywhere with the tiles far apart.
-    /// tolerance : float, optional
-    ///     Target width (J) of the bounds; 1/100 of the bond's depth by default.
-    /// certify_work : float, optional
-    ///     Effort of the bounds in core-seconds, counted in steps; 0 for no bounds.
-    /// certify_seconds : float, optional
-    ///     Wall-clock limit (s) of the bounds, with which two runs can differ; no limit by
-    ///     default, 0 for no bounds.
-    /// milestones, seed : int, optional
+    #[doc = include_str!("../keywords/barrier.txt")]
     /// progress : bool, optional
     ///
     /// Returns
@@ -91,21 +84,7 @@ impl Design {
     /// ----------
     /// start : array_like
     ///     Initial pose (3,) (m, m, rad).
-    /// kt : float
-    ///     Effective energy kT of the shaking (J).
-    /// drag : float, optional
-    ///     Drag rate (1/s); the drag coefficient is this times the mass.
-    /// basin_energy : float, optional
-    ///     Energy (J) below which the tile counts as bound, in the basin of the bond or a
-    ///     symmetric copy; half the bond's energy by default.
-    /// free_at : float, optional
-    ///     Distance (m) between centres at which the tile is free.
-    /// check : int, optional
-    ///     Also simulate this many rigid bodies with inertia.
-    /// restitution : float, optional
-    ///     Their coefficient of restitution; 1 by default.
-    /// seed : int, optional
-    ///     Their random seed.
+    #[doc = include_str!("../keywords/exits.txt")]
     ///
     /// Returns
     /// -------
@@ -135,27 +114,7 @@ impl Design {
     ///
     /// Parameters
     /// ----------
-    /// kt : sequence of float
-    ///     Effective energies kT to compare (J).
-    /// tiles : int
-    ///     Number of tiles on the table, half of each kind.
-    /// time : float
-    ///     How long the table is shaken (s).
-    /// coverage : float, optional
-    ///     Fraction of the table covered by tiles.
-    /// runs : int, optional
-    ///     Docking runs per kT, to count attachments.
-    /// attachments : int, optional
-    ///     Repeat the runs, up to ten times in all, until so many attached to the bond.
-    /// duration : float, optional
-    ///     Duration of each run (s).
-    /// rates : str, optional
-    ///     Source of attachment rates: "docking" runs or "overdamped" motion.
-    /// drag, restitution, friction : float, optional
-    ///     Drag rate (1/s), coefficient of restitution, coefficient of friction.
-    /// simulations : int, optional
-    ///     Runs of the exact simulation that checks the result; 0 for none.
-    /// seed : int, optional
+    #[doc = include_str!("../keywords/yields.txt")]
     /// progress : bool, optional
     ///
     /// Returns
@@ -177,7 +136,22 @@ impl Design {
         shown::report(py, &report::yields::document(design, &question, &found))
     }
 
-    /// Simulates many tiles on one table: the implementation of calling `table`.
+    /// Simulate many tiles on one table, with contact, friction and drives; count bonds and traps.
+    ///
+    /// Parameters
+    /// ----------
+    #[doc = include_str!("../keywords/table.txt")]
+    /// start : str or os.PathLike, optional
+    ///     Instead of `count`: a CSV file of the initial tiles, with the columns `tile`, `kind`
+    ///     ("fixed" or "moving"; not needed for a design of one kind), `x`, `y`, `theta`, `vx`, `vy`,
+    ///     `omega` (m, rad, m/s, rad/s).
+    /// progress : bool, optional
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     As ``tilebind table --json``.
+    // The implementation of calling `table`.
     #[pyo3(signature = (time, *, start = None, progress = None, **settings))]
     fn _on_table<'py>(
         &self,
@@ -215,21 +189,7 @@ impl Design {
     ///
     /// Parameters
     /// ----------
-    /// kerf : float, optional
-    ///     Width of the cut (m); outlines are offset outwards by half of it.
-    /// clearance : float, optional
-    ///     Gap between magnet and pocket on each side (m).
-    /// copies : int, optional
-    ///     Copies of each kind of tile, nested on sheets.
-    /// count : str or int, optional
-    ///     Copies of the fixed tile and of the moving one, `"6,4"`; one number if both tiles are
-    ///     equal.
-    /// sheet : str, optional
-    ///     Size of a sheet of material: `"600x400 mm"`.
-    /// spacing : float, optional
-    ///     Gap between parts on a sheet, and to its edges (m).
-    /// layers : str, optional
-    ///     Thickness of the layers of which a tile is glued, lowest first: `"4 mm,4 mm"`.
+    #[doc = include_str!("../keywords/make.txt")]
     ///
     /// Returns
     /// -------
@@ -309,11 +269,7 @@ impl Design {
     ///     The measurements or a CSV file: `bound_s` and `apart_s`, intervals (s) during which
     ///     a pair was bound and apart, with unfinished intervals prefixed by `>`; or
     ///     `distance_m`, independent distances (m) between the reference points of a pair.
-    /// area : float, optional
-    ///     Area per pair (m^2); by default what the rim and the fixed tile leave of the design's
-    ///     table. For intervals only.
-    /// within : float, optional
-    ///     Largest distance (m) of a pair that counts; where tiles are free by default.
+    #[doc = include_str!("../keywords/calibrate_bonds.txt")]
     ///
     /// Returns
     /// -------
