@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{Quantity, Question, assess_all};
+use tilebind::comparison::{Quantity, Request, assess_all};
 use tilebind::design::{Design, MagnetModel};
 use tilebind::report::comparison::{Comparison, FILES};
 
@@ -37,7 +37,7 @@ pub struct Compare {
     by: &'static Quantity,
 
     #[command(flatten)]
-    question: Question,
+    request: Request,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -52,15 +52,15 @@ impl Compare {
         let inputs = self.designs.iter().zip(&designs);
         let inputs = inputs.flat_map(|(path, design)| input::files_of(path, design));
         let output = self.results.output(&FILES, inputs.collect())?;
-        let question = Question {
-            request: self.question.request.of(&designs),
-            ..self.question
+        let request = Request {
+            thoroughness: self.request.thoroughness.of(&designs),
+            ..self.request
         };
-        question
-            .request
+        request
+            .thoroughness
             .check_ranking(self.by)
             .map_err(Failure::usage)?;
-        let analysis = question.request.analysis(question.seed);
+        let analysis = request.thoroughness.analysis(request.seed);
         workload::tell_memory(analysis.check_memory())?;
         self.threads.use_threads()?;
         designs
@@ -68,8 +68,8 @@ impl Compare {
             .for_each(|design| workload::tell_of(design, &analysis));
 
         let progress = self.results.progress();
-        let assessments = assess_all(&designs, &question, &progress);
-        let comparison = Comparison::new(&assessments, self.by, question.request);
+        let assessments = assess_all(&designs, &request, &progress);
+        let comparison = Comparison::new(&assessments, self.by, request.thoroughness);
         self.results
             .deliver(&comparison.document(), output, &progress)?;
         let named = assessments.iter().map(|one| (one.name.clone(), one));

@@ -9,7 +9,7 @@ use tilebind::design::Design;
 use tilebind::output::Output;
 use tilebind::report::workshop::{FILES, document};
 use tilebind::request;
-use tilebind::workshop::{Made, Making, Subject};
+use tilebind::workshop::{Made, Request, Subject};
 
 use super::options::ThreadOption;
 
@@ -48,7 +48,7 @@ pub struct Make {
     words: Option<PathBuf>,
 
     #[command(flatten)]
-    making: Making,
+    making: Request,
 
     #[command(flatten)]
     threads: ThreadOption,

@@ -171,7 +171,7 @@ impl Sweep {
         }
         let aim = self.aim.aim().map_err(Failure::Usage)?;
         if let Some(aim) = aim {
-            let search = Search::asked(&self.request.question, designs, self.vary.clone(), aim);
+            let search = Search::asked(&self.request.assessments, designs, self.vary.clone(), aim);
             return self.search(&search.map_err(Failure::usage)?);
         }
         let plan = self.request.plan(designs, self.vary.clone());

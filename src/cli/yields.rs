@@ -2,7 +2,7 @@
 
 use clap::Args;
 use tilebind::report::yields::{FILES, document};
-use tilebind::yields::{Question, expected, yields};
+use tilebind::yields::{Request, expected, yields};
 
 use super::options::{DesignOptions, ThreadOption};
 use super::results::ResultOptions;
@@ -16,7 +16,7 @@ pub struct YieldCommand {
     design: DesignOptions,
 
     #[command(flatten)]
-    question: Question,
+    request: Request,
 
     #[command(flatten)]
     threads: ThreadOption,
@@ -58,12 +58,12 @@ impl YieldCommand {
         let output = self.results.output(&FILES, self.design.inputs(&design))?;
         self.threads.use_threads()?;
         let threads = self.threads.count();
-        self.question.check_memory(threads).map_err(Failure::of)?;
-        let expected = expected(&design, &self.question).map_err(Failure::of)?;
+        self.request.check_memory(threads).map_err(Failure::of)?;
+        let expected = expected(&design, &self.request).map_err(Failure::of)?;
         workload::tell_expected(expected, threads);
         let progress = self.results.progress();
-        let found = yields(&design, &self.question, &progress).map_err(Failure::of)?;
-        let document = document(&design, &self.question, &found);
+        let found = yields(&design, &self.request, &progress).map_err(Failure::of)?;
+        let document = document(&design, &self.request, &found);
         self.results.deliver(&document, output, &progress)
     }
 }

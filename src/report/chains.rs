@@ -4,18 +4,18 @@ use serde_json::{Value, json};
 
 use crate::document::{Entries, Table, rows};
 use crate::plots::chart::{Chart, Dimension, Look};
-use jobs::yields::{Count, Mean, Outcome, Question, Rows};
+use jobs::yields::{Count, Mean, Outcome, Request, Rows};
 use physics::units::{duration, plain, si};
 
 /// The bonds and the shares of tiles, in a sentence.
-pub(crate) fn answer(name: &str, question: &Question, best: &Outcome, built: &Rows) -> String {
+pub(crate) fn answer(name: &str, request: &Request, best: &Outcome, built: &Rows) -> String {
     let [single, chains, rings] = built.shares.map(|share| percent(share.mean));
     format!(
         "{name}: {} bonds of {} equal tiles after {} at kT = {}; {single} of the tiles are single, {chains} in chains \
          and {rings} in rings",
         number(&built.bonds),
-        question.tiles,
-        duration(question.time, 3),
+        request.tiles,
+        duration(request.time, 3),
         si(best.kt, "J", 3),
     )
 }

@@ -10,7 +10,7 @@ use crate::figures::{WHY_NOT_HEAD_ON, cell, misses_head_on};
 use crate::files::{PAGE, REPORT};
 use crate::plots::{Figure, PictureError, Sheet, ranking as picture};
 use jobs::comparison::quantity::{CERTIFIED, NOT_HEAD_ON, QUANTITIES, placed};
-use jobs::comparison::{Assessment, Quantity, Request, capture_range, ranking};
+use jobs::comparison::{Assessment, Quantity, Thoroughness, capture_range, ranking};
 use jobs::output::Command;
 use physics::landscape::minimax::Ordering;
 
@@ -29,12 +29,12 @@ pub struct Comparison {
     /// The figure of the ranking.
     pub by: &'static Quantity,
     /// The settings of the assessments.
-    pub settings: Request,
+    pub settings: Thoroughness,
 }
 
 impl Comparison {
     /// Designs ranked by a figure.
-    pub fn new(designs: &[Assessment], by: &'static Quantity, settings: Request) -> Self {
+    pub fn new(designs: &[Assessment], by: &'static Quantity, settings: Thoroughness) -> Self {
         let order = ranking::ranked_for_use(designs, by);
         Self {
             designs: order.into_iter().map(|i| designs[i].clone()).collect(),

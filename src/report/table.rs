@@ -15,7 +15,7 @@ use jobs::request::Shard;
 use jobs::table::{
     About, Found, Interval, Lifetime, Moment, PART, Prediction, Request, Statistics, Verdict,
 };
-use jobs::yields::{Question, Rows, StateRates, YieldError, Yields};
+use jobs::yields::{self, Rows, StateRates, YieldError, Yields};
 use physics::table::TableSettings;
 use physics::table::contacts::Tie;
 use physics::table::run::{ACCOUNTED, Run};
@@ -171,7 +171,7 @@ fn of_growth(growth: &Growth) -> Entries {
 }
 
 /// The prediction for the same number of pairs by detailed balance, with one partner per tile.
-fn of_yield(question: &Question, yields: &Yields) -> Entries {
+fn of_yield(question: &yields::Request, yields: &Yields) -> Entries {
     let best = yields.best();
     let (bond, traps) = (
         best.states.first(),
@@ -219,7 +219,7 @@ fn mean_lifetime(traps: &[StateRates]) -> Option<f64> {
     (attachments > 0).then(|| time / attachments as f64)
 }
 
-fn in_pairs(question: &Question, [low, high]: [f64; 2]) -> String {
+fn in_pairs(question: &yields::Request, [low, high]: [f64; 2]) -> String {
     format!(
         "of {} pairs; between {} and {}",
         question.tiles / 2,
@@ -244,7 +244,7 @@ fn against(about: &About, found: &Found, beside: &Beside) -> String {
     }
 }
 
-fn against_yield(found: &Found, question: &Question, yields: &Yields) -> String {
+fn against_yield(found: &Found, question: &yields::Request, yields: &Yields) -> String {
     let best = yields.best();
     if let Some(built) = &best.rows {
         return against_rows(found, built);

@@ -10,7 +10,7 @@ use crate::plots::chart::{Chart, Dimension, Look, Point};
 use jobs::design::Design;
 use jobs::output::Command;
 use jobs::yields::attachment::Source;
-use jobs::yields::{Outcome, Question, StateRates, YieldError, Yields};
+use jobs::yields::{Outcome, Request, StateRates, YieldError, Yields};
 use physics::dynamics::MotionSettings;
 use physics::kinetics::OVERDAMPED;
 use physics::kinetics::population::mixture::Mixture;
@@ -35,47 +35,47 @@ pub const FILES: Command = Command {
 };
 
 /// The document of a yield.
-pub fn document<'a>(design: &'a Design, question: &'a Question, found: &'a Yields) -> Document<'a> {
-    let told = question.effort.describe();
-    let interval = match question.effort.source {
+pub fn document<'a>(design: &'a Design, request: &'a Request, found: &'a Yields) -> Document<'a> {
+    let told = request.method.describe();
+    let interval = match request.method.source {
         Source::Docking => "95 %, from the attachment rate",
         Source::Overdamped => "difference between the two finest meshes",
     };
     let built = found.best().rows.as_ref();
     let mixture = found.mixture.as_ref();
-    let schedule = mixture.map(|(tiles, mixture)| schedule(question, found, *tiles, mixture));
+    let schedule = mixture.map(|(tiles, mixture)| schedule(request, found, *tiles, mixture));
     let without = found.without.iter().map(|(_, why)| why.to_string());
     let means = found.outcomes.iter().filter(|it| !it.exact).map(of_means);
     let uncounted = found.outcomes.iter().filter_map(uncounted);
     Document {
         title: format!("Yield of {}", design.name),
-        answer: answer(design, question, found),
+        answer: answer(design, request, found),
         remarks: vec![format!(
             "({} covering {:.0} % of {:.2} m2, in which they meet as points would in {}; intervals: \
              {interval})",
             tiles(&found.crowd),
-            100.0 * question.coverage,
+            100.0 * request.coverage,
             found.crowd.table,
             format!("{} m2", plain(found.crowd.area, 3)),
         )],
-        entries: found_entries(design, question, found),
-        pictures: pictures(question, found),
+        entries: found_entries(design, request, found),
+        pictures: pictures(request, found),
         notes: without
             .chain(uncounted)
             .chain(means)
             .chain(schedule)
             .chain([
-                format!("on: {told}; off: {}", detachment(question)),
-                lifetimes(question),
+                format!("on: {told}; off: {}", detachment(request)),
+                lifetimes(request),
             ])
-            .chain(dissipation(question))
+            .chain(dissipation(request))
             .chain(built.map(chains::notes).unwrap_or_default())
             .chain([left_out(found, built.is_some())])
             .collect(),
         origin: format!(
             "{} magnets; {told}, detachment {}; a tile binds at most {}",
             design.interaction.model.name(),
-            detachment(question),
+            detachment(request),
             if built.is_some() {
                 "two partners"
             } else {
@@ -114,10 +114,10 @@ fn left_out(found: &Yields, has_rows: bool) -> String {
 }
 
 /// A note if collisions dissipate energy.
-fn dissipation(question: &Question) -> Option<String> {
-    let motion = question.effort.motion();
+fn dissipation(request: &Request) -> Option<String> {
+    let motion = request.method.motion();
     let takes = motion.restitution < 1.0 || motion.friction > 0.0;
-    let is_docking = question.effort.source == Source::Docking;
+    let is_docking = request.method.source == Source::Docking;
     (takes && is_docking).then(|| {
         format!(
             "warning: collisions lose energy here (restitution {}, friction {}), so the table has no \
@@ -127,10 +127,10 @@ fn dissipation(question: &Question) -> Option<String> {
     })
 }
 
-fn answer(design: &Design, question: &Question, found: &Yields) -> String {
+fn answer(design: &Design, request: &Request, found: &Yields) -> String {
     let best = found.best();
     if let Some(built) = &best.rows {
-        return chains::answer(&design.name, question, best, built);
+        return chains::answer(&design.name, request, best, built);
     }
     let among = match (found.outcomes.len(), found.without.len()) {
         (1, _) => String::new(),
@@ -141,22 +141,22 @@ fn answer(design: &Design, question: &Question, found: &Yields) -> String {
         "{}: {} of all pairs are bound after {} at kT = {}{among}",
         design.name,
         within(best.bound, best.interval),
-        duration(question.time, 3),
+        duration(request.time, 3),
         si(best.kt, "J", 3),
     )
 }
 
 // One line an entry.
 #[rustfmt::skip]
-fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entries {
-    let (best, effort) = (found.best(), &question.effort);
+fn found_entries(design: &Design, request: &Request, found: &Yields) -> Entries {
+    let (best, effort) = (found.best(), &request.method);
     let motion = effort.motion();
     let at_best = format!("States at kT = {}", si(best.kt, "J", 3));
     let all = entries(design)
-        .data("seed", question.seed)
-        .fact("tiles", "", question.tiles)
-        .fact("time_s", "", question.time)
-        .fact("coverage", "", question.coverage)
+        .data("seed", request.seed)
+        .fact("tiles", "", request.tiles)
+        .fact("time_s", "", request.time)
+        .fact("coverage", "", request.coverage)
         .fact("tile_area_m2", "", found.tile_area)
         .fact("table_area_m2", "", found.crowd.table)
         .fact("meeting_area_m2", "", found.crowd.area)
@@ -164,9 +164,9 @@ fn found_entries(design: &Design, question: &Question, found: &Yields) -> Entrie
         .fact("yield_interval", "", best.interval)
         .fact("trapped", "in traps", best.trapped).share().in_view()
         .fact("best_kT_J", "kT", best.kt).noted("best of the requested values")
-        .table(by_kt(question, found))
+        .table(by_kt(request, found))
         .data("mixture", mixture(found))
-        .data("rates", format!("{}; detachment {}", effort.describe(), detachment(question)))
+        .data("rates", format!("{}; detachment {}", effort.describe(), detachment(request)))
         .data("docking", json!({
             "runs": effort.runs, "attachments": effort.attachments, "duration_s": effort.duration,
             "drag_per_s": motion.drag, "restitution": motion.restitution,
@@ -199,14 +199,14 @@ type AtKt<'a> = (f64, Result<&'a Outcome, Option<&'a YieldError>>);
 
 // One line per column: key, name, meaning, value.
 #[rustfmt::skip]
-fn by_kt(question: &Question, found: &Yields) -> Table {
+fn by_kt(request: &Request, found: &Yields) -> Table {
     let of = |get: fn(&Outcome) -> f64| move |(_, at): &AtKt| at.ok().map(get);
     let known = |get: fn(&Outcome) -> Option<f64>| move |(_, at): &AtKt| at.ok().and_then(get);
     let inner = |get: fn(&Outcome) -> Table| move |(_, at): &AtKt| at.ok().map(get);
     let simulated = |(_, at): &AtKt| at.ok().and_then(|it| it.simulated);
     let entry = |[mean, error]: [f64; 2]| json!({ "mean": mean, "standard_error": error });
     let describe = |[mean, error]: [f64; 2]| format!("{:.1} +- {:.1} %", 100.0 * mean, 200.0 * error);
-    rows(question.kts.iter().map(|kt| (*kt, found.at(*kt))))
+    rows(request.kts.iter().map(|kt| (*kt, found.at(*kt))))
         .column("kT_J", "kT", "effective energy of shaking", |(kt, _)| *kt)
         .column("why_not", "", "", |(_, at)| at.err().flatten().map(ToString::to_string)).in_json()
         .column("yield", "bound", "fraction of all pairs in the bond at the end, with its interval", of(|it| it.bound))
@@ -275,17 +275,17 @@ fn states(outcome: &Outcome) -> Table {
 }
 
 /// The source of detachment rates.
-fn detachment(question: &Question) -> &'static str {
-    match question.effort.source {
+fn detachment(request: &Request) -> &'static str {
+    match request.method.source {
         Source::Docking => "by detailed balance, as if the table had a temperature",
         Source::Overdamped => "from the mesh, including direct transitions between states",
     }
 }
 
 /// The drag that lifetimes refer to.
-fn lifetimes(question: &Question) -> String {
-    let drag = question.effort.motion().drag;
-    match question.effort.source {
+fn lifetimes(request: &Request) -> String {
+    let drag = request.method.motion().drag;
+    match request.method.source {
         Source::Docking => format!(
             "lifetimes depend on the drag: these are for {drag} /s, with inertia. `tilebind \
              rates` assumes overdamped motion of one tile beside a fixed one, by default at \
@@ -345,7 +345,7 @@ fn crowds(outcome: &Outcome) -> Table {
         .in_file("yield")
 }
 
-fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
+fn pictures<'a>(request: &Request, found: &Yields) -> Vec<Drawing<'a>> {
     let best = found.best();
     let chart = |name, title: &str, x, y: &str| Chart {
         name,
@@ -372,7 +372,7 @@ fn pictures<'a>(question: &Question, found: &Yields) -> Vec<Drawing<'a>> {
     coverages.dedup();
     let tiles = Dimension::new(
         "tiles",
-        format!("tiles (after {})", duration(question.time, 3)),
+        format!("tiles (after {})", duration(request.time, 3)),
     )
     .logarithmic()
     .marked(tiles);
@@ -439,10 +439,10 @@ fn of_means(outcome: &Outcome) -> String {
 }
 
 /// The schedule in words: `30 min at 2 mJ, then 30 min at 1 mJ`.
-fn schedule(question: &Question, found: &Yields, tiles: usize, mixture: &Mixture) -> String {
+fn schedule(request: &Request, found: &Yields, tiles: usize, mixture: &Mixture) -> String {
     let kts = mixture.schedule.chunk_by(|a, b| a == b);
     let phases = kts.map(|part| {
-        let time = question.time * part.len() as f64 / mixture.schedule.len() as f64;
+        let time = request.time * part.len() as f64 / mixture.schedule.len() as f64;
         let kt = found.outcomes[part[0]].kt;
         format!("{} at {}", duration(time, 2), si(kt, "J", 2))
     });

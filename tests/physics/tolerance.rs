@@ -1,11 +1,11 @@
 //! What errors of making do to a design, by principle and beside full analyses.
 
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{Question, assess_all};
+use tilebind::comparison::{self, assess_all};
 use tilebind::design::Design;
 use tilebind::observer::Silent;
 use tilebind::request::of_keywords;
-use tilebind::tolerance::{Making, Request, Tolerance, ToleranceError};
+use tilebind::tolerance::{MakingErrors, Request, Tolerance, ToleranceError};
 
 /// A square of 60 mm with four magnets on one face, and its mate.
 fn design(magnet: &str, more: &str) -> Design {
@@ -22,7 +22,7 @@ fn design(magnet: &str, more: &str) -> Design {
 const BLOCKS: &str = "size = [0.004, 0.006, 0.003]\nremanence = 1.2\ninset = 0.001";
 const DIPOLES: &str = "[potential]\nmodel = \"dipole\"\n";
 
-fn request(making: Making, checks: usize) -> Request {
+fn request(making: MakingErrors, checks: usize) -> Request {
     Request {
         making,
         beats: None,
@@ -31,29 +31,29 @@ fn request(making: Making, checks: usize) -> Request {
     }
 }
 
-fn of(design: &Design, making: Making) -> Tolerance {
+fn of(design: &Design, making: MakingErrors) -> Tolerance {
     request(making, 0).run(design, &Silent).unwrap()
 }
 
-fn stated() -> Making {
-    Making {
+fn stated() -> MakingErrors {
+    MakingErrors {
         strength: Some(0.05),
         place: Some(2e-4),
         turn: Some(0.04),
-        ..Making::default()
+        ..MakingErrors::default()
     }
 }
 
 #[test]
 fn without_errors_nothing_spreads() {
-    let zero = Making {
+    let zero = MakingErrors {
         strength: Some(0.0),
         place: Some(0.0),
         turn: Some(0.0),
         gap: Some(0.0),
         flip: Some(0.0),
         draws: Some(50),
-        ..Making::default()
+        ..MakingErrors::default()
     };
     let found = of(&design(BLOCKS, ""), zero);
     assert_eq!(found.bond.sd, 0.0);
@@ -63,7 +63,7 @@ fn without_errors_nothing_spreads() {
     let design = design(BLOCKS, "");
     let exact = design.problem().energy(&design.pair.bound);
     assert!((found.nominal.bond / exact - 1.0).abs() < 1e-3, "{found:?}");
-    let none = request(Making::default(), 0).run(&design, &Silent);
+    let none = request(MakingErrors::default(), 0).run(&design, &Silent);
     assert_eq!(none.unwrap_err(), ToleranceError::NoErrors);
 }
 
@@ -73,10 +73,10 @@ fn without_errors_nothing_spreads() {
 fn the_spread_by_strength_is_the_sum_over_pairs() {
     let design = design(BLOCKS, "");
     let strength = 0.01;
-    let making = Making {
+    let making = MakingErrors {
         strength: Some(strength),
         draws: Some(4000),
-        ..Making::default()
+        ..MakingErrors::default()
     };
     let found = of(&design, making);
     let q = design.pair.bound;
@@ -115,11 +115,11 @@ fn the_spread_by_strength_is_the_sum_over_pairs() {
 #[test]
 fn a_batch_of_equal_magnets_changes_all_energies_alike() {
     let design = design(BLOCKS, "");
-    let making = Making {
+    let making = MakingErrors {
         strength: Some(0.1),
         batch: Some(1.0),
         draws: Some(500),
-        ..Making::default()
+        ..MakingErrors::default()
     };
     let found = of(&design, making);
     let nominal = found.nominal.selectivity();
@@ -140,11 +140,11 @@ fn a_batch_of_equal_magnets_changes_all_energies_alike() {
 fn small_errors_spread_in_proportion() {
     let design = design(BLOCKS, "");
     let sd = |place: f64, turn: f64| {
-        let making = Making {
+        let making = MakingErrors {
             place: Some(place),
             turn: Some(turn),
             draws: Some(300),
-            ..Making::default()
+            ..MakingErrors::default()
         };
         of(&design, making).bond.sd
     };
@@ -156,10 +156,10 @@ fn small_errors_spread_in_proportion() {
 fn a_gap_weakens_the_bond_by_its_slope() {
     let design = design(BLOCKS, "");
     let gap = 2e-5;
-    let making = Making {
+    let making = MakingErrors {
         gap: Some(gap),
         draws: Some(2000),
-        ..Making::default()
+        ..MakingErrors::default()
     };
     let found = of(&design, making);
     let problem = design.problem();
@@ -197,7 +197,7 @@ fn states_are_followed_for_every_kind_of_magnet() {
         Design::parse(&standing, "standing.toml").unwrap(),
     ));
     for (kind, design) in cases {
-        let making = Making {
+        let making = MakingErrors {
             draws: Some(20),
             ..stated()
         };
@@ -222,14 +222,14 @@ fn shares_agree_with_full_analyses() {
     let design = design(BLOCKS, DIPOLES);
     let nominal = of(
         &design,
-        Making {
+        MakingErrors {
             draws: Some(2),
             ..stated()
         },
     )
     .nominal
     .selectivity();
-    let making = Making {
+    let making = MakingErrors {
         // So that about half of the draws work.
         selectivity: Some(nominal),
         ..stated()
@@ -252,7 +252,7 @@ fn shares_agree_with_full_analyses() {
 #[test]
 fn a_flipped_magnet_weakens_the_bond_and_is_noticed() {
     let design = design(BLOCKS, "");
-    let making = Making {
+    let making = MakingErrors {
         flip: Some(0.02),
         ..stated()
     };
@@ -278,7 +278,7 @@ fn any_number_of_threads_gives_the_same_draws() {
         pool.install(|| {
             of(
                 &design,
-                Making {
+                MakingErrors {
                     draws: Some(60),
                     flip: Some(0.05),
                     ..stated()
@@ -301,17 +301,17 @@ fn designs_are_compared_by_the_share_that_works() {
         ("far_starts", "1"),
     ];
     let given = given.map(|(key, value)| (key.to_owned(), vec![value.to_owned()]));
-    let asked: Question = of_keywords(given).unwrap();
+    let asked: comparison::Request = of_keywords(given).unwrap();
     let designs = [design(BLOCKS, DIPOLES)];
     let found = &assess_all(&designs, &asked, &Silent)[0];
     let share = robust.of(found).unwrap();
     assert_eq!(found.robust.unwrap().of, 200);
     assert!(share.low.unwrap() <= share.value && share.value <= share.high.unwrap());
-    assert!(asked.request.check_ranking(robust).is_ok());
-    asked.request.check().unwrap();
-    let unasked: Question = of_keywords([]).unwrap();
+    assert!(asked.thoroughness.check_ranking(robust).is_ok());
+    asked.thoroughness.check().unwrap();
+    let unasked: comparison::Request = of_keywords([]).unwrap();
     let refused = unasked
-        .request
+        .thoroughness
         .check_ranking(robust)
         .unwrap_err()
         .to_string();

@@ -16,7 +16,7 @@ use tilebind::report::document::{Cell, Document, Drawing, Table, Unit};
 use tilebind::report::plots::{Scene, Sheet};
 use tilebind::report::{docking, yields as of_yields};
 use tilebind::request::of_keywords;
-use tilebind::yields::{Question, yields};
+use tilebind::yields::{self, yields};
 
 fn design() -> Design {
     Design::load("shapes/tab-20mm.toml".as_ref()).unwrap()
@@ -261,7 +261,7 @@ fn a_comparison_says_the_same_in_all_forms() {
         let design = Design::load(format!("shapes/{name}.toml").as_ref()).unwrap();
         Assessment::new(&design, &pipeline::analyse(&design, &few(), &Silent))
     });
-    let settings = comparison::Request::default();
+    let settings = comparison::Thoroughness::default();
     check(&Comparison::new(&designs, &QUANTITIES[0], settings).document());
 }
 
@@ -293,7 +293,7 @@ fn a_yield_says_the_same_in_all_forms() {
         ("duration", "2"),
         ("simulations", "20"),
     ];
-    let question: Question = of_keywords(keywords(&asked)).unwrap();
-    let found = yields(&design, &question, &Silent).unwrap();
-    check(&of_yields::document(&design, &question, &found));
+    let request: yields::Request = of_keywords(keywords(&asked)).unwrap();
+    let found = yields(&design, &request, &Silent).unwrap();
+    check(&of_yields::document(&design, &request, &found));
 }

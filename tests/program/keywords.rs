@@ -48,12 +48,12 @@ fn calls() -> Vec<Call> {
         call::<rates::Request>("Design.exits", &["start", "traps"]),
         call::<rates::Request>("Analysis.rates", &["start", "check", "restitution", "seed"]),
         call::<bond::Request>("Analysis.bond", &["seed"]),
-        call::<yields::Question>("Design.yields", &[]),
+        call::<yields::Request>("Design.yields", &[]),
         call::<table::Request>("_AirTable.__call__", &[]),
-        call::<workshop::Making>("Design.make", &[]),
+        call::<workshop::Request>("Design.make", &[]),
         call::<calibration::Request>("Design.calibrate_bonds", &["hold_out"]),
         call::<start::Request>("Design.start", &[]),
-        call::<comparison::Question>("compare", &[]),
+        call::<comparison::Request>("compare", &[]),
         call::<sweep::Request>("sweep", &[]),
         call::<Searching>("search", &[]),
         call::<tolerance::Request>("tolerance", &[]),
@@ -69,7 +69,7 @@ struct Searching {
     #[command(flatten)]
     _aim: search::Request,
     #[command(flatten)]
-    _question: comparison::Question,
+    _assessments: comparison::Request,
 }
 
 struct Keyword {

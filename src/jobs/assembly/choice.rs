@@ -79,7 +79,7 @@ const QUICK: f64 = 0.05;
 pub const MOST_PLACES: usize = 48;
 
 /// The requirements of words on a face.
-struct Asked<'a> {
+struct Requirements<'a> {
     /// Strengths and the number of words needed of each, strongest first.
     demand: &'a [(f64, usize)],
     /// Groups of words that must bind each other's mates.
@@ -89,7 +89,7 @@ struct Asked<'a> {
     request: &'a Request,
 }
 
-impl Asked<'_> {
+impl Requirements<'_> {
     /// The number of magnets of a word of a given strength.
     fn magnets(&self, strength: f64) -> usize {
         let most = self.request.magnets.unwrap_or(self.places).min(self.places);
@@ -153,7 +153,7 @@ pub fn choose(
     bar: &Bar,
     request: &Request,
 ) -> Vec<Choice> {
-    let asked = Asked {
+    let asked = Requirements {
         demand,
         groups,
         places,
@@ -199,7 +199,7 @@ pub fn choose(
 }
 
 /// The words of one strength with the widest gap, by energies.
-fn widest(asked: &Asked, class: Class) -> Choice {
+fn widest(asked: &Requirements, class: Class) -> Choice {
     let budget = Budget::seconds(asked.request.seconds);
     let task = asked.task(class.magnets);
     let mut effort = Effort::new(asked.request.seed, budget);
@@ -239,7 +239,7 @@ pub fn shortest(
     request: &Request,
     observer: &dyn Observer,
 ) -> Vec<Choice> {
-    let asked = |places: usize| Asked {
+    let asked = |places: usize| Requirements {
         demand,
         groups,
         places,
@@ -305,7 +305,7 @@ pub fn shortest(
     tried.into_values().flatten().collect()
 }
 
-fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
+fn at_gap(asked: &Requirements, gap: f64, effort: &mut Effort) -> Choice {
     let mut choice = Choice {
         places: asked.places,
         gap,
@@ -380,7 +380,7 @@ fn at_gap(asked: &Asked, gap: f64, effort: &mut Effort) -> Choice {
 /// Words for linked bonds, whose words bind each other's mates as strongly as required: the first
 /// solution in order, or fewer words than bonds if there is none.
 fn linked(
-    asked: &Asked,
+    asked: &Requirements,
     group: &Group,
     there: &[Word],
     limit: &dyn Fn(&Task) -> f64,
@@ -450,7 +450,7 @@ fn linked(
 /// Bounds the sizes of the classes, each independently of the others: no wrong contact among its
 /// words attracts by more than (1 - gap) of the weakest bond, whose depth is bounded by the deepest
 /// bond of a word of the weakest class.
-fn bound(choice: &mut Choice, asked: &Asked, effort: &mut Effort) {
+fn bound(choice: &mut Choice, asked: &Requirements, effort: &mut Effort) {
     let last = choice.classes.len() - 1;
     let reach = |task: &Task, sign: f64| {
         let magnets = task.magnets as u32;

@@ -31,7 +31,7 @@ use physics::potential::MagnetModel;
 
 pub use capture_range::CaptureRange;
 pub use quantity::{Estimate, Quantity};
-pub use request::{Question, Request};
+pub use request::{Request, Thoroughness};
 
 /// The compared figures of a design. Poses are x, y (m) and theta (rad), energies in J.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -156,18 +156,18 @@ const CELLS_OF_BLOCKS: usize = 30;
 /// Analyses a design and keeps the compared figures.
 pub fn assess(
     design: &Design,
-    request: &Request,
+    thoroughness: &Thoroughness,
     seed: u64,
     observer: &dyn Observer,
 ) -> Assessment {
-    let mut asked = request.analysis(seed);
+    let mut asked = thoroughness.analysis(seed);
     if design.interaction.model == MagnetModel::Cuboid {
         asked.complete_cells /= CELLS_OF_BLOCKS;
     }
     let analysis = pipeline::analyse(design, &asked, observer);
     let states = (&*analysis.problem, &analysis.catalogue);
     Assessment {
-        robust: tolerance::robust(design, states, &request.making, seed),
+        robust: tolerance::robust(design, states, &thoroughness.making, seed),
         ..Assessment::new(design, &analysis)
     }
 }
@@ -175,7 +175,7 @@ pub fn assess(
 /// Assesses designs one after another.
 pub fn assess_all<'a>(
     designs: impl IntoIterator<Item = &'a Design>,
-    question: &Question,
+    request: &Request,
     observer: &dyn Observer,
 ) -> Vec<Assessment> {
     let designs: Vec<&Design> = designs.into_iter().collect();
@@ -186,7 +186,7 @@ pub fn assess_all<'a>(
             done,
             count,
         };
-        assess(design, &question.request, question.seed, &part)
+        assess(design, &request.thoroughness, request.seed, &part)
     });
     assessed.collect()
 }

@@ -8,7 +8,7 @@ use super::Quantity;
 use crate::design::Design;
 use crate::pipeline::{self, Certify, Check, Survey};
 use crate::request::{self, Misused, of_keywords};
-use crate::tolerance::{Making, NO_ERRORS};
+use crate::tolerance::{MakingErrors, NO_ERRORS};
 use physics::landscape::Claims;
 
 const DYNAMICS: &str = "\
@@ -26,7 +26,7 @@ barrier, all results are still written and the exit status is 1.";
 /// Work is counted, so that results are the same on every machine.
 #[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
 #[command(mut_arg("dynamics", |dynamics| dynamics.help(DYNAMICS).long_help(DYNAMICS_LONG)))]
-pub struct Request {
+pub struct Thoroughness {
     /// How thoroughly landscapes are surveyed.
     #[command(flatten)]
     #[serde(flatten)]
@@ -60,15 +60,15 @@ pub struct Request {
     /// The errors of making, for the share of pairs that work with them.
     #[command(flatten)]
     #[serde(flatten)]
-    pub making: Making,
+    pub making: MakingErrors,
 }
 
 /// The options of assessments, with the seed.
 #[derive(Clone, Debug, PartialEq, Args)]
-pub struct Question {
+pub struct Request {
     /// How much work a design is worth.
     #[command(flatten)]
-    pub request: Request,
+    pub thoroughness: Thoroughness,
 
     /// Random seed; the same seed gives the same results
     #[arg(long, value_name = "N", default_value_t = pipeline::Request::default().seed,
@@ -76,7 +76,7 @@ pub struct Question {
     pub seed: u64,
 }
 
-impl Request {
+impl Thoroughness {
     /// With all defaults filled in, the same for all designs: see [`pipeline::Request::usual`].
     #[must_use]
     pub fn of<'a>(&self, designs: impl IntoIterator<Item = &'a Design>) -> Self {

@@ -39,9 +39,9 @@ const WORTH_TELLING: f64 = 30.0;
 /// Number of squares along x and y of the committor's map.
 const SQUARES: usize = 120;
 
-/// The options; `None` for the default.
+/// The options of rates between states, or of the exit from a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Question {
+pub struct Request {
     /// Effective energy kT of shaking (J)
     #[arg(long, value_name = "E_J", value_parser = request::shaking)]
     pub kt: f64,
@@ -64,14 +64,6 @@ pub struct Question {
     /// No longer accepted: the error says why
     #[arg(long, hide = true, value_name = "REL", value_parser = refuse_bounds)]
     certify: Option<Infallible>,
-}
-
-/// The options of rates between states, or of the exit from a pose.
-#[derive(Clone, Copy, Debug, PartialEq, Args)]
-pub struct Request {
-    /// kT, ends and accuracy.
-    #[command(flatten)]
-    pub question: Question,
 
     /// Initial pose (m, m, rad); prints its mean exit time and exits
     #[arg(long, value_name = "X,Y,THETA", allow_hyphen_values = true, value_parser = request::pose)]
@@ -155,7 +147,7 @@ impl Request {
         let design = posed.0.centred();
         let problem = design.problem();
         let centred = design.pair.pose_of(&start, &posed.0.pair);
-        let found = self.question.exit((&design, &problem), centred, observer);
+        let found = self.exit_from((&design, &problem), centred, observer);
         let mut found = found.map_err(|error| match error {
             ExitError::Overlap(_, clearance) => ExitError::Overlap(start, clearance),
             other => other,
@@ -190,7 +182,7 @@ impl Request {
         is_pictured: bool,
         observer: &dyn Observer,
     ) -> Result<StateRates, RateFault> {
-        if let Some(basin) = self.question.basin_energy {
+        if let Some(basin) = self.basin_energy {
             let deepest = design.problem().energy(&design.pair.bound);
             if deepest >= basin {
                 return Err(ExitError::NoBasin(basin, deepest).into());
@@ -200,10 +192,9 @@ impl Request {
         let design = &original.centred();
         let analysis = pipeline::analyse(design, &self.survey(), observer);
         observer.stage("rates", 0.9);
-        let question = &self.question;
-        let states = RatedState::held(&analysis, question.kt, self.traps, question.basin_energy);
+        let states = RatedState::held(&analysis, self.kt, self.traps, self.basin_energy);
         let posed = (design, &*analysis.problem);
-        let mut found = question.rates(posed, states, is_pictured, observer)?;
+        let mut found = self.rates_between(posed, states, is_pictured, observer)?;
         for state in &mut found.states {
             state.at = original.pair.pose_of(&state.at, &design.pair);
         }
@@ -240,12 +231,12 @@ pub fn diffusion(design: &Design, kt: f64, drag: f64) -> f64 {
     kt / (drag * design.pair.moving.mass)
 }
 
-impl Question {
+impl Request {
     /// The mean exit time of a tile released at a pose, and the end that it reaches first.
     ///
     /// # Errors
     /// See [`ExitError`].
-    fn exit(
+    fn exit_from(
         &self,
         (design, problem): (&Design, &Problem),
         start: Configuration,
@@ -273,7 +264,7 @@ impl Question {
     ///
     /// # Errors
     /// See [`RatesError`].
-    fn rates(
+    fn rates_between(
         &self,
         (design, problem): (&Design, &Problem),
         states: Vec<RatedState>,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::aim::Aim;
-use crate::comparison::{self, Question};
+use crate::comparison::{Request, Thoroughness};
 use crate::design::Design;
 use crate::sweep::{Axis, DesignSource, Plan, PlanError};
 
@@ -35,7 +35,7 @@ impl Search {
     pub fn of(
         designs: Vec<DesignSource>,
         axes: Vec<Axis>,
-        settings: comparison::Request,
+        settings: Thoroughness,
         seed: u64,
         aim: Aim,
     ) -> Result<Self, PlanError> {
@@ -43,23 +43,23 @@ impl Search {
         Ok(Self { aim, plan })
     }
 
-    /// A search over designs with the settings of a question.
+    /// A search over designs with the settings of assessments.
     ///
     /// # Errors
     /// As [`Search::of`], and if errors of making are needed and none is stated.
     pub fn asked(
-        question: &Question,
+        request: &Request,
         designs: Vec<(DesignSource, Design)>,
         axes: Vec<Axis>,
         aim: Aim,
     ) -> Result<Self, PlanError> {
         let sought = aim.objectives.iter().map(|it| it.quantity());
         for quantity in sought.chain(aim.subject.iter().map(|it| it.quantity())) {
-            question.request.check_ranking(quantity)?;
+            request.thoroughness.check_ranking(quantity)?;
         }
         let (sources, designs): (Vec<DesignSource>, Vec<Design>) = designs.into_iter().unzip();
-        let settings = question.request.of(&designs);
-        Self::of(sources, axes, settings, question.seed, aim)
+        let settings = request.thoroughness.of(&designs);
+        Self::of(sources, axes, settings, request.seed, aim)
     }
 
     /// The manifest's text.

@@ -18,7 +18,7 @@ fn source() -> DesignSource {
 
 fn search(axes: &[&str], aim: Request) -> Search {
     let axes: Vec<Axis> = axes.iter().map(|axis| axis.parse().unwrap()).collect();
-    let settings = comparison::Request::default().of([]);
+    let settings = comparison::Thoroughness::default().of([]);
     let aim = aim.aim().unwrap().unwrap();
     Search::of(vec![source()], axes, settings, 1, aim).unwrap()
 }

@@ -12,7 +12,7 @@ use super::point::Point;
 use super::source::DesignSource;
 use super::vary::{Axis, Value, number};
 use super::{document, drawings};
-use crate::comparison::Request;
+use crate::comparison::Thoroughness;
 use crate::design::Design;
 use crate::memory;
 use physics::parallel;
@@ -30,7 +30,7 @@ pub struct Plan {
     /// The varied keys; the first varies slowest.
     pub axes: Vec<Axis>,
     /// The settings of all points.
-    pub settings: Request,
+    pub settings: Thoroughness,
     /// The seed of every point, as of `analyse` and `compare`: with the same random numbers, far
     /// starts among them, points differ by their designs and less by chance.
     pub seed: u64,
@@ -49,7 +49,7 @@ impl Plan {
     pub fn of(
         designs: Vec<DesignSource>,
         axes: Vec<Axis>,
-        settings: Request,
+        settings: Thoroughness,
         seed: u64,
     ) -> Result<Self, PlanError> {
         let plan = Self::new(designs, axes, settings, seed)?;
@@ -67,7 +67,7 @@ impl Plan {
     pub fn between(
         designs: Vec<DesignSource>,
         axes: Vec<Axis>,
-        settings: Request,
+        settings: Thoroughness,
         seed: u64,
     ) -> Result<Self, PlanError> {
         let plan = Self::new(designs, axes, settings, seed)?;
@@ -78,7 +78,7 @@ impl Plan {
     fn new(
         mut designs: Vec<DesignSource>,
         axes: Vec<Axis>,
-        settings: Request,
+        settings: Thoroughness,
         seed: u64,
     ) -> Result<Self, PlanError> {
         for design in &mut designs {

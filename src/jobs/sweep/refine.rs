@@ -129,7 +129,7 @@ fn scores(plan: &Plan, outcomes: &[Outcome], which: usize, order: &[usize], x: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comparison::{Bond, Request, Way};
+    use crate::comparison::{Bond, Thoroughness, Way};
 
     /// A sweep over depth, with the bond's depth as a given function of it.
     fn plan(values: &str, depth: impl Fn(f64) -> f64) -> (Plan, Vec<Outcome>) {
@@ -137,7 +137,7 @@ mod tests {
             tilebind: String::new(),
             designs: Vec::new(),
             axes: vec![format!("a.depth={values}").parse().unwrap()],
-            settings: Request::default(),
+            settings: Thoroughness::default(),
             seed: 1,
             baseline: None,
         };

@@ -8,7 +8,7 @@ use super::refine::refined;
 use super::source::DesignSource;
 use super::store::Outcome;
 use super::vary::Axis;
-use crate::comparison::Question;
+use crate::comparison;
 use crate::design::Design;
 use crate::request;
 
@@ -28,7 +28,7 @@ pub struct Request {
 
     /// The options of the assessments.
     #[command(flatten)]
-    pub question: Question,
+    pub assessments: comparison::Request,
 }
 
 impl Request {
@@ -43,8 +43,8 @@ impl Request {
         axes: Vec<Axis>,
     ) -> Result<Plan, PlanError> {
         let (sources, designs): (Vec<DesignSource>, Vec<Design>) = designs.into_iter().unzip();
-        let settings = self.question.request.of(&designs);
-        let mut plan = Plan::of(sources, axes, settings, self.question.seed)?;
+        let settings = self.assessments.thoroughness.of(&designs);
+        let mut plan = Plan::of(sources, axes, settings, self.assessments.seed)?;
         if let Some(point) = &self.baseline {
             plan = plan.against(point)?;
         }

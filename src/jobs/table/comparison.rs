@@ -5,7 +5,7 @@ use super::{About, Found, Request};
 use crate::assembly::kinetic::Growth;
 use crate::design::Design;
 use crate::request::of_keywords;
-use crate::yields::{Question, YieldError, Yields, yields};
+use crate::yields::{self, YieldError, Yields};
 use physics::observer::Observer;
 
 /// Attachments that determine the rate to 20 %: a comparison with a wide interval cannot disagree.
@@ -13,7 +13,7 @@ const ENOUGH: usize = 100;
 
 /// The corresponding request of `yield`: the same number of pairs, table area, time, drag,
 /// restitution and friction. The scarcer kind of tile determines the number of pairs.
-fn question(design: &Design, request: &Request, found: &Found) -> Option<Question> {
+fn question(design: &Design, request: &Request, found: &Found) -> Option<yields::Request> {
     let kinds = found.ensemble.kinds();
     let count = |kind: usize| kinds.iter().filter(|it| **it == kind).count();
     let kinds_are_one = found.crowd.kinds.len() == 1;
@@ -50,7 +50,7 @@ fn question(design: &Design, request: &Request, found: &Found) -> Option<Questio
 /// What another command predicts.
 pub enum Prediction {
     /// For a design: the yield by detailed balance, with its request.
-    Yield(Box<Question>, Box<Yields>),
+    Yield(Box<yields::Request>, Box<Yields>),
     /// For a tile set: growth from a seed, with a constant supply of tiles.
     Growth(Growth),
 }
@@ -70,6 +70,6 @@ pub fn compared(
     }
     let [design] = designs else { return None };
     let question = question(design, request, found)?;
-    let answer = yields(design, &question, progress);
+    let answer = yields::yields(design, &question, progress);
     Some(answer.map(|yields| Prediction::Yield(Box::new(question), Box::new(yields))))
 }

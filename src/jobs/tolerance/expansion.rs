@@ -19,7 +19,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::made::{Change, Draw};
-use super::request::Making;
+use super::request::MakingErrors;
 use crate::design::Design;
 use physics::configuration::Configuration;
 use physics::potential::interaction::bare;
@@ -66,7 +66,7 @@ fn kinds(magnets: &[Magnet]) -> (Vec<usize>, Vec<Magnet>) {
 
 impl<'a> Pairs<'a> {
     /// The pairs of a design's magnets, for these errors.
-    pub fn new(design: &'a Design, making: &Making) -> Self {
+    pub fn new(design: &'a Design, making: &MakingErrors) -> Self {
         let (pair, interaction) = (&*design.pair, &design.interaction);
         let sizes = [&pair.fixed, &pair.moving].map(Tile::largest_magnet);
         let typical = making.typical(sizes[0].max(sizes[1]));

@@ -20,7 +20,7 @@ use nalgebra::Vector2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::request::Making;
+use super::request::MakingErrors;
 use physics::configuration::wrap_angle;
 use physics::dynamics::normal;
 use physics::tile::{Magnet, Pair, Tile};
@@ -91,7 +91,7 @@ pub type Draw = [Vec<Change>; 2];
 /// What is drawn from: the magnets with the room in front of them.
 pub struct Maker<'a> {
     pair: &'a Pair,
-    making: Making,
+    making: MakingErrors,
     seed: u64,
     seats: [Vec<Seat>; 2],
 }
@@ -145,7 +145,7 @@ fn height(outline: &[Vector2<f64>], normal: Vector2<f64>, turn: f64) -> f64 {
 
 impl<'a> Maker<'a> {
     /// The maker of a design's tiles, with these errors.
-    pub fn new(pair: &'a Pair, making: &Making, seed: u64) -> Self {
+    pub fn new(pair: &'a Pair, making: &MakingErrors, seed: u64) -> Self {
         let seats = |tile: &Tile| tile.magnets.iter().map(|it| Seat::new(tile, it)).collect();
         Self {
             pair,

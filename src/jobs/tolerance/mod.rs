@@ -1,7 +1,7 @@
 //! What making does to a design: tiles drawn about their nominal values, and how many of them work.
 //!
 //! `made` says what is drawn. A draw *works* if its bond is its deepest state and at least
-//! [`Making::least_selectivity`] times as deep as its deepest trap. The bond is the stated contact;
+//! [`MakingErrors::least_selectivity`] times as deep as its deepest trap. The bond is the stated contact;
 //! contacts that are equal to it in the nominal design, by symmetry or because other faces carry the
 //! same magnets, count neither as bond nor as trap.
 //!
@@ -21,7 +21,7 @@ mod safer;
 mod well;
 
 pub use anew::{Anew, Exact};
-pub use request::{Making, Request};
+pub use request::{MakingErrors, Request};
 pub use safer::Safer;
 
 use crate::design::Design;
@@ -217,7 +217,7 @@ pub struct Flipped {
 #[derive(Clone, Debug)]
 pub struct Tolerance {
     /// The errors.
-    pub making: Making,
+    pub making: MakingErrors,
     /// The seed.
     pub seed: u64,
     /// The draws, by number.
@@ -363,7 +363,7 @@ impl Request {
 pub fn robust(
     design: &Design,
     (problem, catalogue): (&Problem, &Catalogue),
-    making: &Making,
+    making: &MakingErrors,
     seed: u64,
 ) -> Option<Proportion> {
     let study = Study::new(design, problem, catalogue, making).filter(|_| making.is_stated())?;
@@ -444,7 +444,7 @@ impl<'a> Study<'a> {
         design: &'a Design,
         problem: &'a Problem,
         catalogue: &'a Catalogue,
-        making: &Making,
+        making: &MakingErrors,
     ) -> Option<Self> {
         let bond = &catalogue.states[catalogue.bound_state?];
         let traps = catalogue.states.iter();

@@ -12,7 +12,7 @@ const MOST_TURNED: f64 = std::f64::consts::FRAC_PI_4;
 
 /// The errors of making. Each is 0 if it is not stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-pub struct Making {
+pub struct MakingErrors {
     /// Error of the magnets' strength: standard deviation, such as 5%
     #[arg(long, value_name = "F", value_parser = request::share)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -65,7 +65,7 @@ const MOST_DRAWS: usize = 1_000_000;
 /// Default least selectivity.
 const SELECTIVITY: f64 = 1.5;
 
-impl Making {
+impl MakingErrors {
     /// Whether an error is stated, be it 0.
     pub fn is_stated(&self) -> bool {
         let Self {
@@ -108,7 +108,7 @@ impl Making {
 pub struct Request {
     /// The errors, and when a pair works.
     #[command(flatten)]
-    pub making: Making,
+    pub making: MakingErrors,
 
     /// Also count the draws whose deepest trap is deeper than this share of the nominal bond
     ///

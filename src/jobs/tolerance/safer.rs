@@ -6,7 +6,7 @@
 
 use super::anew::SAME_BOND;
 use super::made::Maker;
-use super::request::Making;
+use super::request::MakingErrors;
 use super::well::Well;
 use super::{Outcome, Pairs, Spread, Study, expansion, working};
 use crate::design::Design;
@@ -49,7 +49,7 @@ pub struct Safer {
 /// `outcomes` are the draws of the design itself.
 pub(super) fn safer(
     study: &Study,
-    (making, seed): (&Making, u64),
+    (making, seed): (&MakingErrors, u64),
     outcomes: &[Outcome],
 ) -> Vec<Safer> {
     let pair = &study.design.pair;
@@ -92,7 +92,7 @@ fn followed<'a>(
     study: &'a Study,
     design: &'a Design,
     problem: &'a Problem,
-    making: &Making,
+    making: &MakingErrors,
 ) -> Option<Study<'a>> {
     let rest = |q: &Configuration| match descend(problem, q).outcome {
         End::Minimum(found) => Some(found.point.q),

@@ -12,22 +12,22 @@
 mod error;
 pub mod grade;
 mod kinds;
-mod making;
 pub mod marks;
 mod mates;
 pub mod nest;
 mod notch;
 pub mod order;
 mod part;
+mod request;
 mod rim;
 mod sheets;
 pub mod stack;
 
 pub use error::PartError;
 pub use kinds::{Kind, Subject};
-pub use making::{CLEARANCE, Making};
 pub use part::{Part, Pocket, open_pockets};
 use physics::tile::Magnet;
+pub use request::{CLEARANCE, Request};
 pub use rim::{Corner, extent};
 pub use sheets::{Placed, Sheet};
 pub use stack::Stack;
@@ -41,7 +41,7 @@ const GRAVITY: f64 = 9.806_65;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Made {
     /// The request.
-    pub making: Making,
+    pub making: Request,
     /// The name of the design, or of the tile set.
     pub name: String,
     /// Kinds of magnets, and the number of each.
@@ -91,7 +91,7 @@ impl Made {
     /// # Errors
     /// If the kerf is too wide for one, its layers do not make it up, or a part is larger than a
     /// sheet.
-    pub fn new(subject: &Subject, making: &Making) -> Result<Self, PartError> {
+    pub fn new(subject: &Subject, making: &Request) -> Result<Self, PartError> {
         let kinds: Vec<(&str, usize)> = (subject.kinds.iter())
             .map(|kind| (&kind.name[..], kind.usual))
             .collect();
@@ -151,7 +151,7 @@ fn label(name: &str, most: usize) -> String {
 }
 
 impl MadeTile {
-    fn new(kind: &Kind, copies: usize, most: usize, making: &Making) -> Result<Self, PartError> {
+    fn new(kind: &Kind, copies: usize, most: usize, making: &Request) -> Result<Self, PartError> {
         let tile = &kind.tile;
         let mut steps = Vec::new();
         for face in 0..tile.faces.len() {

@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 
 use super::error::PartError;
-use super::making::Making;
 use super::marks::{Marks, marks};
 use super::notch;
+use super::request::Request;
 use super::rim::{Corner, length, rim};
 use physics::configuration::Configuration;
 use physics::contact::Contact;
@@ -97,7 +97,7 @@ impl Part {
     ///
     /// # Errors
     /// If the kerf is too wide for the tile's details.
-    pub fn new(tile: &Tile, making: &Making, name: &str) -> Result<Self, PartError> {
+    pub fn new(tile: &Tile, making: &Request, name: &str) -> Result<Self, PartError> {
         let holes = tile.magnets.iter();
         let holes: Vec<Magnet> = holes.map(|it| it.grown(making.clearance)).collect();
         let mut pockets = Vec::new();
@@ -251,7 +251,7 @@ fn pocket(
     tile: &Tile,
     (magnet, hole): (&Magnet, &Magnet),
     number: usize,
-    making: &Making,
+    making: &Request,
 ) -> Result<Pocket, PartError> {
     let face = &tile.faces[magnet.face];
     let cut = magnet.grown(making.clearance - making.kerf / 2.0);

@@ -3,7 +3,7 @@
 use super::error::PartError;
 use super::nest::{Place, nest};
 use super::rim::extent;
-use super::{MadeTile, Making};
+use super::{MadeTile, Request};
 
 /// A sheet of material with parts.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct Placed {
 ///
 /// # Errors
 /// If a part is larger than a sheet.
-pub(super) fn sheets(tiles: &[MadeTile], making: &Making) -> Result<Vec<Sheet>, PartError> {
+pub(super) fn sheets(tiles: &[MadeTile], making: &Request) -> Result<Vec<Sheet>, PartError> {
     // Thickness, tile, number and layer of every part.
     let mut parts = Vec::new();
     for (tile, made) in tiles.iter().enumerate() {
@@ -95,7 +95,7 @@ pub(super) fn sheets(tiles: &[MadeTile], making: &Making) -> Result<Vec<Sheet>, 
     Ok(sheets)
 }
 
-fn too_small(sizes: &[[f64; 2]], making: &Making) -> PartError {
+fn too_small(sizes: &[[f64; 2]], making: &Request) -> PartError {
     let mm = |length: f64| (length * 1e4).ceil() / 10.0;
     let largest = sizes
         .iter()

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
 
-use super::{Question, YieldError};
+use super::{Request, YieldError};
 use crate::pipeline::Analysis;
 use crate::request::{self, ContactOptions};
 use physics::configuration::Configuration;
@@ -29,7 +29,7 @@ const SAME: f64 = 5e-3;
 
 /// The method for attachment rates, and the motion of tiles.
 #[derive(Clone, Debug, PartialEq, Args)]
-pub struct Effort {
+pub struct AttachmentOptions {
     /// Docking runs per kT
     #[arg(long, value_name = "N", default_value_t = 400, value_parser = request::runs)]
     pub runs: usize,
@@ -60,7 +60,7 @@ pub struct Effort {
     pub contact: ContactOptions,
 }
 
-impl Effort {
+impl AttachmentOptions {
     /// The name of its progress stage.
     pub fn stage(&self) -> &'static str {
         match self.source {
@@ -209,12 +209,12 @@ pub(super) fn attached(
     analysis: &Analysis,
     holds: &[&Hold],
     kt: f64,
-    question: &Question,
+    request: &Request,
 ) -> Result<Attachments, YieldError> {
-    let (problem, effort) = (&analysis.problem, &question.effort);
+    let (problem, effort) = (&analysis.problem, &request.method);
     if effort.source == Source::Docking {
         let catalogue = &analysis.catalogue;
-        return Ok(count(problem, catalogue, kt, effort, question.seed)?);
+        return Ok(count(problem, catalogue, kt, effort, request.seed)?);
     }
     let basins: Vec<Option<Basin>> = holds
         .iter()
@@ -301,7 +301,7 @@ pub fn count(
     problem: &Problem,
     catalogue: &Catalogue,
     kt: f64,
-    effort: &Effort,
+    effort: &AttachmentOptions,
     seed: u64,
 ) -> Result<Attachments, DockingError> {
     let settings = effort.runs_at(kt, seed);

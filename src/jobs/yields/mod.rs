@@ -22,7 +22,7 @@ use crate::docking;
 use crate::memory;
 use crate::pipeline;
 use crate::request::{self, Unanswered};
-use attachment::Effort;
+use attachment::AttachmentOptions;
 pub use attachment::Source;
 pub use outcome::{Outcome, StateRates};
 use outcome::{outcome, state};
@@ -44,7 +44,7 @@ const MOST_TILES: usize = 10_000;
 
 /// The options.
 #[derive(Clone, Debug, PartialEq, Args)]
-pub struct Question {
+pub struct Request {
     /// Number of tiles on the table, half of each kind unless both are one
     #[arg(long, value_name = "N", value_parser = tiles)]
     pub tiles: usize,
@@ -64,7 +64,7 @@ pub struct Question {
 
     /// Docking runs for each kT, or another source of attachment rates
     #[command(flatten)]
-    pub effort: Effort,
+    pub method: AttachmentOptions,
 
     /// Runs of the exact simulation that checks the result; 0: none
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = request::runs_or_none)]
@@ -75,13 +75,13 @@ pub struct Question {
     pub seed: u64,
 }
 
-impl Question {
+impl Request {
     /// Checks that the meshes, if there are any, fit into memory beside a number of threads.
     ///
     /// # Errors
     /// See [`memory::check_meshes`].
     pub fn check_memory(&self, threads: usize) -> Result<(), String> {
-        match self.effort.source {
+        match self.method.source {
             // The bond, a few traps and free tiles.
             Source::Overdamped => memory::check_meshes(5, threads),
             Source::Docking => Ok(()),
@@ -93,15 +93,15 @@ impl Question {
 ///
 /// # Errors
 /// As [`yields`].
-pub fn expected(design: &Design, question: &Question) -> Result<Option<f64>, YieldError> {
-    let (effort, kts) = (&question.effort, &question.kts);
+pub fn expected(design: &Design, request: &Request) -> Result<Option<f64>, YieldError> {
+    let (effort, kts) = (&request.method, &request.kts);
     let Some(hottest) = kts.iter().copied().reduce(f64::max) else {
         return Ok(None);
     };
     if effort.source != Source::Docking {
         return Ok(None);
     }
-    let runs = effort.runs_at(hottest, question.seed);
+    let runs = effort.runs_at(hottest, request.seed);
     let one = docking::expected(&design.problem(), &runs)?;
     let repeats = match effort.attachments {
         0 => 1,
@@ -231,17 +231,17 @@ impl Yields {
 /// See [`YieldError`]; errors of a single kT only if no other kT has a result.
 pub fn yields(
     design: &Design,
-    question: &Question,
+    request: &Request,
     observer: &dyn Observer,
 ) -> Result<Yields, YieldError> {
-    let count = question.kts.len();
+    let count = request.kts.len();
     if count > MOST_SETTINGS {
         return Err(YieldError::Many(count));
     }
     let design = &design.centred();
     let analysis = pipeline::analyse(
         design,
-        &pipeline::Request::without_proofs(question.seed),
+        &pipeline::Request::without_proofs(request.seed),
         observer,
     );
     let (problem, catalogue) = (&analysis.problem, &analysis.catalogue);
@@ -252,7 +252,7 @@ pub fn yields(
         () if bond.is_too_cold(kt) => Some(YieldError::Cold(kt)),
         () => None,
     };
-    let usable = question.kts.iter().copied();
+    let usable = request.kts.iter().copied();
     let usable = usable.filter(|kt| refused(*kt).is_none());
     let coldest = usable.fold(f64::INFINITY, f64::min);
     let traps = traps(problem, catalogue, coldest);
@@ -260,8 +260,8 @@ pub fn yields(
     let pair = &*design.pair;
     let tile_area = pair.moving.outline.area();
     let crowd = Crowd::new(
-        question.tiles,
-        question.coverage,
+        request.tiles,
+        request.coverage,
         pair,
         problem.exchange.is_some(),
     );
@@ -273,10 +273,10 @@ pub fn yields(
         if let Some(why) = refused(kt) {
             return Err(why);
         }
-        let attached = attachment::attached(&analysis, &holds, kt, question)?;
+        let attached = attachment::attached(&analysis, &holds, kt, request)?;
         let shaking = Shaking {
             kt,
-            coverage: question.coverage,
+            coverage: request.coverage,
         };
         let states: Vec<StateRates> = holds
             .iter()
@@ -293,15 +293,12 @@ pub fn yields(
             attached,
             (&crowd, pair),
             joints,
-            question,
+            request,
         ))
     };
     let (mut outcomes, mut without) = (Vec::new(), Vec::new());
-    for (k, &kt) in question.kts.iter().enumerate() {
-        observer.stage(
-            question.effort.stage(),
-            k as f64 / question.kts.len() as f64,
-        );
+    for (k, &kt) in request.kts.iter().enumerate() {
+        observer.stage(request.method.stage(), k as f64 / request.kts.len() as f64);
         match at(kt) {
             Ok(outcome) => outcomes.push(outcome),
             Err(error) if error.is_of_one_kt() => without.push((kt, error)),
@@ -311,7 +308,7 @@ pub fn yields(
     if let (true, Some((_, error))) = (outcomes.is_empty(), without.first()) {
         return Err(error.clone());
     }
-    let mixture = (outcomes.len() > 1).then(|| schedule::best(&outcomes, &holds, question, &crowd));
+    let mixture = (outcomes.len() > 1).then(|| schedule::best(&outcomes, &holds, request, &crowd));
     Ok(Yields {
         tile_area,
         crowd,

@@ -1,6 +1,6 @@
 //! The result of one setting: rates of the states, and the number of bound pairs over time.
 
-use super::Question;
+use super::Request;
 use super::attachment::Attachments;
 use super::rows::{Rows, rows};
 use physics::dynamics::docking::stream;
@@ -135,14 +135,14 @@ pub(super) fn outcome(
     attached: Attachments,
     (crowd, pair): (&Crowd, &Pair),
     joints: Option<(&Joints, &Hold)>,
-    question: &Question,
+    request: &Request,
 ) -> Outcome {
     let rates = PairRates {
         on: states.iter().map(|state| state.on).collect(),
         off: states.iter().map(|state| state.off).collect(),
         turns: attached.turns(&states.iter().map(|state| state.kind).collect::<Vec<_>>()),
     };
-    let time = question.time;
+    let time = request.time;
     let pairs = crowd.pairs() as f64;
     let bond = &states[0];
     let power = |k: usize| DECADES * (k as f64 / (TIMES - 1) as f64 - 1.0);
@@ -163,8 +163,7 @@ pub(super) fn outcome(
         other
     };
     let [low, high] = [0, 1].map(with_end);
-    let built =
-        joints.and_then(|of| rows(of, kt, (&rates, [&low, &high]), &times, crowd, question));
+    let built = joints.and_then(|of| rows(of, kt, (&rates, [&low, &high]), &times, crowd, request));
     let asked = [
         (&rates, &times[..]),
         (&low, &[time][..]),
@@ -175,7 +174,7 @@ pub(super) fn outcome(
         shares(rates, crowd, times, MOST_STATES)
     });
     let at_end = |k: usize| *found[k].bound.last().expect("the end is one of the times");
-    let simulated = simulated(&rates, crowd, question);
+    let simulated = simulated(&rates, crowd, request);
     let bound = at_end(0);
     let exact = found[0].exact;
     let apart = |[mean, error]: [f64; 2]| (bound - mean).abs() + 2.0 * error;
@@ -197,14 +196,14 @@ pub(super) fn outcome(
     };
     let course = times.iter().zip(&found[0].bound).zip(&found[0].trapped);
     let course = course.map(|((time, bound), trapped)| [*time, *bound, *trapped]);
-    let rows = with(&TILES, question.tiles).into_iter();
-    let coverages = with(&COVERAGES, question.coverage);
+    let rows = with(&TILES, request.tiles).into_iter();
+    let coverages = with(&COVERAGES, request.coverage);
     let rows = rows.flat_map(|tiles| coverages.iter().map(move |&coverage| (tiles, coverage)));
     let rows: Vec<(usize, f64)> = rows.collect();
     let table = parallel::map(0..rows.len(), |k| {
         let (tiles, coverage) = rows[k];
         // The requested row is the result above.
-        if (tiles, coverage) == (question.tiles, question.coverage) {
+        if (tiles, coverage) == (request.tiles, request.coverage) {
             return (tiles, coverage, bound, exact);
         }
         let crowd = Crowd::new(tiles, coverage, pair, crowd.one_kind);
@@ -258,11 +257,11 @@ fn shares(rates: &PairRates, crowd: &Crowd, times: &[f64], most: usize) -> Share
 }
 
 /// Mean share in the bond over runs of the exact simulation, and its standard error.
-fn simulated(rates: &PairRates, crowd: &Crowd, question: &Question) -> Option<[f64; 2]> {
-    let runs = question.simulations;
+fn simulated(rates: &PairRates, crowd: &Crowd, request: &Request) -> Option<[f64; 2]> {
+    let runs = request.simulations;
     let pairs = crowd.pairs() as f64;
     let one = |run: usize| {
-        let numbers = rates.simulate(crowd, question.time, &mut stream(question.seed, run))?;
+        let numbers = rates.simulate(crowd, request.time, &mut stream(request.seed, run))?;
         Some(numbers[0] as f64 / pairs)
     };
     // One run has no error; and if one has too many events, no other is of use.

@@ -1,6 +1,6 @@
 //! Chains and rings of equal tiles that bind with two faces each.
 
-use super::Question;
+use super::Request;
 use super::attachment::Source;
 use physics::dynamics::docking::stream;
 use physics::dynamics::exits::mean_and_error;
@@ -87,17 +87,17 @@ pub(super) fn rows(
     (rates, ends): (&PairRates, [&PairRates; 2]),
     times: &[f64],
     crowd: &Crowd,
-    question: &Question,
+    request: &Request,
 ) -> Option<Rows> {
-    let tiles = question.tiles;
+    let tiles = request.tiles;
     let most = (MOST_TILES / tiles).max(LEAST_RUNS);
-    let runs = question.simulations.min(most);
+    let runs = request.simulations.min(most);
     if runs < 2 {
         return None;
     }
-    let mut rng = stream(question.seed, PLAY);
+    let mut rng = stream(request.seed, PLAY);
     let spreads = Spreads::sampled(joints, kt, bond.well.level, &mut rng);
-    let slowing = match question.effort.source {
+    let slowing = match request.method.source {
         Source::Docking => 0.5,
         Source::Overdamped => 1.0,
     };
@@ -111,7 +111,7 @@ pub(super) fn rows(
     let all = |rates, times: &[f64]| -> Option<Vec<Vec<Census>>> {
         let growth = growth(rates);
         parallel::map(0..runs, |run| {
-            growth.simulate(tiles, times, &mut stream(question.seed, GROWTH + run))
+            growth.simulate(tiles, times, &mut stream(request.seed, GROWTH + run))
         })
         .into_iter()
         .collect()

@@ -1,6 +1,6 @@
 //! Schedules: which shaking at which time.
 
-use super::Question;
+use super::Request;
 use super::outcome::Outcome;
 use physics::kinetics::bond::{Hold, Shaking, TOLERANCE};
 use physics::kinetics::population::mixture::{self, Mixture};
@@ -21,7 +21,7 @@ const FLEETING: f64 = 10.0;
 pub(super) fn best(
     outcomes: &[Outcome],
     holds: &[&Hold],
-    question: &Question,
+    request: &Request,
     crowd: &Crowd,
 ) -> (usize, Mixture) {
     // All settings have the same states: a trap without attachments at one kT still holds tiles
@@ -34,7 +34,7 @@ pub(super) fn best(
     let kinds: Vec<&Hold> = holds.iter().filter(caught).copied().collect();
     let fits =
         |pairs: &usize| numbers::count(kinds.len(), *pairs).is_some_and(|states| states <= STATES);
-    let most = PAIRS.min(question.tiles / 2);
+    let most = PAIRS.min(request.tiles / 2);
     let pairs = (1..=most).rev().find(fits).unwrap_or(1);
     // Fewer tiles on as much smaller a part of the table.
     let share = pairs as f64 / crowd.pairs() as f64;
@@ -45,14 +45,14 @@ pub(super) fn best(
         ..*crowd
     };
     let settings = parallel::map(0..outcomes.len(), |k| {
-        let all = rates(outcomes, &outcomes[k], &kinds, question.coverage);
+        let all = rates(outcomes, &outcomes[k], &kinds, request.coverage);
         Numbers::new(&all, &crowd)
     });
     let first = &settings[0];
     let share = |state: usize| f64::from(first.of(state)[0]) / pairs as f64;
     let values: Vec<f64> = (0..first.len()).map(share).collect();
     let chains: Vec<_> = settings.iter().map(Numbers::chain).collect();
-    let found = mixture::schedule(&chains, &values, question.time, SLOTS);
+    let found = mixture::schedule(&chains, &values, request.time, SLOTS);
     (2 * pairs, found)
 }
 

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tilebind::comparison::quantity::QUANTITIES;
-use tilebind::comparison::{Assessment, Quantity, Question, assess_all};
+use tilebind::comparison::{Assessment, Quantity, Request, assess_all};
 use tilebind::report::comparison::Comparison as Compared;
 
 use crate::design::Design;
@@ -47,16 +47,16 @@ pub fn compare(
     }
     let contents: Vec<_> = designs.iter().map(|one| &one.get().content).collect();
     let designs = || contents.iter().map(|content| &content.design);
-    let asked = request::<Question>(settings)?;
-    let question = Question {
-        request: asked.request.of(designs()),
+    let asked = request::<Request>(settings)?;
+    let asked = Request {
+        thoroughness: asked.thoroughness.of(designs()),
         ..asked
     };
-    let ranking = question.request.check_ranking(by);
+    let ranking = asked.thoroughness.check_ranking(by);
     ranking.map_err(|error| fault::value(error.to_string()))?;
-    job::check_memory(question.request.analysis(question.seed).check_memory())?;
-    let found = job::run(py, progress, |told| assess_all(designs(), &question, told))?;
-    Ok(Comparison(Compared::new(&found, by, question.request)))
+    job::check_memory(asked.thoroughness.analysis(asked.seed).check_memory())?;
+    let found = job::run(py, progress, |told| assess_all(designs(), &asked, told))?;
+    Ok(Comparison(Compared::new(&found, by, asked.thoroughness)))
 }
 
 /// A comparison of designs, best first. Immutable.

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyString};
-use tilebind::comparison::Question;
+use tilebind::comparison;
 use tilebind::report::sweep::Searched;
 use tilebind::request::of_keywords;
 use tilebind::search::{Found, Request as Aims, Search as Sought, SearchError};
@@ -105,8 +105,8 @@ pub fn search(
     let aim = aim.aim().map_err(fault::value)?;
     let aim =
         aim.ok_or_else(|| fault::value("give maximise or minimise, such as \"selectivity\""))?;
-    let question = request::<Question>(settings)?;
-    let search = Sought::asked(&question, designs.collect(), axes, aim).map_err(fault::of)?;
+    let assessments = request::<comparison::Request>(settings)?;
+    let search = Sought::asked(&assessments, designs.collect(), axes, aim).map_err(fault::of)?;
     job::check_memory(search.plan.check_memory(job::threads()))?;
     let known = Mutex::new(BTreeMap::new());
     let found = job::run(py, progress, |told| work(&search, &known, told))?;

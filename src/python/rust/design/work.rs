@@ -9,8 +9,8 @@ use tilebind::query;
 use tilebind::rates;
 use tilebind::report;
 use tilebind::table::{About, Request, compared, table as put};
-use tilebind::workshop::{Made, Making, Subject};
-use tilebind::yields::{Question, yields};
+use tilebind::workshop::{self, Made, Subject};
+use tilebind::yields;
 
 use super::Design;
 use crate::poses::pose;
@@ -129,11 +129,11 @@ impl Design {
         progress: Option<bool>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let question: Question = request_with(py, settings, "kt", kt)?;
-        job::check_memory(question.check_memory(job::threads()))?;
+        let asked: yields::Request = request_with(py, settings, "kt", kt)?;
+        job::check_memory(asked.check_memory(job::threads()))?;
         let design = &self.content.design;
-        let found = job::answer(py, progress, |told| yields(design, &question, told))?;
-        shown::report(py, &report::yields::document(design, &question, &found))
+        let found = job::answer(py, progress, |told| yields::yields(design, &asked, told))?;
+        shown::report(py, &report::yields::document(design, &asked, &found))
     }
 
     /// Simulate many tiles on one table, with contact, friction and drives; count bonds and traps.
@@ -201,7 +201,10 @@ impl Design {
         py: Python<'py>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let (design, making) = (&self.content.design, request::<Making>(settings)?);
+        let (design, making) = (
+            &self.content.design,
+            request::<workshop::Request>(settings)?,
+        );
         let subject = Subject::of_design(design);
         let made = job::answer(py, Some(false), |_| Made::new(&subject, &making))?;
         let document = report::workshop::document(Some(design), &subject, &made);

@@ -13,7 +13,7 @@ pub const CLEARANCE: f64 = 1e-4;
 
 /// The options of the workshop files.
 #[derive(Clone, Debug, PartialEq, Args)]
-pub struct Making {
+pub struct Request {
     /// Width of the cut (m), or with a unit
     ///
     /// Outlines are offset outwards by half of it.
@@ -141,7 +141,7 @@ fn small(text: &str) -> Result<f64, String> {
     }
 }
 
-impl Making {
+impl Request {
     /// Whether parts are to be nested on sheets.
     pub(super) fn are_copies(&self) -> bool {
         self.copies.is_some() || self.count.is_some() || self.sheet.is_some()
